@@ -1,0 +1,60 @@
+// A scene in memory: what the reader (pbrt_reader.h) fills in and the chapters trace.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+
+#include "common/bvh.h"
+#include "common/geometry.h"
+
+enum class MaterialType : uint8_t { diffuse, conductor, dielectric };
+
+struct Material {
+    MaterialType type = MaterialType::diffuse;
+    Rgb reflectance = {0.5f, 0.5f, 0.5f};  // diffuse: albedo, in [0,1]
+    Rgb eta, k;                            // conductor: complex index of refraction eta + i k
+    float ior = 1.5f;                      // dielectric: index inside over index outside
+};
+
+enum class LightType : uint8_t { area, point, distant, infinite };
+
+/// Something that shines. L is, for
+///   area      the radiance of each of its primitives on the side of the normal (or both sides)
+///   point     the intensity, W sr^-1
+///   distant   the irradiance on a plane that faces it, W m^-2
+///   infinite  the radiance of the sky, the same from everywhere
+struct Light {
+    LightType type = LightType::area;
+    Rgb L;
+    bool two_sided = false;
+    Vec3 p;                               // point: where it is; distant: unit, towards the light
+    uint32_t first_prim = 0, prims = 0;   // area: its primitives, one after the other
+    int line = 0, column = 0;             // where the scene file makes it, for messages
+};
+
+/// What one Shape directive gives all its primitives.
+struct Shape {
+    uint32_t material = 0;  // into Scene::materials
+    int light = -1;         // into Scene::lights; -1: does not shine
+};
+
+/// The camera as the file says it; camera_view() in camera.h makes it ready for one picture size.
+struct Camera {
+    Vec3 o, right, up, forward;                        // world from camera; +z is forward
+    float fov = 90;                                    // degrees across the shorter side
+    std::optional<float> frame_aspect;                 // width over height, else that of the film
+    std::optional<std::array<float, 4>> screen_window; // x0 x1 y0 y1, else [-1,1] on the shorter
+};
+
+struct Scene {
+    std::string file;  // as named by the user, for messages
+    Geometry geometry;
+    std::vector<Shape> shapes;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    Camera camera;
+    int width = 1280, height = 720;  // pixels
+    int spp = 16;                    // samples per pixel
+    int max_depth = 5;               // scattering events: 0 shows emitters only, 1 direct light
+    Bvh bvh;                         // over geometry
+};

@@ -1,0 +1,88 @@
+// Points, directions, colors, and the local frame around a normal.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+inline constexpr float pi = std::numbers::pi_v<float>;
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+
+struct Vec2 {
+    float x = 0, y = 0;
+};
+
+struct Vec3 {
+    float x = 0, y = 0, z = 0;
+    float operator[](int axis) const { return (&x)[axis]; }
+    float& operator[](int axis) { return (&x)[axis]; }
+};
+
+inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(float s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vec3 operator*(Vec3 a, float s) { return s * a; }
+inline Vec3 operator/(Vec3 a, float s) { return {a.x / s, a.y / s, a.z / s}; }
+inline Vec3& operator+=(Vec3& a, Vec3 b) { return a = a + b; }
+inline bool operator==(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+inline float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(Vec3 a, Vec3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline float length_squared(Vec3 a) { return dot(a, a); }
+inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline Vec3 normalize(Vec3 a) { return (1 / length(a)) * a; }
+inline Vec3 abs(Vec3 a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
+inline Vec3 min(Vec3 a, Vec3 b) {
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+inline Vec3 max(Vec3 a, Vec3 b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+inline float max_component(Vec3 a) { return std::max({a.x, a.y, a.z}); }
+inline bool is_finite(Vec3 a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+/// Radiance, reflectance or throughput in linear sRGB primaries.
+struct Rgb {
+    float r = 0, g = 0, b = 0;
+};
+
+inline Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+inline Rgb operator-(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
+inline Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+inline Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
+inline Rgb operator*(Rgb a, float s) { return s * a; }
+inline Rgb operator/(Rgb a, float s) { return (1 / s) * a; }
+inline Rgb& operator+=(Rgb& a, Rgb b) { return a = a + b; }
+inline Rgb& operator*=(Rgb& a, Rgb b) { return a = a * b; }
+inline Rgb& operator*=(Rgb& a, float s) { return a = s * a; }
+inline Rgb& operator/=(Rgb& a, float s) { return a = a / s; }
+inline bool operator==(Rgb a, Rgb b) { return a.r == b.r && a.g == b.g && a.b == b.b; }
+
+inline float max_component(Rgb a) { return std::max({a.r, a.g, a.b}); }
+inline float average(Rgb a) { return (a.r + a.g + a.b) / 3; }
+inline bool is_black(Rgb a) { return a.r == 0 && a.g == 0 && a.b == 0; }
+inline bool is_finite(Rgb a) {
+    return std::isfinite(a.r) && std::isfinite(a.g) && std::isfinite(a.b);
+}
+
+/// An orthonormal, right-handed frame s, t, n around a unit vector n.
+///
+/// source  Duff et al. 2017, "Building an Orthonormal Basis, Revisited": no branch, and no
+///         singularity at n.z = -1      tested by  "identity: the frame is orthonormal"
+struct Frame {
+    Vec3 s, t, n;
+
+    explicit Frame(Vec3 normal) : n(normal) {
+        float sign = std::copysign(1.0f, n.z);
+        float a = -1 / (sign + n.z), b = n.x * n.y * a;
+        s = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+        t = {b, sign + n.y * n.y * a, -n.y};
+    }
+    Vec3 to_world(Vec3 v) const { return v.x * s + v.y * t + v.z * n; }
+    Vec3 to_local(Vec3 v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
+};
