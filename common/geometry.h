@@ -47,7 +47,8 @@ struct TriangleHit {
     float t, b1, b2;
 };
 
-/// The shear that turns a ray into the z axis, worked out once for a ray and used on every triangle.
+/// The shear that turns a ray into the z axis, worked out once for a ray and used on every
+/// triangle.
 struct Shear {
     int kx, ky, kz;  // kz: the axis along which d is longest
     float sx, sy, sz;

@@ -15,9 +15,7 @@ inline uint32_t hash32(uint32_t x) {
 inline uint32_t hash32(uint32_t a, uint32_t b) { return hash32(a ^ hash32(b + 0x9e3779b9u)); }
 
 /// The top 24 bits as a number in [0,1). Rounding all 32 would give 1 for the largest.
-inline float to_unit_float(uint32_t bits) {
-    return static_cast<float>(bits >> 8) * 0x1p-24f;
-}
+inline float to_unit_float(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
 inline uint32_t reverse_bits(uint32_t x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);

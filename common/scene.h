@@ -27,23 +27,24 @@ struct Light {
     LightType type = LightType::area;
     Rgb L;
     bool two_sided = false;
-    Vec3 p;                               // point: where it is; distant: unit, towards the light
-    uint32_t first_prim = 0, prims = 0;   // area: its primitives, one after the other
-    int line = 0, column = 0;             // where the scene file makes it, for messages
+    Vec3 p;                              // point: where it is; distant: unit, towards the light
+    uint32_t first_prim = 0, prims = 0;  // area: its primitives, one after the other
+    int line = 0, column = 0;            // where the scene file makes it, for messages
 };
 
 /// What one Shape directive gives all its primitives.
 struct Shape {
     uint32_t material = 0;  // into Scene::materials
     int light = -1;         // into Scene::lights; -1: does not shine
+    bool reverse = false;   // a sphere whose normal points inwards; others are turned when read
 };
 
 /// The camera as the file says it; camera_view() in camera.h makes it ready for one picture size.
 struct Camera {
-    Vec3 o, right, up, forward;                        // world from camera; +z is forward
-    float fov = 90;                                    // degrees across the shorter side
-    std::optional<float> frame_aspect;                 // width over height, else that of the film
-    std::optional<std::array<float, 4>> screen_window; // x0 x1 y0 y1, else [-1,1] on the shorter
+    Vec3 o, right, up, forward;                         // world from camera; +z is forward
+    float fov = 90;                                     // degrees across the shorter side
+    std::optional<float> frame_aspect;                  // width over height, else that of the film
+    std::optional<std::array<float, 4>> screen_window;  // x0 x1 y0 y1, else [-1,1] on the shorter
 };
 
 struct Scene {
@@ -52,6 +53,7 @@ struct Scene {
     std::vector<Shape> shapes;
     std::vector<Material> materials;
     std::vector<Light> lights;
+    Rgb sky;  // what all infinite lights send from any direction
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel
