@@ -1,0 +1,203 @@
+#include "common/render.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+
+#include "common/camera.h"
+#include "common/error.h"
+#include "common/parallel.h"
+#include "common/pbrt_reader.h"
+
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+/// While it lives, the first Ctrl-C asks for a stop after the pass; a second one ends the program.
+struct StopOnInterrupt {
+    StopOnInterrupt() {
+        stop_requested = 0;
+        std::signal(SIGINT, [](int) {
+            stop_requested = 1;
+            std::signal(SIGINT, SIG_DFL);
+        });
+    }
+    ~StopOnInterrupt() { std::signal(SIGINT, SIG_DFL); }
+};
+
+class Progress {
+public:
+    explicit Progress(bool quiet) : on_(!quiet && isatty(STDERR_FILENO)) {}
+    ~Progress() {
+        if (on_) std::fprintf(stderr, "\r\033[K");
+    }
+    void show(double share, double seconds) {
+        if (!on_ || seconds - last_ < 0.1) return;
+        last_ = seconds;
+        constexpr int width = 30;
+        std::string bar(static_cast<size_t>(std::min(1.0, share) * width), '#');
+        std::fprintf(stderr, "\r[%-*s] %3.0f %%  %.0f s left\033[K", width, bar.c_str(),
+                     100 * share, seconds / share - seconds);
+    }
+
+private:
+    bool on_;
+    double last_ = 0;
+};
+
+/// Renders the samples [first, last) of the pixels of one tile.
+class TileRenderer {
+public:
+    static constexpr int side = 16;
+
+    TileRenderer(const Scene& scene, const RenderOptions& options, Trace trace, Rendering& result)
+        : scene_(scene),
+          options_(options),
+          trace_(trace),
+          result_(result),
+          view_(camera_view(scene.camera, scene.width, scene.height)),
+          tiles_x_((scene.width + side - 1) / side) {}
+
+    int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
+
+    void render(int tile, int first, int last) {
+        int x0 = tile % tiles_x_ * side, y0 = tile / tiles_x_ * side;
+        int x1 = std::min(x0 + side, scene_.width), y1 = std::min(y0 + side, scene_.height);
+        Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
+        bool listen = !options_.paths.empty() || !options_.split.empty();
+        PathLog log = listen ? PathLog(options_.paths) : PathLog();
+        RenderStats stats;
+        uint64_t rays_before = rays_traced;
+        for (int y = y0; y < y1; y++) {
+            for (int x = x0; x < x1; x++) {
+                for (int s = first; s < last; s++) add_sample(x, y, s, sampler, log, stats);
+            }
+        }
+        stats.rays = rays_traced - rays_before;
+        stats.paths_cut = log.paths_cut();
+        merge(stats);
+    }
+
+private:
+    void add_sample(int x, int y, int s, Sampler& sampler, PathLog& log, RenderStats& stats) {
+        size_t pixel =
+            static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
+        sampler.start(static_cast<uint32_t>(pixel), static_cast<uint32_t>(s));
+        log.start();
+        Vec2 u = sampler.u2();
+        Ray ray = camera_ray(view_, {static_cast<float>(x) + u.x, static_cast<float>(y) + u.y});
+        Rgb L = trace_(scene_, ray, sampler, log);
+        if (!is_finite(L)) {
+            stats.not_finite++;
+            stats.bad_x = x, stats.bad_y = y, stats.bad_sample = s;
+            L = {};
+        }
+        stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
+        result_.film.add(pixel, static_cast<uint64_t>(s), L);
+        if (!options_.split.empty()) split(pixel, static_cast<uint64_t>(s), log);
+    }
+
+    void split(size_t pixel, uint64_t sample, const PathLog& log) {
+        for (const auto& [path_class, L] : log.contributions()) {
+            if (!is_finite(L)) continue;
+            std::lock_guard lock(mutex_);
+            auto [film, added] =
+                result_.classes.try_emplace(path_class, scene_.width, scene_.height);
+            film->second.add(pixel, sample, L);
+        }
+    }
+
+    void merge(const RenderStats& stats) {
+        std::lock_guard lock(mutex_);
+        RenderStats& all = result_.stats;
+        all.rays += stats.rays;
+        all.paths_cut += stats.paths_cut;
+        all.largest = std::max(all.largest, stats.largest);
+        if (stats.not_finite > 0) {
+            all.not_finite += stats.not_finite;
+            all.bad_x = stats.bad_x, all.bad_y = stats.bad_y, all.bad_sample = stats.bad_sample;
+        }
+    }
+
+    const Scene& scene_;
+    const RenderOptions& options_;
+    Trace trace_;
+    Rendering& result_;
+    CameraView view_;
+    int tiles_x_;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+void prepare(Scene& scene, int threads) {
+    scene.sky = {};
+    for (const Light& light : scene.lights) {
+        if (light.type == LightType::infinite) scene.sky += light.L;
+    }
+    scene.bvh = build_bvh(scene.geometry, threads);
+}
+
+Scene load(const RenderOptions& options) {
+    std::vector<std::string> notes;
+    Scene scene = load_scene(options.scene, &notes);
+    if (!options.quiet) {
+        for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
+    }
+    if (options.width > 0) scene.width = options.width, scene.height = options.height;
+    if (options.spp > 0) scene.spp = options.spp;
+    if (options.max_depth >= 0) scene.max_depth = options.max_depth;
+    prepare(scene, options.threads);
+    return scene;
+}
+
+void refuse_delta_lights(const Scene& scene) {
+    for (const Light& light : scene.lights) {
+        if (light.type != LightType::point && light.type != LightType::distant) continue;
+        throw InputError(scene.file + ":" + std::to_string(light.line) + ":" +
+                         std::to_string(light.column) + ": error: a " +
+                         (light.type == LightType::point ? "point" : "distant") +
+                         " light has no size, so no path finds it by chance; "
+                         "chapters from 08 on sample it");
+    }
+}
+
+Rendering render_film(const Scene& scene, const RenderOptions& options, Trace trace) {
+    Rendering result{Film(scene.width, scene.height), {}, {}};
+    TileRenderer renderer(scene, options, trace, result);
+    StopOnInterrupt stop;
+    Progress progress(options.quiet);
+    auto start = std::chrono::steady_clock::now();
+    auto elapsed = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+
+    // A pass takes every pixel once, or more often when they are so few that threads would idle.
+    int pixels = scene.width * scene.height;
+    int samples_per_pass = std::max(1, (1 << 16) / pixels);
+    int spp = options.time > 0 ? (options.spp > 0 ? options.spp : 1 << 30) : scene.spp;
+    int done = 0;
+    while (done < spp && !stop_requested) {
+        int next = std::min(done + samples_per_pass, spp);
+        parallel_for(renderer.tiles(), options.threads,
+                     [&](int tile) { renderer.render(tile, done, next); });
+        done = next;
+        double seconds = elapsed();
+        if (options.time > 0 && seconds >= options.time) break;
+        double by_time = options.time > 0 ? seconds / options.time : 0;
+        progress.show(std::max(by_time, done / static_cast<double>(spp)), seconds);
+    }
+    result.film.spp = static_cast<uint64_t>(done);
+    for (auto& [path_class, film] : result.classes) film.spp = result.film.spp;
+    result.stats.seconds = elapsed();
+    result.stats.interrupted = stop_requested != 0;
+    return result;
+}
+
+int render(const Scene& scene, const RenderOptions& options, Trace trace) {
+    if (options.explain) return explain(scene, options, trace);
+    return write_results(scene, options, render_film(scene, options, trace));
+}
