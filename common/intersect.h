@@ -54,13 +54,9 @@ inline void finish_disk(const Disk& disk, Vec3 p, Hit& x, uint32_t& shape) {
 
 }  // namespace hit_details
 
-/// The nearest surface along the ray, if there is one.
-inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
-    rays_traced++;
+/// The point where the ray meets the primitive that was found, ready for shading.
+inline Hit make_hit(const Scene& scene, const Ray& ray, const PrimHit& found) {
     const Geometry& g = scene.geometry;
-    PrimHit found = closest_hit(scene.bvh, g, ray);
-    if (found.prim == PrimHit::none) return {};
-
     // Work out the point and its normals on the shape that was hit.
     Hit x;
     uint32_t shape;
@@ -85,6 +81,14 @@ inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
     x.light = scene.shapes[shape].light;
     x.prim = found.prim;
     return x;
+}
+
+/// The nearest surface along the ray, if there is one.
+inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
+    rays_traced++;
+    PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
+    if (found.prim == PrimHit::none) return {};
+    return make_hit(scene, ray, found);
 }
 
 /// Whether anything lies on the ray before t_max.
