@@ -1,0 +1,46 @@
+// Gates for stochastic tests: fixed seeds, known variances, five standard errors.
+#pragma once
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <span>
+
+#include "common/stats.h"
+
+/// The mean of independent samples is within 5 standard errors of `truth`, by the KNOWN variance of
+/// one sample; a right estimator fails once in 1.7 million seeds. `resolution` is the bias that the
+/// test must be able to see: 8 standard errors of it, so that such a bias fails in 99.9 %.
+inline void check_mean(const RunningStats& s, double truth, double variance, double resolution) {
+    double se = std::sqrt(variance / static_cast<double>(s.count()));
+    CAPTURE(s.mean());
+    CAPTURE(truth);
+    CAPTURE(se);
+    CHECK(std::isfinite(s.mean()));
+    CHECK(std::abs(s.mean() - truth) <= 5 * se);
+    CHECK(8 * se <= resolution);
+}
+
+/// The sample variance is within 5 of its own standard errors, sqrt((kurtosis - 1) / N), of
+/// `truth`. kurtosis  E (X - mean)^4 / variance^2; 3 for a normal distribution, such as the mean of
+/// many
+inline void check_variance(const RunningStats& s, double truth, double kurtosis) {
+    double relative_se = std::sqrt((kurtosis - 1) / static_cast<double>(s.count()));
+    CAPTURE(s.variance());
+    CAPTURE(truth);
+    CAPTURE(relative_se);
+    CHECK(std::isfinite(s.variance()));
+    CHECK(std::abs(s.variance() / truth - 1) <= 5 * relative_se);
+    CHECK(relative_se <= 0.05);
+}
+
+/// sum (count - expected)^2 / expected over cells that are equally likely.
+inline double chi_square(std::span<const double> counts) {
+    double total = 0, sum = 0;
+    for (double c : counts) total += c;
+    double expected = total / static_cast<double>(counts.size());
+    for (double c : counts) sum += (c - expected) * (c - expected) / expected;
+    return sum;
+}
+
+/// The value that chi^2 of 99 degrees of freedom (10 x 10 cells) exceeds once in a million.
+inline constexpr double chi_square_gate_99 = 180.792;
