@@ -40,7 +40,7 @@ void PathLog::forget() {
     contributions_.clear();
 }
 
-void PathLog::note_vertex(const Scene&, const Hit& x) {
+void PathLog::note_vertex(const Hit& x) {
     vertices_.push_back(x.p);
     if (!keep_steps_) return;
     steps_ += format("vertex %zu  %s at ", vertices_.size(), name(x.material->type)) +
@@ -60,6 +60,12 @@ void PathLog::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta)
 void PathLog::note_roulette(float q, Rgb beta) {
     if (keep_steps_)
         steps_ += format("    survives roulette, q %.6g, beta ", double{q}) + to_text(beta) + "\n";
+}
+
+void PathLog::note_step_back() {
+    scattered_.erase(scattered_.begin());
+    if (keep_steps_)
+        steps_ += format("    steps back to the vertex after %zu scatterings\n", scattered_.size());
 }
 
 Rgb PathLog::note_emitted(Rgb contribution, float mis_b) {

@@ -26,8 +26,8 @@ public:
         if (listening_) forget();
     }
     /// The path met x.
-    void vertex(const Scene& scene, const Hit& x) {
-        if (listening_) note_vertex(scene, x);
+    void vertex(const Hit& x) {
+        if (listening_) note_vertex(x);
     }
     /// The path leaves its last vertex along wi with throughput beta.
     void scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta) {
@@ -36,6 +36,10 @@ public:
     /// The path was allowed to go on with probability q, and beta divided by it.
     void roulette(float q, Rgb beta) {
         if (listening_) note_roulette(q, beta);
+    }
+    /// Goes back to the vertex before, whose other branch comes next (chapter 04 walks a tree).
+    void step_back() {
+        if (listening_) note_step_back();
     }
     /// The depth limit ended a path that could have gone on.
     void cut() { paths_cut_++; }
@@ -58,9 +62,10 @@ public:
 
 private:
     void forget();
-    void note_vertex(const Scene&, const Hit&);
+    void note_vertex(const Hit&);
     void note_scatter(Vec3, Rgb, float, bool, Rgb);
     void note_roulette(float, Rgb);
+    void note_step_back();
     Rgb note_emitted(Rgb, float);
     Rgb note_direct(Rgb, Vec3, float, float, float);
     Rgb keep(const std::string& path_class, Rgb contribution);

@@ -1,0 +1,12 @@
+// Chapter 04 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/04_ray_casting/estimator.h"
+#include "common/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "04_ray_casting", "scenes/cornell-spheres.pbrt");
+        Scene scene = load(options);
+        return render(scene, options, ch04::trace);
+    });
+}

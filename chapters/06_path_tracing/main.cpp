@@ -1,0 +1,13 @@
+// Chapter 06 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/06_path_tracing/estimator.h"
+#include "common/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "06_path_tracing", "scenes/cornell.pbrt");
+        Scene scene = load(options);
+        refuse_delta_lights(scene);
+        return render(scene, options, ch06::trace);
+    });
+}

@@ -1,0 +1,13 @@
+// Chapter 07 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/07_russian_roulette/estimator.h"
+#include "common/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "07_russian_roulette", "scenes/cornell.pbrt");
+        Scene scene = load(options);
+        refuse_delta_lights(scene);
+        return render(scene, options, ch07::trace);
+    });
+}
