@@ -15,6 +15,7 @@ chapters := $(notdir $(wildcard chapters/[0-9]*))
 tools    := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 common   := $(patsubst %.cpp,$B/%.o,$(wildcard common/*.cpp))
 tests    := $(patsubst %.cpp,$B/%.o,$(wildcard tests/*.cpp))
+meshes   := $(patsubst scenes/make_%.cpp,scenes/%.ply,$(wildcard scenes/make_*.cpp))
 pictures := $(chapters:%=out/%.png)
 
 .PHONY: all programs pictures test test-slow help clean $(shell seq -w 01 18)
@@ -24,14 +25,14 @@ pictures := $(chapters:%=out/%.png)
 all: $(pictures)
 	@printf 'The pictures:\n'; printf '  %s\n' $^
 
-programs: $(chapters:%=$B/%) $(tools:%=$B/%)
+programs: $(chapters:%=$B/%) $(tools:%=$B/%) $(meshes)
 
 # One chapter: make 06 builds and runs it.
 $(shell seq -w 01 18): %:
-	@$(MAKE) --no-print-directory $(patsubst chapters/%,$B/%,$(wildcard chapters/$*_*))
+	@$(MAKE) --no-print-directory $(patsubst chapters/%,$B/%,$(wildcard chapters/$*_*)) $(meshes)
 	$(patsubst chapters/%,$B/%,$(wildcard chapters/$*_*))
 
-out/%.png: $B/%
+out/%.png: $B/% $(meshes)
 	@mkdir -p out
 	$< --quiet --out out/$*.png --out out/$*.ppm
 
@@ -46,6 +47,10 @@ $B/%: $B/chapters/%/main.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
 $B/%: $B/common/tools/%.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
+$B/make_%: $B/scenes/make_%.o $(common)
+	$(CXX) $(CXXFLAGS) $^ -o $@
+scenes/%.ply: $B/make_%
+	$< $@
 $B/%.o: %.cpp | $B/packages
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) -MMD -MP -c $< -o $@
