@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "common/files.h"
 #include "common/stats.h"
 
 /// The mean of independent samples is within 5 standard errors of `truth`, by the KNOWN variance of
@@ -33,14 +36,31 @@ inline void check_variance(const RunningStats& s, double truth, double kurtosis)
     CHECK(relative_se <= 0.05);
 }
 
-/// sum (count - expected)^2 / expected over cells that are equally likely.
-inline double chi_square(std::span<const double> counts) {
-    double total = 0, sum = 0;
-    for (double c : counts) total += c;
-    double expected = total / static_cast<double>(counts.size());
-    for (double c : counts) sum += (c - expected) * (c - expected) / expected;
+/// sum (count - expected)^2 / expected
+inline double chi_square(std::span<const double> counts, std::span<const double> expected) {
+    double sum = 0;
+    for (size_t i = 0; i < counts.size(); i++)
+        sum += (counts[i] - expected[i]) * (counts[i] - expected[i]) / expected[i];
     return sum;
+}
+
+/// The same for cells that are equally likely.
+inline double chi_square(std::span<const double> counts) {
+    double total = 0;
+    for (double c : counts) total += c;
+    return chi_square(counts,
+                      std::vector(counts.size(), total / static_cast<double>(counts.size())));
 }
 
 /// The value that chi^2 of 99 degrees of freedom (10 x 10 cells) exceeds once in a million.
 inline constexpr double chi_square_gate_99 = 180.792;
+
+/// The source of a function or class: from the line that starts with `first` to the next line that
+/// starts with `}`. What a chapter teaches and what common/ keeps of it are compared by this.
+inline std::string definition(const std::string& path, const std::string& first) {
+    std::string text = read_file(path);
+    size_t begin = text.find("\n" + first), end = text.find("\n}", begin);
+    REQUIRE(begin != std::string::npos);
+    REQUIRE(end != std::string::npos);
+    return text.substr(begin, end - begin);
+}

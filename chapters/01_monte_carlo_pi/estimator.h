@@ -1,0 +1,220 @@
+// Chapter 01: an average over random points, and how far to trust it.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "common/plot.h"
+#include "common/sampler.h"
+#include "common/table.h"
+
+namespace ch01 {
+
+/// The score of a dart that hits the unit square at x: its average over all darts is pi.
+///
+///   X = 4 [x^2 + y^2 <= 1]        E[X] = pi,  Var X = pi (4 - pi) = 2.697
+///
+/// source  area of the quarter circle, pi/4      tested by  "truth: mean and variance of a dart"
+inline double score_dart(Vec2 x) {
+    double px = static_cast<double>(x.x), py = static_cast<double>(x.y);
+    return px * px + py * py <= 1 ? 4 : 0;
+}
+
+/// Mean and variance in one pass and without cancellation.
+///
+///   delta = x - mean;   mean += delta / n;   m2 += delta (x - mean)
+///
+/// source  Welford 1962; merge: Chan, Golub, LeVeque 1979
+/// tested by  "truth: Welford keeps the digits that E[x^2] - E[x]^2 loses"
+class RunningStats {
+public:
+    void add(double x) {
+        n_++;
+        double delta = x - mean_;
+        mean_ += delta / static_cast<double>(n_);
+        m2_ += delta * (x - mean_);
+    }
+    void merge(const RunningStats& b) {
+        if (b.n_ == 0) return;
+        double n = static_cast<double>(n_ + b.n_), delta = b.mean_ - mean_;
+        mean_ += delta * static_cast<double>(b.n_) / n;
+        m2_ += b.m2_ + delta * delta * static_cast<double>(n_) * static_cast<double>(b.n_) / n;
+        n_ += b.n_;
+    }
+    uint64_t count() const { return n_; }
+    double mean() const { return mean_; }
+    /// Of one sample, unbiased; 0 for fewer than two.
+    double variance() const { return n_ < 2 ? 0 : m2_ / static_cast<double>(n_ - 1); }
+    /// Of the mean of independent samples.
+    double standard_error() const {
+        return n_ == 0 ? 0 : std::sqrt(variance() / static_cast<double>(n_));
+    }
+
+private:
+    uint64_t n_ = 0;
+    double mean_ = 0, m2_ = 0;
+};
+
+/// Estimates E[score(u)], u uniform on the unit square, from darts first .. last-1.
+///
+///   E[X] ~ (1/N) sum X_i,        standard error sqrt(Var X / N)
+///
+/// bias 0; a dart is a function of seed and number, so that any range can be thrown on its own and
+/// merged.      tested by  "truth: mean and variance of a dart"
+template <class Score>
+RunningStats throw_darts(Score score, uint64_t first, uint64_t last, uint32_t seed) {
+    RunningStats stats;
+    Sampler sampler(SamplerType::independent, seed, 1);
+    for (uint64_t i = first; i < last; i++) {
+        sampler.start(static_cast<uint32_t>(i >> 32), static_cast<uint32_t>(i));
+        stats.add(score(sampler.u2()));
+    }
+    return stats;
+}
+
+/// The standard error, measured: how far the estimates of `runs` experiments of n darts lie apart.
+template <class Score>
+double measured_standard_error(Score score, uint64_t n, uint32_t runs, uint32_t seed) {
+    RunningStats estimates;
+    for (uint32_t run = 1; run <= runs; run++)
+        estimates.add(throw_darts(score, 0, n, hash32(seed, run)).mean());
+    return std::sqrt(estimates.variance());
+}
+
+/// n times x, added one by one in float: right only until the sum is 2^24 times x or so.
+///
+/// From 2^24 on the neighbours of a float are 2 apart, and 2^24 + 1 rounds back to 2^24.
+/// tested by  "failure: a float counter stops at 2^24"
+inline float sum_in_float(float x, uint64_t n) {
+    float sum = 0;
+    for (uint64_t i = 0; i < n; i++) sum += x;
+    return sum;
+}
+
+// A dart board: the rings of a disc of radius 1, and the density with which a player hits it.
+
+struct Ring {
+    double radius, score;
+};
+inline constexpr Ring board[] = {{0.1, 10}, {0.3, 5}, {0.6, 2}, {1, 1}};
+inline constexpr double aim = 0.5;  // standard deviation of a hit, in x and in y
+
+/// f(x), the score of a hit at x; 0 beside the board.
+inline double score_board(Vec2 x) {
+    double r = std::hypot(static_cast<double>(x.x), static_cast<double>(x.y));
+    for (Ring ring : board)
+        if (r <= ring.radius) return ring.score;
+    return 0;
+}
+
+/// Where a hit lands: a normal distribution around the centre.
+///
+///   r = aim sqrt(-2 ln(1 - u.x)),  angle = 2 pi u.y
+///
+/// u       in [0,1)^2
+/// source  Box, Muller 1958      tested by  "density: hits of the dart board"
+inline Vec2 sample_hit(Vec2 u) {
+    double r = aim * std::sqrt(-2 * std::log1p(-static_cast<double>(u.x)));
+    double angle = 2 * std::numbers::pi * static_cast<double>(u.y);
+    return {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle))};
+}
+
+/// The density of sample_hit per area.
+inline double pdf_hit(Vec2 x) {
+    double r2 = std::pow(static_cast<double>(x.x), 2) + std::pow(static_cast<double>(x.y), 2);
+    return std::exp(-r2 / (2 * aim * aim)) / (2 * std::numbers::pi * aim * aim);
+}
+
+/// The u for which sample_hit(u) is x.
+inline Vec2 invert_hit(Vec2 x) {
+    double r2 = std::pow(static_cast<double>(x.x), 2) + std::pow(static_cast<double>(x.y), 2);
+    double turns =
+        std::atan2(static_cast<double>(x.y), static_cast<double>(x.x)) / (2 * std::numbers::pi);
+    return {static_cast<float>(-std::expm1(-r2 / (2 * aim * aim))),
+            static_cast<float>(turns < 0 ? turns + 1 : turns)};
+}
+
+/// The average score  E[f] = integral of f(x) p(x) dx, ring by ring in closed form.
+///
+///   P(r <= R) = 1 - exp(-R^2 / (2 aim^2))      tested by  "truth: the average score of the board"
+inline double expected_score() {
+    double expected = 0, outside = 1;
+    for (Ring ring : board) {
+        double beyond = std::exp(-ring.radius * ring.radius / (2 * aim * aim));
+        expected += ring.score * (outside - beyond);
+        outside = beyond;
+    }
+    return expected;
+}
+
+// What the program shows.
+
+/// Rows for N = 1, 4, 16, ... darts of one run; the last is n.
+inline Table darts_table(uint64_t n, uint32_t seed) {
+    Table table{{"N", "estimate", "std error", "measured", "error", "seconds"}, {}};
+    RunningStats stats;
+    double seconds = 0;
+    for (uint64_t rows = 1; stats.count() < n; rows *= 4) {
+        uint64_t N = std::min(n, rows);
+        Stopwatch watch;
+        stats.merge(throw_darts(score_dart, stats.count(), N, seed));
+        seconds += watch.seconds();
+        // "0 +- 0" is not certainty: equal darts say nothing about their spread.
+        bool known = stats.variance() > 0, cheap = N <= 1 << 16;
+        table.rows.push_back(
+            {std::to_string(N), digits(stats.mean(), 7),
+             digits(known ? stats.standard_error() : NAN, 3),
+             cheap ? digits(measured_standard_error(score_dart, N, 64, seed), 3) : "-",
+             digits(stats.mean() - std::numbers::pi, 3), digits(seconds, 2)});
+    }
+    return table;
+}
+
+/// The dart board, and the float that cannot count.
+inline std::string darts_notes(uint64_t n, uint32_t seed) {
+    auto score_u = [](Vec2 u) { return score_board(sample_hit(u)); };
+    auto place_u = [](Vec2 u) { return static_cast<double>(sample_hit(u).x); };
+    RunningStats score = throw_darts(score_u, 0, n, seed), place = throw_darts(place_u, 0, n, seed);
+    uint64_t hits = 20000000;
+    return "dart board: average score " + digits(score.mean()) + " +- " +
+           digits(score.standard_error(), 2) + ", exact " + digits(expected_score()) +
+           "; average place " + digits(place.mean(), 2) + ", which is no score\n" +
+           "counted in float: " + std::to_string(hits) + " hits are " +
+           digits(static_cast<double>(sum_in_float(1, hits)), 8) + "\n";
+}
+
+/// Left: the darts. Right: the running estimates of 16 runs against log N, and pi +- 1 and 2
+/// standard errors.
+inline Image darts_picture(uint64_t n, uint32_t seed) {
+    constexpr int size = 360;
+    constexpr Rgb paper{0.9f, 0.9f, 0.88f}, inside{0.85f, 0.25f, 0.05f},
+        outside{0.05f, 0.2f, 0.55f};
+    Image image(2 * size, size);
+    Panel darts{image, 0, 0, size, size};
+    darts.fill([&](Vec2 x) { return score_dart(x) > 0 ? paper : 0.8f * paper; });
+    Sampler sampler(SamplerType::independent, seed, 1);
+    for (uint32_t i = 0; i < std::min<uint64_t>(n, 2000); i++) {
+        sampler.start(0, i);
+        Vec2 x = sampler.u2();
+        darts.dot(x, 1.6f, score_dart(x) > 0 ? inside : outside);
+    }
+
+    Panel runs{image, size, 0, size, size, {4, 2.3f}, {16, 4}};  // x: log2 N
+    runs.fill([&](Vec2) { return paper; });
+    for (uint32_t run = 0; run < 8; run++) {
+        RunningStats stats;
+        Vec2 last = {0, 0};
+        for (float x = 3; x < runs.high.x; x += 0.02f) {
+            uint64_t next = static_cast<uint64_t>(std::exp2(x));
+            stats.merge(throw_darts(score_dart, stats.count(), next, hash32(seed, run)));
+            Vec2 point = {x, static_cast<float>(stats.mean())};
+            if (x > runs.low.x) runs.line(last, point, outside);
+            last = point;
+        }
+    }
+    for (double k : {-2, -1, 0, 1, 2})
+        runs.curve([&](float x) { return std::numbers::pi + k * 1.642 * std::exp2(-x / 2); },
+                   inside);
+    return image;
+}
+
+}  // namespace ch01
