@@ -9,6 +9,7 @@
 
 #include "common/camera.h"
 #include "common/error.h"
+#include "common/light_shapes.h"
 #include "common/parallel.h"
 #include "common/pbrt_reader.h"
 
@@ -138,6 +139,7 @@ void prepare(Scene& scene, int threads) {
     for (const Light& light : scene.lights) {
         if (light.type == LightType::infinite) scene.sky += light.L;
     }
+    prepare_light_shapes(scene);
     scene.bvh = build_bvh(scene.geometry, threads);
 }
 

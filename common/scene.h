@@ -32,6 +32,16 @@ struct Light {
     int line = 0, column = 0;            // where the scene file makes it, for messages
 };
 
+/// What sampling an area light needs to know of it beforehand (light_shapes.h fills this in).
+struct LightShape {
+    float area = 0;  // m^2, of all its primitives
+    Vec3 centre;     // of a sphere around it, m
+    float radius = 0;
+    bool parallelogram = false;  // two triangles that make corner + s e1 + t e2
+    Vec3 corner, e1, e2;
+    std::vector<float> area_up_to;  // running sum over its primitives, where they are more than one
+};
+
 /// What one Shape directive gives all its primitives.
 struct Shape {
     uint32_t material = 0;  // into Scene::materials
@@ -53,7 +63,8 @@ struct Scene {
     std::vector<Shape> shapes;
     std::vector<Material> materials;
     std::vector<Light> lights;
-    Rgb sky;  // what all infinite lights send from any direction
+    std::vector<LightShape> light_shapes;  // one for each light
+    Rgb sky;                               // what all infinite lights send from any direction
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel

@@ -1,0 +1,265 @@
+#include "common/light_shapes.h"
+
+#include "common/solid_angle.h"
+
+namespace {
+
+/// A primitive of a light, taken apart: a triangle p0 p1 p2, or a sphere or disk of radius r at p0.
+struct Emitter {
+    enum Kind : uint8_t { triangle, sphere, disk } kind;
+    Vec3 p0, p1, p2, n;
+    float r = 0;
+    bool inward = false;
+};
+
+Emitter emitter_of(const Scene& scene, uint32_t prim) {
+    const Geometry& g = scene.geometry;
+    size_t i = prim;
+    if (i < g.triangles.size()) {
+        const auto& v = g.triangles[i].v;
+        Vec3 p0 = g.positions[v[0]], p1 = g.positions[v[1]], p2 = g.positions[v[2]];
+        return {Emitter::triangle, p0, p1, p2, normalize(cross(p1 - p0, p2 - p0))};
+    }
+    i -= g.triangles.size();
+    if (i < g.spheres.size()) {
+        const Sphere& s = g.spheres[i];
+        return {Emitter::sphere, s.c, {}, {}, {}, s.r, scene.shapes[s.shape].reverse};
+    }
+    const Disk& d = g.disks[i - g.spheres.size()];
+    return {Emitter::disk, d.c, {}, {}, d.n, d.r};
+}
+
+float area_of(const Emitter& e) {
+    switch (e.kind) {
+        case Emitter::triangle: return length(cross(e.p1 - e.p0, e.p2 - e.p0)) / 2;
+        case Emitter::sphere: return 4 * pi * e.r * e.r;
+        case Emitter::disk: return pi * e.r * e.r;
+    }
+    return 0;
+}
+
+float size_of(const Emitter& e) {
+    float size = std::max(max_component(abs(e.p0)) + e.r, max_component(abs(e.p1)));
+    return std::max(size, max_component(abs(e.p2)));
+}
+
+LightPoint sample_emitter_area(const Emitter& e, Vec2 u) {
+    float eps = rounding_error(size_of(e));
+    switch (e.kind) {
+        case Emitter::triangle: {
+            float s = std::sqrt(u.x);
+            Vec3 p = (1 - s) * e.p0 + s * (1 - u.y) * e.p1 + s * u.y * e.p2;
+            return {p, e.n, eps, 1};
+        }
+        case Emitter::sphere: {
+            float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * pi * u.y;
+            Vec3 n = {r * std::cos(phi), r * std::sin(phi), z};
+            return {e.p0 + e.r * n, e.inward ? -n : n, eps, 1};
+        }
+        case Emitter::disk: {
+            Frame frame(e.n);
+            float r = e.r * std::sqrt(u.x), phi = 2 * pi * u.y;
+            return {e.p0 + r * std::cos(phi) * frame.s + r * std::sin(phi) * frame.t, e.n, eps, 1};
+        }
+    }
+    return {};
+}
+
+/// Corners of a triangle as seen from x.
+struct Seen {
+    Vec3 a, b, c;
+    float omega;
+};
+
+Seen see(Vec3 x, Vec3 p0, Vec3 p1, Vec3 p2) {
+    Vec3 a = normalize(p0 - x), b = normalize(p1 - x), c = normalize(p2 - x);
+    return {a, b, c, triangle_solid_angle(a, b, c)};
+}
+
+/// Below this, a spherical triangle is too thin to be sampled in float: taken by area instead.
+constexpr float thinnest = 1e-4f;
+
+/// The point of the plane of e that lies from x in a direction drawn from the spherical triangle.
+Vec3 sample_seen(const Emitter& e, const Seen& seen, Vec3 x, Vec2 u) {
+    Vec3 w = sample_spherical_triangle(seen.a, seen.b, seen.c, seen.omega, u);
+    return x + dot(e.n, e.p0 - x) / dot(e.n, w) * w;
+}
+
+/// The number of the primitive under u of the light's running areas; u is stretched to [0,1) anew.
+uint32_t choose_by_area(const LightShape& shape, float& u) {
+    if (shape.area_up_to.empty()) return 0;
+    float target = u * shape.area;
+    auto found = std::upper_bound(shape.area_up_to.begin(), shape.area_up_to.end() - 1, target);
+    auto i = found - shape.area_up_to.begin();
+    float before = i > 0 ? *(found - 1) : 0;
+    u = std::clamp((target - before) / (*found - before), 0.0f, 0x1.fffffep-1f);
+    return static_cast<uint32_t>(i);
+}
+
+/// The two halves of a disk's bounding square, as triangles.
+std::array<std::array<Vec3, 3>, 2> square_around(const Emitter& e) {
+    Frame frame(e.n);
+    Vec3 s = e.r * frame.s, t = e.r * frame.t;
+    Vec3 a = e.p0 - s - t, b = e.p0 + s - t, c = e.p0 + s + t, d = e.p0 - s + t;
+    return {{{a, b, c}, {a, c, d}}};
+}
+
+/// Draws from two spherical triangles together as from one piece.
+LightPoint sample_two(const Emitter& e, const Seen& first, const Seen& second, Vec3 x, Vec2 u) {
+    float omega = first.omega + second.omega, share = first.omega / omega;
+    const Seen& chosen = u.x < share ? first : second;
+    u.x = u.x < share ? u.x / share : (u.x - share) / (1 - share);
+    u.x = std::min(u.x, 0x1.fffffep-1f);
+    return {sample_seen(e, chosen, x, u), e.n, rounding_error(size_of(e)), 1 / omega};
+}
+
+bool is_near(const LightShape& shape, Vec3 x) {
+    return length_squared(x - shape.centre) < 9 * shape.radius * shape.radius;
+}
+
+/// How x can draw from the light by solid angle; `area` where it cannot, or need not.
+enum class Way : uint8_t { area, cone, two, square, one };
+
+struct Plan {
+    Way way = Way::area;
+    Emitter e;  // the primitive, or the first of two
+    Seen seen[2];
+    float sin2 = 0;  // of the cone
+};
+
+/// Chooses the way for the light as a whole, or for one primitive (`index`) of a larger mesh.
+Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
+    const Light& l = scene.lights[light];
+    const LightShape& shape = scene.light_shapes[light];
+    Plan plan{Way::area, emitter_of(scene, l.first_prim + index), {}, 0};
+    if (plan.e.kind == Emitter::sphere && l.prims == 1) {
+        float d2 = length_squared(x - plan.e.p0), r2 = plan.e.r * plan.e.r;
+        plan.sin2 = r2 / d2;
+        if (plan.sin2 < 0.9999f && !plan.e.inward) plan.way = Way::cone;
+        return plan;
+    }
+    if (!is_near(shape, x)) return plan;
+    auto look = [&](size_t i, Vec3 p0, Vec3 p1, Vec3 p2) { plan.seen[i] = see(x, p0, p1, p2); };
+    if (shape.parallelogram) {
+        Vec3 p = shape.corner + shape.e1, q = shape.corner + shape.e2;
+        look(0, shape.corner, p, q), look(1, p + shape.e2, q, p);
+        if (std::min(plan.seen[0].omega, plan.seen[1].omega) > thinnest) plan.way = Way::two;
+    } else if (plan.e.kind == Emitter::disk && l.prims == 1) {
+        auto square = square_around(plan.e);
+        for (size_t i = 0; i < 2; i++) look(i, square[i][0], square[i][1], square[i][2]);
+        if (std::min(plan.seen[0].omega, plan.seen[1].omega) > thinnest) plan.way = Way::square;
+    } else if (plan.e.kind == Emitter::triangle) {
+        look(0, plan.e.p0, plan.e.p1, plan.e.p2);
+        if (plan.seen[0].omega > thinnest) plan.way = Way::one;
+    }
+    return plan;
+}
+
+void find_parallelogram(const Geometry& g, const Light& light, LightShape& shape) {
+    const auto& v0 = g.triangles[light.first_prim].v;
+    const auto& v1 = g.triangles[light.first_prim + 1].v;
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t j = 0; j < 3; j++) {
+            Vec3 r = g.positions[v0[i]], p = g.positions[v0[(i + 1) % 3]];
+            Vec3 q = g.positions[v0[(i + 2) % 3]], s = g.positions[v1[j]];
+            bool shared = g.positions[v1[(j + 1) % 3]] == q && g.positions[v1[(j + 2) % 3]] == p;
+            if (!shared || length((p + q) - (r + s)) > 1e-5f * length(p - q)) continue;
+            shape.parallelogram = true;
+            shape.corner = r, shape.e1 = p - r, shape.e2 = q - r;
+        }
+    }
+}
+
+}  // namespace
+
+void prepare_light_shapes(Scene& scene) {
+    scene.light_shapes.assign(scene.lights.size(), {});
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        const Light& light = scene.lights[i];
+        if (light.type != LightType::area) continue;
+        LightShape& shape = scene.light_shapes[i];
+        Vec3 low = {infinity, infinity, infinity}, high = -low;
+        double area = 0;
+        for (uint32_t k = 0; k < light.prims; k++) {
+            Emitter e = emitter_of(scene, light.first_prim + k);
+            area += static_cast<double>(area_of(e));
+            if (light.prims > 1) shape.area_up_to.push_back(static_cast<float>(area));
+            Vec3 r = {e.r, e.r, e.r};
+            bool round = e.kind != Emitter::triangle;
+            for (Vec3 p : {e.p0, round ? e.p0 : e.p1, round ? e.p0 : e.p2}) {
+                low = min(low, p - r), high = max(high, p + r);
+            }
+        }
+        shape.area = static_cast<float>(area);
+        shape.centre = 0.5f * (low + high);
+        shape.radius = length(high - low) / 2;
+        bool triangles = light.first_prim + light.prims <= scene.geometry.triangles.size();
+        if (light.prims == 2 && triangles) find_parallelogram(scene.geometry, light, shape);
+    }
+}
+
+float pdf_area(const Scene& scene, size_t light) { return 1 / scene.light_shapes[light].area; }
+
+LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
+    const LightShape& shape = scene.light_shapes[light];
+    if (!(shape.area > 0)) return {};
+    LightPoint y;
+    if (shape.parallelogram) {
+        Emitter e = emitter_of(scene, scene.lights[light].first_prim);
+        y = {shape.corner + u.x * shape.e1 + u.y * shape.e2, e.n, rounding_error(size_of(e)), 1};
+    } else {
+        uint32_t i = choose_by_area(shape, u.x);
+        y = sample_emitter_area(emitter_of(scene, scene.lights[light].first_prim + i), u);
+    }
+    y.pdf = 1 / shape.area;
+    return y;
+}
+
+LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
+    const LightShape& shape = scene.light_shapes[light];
+    if (!(shape.area > 0)) return {};
+    Vec2 v = u;
+    uint32_t index = shape.parallelogram ? 0 : choose_by_area(shape, v.x);
+    Plan way = plan(scene, light, x, index);
+    float eps = rounding_error(size_of(way.e));
+    switch (way.way) {
+        case Way::area: {
+            LightPoint y = sample_area(scene, light, u);
+            y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
+            return y;
+        }
+        case Way::cone: {
+            Vec3 to_centre = way.e.p0 - x;
+            Vec3 w = sample_cone(way.sin2, u);
+            float d = length(to_centre), sin2 = std::max(0.0f, 1 - w.z * w.z);
+            float t = d * w.z - std::sqrt(std::max(0.0f, way.e.r * way.e.r - d * d * sin2));
+            Vec3 n = normalize(x + t * Frame(to_centre / d).to_world(w) - way.e.p0);
+            return {way.e.p0 + way.e.r * n, n, eps, pdf_cone(way.sin2)};
+        }
+        case Way::two: return sample_two(way.e, way.seen[0], way.seen[1], x, u);
+        case Way::square: {
+            LightPoint y = sample_two(way.e, way.seen[0], way.seen[1], x, u);
+            if (length_squared(y.p - way.e.p0) > way.e.r * way.e.r) y.pdf = 0;
+            return y;
+        }
+        case Way::one: {
+            float share = area_of(way.e) / shape.area;
+            return {sample_seen(way.e, way.seen[0], x, v), way.e.n, eps, share / way.seen[0].omega};
+        }
+    }
+    return {};
+}
+
+float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y) {
+    const LightShape& shape = scene.light_shapes[light];
+    uint32_t index = shape.parallelogram ? 0 : y.prim - scene.lights[light].first_prim;
+    Plan way = plan(scene, light, x, index);
+    switch (way.way) {
+        case Way::area: return area_to_solid_angle(1 / shape.area, x, y.p, y.ng);
+        case Way::cone: return pdf_cone(way.sin2);
+        case Way::two:
+        case Way::square: return 1 / (way.seen[0].omega + way.seen[1].omega);
+        case Way::one: return area_of(way.e) / shape.area / way.seen[0].omega;
+    }
+    return 0;
+}
