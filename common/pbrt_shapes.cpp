@@ -1,0 +1,286 @@
+#include "common/pbrt_shapes.h"
+
+#include "common/pbrt_files.h"
+#include "common/ply.h"
+
+namespace {
+
+constexpr float farthest = 1e9f;  // beyond it, squares of areas overflow a float
+
+// A mesh as it stands in the file.
+struct Mesh {
+    std::vector<Double3> positions, normals;
+    std::vector<uint32_t> indices;
+};
+
+std::vector<Double3> group_by_three(const std::vector<double>& numbers) {
+    std::vector<Double3> groups(numbers.size() / 3);
+    for (size_t i = 0; i < groups.size(); i++) {
+        groups[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+    }
+    return groups;
+}
+
+Mesh read_triangle_mesh(Params& params) {
+    Mesh mesh;
+    const Param* P = params.find("point3", "P");
+    if (!P) fail(params.at(), params.owner() + " needs \"point3 P\"");
+    mesh.positions = group_by_three(P->numbers);
+
+    // Check that what belongs to vertices is given for each.
+    const Param *N = params.find("normal", "N"), *S = params.find("vector3", "S");
+    const Param* uv = params.find("point2", "uv");
+    for (const Param* param : {N, S, uv}) {
+        if (!param) continue;
+        size_t count = param->numbers.size() / (param == uv ? 2 : 3);
+        if (count == mesh.positions.size()) continue;
+        fail(param->at, quote(param->name) + " is given for " + std::to_string(count) + " of " +
+                            std::to_string(mesh.positions.size()) + " vertices");
+    }
+    if (N) mesh.normals = group_by_three(N->numbers);
+
+    const Param* indices = params.find("integer", "indices");
+    if (!indices) {
+        if (mesh.positions.size() != 3)
+            fail(params.at(), params.owner() + " needs \"integer indices\"");
+        mesh.indices = {0, 1, 2};
+        return mesh;
+    }
+    if (indices->numbers.size() % 3 != 0) {
+        fail(indices->at, "\"indices\" has " + std::to_string(indices->numbers.size()) +
+                              " numbers, not a multiple of 3");
+    }
+    for (double index : indices->numbers) {
+        if (index < 0 || index >= static_cast<double>(mesh.positions.size())) {
+            fail(indices->at, "index " + std::to_string(static_cast<int>(index)) +
+                                  " is out of range: there are " +
+                                  std::to_string(mesh.positions.size()) + " vertices");
+        }
+        mesh.indices.push_back(static_cast<uint32_t>(index));
+    }
+    const Param* faces = params.find("integer", "faceIndices");
+    if (faces && faces->numbers.size() != mesh.indices.size() / 3) {
+        fail(faces->at, "\"faceIndices\" needs one number for each triangle");
+    }
+    return mesh;
+}
+
+Mesh convert(const PlyMesh& ply) {
+    Mesh mesh;
+    for (Vec3 p : ply.positions) mesh.positions.push_back({p.x, p.y, p.z});
+    for (Vec3 n : ply.normals) mesh.normals.push_back({n.x, n.y, n.z});
+    mesh.indices = ply.indices;
+    return mesh;
+}
+
+void check_extent(const Params& params, Vec3 p) {
+    if (max_component(abs(p)) <= farthest) return;
+    fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
+}
+
+// Adds positions and normals in world space; returns the number of the first.
+uint32_t add_vertices(const Params& params, const ShapeState& state, const Mesh& mesh,
+                      Geometry& geometry) {
+    size_t first = geometry.positions.size();
+    if (first + mesh.positions.size() > UINT32_MAX / 2) fail(params.at(), "too many vertices");
+    for (const Double3& p : mesh.positions) {
+        geometry.positions.push_back(to_vec3(transform_point(state.world_from_object, p)));
+        check_extent(params, geometry.positions.back());
+    }
+    if (mesh.normals.empty() && geometry.normals.empty()) return static_cast<uint32_t>(first);
+
+    geometry.normals.resize(first);
+    for (const Double3& n : mesh.normals) {
+        Double3 world = transform_normal(state.world_from_object, n);
+        // Keep lengths, by which pbrt weighs them, but not those whose square leaves float.
+        double size = length(world);
+        if (size > 0 && !(size > 1e-6 && size < 1e6)) world = normalize(world);
+        Vec3 normal = to_vec3(world);
+        geometry.normals.push_back(state.reverse_orientation ? -normal : normal);
+    }
+    geometry.normals.resize(geometry.positions.size());
+    return static_cast<uint32_t>(first);
+}
+
+void add_mesh(const Params& params, const ShapeState& state, const Mesh& mesh, Scene& scene,
+              Notes& notes) {
+    Geometry& g = scene.geometry;
+    uint32_t first = add_vertices(params, state, mesh, g);
+    bool mirrored = determinant(state.world_from_object) < 0;
+    size_t empty = 0;
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+        uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
+                 c = first + mesh.indices[i + 2];
+        Vec3 normal = cross(g.positions[b] - g.positions[a], g.positions[c] - g.positions[a]);
+        if (!(length_squared(normal) >= std::numeric_limits<float>::min())) {
+            empty++;
+            continue;
+        }
+        // Turn the triangle to the side that shines: that of its vertices' normals, if it has any.
+        bool turn = mirrored != state.reverse_orientation;
+        if (!mesh.normals.empty()) {
+            float side = dot(normal, g.normals[a] + g.normals[b] + g.normals[c]);
+            if (side != 0) turn = side < 0;
+        }
+        if (turn) std::swap(b, c);
+        g.triangles.push_back({{a, b, c}, static_cast<uint32_t>(scene.shapes.size())});
+    }
+    if (empty > 0) {
+        notes.push_back(message_at(params.at(), "note",
+                                   "left out " + std::to_string(empty) +
+                                       (empty == 1 ? " triangle" : " triangles") +
+                                       " without area"));
+    }
+}
+
+// Refuses a radius of which the square is no float, or that reaches too far.
+void check_radius(const Params& params, Vec3 c, float r) {
+    if (!(r * r >= std::numeric_limits<float>::min())) {
+        fail(params.at("radius"), params.owner() + " is smaller than 1e-18: choose a smaller unit");
+    }
+    check_extent(params, abs(c) + Vec3{r, r, r});
+}
+
+// The one factor by which the transform scales these axes; throws where there is none.
+double uniform_scale(const Params& params, const std::vector<Double3>& axes,
+                     const std::string& otherwise) {
+    constexpr double tolerance = 1e-3;  // for numbers written with few digits
+    double scale = length(axes[0]);
+    for (size_t i = 0; i < axes.size(); i++) {
+        const Double3& next = axes[(i + 1) % axes.size()];
+        bool same = std::abs(length(next) - scale) <= tolerance * scale;
+        bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
+        if (!same || !right_angle) fail(params.at(), otherwise);
+    }
+    return scale;
+}
+
+float read_radius(Params& params) {
+    float radius = params.number("radius", 1);
+    if (!(radius > 0)) fail(params.at("radius"), "\"radius\" must be greater than 0");
+    return radius;
+}
+
+// Refuses a parameter that has not the value at which the shape is whole.
+void require(Params& params, const std::string& name, float value, const std::string& otherwise) {
+    if (params.number(name, value) != value) fail(params.at(name), otherwise);
+}
+
+void add_sphere(Params& params, const ShapeState& state, Scene& scene) {
+    float radius = read_radius(params);
+    require(params, "zmin", -radius, "only whole spheres are supported");
+    require(params, "zmax", radius, "only whole spheres are supported");
+    require(params, "phimax", 360, "only whole spheres are supported");
+    const Transform& t = state.world_from_object;
+    double scale = uniform_scale(params, {t.x, t.y, t.z},
+                                 "a sphere scaled differently along its axes is not supported");
+    Sphere sphere = {to_vec3(t.o), static_cast<float>(radius * scale),
+                     static_cast<uint32_t>(scene.shapes.size())};
+    check_radius(params, sphere.c, sphere.r);
+    scene.geometry.spheres.push_back(sphere);
+}
+
+void add_disk(Params& params, const ShapeState& state, Scene& scene) {
+    float radius = read_radius(params);
+    require(params, "innerradius", 0, "only whole disks are supported");
+    require(params, "phimax", 360, "only whole disks are supported");
+    const Transform& t = state.world_from_object;
+    double scale = uniform_scale(params, {t.x, t.y},
+                                 "a disk scaled differently along its axes is not supported");
+    Double3 normal = transform_normal(t, {0, 0, state.reverse_orientation ? -1.0 : 1.0});
+    Disk disk = {to_vec3(transform_point(t, {0, 0, params.number("height", 0)})),
+                 to_vec3(normalize(normal)), static_cast<float>(radius * scale),
+                 static_cast<uint32_t>(scene.shapes.size())};
+    check_radius(params, disk.c, disk.r);
+    scene.geometry.disks.push_back(disk);
+}
+
+float area(const Geometry& g, const Triangle& tri) {
+    Vec3 p0 = g.positions[tri.v[0]];
+    return length(cross(g.positions[tri.v[1]] - p0, g.positions[tri.v[2]] - p0)) / 2;
+}
+float area(const Geometry&, const Sphere& sphere) { return 4 * pi * sphere.r * sphere.r; }
+float area(const Geometry&, const Disk& disk) { return pi * disk.r * disk.r; }
+
+// Adds a light and returns its number.
+int add_light(const Params& params, Rgb L, bool two_sided, Scene& scene) {
+    if (!is_finite(L)) fail(params.at(), "the light of " + params.owner() + " is too bright");
+    Light light;
+    light.L = L;
+    light.two_sided = two_sided;
+    light.line = params.at().line;
+    light.column = params.at().column;
+    scene.lights.push_back(light);
+    return static_cast<int>(scene.lights.size()) - 1;
+}
+
+// Adds the Shape of the primitives from `first` on, and what light they send.
+template <class Primitive>
+void add_shape(const Params& params, const ShapeState& state, std::vector<Primitive>& primitives,
+               size_t first, bool reverse, Scene& scene) {
+    if (first == primitives.size()) return;
+    Shape shape = {state.material, -1, reverse};
+    bool shines = state.emission && !is_black(state.emission->L);
+    if (!shines || state.emission->power == 0) {
+        if (shines) {
+            shape.light = add_light(params, state.emission->L, state.emission->two_sided, scene);
+        }
+        scene.shapes.push_back(shape);
+        return;
+    }
+    // Make each primitive a light of its own that sends the whole power, as pbrt does.
+    float sides = state.emission->two_sided ? 2 : 1;
+    for (size_t i = first; i < primitives.size(); i++) {
+        float radiance = state.emission->power /
+                         (pi * area(scene.geometry, primitives[i]) * sides);  // for L = 1
+        shape.light =
+            add_light(params, radiance * state.emission->L, state.emission->two_sided, scene);
+        primitives[i].shape = static_cast<uint32_t>(scene.shapes.size());
+        scene.shapes.push_back(shape);
+    }
+}
+
+}  // namespace
+
+void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& notes) {
+    Geometry& g = scene.geometry;
+    size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
+    if (params.type() == "trianglemesh") {
+        Mesh mesh = read_triangle_mesh(params);
+        params.finish();
+        add_mesh(params, state, mesh, scene, notes);
+    } else if (params.type() == "plymesh") {
+        const Param* name = params.find_exactly("string", "filename", 1);
+        if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
+        params.finish();
+        NamedFile file = read_named_file(scene.file, name->at, name->strings[0]);
+        add_mesh(params, state, convert(parse_ply(file.path, file.bytes)), scene, notes);
+    } else if (params.type() == "sphere") {
+        add_sphere(params, state, scene);
+    } else if (params.type() == "disk") {
+        add_disk(params, state, scene);
+    } else {
+        params.fail_type({"disk", "plymesh", "sphere", "trianglemesh"});
+    }
+    params.finish();
+    add_shape(params, state, g.triangles, triangles, false, scene);
+    add_shape(params, state, g.spheres, spheres, state.reverse_orientation, scene);
+    add_shape(params, state, g.disks, disks, false, scene);
+}
+
+void number_light_primitives(Scene& scene) {
+    uint32_t prim = 0;
+    auto number = [&](const auto& primitives) {
+        for (const auto& primitive : primitives) {
+            int index = scene.shapes[primitive.shape].light;
+            if (index >= 0) {
+                Light& light = scene.lights[static_cast<size_t>(index)];
+                if (light.prims++ == 0) light.first_prim = prim;
+            }
+            prim++;
+        }
+    };
+    number(scene.geometry.triangles);
+    number(scene.geometry.spheres);
+    number(scene.geometry.disks);
+}

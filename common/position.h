@@ -1,0 +1,42 @@
+// Where something stands in an input file, and the error that says so.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "common/error.h"
+
+/// A place in a text file; lines and columns count from 1, columns in characters.
+struct Position {
+    std::string file;
+    int line = 0, column = 0;
+};
+
+/// `text` made fit for one line of a terminal: control characters become '?'.
+inline std::string printable(std::string text) {
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    }
+    return text;
+}
+
+/// A word of the input in quotes, cut off where it is too long to print.
+inline std::string quote(std::string_view word) {
+    constexpr size_t longest = 60;
+    if (word.size() <= longest) return '"' + std::string(word) + '"';
+    // Cut before a character, not inside one.
+    size_t end = longest;
+    while (end > 0 && (word[end] & 0xc0) == 0x80) end--;
+    return '"' + std::string(word.substr(0, end)) + "...\"";
+}
+
+/// "file:line:column: kind: text", the form in which compilers and editors know it.
+inline std::string message_at(const Position& at, const std::string& kind,
+                              const std::string& text) {
+    return printable(at.file + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) +
+                     ": " + kind + ": " + text);
+}
+
+/// Throws the InputError for something wrong at a place in a file.
+[[noreturn]] inline void fail(const Position& at, const std::string& text) {
+    throw InputError(message_at(at, "error", text));
+}
