@@ -3,10 +3,17 @@
 #include <string>
 #include <string_view>
 
-/// Writes `bytes` to a new file beside `path` and renames it over `path`: a crash, a full disk or
-/// a kill leaves what was there before. A device or pipe is written to directly.
+/// Writes `bytes` to a new file beside `path` and renames it over `path`: a full disk or a kill
+/// leaves what was there before. A device or pipe is written to directly.
 /// Throws InputError when anything fails.
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
-/// The whole file; throws InputError when it is missing, a folder, or larger than 4 GiB.
+/// Throws the InputError that write_file_atomically would throw now, but writes nothing: asked
+/// before hours of work whose result would have no place.
+void check_writable(const std::string& path);
+
+/// Whether both names are of the same file, through links too; it need not exist yet.
+bool same_file(const std::string& a, const std::string& b);
+
+/// The whole file; throws InputError when it is missing, a folder, or larger than 1 GiB.
 std::string read_file(const std::string& path);
