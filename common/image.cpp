@@ -42,10 +42,14 @@ std::string extension(const std::string& path) {
     return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
 }
 
+// What a pixel that is not finite looks like where it cannot be written as it is: magenta.
+constexpr Rgb not_a_color = {1, 0, 1};
+
 std::string srgb_bytes(const Image& image) {
     std::string bytes;
     bytes.reserve(3 * image.pixels.size());
     for (Rgb p : image.pixels) {
+        if (!is_finite(p)) p = not_a_color;
         for (float channel : {p.r, p.g, p.b}) bytes += static_cast<char>(to_srgb8(channel));
     }
     return bytes;
@@ -94,8 +98,10 @@ std::string encode_png(const Image& image, const std::string& comment) {
     auto append = [](void* to, void* data, int size) {
         static_cast<std::string*>(to)->append(static_cast<char*>(data), static_cast<size_t>(size));
     };
-    stbi_write_png_to_func(append, &png, image.width, image.height, 3, pixels.data(),
-                           3 * image.width);
+    if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, pixels.data(),
+                                3 * image.width)) {
+        throw std::bad_alloc();
+    }
     constexpr size_t after_header = 8 + 25;  // signature, IHDR
     return png.insert(after_header, text_chunk(comment));
 }
@@ -169,8 +175,9 @@ Image decode_pfm(Header header, size_t channels) {
     int width = header.side(), height = header.side();
     float scale = header.number();
     if (!(scale < 0 || scale > 0)) header.fail("a .pfm file's scale must not be 0");
+    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+    std::string_view body = header.body(4 * channels * pixels);
     Image image(width, height);
-    std::string_view body = header.body(4 * channels * image.pixels.size());
     auto value = [&](size_t i) {
         uint32_t bits;
         std::memcpy(&bits, body.data() + 4 * i, 4);

@@ -25,7 +25,8 @@ struct Image {
 unsigned char to_srgb8(float linear);
 
 /// Writes by extension: .ppm (P6, 8-bit sRGB), .pfm (linear float, little endian, bottom row
-/// first), .png (8-bit sRGB, `comment` in a text chunk). Throws InputError; see files.h.
+/// first), .png (8-bit sRGB, `comment` in a text chunk). A pixel that is not finite stays so in a
+/// .pfm and is magenta in the others. Throws InputError; see files.h.
 void write_image(const std::string& path, const Image& image, const std::string& comment);
 
 /// Whether write_image knows the extension of `path`.
