@@ -21,8 +21,9 @@ Rgb Film::mean_rgb() const {
 
 double Film::mean() const {
     double sum = 0;
-    for (const PixelSum& p : pixels_) sum += p.mean;
-    return sum / static_cast<double>(pixels_.size());
+    for (const PixelSum& p : pixels_) sum += p.r + p.g + p.b;
+    double n = static_cast<double>(std::max<uint64_t>(spp, 1));
+    return sum / (3 * n * static_cast<double>(pixels_.size()));
 }
 
 double Film::standard_error() const {

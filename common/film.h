@@ -23,13 +23,22 @@ public:
 
     /// Adds sample number `sample` (from 0) of a pixel; each pixel gets its samples in order.
     void add(size_t pixel, uint64_t sample, Rgb L) {
+        add_part(pixel, L);
+        PixelSum& p = pixels_[pixel];
+        double y =
+            (static_cast<double>(L.r) + static_cast<double>(L.g) + static_cast<double>(L.b)) / 3;
+        double delta = y - p.mean;
+        p.mean += delta / static_cast<double>(sample + 1);
+        p.m2 += delta * (y - p.mean);
+    }
+
+    /// Adds what part of a sample brings, as often as it has parts: to the sums alone, so that the
+    /// film knows its mean but not its error.
+    void add_part(size_t pixel, Rgb L) {
         PixelSum& p = pixels_[pixel];
         p.r += static_cast<double>(L.r);
         p.g += static_cast<double>(L.g);
         p.b += static_cast<double>(L.b);
-        double y = static_cast<double>(average(L)), delta = y - p.mean;
-        p.mean += delta / static_cast<double>(sample + 1);
-        p.m2 += delta * (y - p.mean);
     }
 
     /// The mean of the samples, as a picture.
