@@ -1,49 +1,15 @@
 #include "common/options.h"
 
-#include <getopt.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstdlib>
+#include <algorithm>
 #include <regex>
 #include <thread>
 
 #include "common/error.h"
 #include "common/image.h"
 #include "common/nearest.h"
+#include "common/path_log.h"
 
 namespace {
-
-[[noreturn]] void fail_value(const std::string& option, const std::string& text,
-                             const std::string& wanted) {
-    throw UsageError("error: --" + option + " takes " + wanted + ", not '" + text + "'");
-}
-
-[[noreturn]] void fail_unknown(const std::string& word, const std::vector<Option>& options) {
-    std::vector<std::string> names;
-    for (const Option& option : options) names.push_back("--" + option.name);
-    std::string nearest = nearest_word(word.substr(0, word.find('=')), names);
-    throw UsageError(
-        "error: unknown option '" + word + "'" +
-        (nearest.empty() ? "; --help lists them" : ", did you mean '" + nearest + "'?"));
-}
-
-void print_usage(const char* program, const std::string& positional, const std::string& about,
-                 const std::vector<Option>& options) {
-    std::printf("usage: %s%s%s [OPTION]...\n%s\n\n", program, positional.empty() ? "" : " ",
-                positional.c_str(), about.c_str());
-    for (const Option& option : options) {
-        std::string left =
-            "--" + option.name + (option.argument.empty() ? "" : " " + option.argument);
-        std::printf("  %-24s %s\n", left.c_str(), option.help.c_str());
-    }
-}
-
-std::string command_line(int argc, char** argv) {
-    std::string line;
-    for (int i = 0; i < argc; i++) line += (i ? " " : "") + std::string(argv[i]);
-    return line;
-}
 
 void add_output(std::vector<std::string>& out, const std::string& path, bool table) {
     bool tsv = table && path.ends_with(".tsv");
@@ -54,70 +20,16 @@ void add_output(std::vector<std::string>& out, const std::string& path, bool tab
     out.push_back(path);
 }
 
-}  // namespace
-
-void parse_options(int argc, char** argv, const std::string& positional, const std::string& about,
-                   std::vector<Option> options,
-                   const std::function<void(const std::string&)>& set_positional) {
-    options.push_back({"help", "", "print this and stop", [](const std::string&) {}});
-    std::vector<option> table;
-    for (size_t i = 0; i < options.size(); i++) {
-        table.push_back({options[i].name.c_str(),
-                         options[i].argument.empty() ? no_argument : required_argument, nullptr,
-                         static_cast<int>(256 + i)});
-    }
-    table.push_back({nullptr, 0, nullptr, 0});
-
-    opterr = 0;  // messages are ours
-    optind = 1;
-    for (int code; (code = getopt_long(argc, argv, "-:", table.data(), nullptr)) != -1;) {
-        std::string word = argv[std::max(1, optind - 1)];
-        if (code == 1) {
-            set_positional(optarg);
-        } else if (code == ':') {
-            throw UsageError("error: option '" + word + "' needs a value");
-        } else if (code == '?') {
-            if (optopt >= 256) throw UsageError("error: option '" + word + "' takes no value");
-            fail_unknown(word, options);
-        } else if (const Option& found = options[static_cast<size_t>(code - 256)];
-                   found.name == "help") {
-            print_usage(argv[0], positional, about, options);
-            std::exit(0);
-        } else {
-            found.set(optarg ? optarg : "");
-        }
-    }
-    for (; optind < argc; optind++) set_positional(argv[optind]);  // after "--"
-}
-
-int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
-                      int64_t high) {
-    char* end = nullptr;
-    errno = 0;
-    long long value = std::strtoll(text.c_str(), &end, 10);
-    if (text.empty() || *end != '\0' || errno != 0 || value < low || value > high) {
-        fail_value(option, text,
-                   "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
-    }
-    return value;
-}
-
-double parse_positive(const std::string& option, const std::string& text) {
-    char* end = nullptr;
-    double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !(value > 0) || !std::isfinite(value)) {
-        fail_value(option, text, "a number greater than 0");
-    }
-    return value;
-}
-
-namespace {
-
 void parse_size(const std::string& text, RenderOptions& options) {
-    size_t x = text.find('x');
-    if (x == std::string::npos) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
-    options.width = static_cast<int>(parse_integer("size", text.substr(0, x), 1, 65536));
-    options.height = static_cast<int>(parse_integer("size", text.substr(x + 1), 1, 65536));
+    std::smatch match;
+    if (!std::regex_match(text, match, std::regex("(\\d{1,5})x(\\d{1,5})"))) {
+        fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
+    }
+    options.width = static_cast<int>(parse_integer("size", match[1], 1, 65536));
+    options.height = static_cast<int>(parse_integer("size", match[2], 1, 65536));
+    if (int64_t{options.width} * options.height > 1 << 28) {
+        fail_value("size", text, "at most 2^28 pixels");
+    }
 }
 
 void parse_explain(const std::string& text, RenderOptions& options) {
@@ -132,18 +44,13 @@ void parse_explain(const std::string& text, RenderOptions& options) {
 }
 
 SamplerType parse_sampler(const std::string& text) {
-    if (text == "independent") return SamplerType::independent;
-    if (text == "stratified") return SamplerType::stratified;
-    if (text == "sobol") return SamplerType::sobol;
-    std::string nearest = nearest_word(text, {"independent", "stratified", "sobol"});
-    fail_value("sampler", text,
-               "independent, stratified or sobol" +
-                   (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
+    return static_cast<SamplerType>(
+        parse_choice("sampler", text, {"independent", "stratified", "sobol"}));
 }
 
-std::string parse_regex(const std::string& text) {
+std::string parse_class_filter(const std::string& text) {
     try {
-        std::regex check(text);
+        PathLog check(text);
     } catch (const std::regex_error&) {
         fail_value("paths", text, "a regular expression, such as 'LD(S|D)*E'");
     }
@@ -182,7 +89,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
         {"explain", "X,Y[,SAMPLE]", "print one path step by step, and draw it",
          [&](const std::string& text) { parse_explain(text, o); }},
         {"paths", "REGEX", "keep only these classes of path, such as 'LD(S|D)*E'",
-         [&](const std::string& text) { o.paths = parse_regex(text); }},
+         [&](const std::string& text) { o.paths = parse_class_filter(text); }},
         {"split", "DIR", "write one picture for each class of path",
          [&](const std::string& text) { o.split = text; }},
         {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
@@ -191,8 +98,10 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     parse_options(
         argc, argv, "[SCENE]", "Chapter " + name + " on a pbrt-v4 scene (default " + scene + ").",
         options, [&](const std::string& word) {
-            if (!o.scene.empty())
+            if (word.empty()) throw UsageError("error: the name of the scene is empty");
+            if (!o.scene.empty()) {
                 throw UsageError("error: two scenes: '" + o.scene + "' and '" + word + "'");
+            }
             o.scene = word;
         });
     if (o.scene.empty()) o.scene = scene;
@@ -226,19 +135,4 @@ TableOptions parse_table_options(int argc, char** argv, const std::string& name,
                   });
     if (o.out.empty()) o.out = {"out/" + name + ".ppm", "out/" + name + ".tsv"};
     return o;
-}
-
-int run_program(const std::function<int()>& program) {
-    try {
-        return program();
-    } catch (const UsageError& e) {
-        std::fprintf(stderr, "%s\n", e.what());
-        return 2;
-    } catch (const InputError& e) {
-        std::fprintf(stderr, "%s\n", e.what());
-        return 1;
-    } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "error: out of memory\n");
-        return 1;
-    }
 }

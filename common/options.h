@@ -1,31 +1,11 @@
-// Command lines: what the programs of all chapters understand.
+// What the programs of all chapters understand on their command lines.
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "common/command_line.h"
 #include "common/sampler.h"
-
-/// One option, `--name ARGUMENT` (or `--name` alone where argument is empty). `set` gets the
-/// argument's text and throws UsageError when it cannot be used.
-struct Option {
-    std::string name, argument, help;
-    std::function<void(const std::string&)> set;
-};
-
-/// Reads the command line. Words that belong to no option go to `set_positional`. Prints the
-/// usage and ends the program for --help. Throws UsageError for anything unknown, with the nearest
-/// known option.
-void parse_options(int argc, char** argv, const std::string& positional, const std::string& about,
-                   std::vector<Option> options,
-                   const std::function<void(const std::string&)>& set_positional);
-
-/// A whole number within [low, high], or UsageError that names the option.
-int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
-                      int64_t high);
-/// A number greater than 0, or UsageError.
-double parse_positive(const std::string& option, const std::string& text);
 
 /// What every chapter that renders a scene understands.
 struct RenderOptions {
@@ -63,6 +43,3 @@ struct TableOptions {
 
 /// The options of a chapter that prints a table; n is its default number of samples.
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n);
-
-/// Runs a program: returns its exit code, 1 after an InputError, 2 after a UsageError.
-int run_program(const std::function<int()>& program);

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <mutex>
+#include <tuple>
 
 #include "common/camera.h"
 #include "common/error.h"
@@ -52,7 +53,8 @@ private:
 /// Renders the samples [first, last) of the pixels of one tile.
 class TileRenderer {
 public:
-    static constexpr int side = 16;
+    static constexpr int side = 16;             // pixels
+    static constexpr size_t longest_class = 8;  // letters of a class that has its own film
 
     TileRenderer(const Scene& scene, const RenderOptions& options, Trace trace, Rendering& result)
         : scene_(scene),
@@ -91,23 +93,23 @@ private:
         Vec2 u = sampler.u2();
         Ray ray = camera_ray(view_, {static_cast<float>(x) + u.x, static_cast<float>(y) + u.y});
         Rgb L = trace_(scene_, ray, sampler, log);
-        if (!is_finite(L)) {
-            stats.not_finite++;
+        if (is_finite(L)) {
+            stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
+        } else if (stats.not_finite++ == 0) {
             stats.bad_x = x, stats.bad_y = y, stats.bad_sample = s;
-            L = {};
         }
-        stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
         result_.film.add(pixel, static_cast<uint64_t>(s), L);
-        if (!options_.split.empty()) split(pixel, static_cast<uint64_t>(s), log);
+        if (!options_.split.empty()) split(pixel, log);
     }
 
-    void split(size_t pixel, uint64_t sample, const PathLog& log) {
+    void split(size_t pixel, const PathLog& log) {
         for (const auto& [path_class, L] : log.contributions()) {
-            if (!is_finite(L)) continue;
+            // Keep all long paths together: their classes double with every letter.
+            bool is_long = path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
-            auto [film, added] =
-                result_.classes.try_emplace(path_class, scene_.width, scene_.height);
-            film->second.add(pixel, sample, L);
+            auto [film, added] = result_.classes.try_emplace(is_long ? "longer" : path_class,
+                                                             scene_.width, scene_.height);
+            film->second.add_part(pixel, L);
         }
     }
 
@@ -117,10 +119,13 @@ private:
         all.rays += stats.rays;
         all.paths_cut += stats.paths_cut;
         all.largest = std::max(all.largest, stats.largest);
-        if (stats.not_finite > 0) {
-            all.not_finite += stats.not_finite;
+        auto place = [](const RenderStats& s) {
+            return std::tuple(s.bad_sample, s.bad_y, s.bad_x);
+        };
+        if (stats.not_finite > 0 && (all.not_finite == 0 || place(stats) < place(all))) {
             all.bad_x = stats.bad_x, all.bad_y = stats.bad_y, all.bad_sample = stats.bad_sample;
         }
+        all.not_finite += stats.not_finite;
     }
 
     const Scene& scene_;
@@ -132,13 +137,33 @@ private:
     std::mutex mutex_;
 };
 
+/// Half the diagonal of the box around all primitives.
+float bounding_radius(const Geometry& g) {
+    Vec3 low = {infinity, infinity, infinity}, high = -low;
+    auto add = [&](Vec3 p, float r) {
+        low = min(low, p - Vec3{r, r, r}), high = max(high, p + Vec3{r, r, r});
+    };
+    for (Vec3 p : g.positions) add(p, 0);
+    for (const Sphere& s : g.spheres) add(s.c, s.r);
+    for (const Disk& d : g.disks) add(d.c, d.r);
+    return g.size() > 0 ? length(high - low) / 2 : 0;
+}
+
 }  // namespace
 
 void prepare(Scene& scene, int threads) {
+    // Gather all skies in the first.
     scene.sky = {};
-    for (const Light& light : scene.lights) {
-        if (light.type == LightType::infinite) scene.sky += light.L;
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        Light& light = scene.lights[i];
+        if (light.type != LightType::infinite) continue;
+        scene.sky += light.L;
+        if (scene.sky_light < 0) scene.sky_light = static_cast<int>(i);
+        light.L = {};
     }
+    if (scene.sky_light >= 0) scene.lights[static_cast<size_t>(scene.sky_light)].L = scene.sky;
+
+    scene.radius = bounding_radius(scene.geometry);
     prepare_light_shapes(scene);
     scene.bvh = build_bvh(scene.geometry, threads);
 }
@@ -178,11 +203,11 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, Trace tr
     };
 
     // A pass takes every pixel once, or more often when they are so few that threads would idle.
-    int pixels = scene.width * scene.height;
+    int pixels = scene.width * scene.height;  // at most 2^28
     int samples_per_pass = std::max(1, (1 << 16) / pixels);
     int spp = options.time > 0 ? (options.spp > 0 ? options.spp : 1 << 30) : scene.spp;
     int done = 0;
-    while (done < spp && !stop_requested) {
+    do {
         int next = std::min(done + samples_per_pass, spp);
         parallel_for(renderer.tiles(), options.threads,
                      [&](int tile) { renderer.render(tile, done, next); });
@@ -191,7 +216,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, Trace tr
         if (options.time > 0 && seconds >= options.time) break;
         double by_time = options.time > 0 ? seconds / options.time : 0;
         progress.show(std::max(by_time, done / static_cast<double>(spp)), seconds);
-    }
+    } while (done < spp && !stop_requested);
     result.film.spp = static_cast<uint64_t>(done);
     for (auto& [path_class, film] : result.classes) film.spp = result.film.spp;
     result.stats.seconds = elapsed();
@@ -201,5 +226,6 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, Trace tr
 
 int render(const Scene& scene, const RenderOptions& options, Trace trace) {
     if (options.explain) return explain(scene, options, trace);
+    check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace));
 }

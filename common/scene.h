@@ -13,8 +13,16 @@ struct Material {
     MaterialType type = MaterialType::diffuse;
     Rgb reflectance = {0.5f, 0.5f, 0.5f};  // diffuse: albedo, in [0,1]
     Rgb eta, k;                            // conductor: complex index of refraction eta + i k
+    float alpha = 0;                       // conductor: GGX roughness; 0: a perfect mirror
     float ior = 1.5f;                      // dielectric: index inside over index outside
+    int line = 0, column = 0;              // where the scene file makes it, for messages
 };
+
+/// Whether light that arrives from one direction leaves in one direction (or two) only.
+inline bool is_specular(const Material& m) {
+    return m.type == MaterialType::dielectric ||
+           (m.type == MaterialType::conductor && m.alpha == 0);
+}
 
 enum class LightType : uint8_t { area, point, distant, infinite };
 
@@ -42,6 +50,13 @@ struct LightShape {
     std::vector<float> area_up_to;  // running sum over its primitives, where they are more than one
 };
 
+/// One column of the alias table that lights are chosen from (chapter 10).
+struct AliasColumn {
+    float own;       // share of the column that is the light of the same number
+    uint32_t other;  // the light that the rest of the column is
+    float pmf;       // of the light of the same number, over the whole table
+};
+
 /// What one Shape directive gives all its primitives.
 struct Shape {
     uint32_t material = 0;  // into Scene::materials
@@ -64,6 +79,9 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Light> lights;
     std::vector<LightShape> light_shapes;  // one for each light
+    std::vector<AliasColumn> light_table;  // one for each light; from chapter 10 on
+    float radius = 0;                      // m, of a sphere around all primitives
+    int sky_light = -1;                    // the infinite light among them; -1: none
     Rgb sky;                               // what all infinite lights send from any direction
     Camera camera;
     int width = 1280, height = 720;  // pixels

@@ -1,0 +1,206 @@
+// Chapter 08: explicit light sampling. Aim at a light instead of waiting to meet one.
+//
+//   Ld = f Le V cos_x cos_y / d^2 / (pmf pdf_A)      one light out of N, and a point y on it
+//      = f Le V cos_x / pdf_w,    pdf_w = pmf pdf_A d^2 / cos_y
+#pragma once
+#include "common/bsdf.h"
+#include "common/light_shapes.h"
+#include "common/metal.h"
+#include "common/optics.h"
+#include "common/path_log.h"
+#include "common/sampler.h"
+
+namespace ch08 {
+
+/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+///
+///   diffuse:  f = reflectance / pi  on wo's side of the surface
+inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    return x.material->reflectance / pi;
+}
+
+/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return 0;
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
+    return pdf_uniform_hemisphere();
+}
+
+/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
+///
+///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
+///
+/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
+/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
+inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
+    float eta = x.front ? x.material->ior : 1 / x.material->ior;
+    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
+    if (u < R) {
+        float f = R / cos_o;
+        return {reflect(wo, x.n), {f, f, f}, R, true};
+    }
+    std::optional<Vec3> wi = refract(wo, x.n, eta);
+    if (!wi) return {};
+    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
+    return {*wi, {f, f, f}, 1 - R, true};
+}
+
+/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
+    switch (x.material->type) {
+        case MaterialType::diffuse: {
+            Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u2));
+            return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
+        }
+        case MaterialType::conductor: {
+            float cos_o = dot(wo, x.n);
+            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
+            return {reflect(wo, x.n), F / cos_o, 1, true};
+        }
+        case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
+    }
+    return {};
+}
+
+/// The probability with which a path of throughput beta goes on.
+///
+///   q = the largest channel of beta, within [0.05, 0.95];  1 for the first few vertices
+///
+/// Taken from the largest channel, no channel's beta / q can grow from vertex to vertex. Below 1,
+/// so that a path that loses nothing (mirrors, total reflection) ends as well.
+inline float survival_probability(Rgb beta, int depth) {
+    if (depth < 4) return 1;
+    return std::clamp(max_component(beta), 0.05f, 0.95f);
+}
+
+/// Light that was aimed at. pdf_w == 0: no sample, it contributes nothing.
+struct LightSample {
+    Vec3 wi;             // unit, from x to the light
+    Rgb Le;              // W m^-2 sr^-1: without f, cosine and visibility
+    float dist = 0;      // m: how far the shadow ray goes, just short of the light
+    float pdf_w = 0;     // sr^-1; for a point or distant light the probability of choosing it
+    bool delta = false;  // a point or distant light: no path meets it by chance
+};
+
+/// How a point on an area light is drawn: by area, or by the solid angle that x sees it under.
+enum class LightMeasure : uint8_t { area, solid_angle };
+inline LightMeasure light_measure = LightMeasure::solid_angle;
+
+/// A point y of an area light, and the density of its direction at x.
+///
+///   by area:  pdf_w = pdf_A d^2 / cos_y: 1/cos_y and d^2 make a spike where y is near x
+///
+/// zero    where y faces away, or is edge-on
+/// error   unbiased; by area, Var -> infinity like 1 / distance^2 of a near light, by solid angle
+///         it stays below E^2 / 3
+/// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
+inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
+    bool by_area = light_measure == LightMeasure::area;
+    LightPoint y =
+        by_area ? sample_area(scene, light, u) : sample_solid_angle(scene, light, x.p, u);
+    Vec3 to_y = y.p - x.p;
+    float d2 = dot(to_y, to_y), d = std::sqrt(d2);
+    Vec3 wi = to_y / d;
+    float cos_y = -dot(wi, y.n);
+    if (scene.lights[light].two_sided) cos_y = std::abs(cos_y);
+    if (!(cos_y > 0)) return {};
+    float pdf_w = by_area ? y.pdf * d2 / cos_y : y.pdf;
+    return {wi, scene.lights[light].L, d - (x.eps + y.eps) / cos_y, pdf_w};
+}
+
+/// One light: its point or direction as seen from x. The sky is drawn from the hemisphere around n.
+inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, Vec2 u) {
+    const Light& light = scene.lights[i];
+    switch (light.type) {
+        case LightType::area: return sample_area_light(scene, i, x, u);
+        case LightType::point: {
+            Vec3 to_y = light.p - x.p;
+            float d2 = dot(to_y, to_y);
+            if (d2 == 0) return {};
+            return {to_y / std::sqrt(d2), light.L / d2, std::sqrt(d2), 1, true};
+        }
+        case LightType::distant: return {light.p, light.L, infinity, 1, true};
+        case LightType::infinite: {
+            Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u));
+            return {wi, light.L, infinity, pdf_uniform_hemisphere()};
+        }
+    }
+    return {};
+}
+
+/// Chooses one of the N lights, all alike, and a point on it.      pdf_w = pdf_one / N
+inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
+    size_t N = scene.lights.size();
+    if (N == 0) return {};
+    size_t i = std::min(static_cast<size_t>(u1 * static_cast<float>(N)), N - 1);
+    LightSample y = sample_one_light(scene, i, x, u2);
+    y.pdf_w /= static_cast<float>(N);
+    return y;
+}
+
+/// Estimates what all lights send by way of x to wo, from one point of one light.
+///
+///   Ld = f Le V cos / pdf_w
+///
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec2 u2, Rgb beta,
+                        PathLog& log) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    LightSample y = sample_light(scene, x, u1, u2);
+    if (y.pdf_w == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k),   beta_k = product of f cos /
+///   pdf_w
+///
+/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
+/// glass. Anywhere else it was Ld of the vertex before.
+/// Unbiased up to scene.max_depth scattering events.
+/// source  Cook et al. 1984; Shirley et al. 1996      tested by  "ch08 light sampling"
+inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    bool count_emission = true;
+    for (int depth = 0;; depth++) {
+        // Find the next vertex. A path that leaves the scene ends in the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
+        log.vertex(*x);
+
+        // Add what shines there, unless the vertex before has aimed at it.
+        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at a light.
+        Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        L += direct_light(scene, *x, wo, u1, sampler.u2(), beta, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        count_emission = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch08

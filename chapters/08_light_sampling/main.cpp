@@ -1,0 +1,17 @@
+// Chapter 08 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/08_light_sampling/estimator.h"
+#include "common/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        Option measure = {"light-by", "MEASURE", "draw points of lights by area or by solid-angle",
+                          [](const std::string& text) {
+                              ch08::light_measure = static_cast<ch08::LightMeasure>(
+                                  parse_choice("light-by", text, {"area", "solid-angle"}));
+                          }};
+        RenderOptions options =
+            parse_render_options(argc, argv, "08_light_sampling", "scenes/cornell.pbrt", {measure});
+        Scene scene = load(options);
+        return render(scene, options, ch08::trace);
+    });
+}

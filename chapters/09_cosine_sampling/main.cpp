@@ -1,0 +1,12 @@
+// Chapter 09 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/09_cosine_sampling/estimator.h"
+#include "common/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "09_cosine_sampling", "scenes/cornell.pbrt");
+        Scene scene = load(options);
+        return render(scene, options, ch09::trace);
+    });
+}

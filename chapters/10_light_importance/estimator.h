@@ -1,0 +1,220 @@
+// Chapter 10: light importance. Choose lights by what they can give, in a time that does not depend
+// on how many there are.
+//
+//   pmf_i = (1 - d) power_i / sum power + d / N      a share d for all alike: no light has pmf 0
+#pragma once
+#include "common/bsdf.h"
+#include "common/lights.h"
+#include "common/metal.h"
+#include "common/optics.h"
+#include "common/path_log.h"
+#include "common/sampler.h"
+
+namespace ch10 {
+
+/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+///
+///   diffuse:  f = reflectance / pi  on wo's side of the surface
+inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    return x.material->reflectance / pi;
+}
+
+/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return 0;
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
+    return pdf_cosine_hemisphere(dot(wi, x.n));
+}
+
+/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
+///
+///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
+///
+/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
+/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
+inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
+    float eta = x.front ? x.material->ior : 1 / x.material->ior;
+    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
+    if (u < R) {
+        float f = R / cos_o;
+        return {reflect(wo, x.n), {f, f, f}, R, true};
+    }
+    std::optional<Vec3> wi = refract(wo, x.n, eta);
+    if (!wi) return {};
+    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
+    return {*wi, {f, f, f}, 1 - R, true};
+}
+
+/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
+    switch (x.material->type) {
+        case MaterialType::diffuse: {
+            Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(u2));
+            return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
+        }
+        case MaterialType::conductor: {
+            float cos_o = dot(wo, x.n);
+            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
+            return {reflect(wo, x.n), F / cos_o, 1, true};
+        }
+        case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
+    }
+    return {};
+}
+
+/// The probability with which a path of throughput beta goes on.
+///
+///   q = the largest channel of beta, within [0.05, 0.95];  1 for the first few vertices
+///
+/// Taken from the largest channel, no channel's beta / q can grow from vertex to vertex. Below 1,
+/// so that a path that loses nothing (mirrors, total reflection) ends as well.
+inline float survival_probability(Rgb beta, int depth) {
+    if (depth < 4) return 1;
+    return std::clamp(max_component(beta), 0.05f, 0.95f);
+}
+
+/// The power of a light, in W: radiance times area times pi, and what corresponds to it.
+///
+///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  R: radius of the scene
+inline float light_power(const Scene& scene, size_t i) {
+    const Light& light = scene.lights[i];
+    float L = average(light.L), R = scene.radius;
+    switch (light.type) {
+        case LightType::area:
+            return pi * scene.light_shapes[i].area * L * (light.two_sided ? 2 : 1);
+        case LightType::point: return 4 * pi * L;
+        case LightType::distant: return pi * R * R * L;
+        case LightType::infinite: return 4 * pi * pi * R * R * L;
+    }
+    return 0;
+}
+
+/// The probability of each light: in proportion to its power, but for the share d.
+inline std::vector<double> light_pmf(const Scene& scene, double d) {
+    std::vector<double> pmf;
+    double sum = 0, N = static_cast<double>(scene.lights.size());
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        pmf.push_back(static_cast<double>(light_power(scene, i)));
+        sum += pmf.back();
+    }
+    for (double& p : pmf) p = sum > 0 ? (1 - d) * p / sum + d / N : 1 / N;
+    return pmf;
+}
+
+/// Cuts N probabilities into N columns of equal width, with at most two lights in each.
+///
+///   a column that is too low is filled up from one that is too high, which so gets lower
+///
+/// source  Walker 1974; Vose 1991      tested by  "identity: the alias table keeps every pmf"
+inline std::vector<AliasColumn> build_alias_table(const std::vector<double>& pmf) {
+    size_t N = pmf.size();
+    std::vector<AliasColumn> table(N);
+    std::vector<double> height(N);
+    std::vector<uint32_t> low, high;
+    for (uint32_t i = 0; i < N; i++) {
+        height[i] = pmf[i] * static_cast<double>(N);
+        table[i] = {1, i, static_cast<float>(pmf[i])};
+        (height[i] < 1 ? low : high).push_back(i);
+    }
+    while (!low.empty() && !high.empty()) {
+        uint32_t l = low.back(), h = high.back();
+        low.pop_back();
+        table[l].own = static_cast<float>(height[l]);
+        table[l].other = h;
+        height[h] -= 1 - height[l];
+        if (height[h] < 1) {
+            high.pop_back();
+            low.push_back(h);
+        }
+    }
+    return table;
+}
+
+/// Gets the scene ready for this chapter's trace().
+inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0.25)); }
+
+/// Chooses a light in O(1): a column, and one of the two lights in it.
+inline size_t pick_light(const Scene& scene, float u) {
+    const auto& table = scene.light_table;
+    float at = u * static_cast<float>(table.size());
+    size_t column = std::min(static_cast<size_t>(at), table.size() - 1);
+    bool own = at - static_cast<float>(column) < table[column].own;
+    return own ? column : table[column].other;
+}
+inline float pmf_light(const Scene& scene, size_t light) { return scene.light_table[light].pmf; }
+
+/// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
+inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
+    if (scene.lights.empty()) return {};
+    size_t light = pick_light(scene, u1);
+    LightSample y = sample_one_light(scene, light, x, u2);
+    y.pdf_w *= pmf_light(scene, light);
+    return y;
+}
+
+/// Estimates what all lights send by way of x to wo, from one point of one light.
+///
+///   Ld = f Le V cos / pdf_w
+///
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec2 u2, Rgb beta,
+                        PathLog& log) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    LightSample y = sample_light(scene, x, u1, u2);
+    if (y.pdf_w == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k),   beta_k = product of f cos /
+///   pdf_w
+///
+/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
+/// glass. Anywhere else it was Ld of the vertex before.
+/// Unbiased up to scene.max_depth scattering events.
+/// source  Shirley et al. 1996      tested by  "ch10 light importance"
+inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    bool count_emission = true;
+    for (int depth = 0;; depth++) {
+        // Find the next vertex. A path that leaves the scene ends in the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
+        log.vertex(*x);
+
+        // Add what shines there, unless the vertex before has aimed at it.
+        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at a light.
+        Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        L += direct_light(scene, *x, wo, u1, sampler.u2(), beta, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        count_emission = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch10
