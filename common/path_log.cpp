@@ -30,8 +30,19 @@ const char* name(MaterialType type) {
 
 }  // namespace
 
-PathLog::PathLog(std::string class_filter, bool keep_steps)
-    : listening_(true), keep_steps_(keep_steps), filter_(std::move(class_filter)) {}
+struct ClassFilter {
+    std::regex regex;
+};
+
+PathLog::PathLog(const std::string& class_filter, bool keep_steps)
+    : listening_(true), keep_steps_(keep_steps) {
+    if (class_filter.empty()) return;
+    // Take the engine that reads each letter once: the usual one tries every way in which nested
+    // stars can match, which may take years. Brackets nested by the thousand overflow its stack.
+    if (class_filter.size() > 1000) throw std::regex_error(std::regex_constants::error_space);
+    constexpr auto flags = std::regex::ECMAScript | std::regex_constants::__polynomial;
+    filter_ = std::make_shared<const ClassFilter>(ClassFilter{std::regex(class_filter, flags)});
+}
 
 void PathLog::forget() {
     scattered_.clear();
@@ -72,8 +83,8 @@ Rgb PathLog::note_emitted(Rgb contribution, float mis_b) {
     if (is_black(contribution)) return contribution;
     std::string path_class = "L" + scattered_ + "E";
     if (keep_steps_) {
-        steps_ += format("    finds light: adds %s, mis_b %.6g, class %s\n",
-                         to_text(contribution).c_str(), double{mis_b}, path_class.c_str());
+        steps_ += "    finds light: adds " + to_text(contribution) +
+                  format(", mis_b %.6g, class ", double{mis_b}) + path_class + "\n";
     }
     return keep(path_class, contribution);
 }
@@ -82,10 +93,10 @@ Rgb PathLog::note_direct(Rgb contribution, Vec3 wi, float pdf_l, float pdf_b, fl
     if (is_black(contribution)) return contribution;
     std::string path_class = "LD" + scattered_ + "E";
     if (keep_steps_) {
-        steps_ += format(
-            "    light along wi %s: pdf_l %.6g, pdf_b %.6g sr^-1, mis_l %.6g, adds %s, class %s\n",
-            to_text(wi).c_str(), double{pdf_l}, double{pdf_b}, double{mis_l},
-            to_text(contribution).c_str(), path_class.c_str());
+        steps_ += "    light along wi " + to_text(wi) +
+                  format(": pdf_l %.6g, pdf_b %.6g sr^-1, mis_l %.6g, adds ", double{pdf_l},
+                         double{pdf_b}, double{mis_l}) +
+                  to_text(contribution) + ", class " + path_class + "\n";
     }
     return keep(path_class, contribution);
 }
@@ -97,11 +108,11 @@ Rgb PathLog::keep(const std::string& path_class, Rgb contribution) {
 }
 
 bool PathLog::counts(const std::string& path_class) {
-    if (filter_.empty()) return true;
+    if (!filter_) return true;
     for (const auto& [known, counted] : known_classes_) {
         if (known == path_class) return counted;
     }
-    bool counted = std::regex_match(path_class, std::regex(filter_));
+    bool counted = std::regex_match(path_class, filter_->regex);
     if (known_classes_.size() < 1000) known_classes_.emplace_back(path_class, counted);
     return counted;
 }

@@ -1,5 +1,6 @@
 // What one path did, for those who ask: --explain, --paths, --split, and the measuring programs.
 #pragma once
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,13 +14,16 @@ struct Contribution {
     Rgb L;
 };
 
+struct ClassFilter;
+
 /// trace() tells a PathLog what it does. Unless someone listens, that costs one untaken branch.
 class PathLog {
 public:
     PathLog() = default;
     /// A log that listens. class_filter: a regular expression that the whole class of a path must
     /// match to count; empty: all count. keep_steps: also writes each step down as text.
-    explicit PathLog(std::string class_filter, bool keep_steps = false);
+    /// Throws std::regex_error.
+    explicit PathLog(const std::string& class_filter, bool keep_steps = false);
 
     /// Forgets the path before.
     void start() {
@@ -77,6 +81,6 @@ private:
     std::string steps_;
     std::vector<Vec3> vertices_;
     std::vector<Contribution> contributions_;
-    std::string filter_;
+    std::shared_ptr<const ClassFilter> filter_;
     std::vector<std::pair<std::string, bool>> known_classes_;  // what the filter said of them
 };
