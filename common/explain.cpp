@@ -127,6 +127,11 @@ int explain(const Scene& scene, const RenderOptions& options, Trace trace) {
                          std::to_string(scene.height));
     }
 
+    if (options.time == 0 && s >= scene.spp) {
+        throw UsageError("error: sample " + std::to_string(s) + " is not one of the " +
+                         std::to_string(scene.spp) + " of a pixel; they count from 0");
+    }
+
     // Trace the sample just as render_film does, with a log that listens.
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
@@ -141,13 +146,15 @@ int explain(const Scene& scene, const RenderOptions& options, Trace trace) {
         s, scene.file.c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z}, double{u.x},
         double{u.y});
     std::printf("%s", log.steps().c_str());
+    if (log.paths_cut() > 0) std::printf("    is ended by the depth limit %d\n", scene.max_depth);
     std::printf("L (%.6g, %.6g, %.6g)\n", double{L.r}, double{L.g}, double{L.b});
 
     std::vector<Vec3> path = {ray.o};
     path.insert(path.end(), log.vertices().begin(), log.vertices().end());
     std::filesystem::path file = options.out[0];
     file.replace_extension(".svg");
-    if (file.string().starts_with("out/")) std::filesystem::create_directories("out");
+    std::error_code none;  // the write reports it
+    if (file.string().starts_with("out/")) std::filesystem::create_directories("out", none);
     write_file_atomically(file.string(), draw(scene, path));
     if (!options.quiet) std::printf("wrote %s\n", file.string().c_str());
     return is_finite(L) ? 0 : 1;

@@ -1,17 +1,31 @@
 // Work shared out among threads.
 #pragma once
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 /// Calls work(i) for i = 0 .. count-1 on `threads` threads, each taking the next i when it is free.
+/// What work throws stops it all, and is thrown on to the caller.
 template <typename Work>
 void parallel_for(int count, int threads, const Work& work) {
     std::atomic<int> next = 0;
+    std::exception_ptr thrown;
+    std::mutex mutex;
     auto run = [&] {
-        for (int i; (i = next++) < count;) work(i);
+        try {
+            for (int i; (i = next++) < count;) work(i);
+        } catch (...) {
+            next = count;
+            std::lock_guard lock(mutex);
+            thrown = std::current_exception();
+        }
     };
-    std::vector<std::jthread> others;
-    for (int t = 1; t < std::min(threads, count); t++) others.emplace_back(run);
-    run();
+    {
+        std::vector<std::jthread> others;  // joined at the end of this block
+        for (int t = 1; t < std::min(threads, count); t++) others.emplace_back(run);
+        run();
+    }
+    if (thrown) std::rethrow_exception(thrown);
 }

@@ -16,7 +16,7 @@ struct RenderStats {
     double seconds = 0;  // without loading
     uint64_t rays = 0;
     uint64_t paths_cut = 0;   // ended by the depth limit
-    uint64_t not_finite = 0;  // samples that were NaN or infinite: left out, though counted in N
+    uint64_t not_finite = 0;  // samples that were NaN or infinite, as their pixels are then
     int bad_x = 0, bad_y = 0, bad_sample = 0;  // one of them
     double largest = 0;                        // the largest sample (average of the channels)
     bool interrupted = false;                  // by Ctrl-C
@@ -25,7 +25,8 @@ struct RenderStats {
 struct Rendering {
     Film film;
     RenderStats stats;
-    std::map<std::string, Film> classes;  // with --split: one film for each class of path
+    std::map<std::string, Film> classes;  // with --split: one film for each class of path, and one
+                                          // for all that are longer than 8 letters
 };
 
 /// Reads the scene that the options name, makes it ready to trace, and puts the options' size,
@@ -46,6 +47,10 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, Trace tr
 /// All that a chapter's program does with its scene: renders it, or explains one path of it, and
 /// writes what the options ask for. Returns the exit code.
 int render(const Scene& scene, const RenderOptions& options, Trace trace);
+
+/// Throws now what writing the results would throw later, for a place that cannot be written to;
+/// and UsageError when two results, or a result and the scene, have the same place.
+void check_outputs(const RenderOptions& options);
 
 /// Writes pictures and statistics, and prints a summary; 1 when a sample was not finite.
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& rendering);

@@ -41,7 +41,10 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     double samples = pixels * static_cast<double>(r.film.spp);
     std::string json = "{\n";
     auto add = [&](const char* name, const std::string& value) {
-        json += (json.size() > 2 ? ",\n" : "") + std::string("  \"") + name + "\": " + value;
+        json += json.size() > 2 ? ",\n  \"" : "  \"";
+        json += name;
+        json += "\": ";
+        json += value;
     };
     add("scene", quoted(scene.file));
     add("chapter", quoted(options.name));
@@ -56,8 +59,9 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     add("rays", std::to_string(s.rays));
     add("rays_per_second", number(static_cast<double>(s.rays) / s.seconds));
     add("mean", number(r.film.mean()));
-    add("mean_rgb", "[" + number(double{mean.r}) + ", " + number(double{mean.g}) + ", " +
-                        number(double{mean.b}) + "]");
+    std::string rgb = "[";
+    rgb += number(double{mean.r}) + ", " + number(double{mean.g}) + ", " + number(double{mean.b});
+    add("mean_rgb", rgb + "]");
     add("standard_error", number(r.film.standard_error()));
     add("samples_not_finite", std::to_string(s.not_finite));
     add("paths_cut_by_depth", std::to_string(s.paths_cut));
@@ -93,16 +97,16 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     for (const std::string& path : options.out) std::printf("wrote %s\n", path.c_str());
 }
 
-// The folders of our own default outputs are made; a folder that the user names must exist.
-void make_default_folder(const RenderOptions& options) {
+// The folder of our own default outputs is made, and that of --split; others must exist.
+void make_folders(const RenderOptions& options) {
+    std::error_code none;  // the write reports it
     for (const std::string& path : options.out) {
-        if (path.starts_with("out/")) std::filesystem::create_directories("out");
+        if (path.starts_with("out/")) std::filesystem::create_directories("out", none);
     }
+    if (!options.split.empty()) std::filesystem::create_directories(options.split, none);
 }
 
 void write_classes(const RenderOptions& options, const Rendering& r) {
-    std::error_code error;
-    std::filesystem::create_directories(options.split, error);
     for (const auto& [path_class, film] : r.classes) {
         write_image(options.split + "/" + path_class + ".pfm", film.image(), options.command);
         if (!options.quiet) {
@@ -114,8 +118,25 @@ void write_classes(const RenderOptions& options, const Rendering& r) {
 
 }  // namespace
 
+void check_outputs(const RenderOptions& options) {
+    make_folders(options);
+    std::vector<std::string> files = options.out;
+    if (!options.stats.empty()) files.push_back(options.stats);
+    for (size_t i = 0; i < files.size(); i++) {
+        if (same_file(files[i], options.scene)) {
+            throw UsageError("error: '" + files[i] + "' is the scene, and would be overwritten");
+        }
+        for (size_t j = 0; j < i; j++) {
+            if (!same_file(files[i], files[j])) continue;
+            throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
+        }
+        check_writable(files[i]);
+    }
+    if (!options.split.empty()) check_writable(options.split + "/LE.pfm");
+}
+
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    make_default_folder(options);
+    make_folders(options);
     Image image = r.film.image();
     for (const std::string& path : options.out) write_image(path, image, options.command);
     if (!options.split.empty()) write_classes(options, r);
