@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/files.h"
+#include "common/stats.h"
 
 std::string digits(double x, int significant) {
     if (std::isnan(x)) return "unknown";
@@ -43,6 +44,19 @@ std::string tab_separated(const Table& table) {
     add_line(table.columns);
     for (const auto& row : table.rows) add_line(row);
     return text;
+}
+
+double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
+    RunningStats u, v, uv, uu;
+    for (size_t i = 0; i < x.size(); i++) {
+        double log_x = std::log(x[i]), log_y = std::log(y[i]);
+        u.add(log_x);
+        v.add(log_y);
+        uv.add(log_x * log_y);
+        uu.add(log_x * log_x);
+    }
+    if (x.size() < 2) return NAN;
+    return (uv.mean() - u.mean() * v.mean()) / (uu.mean() - u.mean() * u.mean());
 }
 
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,

@@ -19,6 +19,10 @@ std::string digits(double x, int significant = 5);
 std::string aligned(const Table& table);
 std::string tab_separated(const Table& table);
 
+/// The slope of the straight line through (log x, log y) with the least squares: -1/2 where four
+/// times the samples halve the error. NaN for fewer than two points.
+double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
+
 /// Prints the table and the notes below it (nothing with --quiet), and writes every --out FILE:
 /// .tsv the table, all others the picture. Throws InputError.
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,

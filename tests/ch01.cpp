@@ -32,8 +32,8 @@ template <class Sample>
 double chi_square_of_hits(Sample sample) {
     constexpr int cells = 8, fine = 32, n = 200000;
     auto cell = [](Vec2 x) {
-        double i = std::floor((static_cast<double>(x.x) + 1.5) / 3 * cells);
-        double j = std::floor((static_cast<double>(x.y) + 1.5) / 3 * cells);
+        double i = std::floor((double{x.x} + 1.5) / 3 * cells);
+        double j = std::floor((double{x.y} + 1.5) / 3 * cells);
         bool inside = i >= 0 && i < cells && j >= 0 && j < cells;
         return static_cast<size_t>(inside ? i * cells + j : cells * cells);
     };
@@ -135,7 +135,7 @@ TEST_SUITE("ch01 monte carlo pi") {
 
     TEST_CASE("identity: darts beyond number 2^32 are new ones") {
         uint64_t far = uint64_t{1} << 32;
-        auto place = [](Vec2 u) { return static_cast<double>(u.x); };
+        auto place = [](Vec2 u) { return double{u.x}; };
         CHECK(ch01::throw_darts(place, far, far + 1, 1).mean() !=
               ch01::throw_darts(place, 0, 1, 1).mean());
     }

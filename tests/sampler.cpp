@@ -16,12 +16,12 @@ constexpr double pi_variance = std::numbers::pi * (4 - std::numbers::pi);  // of
 constexpr SamplerType all_types[] = {SamplerType::independent, SamplerType::stratified,
                                      SamplerType::sobol};
 
-double product(Vec2 p) { return static_cast<double>(p.x) * static_cast<double>(p.y); }
+double product(Vec2 p) { return double{p.x} * double{p.y}; }
 double dart(Vec2 p) {
-    double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+    double x = double{p.x}, y = double{p.y};
     return x * x + y * y <= 1 ? 4 : 0;
 }
-double exponential(Vec2 p) { return std::exp(static_cast<double>(p.x) + static_cast<double>(p.y)); }
+double exponential(Vec2 p) { return std::exp(double{p.x} + double{p.y}); }
 
 /// The first `n` samples of a pixel: the pair number `pair` of each.
 std::vector<Vec2> pixel_points(Sampler sampler, uint32_t pixel, uint32_t n, int pair = 0) {
@@ -203,7 +203,7 @@ TEST_SUITE("sampler: uniform and independent") {
     TEST_CASE("truth: moments of one number and of a pair") {
         RunningStats x, x2, x4, xy;
         for (Vec2 p : pixel_points(Sampler(SamplerType::independent, 1, 1), 5, 1000000)) {
-            double u = static_cast<double>(p.x);
+            double u = double{p.x};
             x.add(u);
             x2.add(u * u);
             x4.add(u * u * u * u);
@@ -268,7 +268,7 @@ TEST_SUITE("sampler: uniform and independent") {
                 double f = 1;
                 for (int pair = 0; pair < 6; pair++) {
                     Vec2 p = sampler.u2();
-                    f *= (0.5 + static_cast<double>(p.x)) * (0.5 + static_cast<double>(p.y));
+                    f *= (0.5 + double{p.x}) * (0.5 + double{p.y});
                 }
                 samples.add(f);
             }

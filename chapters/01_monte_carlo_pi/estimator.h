@@ -15,8 +15,7 @@ namespace ch01 {
 ///
 /// source  area of the quarter circle, pi/4      tested by  "truth: mean and variance of a dart"
 inline double score_dart(Vec2 x) {
-    double px = static_cast<double>(x.x), py = static_cast<double>(x.y);
-    return px * px + py * py <= 1 ? 4 : 0;
+    return double{x.x} * double{x.x} + double{x.y} * double{x.y} <= 1 ? 4 : 0;
 }
 
 /// Mean and variance in one pass and without cancellation.
@@ -100,7 +99,7 @@ inline constexpr double aim = 0.5;  // standard deviation of a hit, in x and in 
 
 /// f(x), the score of a hit at x; 0 beside the board.
 inline double score_board(Vec2 x) {
-    double r = std::hypot(static_cast<double>(x.x), static_cast<double>(x.y));
+    double r = std::hypot(double{x.x}, double{x.y});
     for (Ring ring : board)
         if (r <= ring.radius) return ring.score;
     return 0;
@@ -113,22 +112,21 @@ inline double score_board(Vec2 x) {
 /// u       in [0,1)^2
 /// source  Box, Muller 1958      tested by  "density: hits of the dart board"
 inline Vec2 sample_hit(Vec2 u) {
-    double r = aim * std::sqrt(-2 * std::log1p(-static_cast<double>(u.x)));
-    double angle = 2 * std::numbers::pi * static_cast<double>(u.y);
+    double r = aim * std::sqrt(-2 * std::log1p(-double{u.x}));
+    double angle = 2 * std::numbers::pi * double{u.y};
     return {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle))};
 }
 
 /// The density of sample_hit per area.
 inline double pdf_hit(Vec2 x) {
-    double r2 = std::pow(static_cast<double>(x.x), 2) + std::pow(static_cast<double>(x.y), 2);
+    double r2 = std::pow(double{x.x}, 2) + std::pow(double{x.y}, 2);
     return std::exp(-r2 / (2 * aim * aim)) / (2 * std::numbers::pi * aim * aim);
 }
 
 /// The u for which sample_hit(u) is x.
 inline Vec2 invert_hit(Vec2 x) {
-    double r2 = std::pow(static_cast<double>(x.x), 2) + std::pow(static_cast<double>(x.y), 2);
-    double turns =
-        std::atan2(static_cast<double>(x.y), static_cast<double>(x.x)) / (2 * std::numbers::pi);
+    double r2 = std::pow(double{x.x}, 2) + std::pow(double{x.y}, 2);
+    double turns = std::atan2(double{x.y}, double{x.x}) / (2 * std::numbers::pi);
     return {static_cast<float>(-std::expm1(-r2 / (2 * aim * aim))),
             static_cast<float>(turns < 0 ? turns + 1 : turns)};
 }
