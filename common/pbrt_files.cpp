@@ -15,6 +15,8 @@ NamedFile read_named_file(const std::string& main_file, const Position& at,
     try {
         return {path.string(), read_file(path.string())};
     } catch (const InputError& error) {
-        fail(at, error.what());
+        // Name the place that asks for the file, before what is wrong with it.
+        std::string text = error.what();
+        fail(at, quote(name) + ": " + text.substr(text.find(": error: ") + 9));
     }
 }

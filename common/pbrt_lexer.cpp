@@ -1,7 +1,9 @@
 #include "common/pbrt_lexer.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace {
 
@@ -127,6 +129,16 @@ Token Lexer::read() {
     return token;
 }
 
+double Lexer::number(const Token& token, const std::string& what) const {
+    std::optional<double> value;
+    if (token.type == Token::word) value = to_number(token.text);
+    if (!value) fail(at(token), what + " needs a number, not " + describe(token));
+    if (std::abs(*value) > std::numeric_limits<float>::max()) {
+        fail(at(token), "number too large: " + quote(token.text));
+    }
+    return *value;
+}
+
 std::string Lexer::unescape(const Token& token) const {
     constexpr std::string_view letters = "bfnrt\\'\"", meanings = "\b\f\n\r\t\\'\"";
     std::string text;
@@ -154,7 +166,7 @@ std::string Lexer::describe(const Token& token) {
 }
 
 std::optional<double> to_number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     bool negative = text.starts_with('-');
     std::string_view digits = text.substr(negative ? 1 : 0);
     if (digits.empty() || !(digits[0] == '.' || (digits[0] >= '0' && digits[0] <= '9'))) return {};

@@ -27,9 +27,11 @@ public:
     Token next();
     Position at(const Token& token) const { return {file_, token.line, token.column}; }
 
+    /// The number that the token is; throws `WHAT needs a number, not ...` when it is none.
+    double number(const Token& token, const std::string& what) const;
     /// What the quoted string means: its escapes \b \f \n \r \t \\ \' \" resolved.
     std::string unescape(const Token& token) const;
-    /// The words in front of which `token` stands, such as `"P"` or `the end of the file`.
+    /// The token as messages name it: `"P"`, `the string "P"`, `the end of the file`.
     static std::string describe(const Token& token);
 
 private:

@@ -78,9 +78,8 @@ Material read_conductor(Params& params) {
         material.eta = {1, 1, 1};
         material.k = {to_k(reflectance->r), to_k(reflectance->g), to_k(reflectance->b)};
     }
-    if (read_alpha(params) >= smooth_below) {
-        fail(params.at(), "a rough conductor is not supported yet");
-    }
+    float alpha = read_alpha(params);
+    material.alpha = alpha >= smooth_below ? alpha : 0;
     return material;
 }
 
@@ -122,6 +121,8 @@ Material read_material(Params& params) {
     } else {
         params.fail_type({"conductor", "dielectric", "diffuse"});
     }
+    material.line = params.at().line;
+    material.column = params.at().column;
     params.finish();
     return material;
 }
@@ -159,6 +160,7 @@ Light read_light(Params& params, const Transform& world_from_light) {
             light.L *= read_factor(params, "power", 0) / (4 * pi);
         }
         light.p = to_vec3(transform_point(world_from_light, read_point("from", {0, 0, 0})));
+        if (!(max_component(abs(light.p)) <= 1e9f)) fail(params.at("from"), "farther than 1e9");
     } else if (params.type() == "distant") {
         light.type = LightType::distant;
         light.L = params.illuminant("L", {1, 1, 1}) * scale * read_factor(params, "illuminance", 1);

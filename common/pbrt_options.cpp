@@ -42,6 +42,13 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
     camera.up = to_vec3(world_from_camera.y);
     camera.forward = to_vec3(world_from_camera.z);
 
+    for (Vec3 axis : {camera.right, camera.up, camera.forward}) {
+        float size = length(axis);
+        if (!(size > 1e-9f && size < 1e9f && max_component(abs(camera.o)) < 1e9f)) {
+            fail(params.at(), "the camera's transform is too large or too small");
+        }
+    }
+
     camera.fov = params.number("fov", 90);
     if (!(camera.fov > 0 && camera.fov < 180)) {
         fail(params.at("fov"), "fov must be greater than 0 and less than 180 degrees");
@@ -169,12 +176,25 @@ void read_accelerator(Params& params, Notes& notes) {
     if (params.type() != "bvh") note(notes, params, "is ignored: all programs use a BVH");
 }
 
-void read_option(Params& params, Notes& notes) {
-    params.ignore("bool", {"disablepixeljitter", "disabletexturefiltering",
-                           "disablewavelengthjitter", "forcediffuse", "pixelstats", "wavefront"});
-    params.ignore("float", {"displacementedgescale"});
-    params.ignore("integer", {"seed"});
-    params.ignore("string", {"msereferenceimage", "msereferenceout", "rendercoordsys"});
-    params.finish();
-    note(notes, params, "is ignored");
+void read_option(const Position& at, const std::string& name, Notes& notes) {
+    // Compare as pbrt does, without regard to case, dashes and underscores.
+    std::string plain;
+    for (char c : name) {
+        if (c != '-' && c != '_') plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    }
+    const std::vector<std::string> known = {"disablepixeljitter",
+                                            "disabletexturefiltering",
+                                            "disablewavelengthjitter",
+                                            "displacementedgescale",
+                                            "forcediffuse",
+                                            "msereferenceimage",
+                                            "msereferenceout",
+                                            "pixelstats",
+                                            "rendercoordsys",
+                                            "seed",
+                                            "wavefront"};
+    if (std::find(known.begin(), known.end(), plain) == known.end()) {
+        fail_unknown(at, "Option", name, known);
+    }
+    notes.push_back(message_at(at, "note", "Option " + quote(name) + " is ignored"));
 }

@@ -19,5 +19,5 @@ void read_pixel_filter(Params& params, Notes& notes);
 void read_sampler(Params& params, Scene& scene, Notes& notes);
 void read_integrator(Params& params, Scene& scene, Notes& notes);
 void read_accelerator(Params& params, Notes& notes);
-/// `Option "bool disablepixeljitter" true`: has no type of its own.
-void read_option(Params& params, Notes& notes);
+/// `Option "disablepixeljitter" true`: all are ignored, with a note.
+void read_option(const Position& at, const std::string& name, Notes& notes);

@@ -1,38 +1,10 @@
 #include "common/pbrt_params.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <sstream>
 
-#include "common/nearest.h"
 #include "common/spectra.h"
 
 namespace {
-
-// What the values of a parameter are, and how many of them make one.
-enum class ValueType { number, integer, string, boolean, string_or_number };
-struct ParamType {
-    const char* name;
-    ValueType values;
-    size_t group;
-};
-constexpr std::array<ParamType, 14> param_types = {{
-    {"bool", ValueType::boolean, 1},
-    {"float", ValueType::number, 1},
-    {"integer", ValueType::integer, 1},
-    {"point2", ValueType::number, 2},
-    {"point3", ValueType::number, 3},
-    {"vector2", ValueType::number, 2},
-    {"vector3", ValueType::number, 3},
-    {"normal", ValueType::number, 3},
-    {"normal3", ValueType::number, 3},
-    {"rgb", ValueType::number, 3},
-    {"blackbody", ValueType::number, 1},
-    {"spectrum", ValueType::string_or_number, 1},
-    {"string", ValueType::string, 1},
-    {"texture", ValueType::string, 1},
-}};
 
 // Types that pbrt has and we do not.
 const std::vector<std::string> pbrt_only = {
@@ -42,85 +14,6 @@ const std::vector<std::string> pbrt_only = {
     "realistic",           "spectral",        "spherical",     "spot",         "subsurface",
     "thindielectric"};
 
-const ParamType& find_type(const Position& at, const std::string& name) {
-    std::vector<std::string> known;
-    for (const ParamType& type : param_types) {
-        if (type.name == name) return type;
-        known.push_back(type.name);
-    }
-    // The third edition of pbrt had other names for these.
-    if (name == "color") fail_unknown(at, "parameter type", name, {"rgb"});
-    fail_unknown(at, "parameter type", name, known);
-}
-
-void read_number(const Lexer& lexer, const Token& token, Param& param) {
-    std::optional<double> value = to_number(token.text);
-    if (!value) fail(lexer.at(token), "expected a number, not " + Lexer::describe(token));
-    if (!(std::abs(*value) <= std::numeric_limits<float>::max())) {
-        fail(lexer.at(token), "number too large: " + std::string(token.text.substr(0, 60)));
-    }
-    param.numbers.push_back(*value);
-}
-
-void read_value(const Lexer& lexer, const Token& token, const ParamType& type, Param& param) {
-    bool wants_string = type.values == ValueType::string ||
-                        (type.values == ValueType::string_or_number && token.type == Token::string);
-    if (wants_string) {
-        if (token.type != Token::string) {
-            fail(lexer.at(token), "expected a string in quotes for " +
-                                      quote(param.type + ' ' + param.name) + ", not " +
-                                      Lexer::describe(token));
-        }
-        param.strings.push_back(lexer.unescape(token));
-    } else if (token.type != Token::word) {
-        fail(lexer.at(token), "expected a value for " + quote(param.type + ' ' + param.name) +
-                                  ", not " + Lexer::describe(token));
-    } else if (type.values == ValueType::boolean) {
-        if (token.text != "true" && token.text != "false") {
-            fail(lexer.at(token), "expected true or false, not " + Lexer::describe(token));
-        }
-        param.bools.push_back(token.text == "true");
-    } else if (type.values == ValueType::integer) {
-        std::optional<int> value = to_integer(token.text);
-        if (!value) fail(lexer.at(token), "expected a whole number, not " + Lexer::describe(token));
-        param.numbers.push_back(*value);
-    } else {
-        read_number(lexer, token, param);
-    }
-}
-
-Param read_param(Lexer& lexer) {
-    Token declaration = lexer.next();
-    Param param;
-    param.at = lexer.at(declaration);
-    std::string text = lexer.unescape(declaration), surplus;
-    std::istringstream words(text);
-    if (!(words >> param.type >> param.name) || words >> surplus) {
-        fail(param.at, "expected \"type name\", not " + quote(text));
-    }
-    const ParamType& type = find_type(param.at, param.type);
-    if (param.type == "normal3") param.type = "normal";
-
-    if (lexer.peek().type != Token::open) {
-        read_value(lexer, lexer.next(), type, param);
-    } else {
-        Token open = lexer.next();
-        while (lexer.peek().type != Token::close) {
-            if (lexer.peek().type == Token::end) fail(lexer.at(open), "the file ends before ]");
-            read_value(lexer, lexer.next(), type, param);
-        }
-        lexer.next();
-    }
-
-    size_t count = param.numbers.size() + param.strings.size() + param.bools.size();
-    if (count == 0) fail(param.at, quote(text) + " has no value");
-    if (count % type.group != 0) {
-        fail(param.at, quote(text) + " has " + std::to_string(count) +
-                           " numbers, not a multiple of " + std::to_string(type.group));
-    }
-    return param;
-}
-
 std::string list(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -128,18 +21,6 @@ std::string list(const std::vector<std::string>& words) {
 }
 
 }  // namespace
-
-void fail_unknown(const Position& at, const std::string& kind, const std::string& word,
-                  const std::vector<std::string>& known, const std::string& owner) {
-    std::string nearest = nearest_word(word, known);
-    std::string hint;
-    if (!nearest.empty()) {
-        hint = ": did you mean " + quote(nearest) + '?';
-    } else if (!known.empty()) {
-        hint = " (known: " + list(known) + ')';
-    }
-    fail(at, "unknown " + kind + ' ' + quote(word) + (owner.empty() ? "" : " of " + owner) + hint);
-}
 
 Params::Params(Lexer& lexer, const Token& directive, bool has_type)
     : at_(lexer.at(directive)), type_at_(at_), directive_(directive.text) {
@@ -179,18 +60,14 @@ std::string Params::owner() const {
     return type_.empty() ? directive_ : directive_ + ' ' + quote(type_);
 }
 
-const Param* Params::find(const std::string& type, const std::string& name, size_t group) {
-    known_.push_back(type + ' ' + name);
+const Param* Params::find(const std::string& type, const std::string& name) {
+    known_types_.push_back(type);
     known_names_.push_back(name);
     const Param* found = nullptr;
     for (Param& param : params_) {
         if (param.type != type || param.name != name) continue;
         param.used = true;
         found = &param;
-    }
-    if (found && found->numbers.size() % group != 0) {
-        fail(found->at, quote(type + ' ' + name) + " has " + std::to_string(found->numbers.size()) +
-                            " numbers, not a multiple of " + std::to_string(group));
     }
     return found;
 }
@@ -262,12 +139,16 @@ void Params::finish() const {
         if (param.used) continue;
         // Say which types would do, where only the type is wrong.
         std::string types;
-        for (size_t i = 0; i < known_.size(); i++) {
+        for (size_t i = 0; i < known_names_.size(); i++) {
             if (known_names_[i] != param.name) continue;
-            std::string type = known_[i].substr(0, known_[i].find(' '));
-            types += (types.empty() ? "" : " or ") + type;
+            types += (types.empty() ? "" : " or ") + known_types_[i];
         }
-        if (types.empty()) fail_unknown(param.at, "parameter", param.name, known_names_, owner());
+        if (types.empty()) {
+            std::vector<std::string> known = known_names_;
+            std::sort(known.begin(), known.end());
+            known.erase(std::unique(known.begin(), known.end()), known.end());
+            fail_unknown(param.at, owner() + " parameter", param.name, known);
+        }
         std::string hint = param.type == "texture" ? " (textures are not supported)" : "";
         fail(param.at, quote(param.name) + " of " + owner() + " must be of type " + types +
                            ", not " + param.type + hint);

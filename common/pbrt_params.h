@@ -1,20 +1,10 @@
 // The parameters that follow a directive of a pbrt-v4 scene file: `"float fov" 45`.
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "common/pbrt_lexer.h"
+#include "common/pbrt_param.h"
 #include "common/vec.h"
-
-struct Param {
-    std::string type, name;
-    Position at;
-    std::vector<double> numbers;  // also of integers, points and colors
-    std::vector<std::string> strings;
-    std::vector<bool> bools;
-    bool used = false;
-};
 
 /// The parameters of one directive. A directive asks for each that it knows; finish() then refuses
 /// those that nobody asked for. Of a parameter given twice the last one counts, as in pbrt.
@@ -45,8 +35,8 @@ public:
     Vec3 point(const std::string& name, Vec3 fallback);
     /// A color of components >= 0: `rgb`, or `blackbody` (luminance 1).
     Rgb illuminant(const std::string& name, Rgb fallback);
-    /// The parameter of this type and name with a multiple of `group` values; null if not given.
-    const Param* find(const std::string& type, const std::string& name, size_t group = 1);
+    /// The parameter of this type and name; null if not given.
+    const Param* find(const std::string& type, const std::string& name);
     /// The same with exactly `count` values.
     const Param* find_exactly(const std::string& type, const std::string& name, size_t count);
     /// Accepts parameters that have no effect on what we render.
@@ -58,10 +48,5 @@ private:
     Position at_, type_at_;
     std::string directive_, type_;
     std::vector<Param> params_;
-    std::vector<std::string> known_names_, known_;
+    std::vector<std::string> known_names_, known_types_;  // what was asked for
 };
-
-/// Throws `unknown KIND "word" [OWNER]` with the nearest of the known words, or all of them.
-[[noreturn]] void fail_unknown(const Position& at, const std::string& kind, const std::string& word,
-                               const std::vector<std::string>& known,
-                               const std::string& owner = "");

@@ -1,146 +1,154 @@
 #include "common/pbrt_reader.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 
 #include "common/files.h"
 #include "common/pbrt_files.h"
 #include "common/pbrt_shapes.h"
+#include "common/pbrt_transforms.h"
 
 namespace {
 
 // What AttributeBegin saves and AttributeEnd restores.
 struct State {
     Transform start, end;  // the current transform when the shutter opens and when it closes
-    bool set_start = true, set_end = true;  // which of them the next transform changes
-    uint32_t material = 0;
+    bool set_start = true, set_end = true;  // which of them a transform directive changes
+    uint32_t material = 0;                  // into Scene::materials
     std::optional<AreaEmission> emission;
     bool reverse_orientation = false;
 };
 
+struct SavedState {
+    State state;
+    Position at;
+    std::string begin;  // AttributeBegin, or TransformBegin
+};
+
 struct NamedMaterial {
-    uint32_t index;
+    uint32_t index = 0;  // into Scene::materials
     bool defined = false;
     Position first_use;
 };
 
-const std::vector<std::string> transform_words = {
-    "Identity", "Translate", "Scale", "Rotate", "LookAt", "Transform", "ConcatTransform"};
-const std::vector<std::string> option_words = {"Camera",  "Film",       "PixelFilter",
-                                               "Sampler", "Integrator", "Accelerator",
-                                               "Option",  "WorldBegin"};
-const std::vector<std::string> world_words = {
-    "AttributeBegin",     "AttributeEnd", "TransformBegin", "TransformEnd",
-    "ReverseOrientation", "Material",     "NamedMaterial",  "MakeNamedMaterial",
-    "AreaLightSource",    "LightSource",  "Shape"};
-const std::vector<std::string> other_words = {"ActiveTransform", "ColorSpace", "Include"};
-// What pbrt has and we do not.
-const std::vector<std::string> pbrt_only = {"Attribute",   "CoordinateSystem", "CoordSysTransform",
-                                            "Import",      "MakeNamedMedium",  "MediumInterface",
-                                            "ObjectBegin", "ObjectEnd",        "ObjectInstance",
-                                            "Texture",     "TransformTimes"};
-
-bool contains(const std::vector<std::string>& words, std::string_view word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-// Reads directive by directive, and keeps what pbrt calls the graphics state.
+// Reads directive by directive, and keeps the state that they change.
 class SceneReader {
 public:
     SceneReader(const std::string& path, Notes& notes) : notes_(notes) {
         scene_.file = path;
-        scene_.materials.emplace_back();  // what shapes have that are given none
+        scene_.materials.emplace_back();  // of shapes that are given none
     }
 
     void read(const std::string& path, std::string text);
     Scene finish();
 
 private:
+    // Where a directive may stand, and what reads it; null: pbrt has it and we do not.
+    enum class Block { options, world, both };
+    struct Directive {
+        Block block;
+        void (SceneReader::*read)(Lexer&, const Token&);
+    };
+    static const std::map<std::string, Directive, std::less<>> directives;
+
     void read_directive(Lexer& lexer, const Token& word);
-    void read_transform(Lexer& lexer, const Token& word);
-    void read_option_directive(Lexer& lexer, const Token& word);
-    void read_world_directive(Lexer& lexer, const Token& word);
-    void read_other_directive(Lexer& lexer, const Token& word);
-    void begin_attribute(const Position& at, const Token& word);
-    void end_attribute(const Position& at, const Token& word);
-    void include(Lexer& lexer);
-    void name_material(Lexer& lexer, const Token& word);
-    void use_material(Lexer& lexer);
+
+    // Both before and after WorldBegin.
+    void move(Lexer& lexer, const Token& word);
+    void active_transform(Lexer& lexer, const Token& word);
+    void color_space(Lexer& lexer, const Token& word);
+    void include(Lexer& lexer, const Token& word);
+    // Before WorldBegin.
+    void accelerator(Lexer& lexer, const Token& word);
+    void camera(Lexer& lexer, const Token& word);
+    void film(Lexer& lexer, const Token& word);
+    void integrator(Lexer& lexer, const Token& word);
+    void option(Lexer& lexer, const Token& word);
+    void pixel_filter(Lexer& lexer, const Token& word);
+    void sampler(Lexer& lexer, const Token& word);
+    void world_begin(Lexer& lexer, const Token& word);
+    // After WorldBegin.
+    void area_light_source(Lexer& lexer, const Token& word);
+    void begin(Lexer& lexer, const Token& word);
+    void end(Lexer& lexer, const Token& word);
+    void light_source(Lexer& lexer, const Token& word);
+    void make_named_material(Lexer& lexer, const Token& word);
+    void material(Lexer& lexer, const Token& word);
+    void named_material(Lexer& lexer, const Token& word);
+    void reverse_orientation(Lexer& lexer, const Token& word);
+    void shape(Lexer& lexer, const Token& word);
+
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(const Position& at) const;
-    void check_scene() const;
+    void check_materials() const;
 
     Scene scene_;
     Notes& notes_;
     Exposure exposure_;
     State state_;
-    struct Saved {
-        State state;
-        Position at;
-        std::string begin;
-    };
-    std::vector<Saved> saved_;
+    std::vector<SavedState> saved_;
     std::map<std::string, NamedMaterial> named_materials_;
     std::vector<std::string> open_files_;
     int includes_ = 0;
     bool in_world_ = false, has_camera_ = false, has_filter_ = false;
 };
 
-double read_plain_number(Lexer& lexer, const Token& word) {
+using R = SceneReader;
+const std::map<std::string, SceneReader::Directive, std::less<>> SceneReader::directives = {
+    {"Accelerator", {Block::options, &R::accelerator}},
+    {"ActiveTransform", {Block::both, &R::active_transform}},
+    {"AreaLightSource", {Block::world, &R::area_light_source}},
+    {"Attribute", {Block::both, nullptr}},
+    {"AttributeBegin", {Block::world, &R::begin}},
+    {"AttributeEnd", {Block::world, &R::end}},
+    {"Camera", {Block::options, &R::camera}},
+    {"ColorSpace", {Block::both, &R::color_space}},
+    {"ConcatTransform", {Block::both, &R::move}},
+    {"CoordSysTransform", {Block::both, nullptr}},
+    {"CoordinateSystem", {Block::both, nullptr}},
+    {"Film", {Block::options, &R::film}},
+    {"Identity", {Block::both, &R::move}},
+    {"Import", {Block::both, nullptr}},
+    {"Include", {Block::both, &R::include}},
+    {"Integrator", {Block::options, &R::integrator}},
+    {"LightSource", {Block::world, &R::light_source}},
+    {"LookAt", {Block::both, &R::move}},
+    {"MakeNamedMaterial", {Block::world, &R::make_named_material}},
+    {"MakeNamedMedium", {Block::both, nullptr}},
+    {"Material", {Block::world, &R::material}},
+    {"MediumInterface", {Block::both, nullptr}},
+    {"NamedMaterial", {Block::world, &R::named_material}},
+    {"ObjectBegin", {Block::both, nullptr}},
+    {"ObjectEnd", {Block::both, nullptr}},
+    {"ObjectInstance", {Block::both, nullptr}},
+    {"Option", {Block::options, &R::option}},
+    {"PixelFilter", {Block::options, &R::pixel_filter}},
+    {"ReverseOrientation", {Block::world, &R::reverse_orientation}},
+    {"Rotate", {Block::both, &R::move}},
+    {"Sampler", {Block::options, &R::sampler}},
+    {"Scale", {Block::both, &R::move}},
+    {"Shape", {Block::world, &R::shape}},
+    {"Texture", {Block::both, nullptr}},
+    {"Transform", {Block::both, &R::move}},
+    {"TransformBegin", {Block::world, &R::begin}},
+    {"TransformEnd", {Block::world, &R::end}},
+    {"TransformTimes", {Block::both, nullptr}},
+    {"Translate", {Block::both, &R::move}},
+    {"WorldBegin", {Block::options, &R::world_begin}},
+};
+
+// The string that must follow a directive.
+Token expect_string(Lexer& lexer, const Token& word, const std::string& what) {
     Token token = lexer.next();
-    std::optional<double> value = to_number(token.text);
-    if (token.type != Token::word || !value) {
-        fail(lexer.at(token),
-             std::string(word.text) + " needs a number here, not " + Lexer::describe(token));
-    }
-    if (!(std::abs(*value) <= std::numeric_limits<float>::max())) {
-        fail(lexer.at(token), "number too large: " + std::string(token.text.substr(0, 60)));
-    }
-    return *value;
-}
-
-Double3 read_three(Lexer& lexer, const Token& word) {
-    double x = read_plain_number(lexer, word), y = read_plain_number(lexer, word);
-    return {x, y, read_plain_number(lexer, word)};
-}
-
-// [ 16 numbers ], column by column.
-Transform read_matrix(Lexer& lexer, const Token& word) {
-    auto expect = [&](Token::Type type, const char* bracket) {
-        Token token = lexer.next();
-        if (token.type == type) return;
-        fail(lexer.at(token),
-             std::string(word.text) + " needs " + bracket + " here, not " + Lexer::describe(token));
-    };
-    expect(Token::open, "[ and 16 numbers");
-    std::array<double, 16> m;
-    for (double& x : m) x = read_plain_number(lexer, word);
-    expect(Token::close, "] after 16 numbers");
-    constexpr double tolerance = 1e-6;
-    double bottom = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
-    if (bottom > tolerance) {
-        fail(lexer.at(word), std::string(word.text) +
-                                 " must not project: the 4th, 8th, 12th and "
-                                 "16th number must be 0 0 0 1");
-    }
-    return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-}
-
-bool is_usable(const Transform& t) {
-    double det = determinant(t);
-    bool finite = std::isfinite(det) && std::isfinite(t.o[0] + t.o[1] + t.o[2]);
-    return finite && std::abs(det) > 1e-60 && std::abs(det) < 1e60;
+    if (token.type == Token::string) return token;
+    fail(lexer.at(token),
+         std::string(word.text) + " needs " + what + " in quotes, not " + Lexer::describe(token));
 }
 
 void SceneReader::read(const std::string& path, std::string text) {
     open_files_.push_back(path);
     Lexer lexer(path, std::move(text));
     for (Token token = lexer.next(); token.type != Token::end; token = lexer.next()) {
-        if (token.type != Token::word) {
-            fail(lexer.at(token), "expected a directive, not " + Lexer::describe(token));
-        }
         read_directive(lexer, token);
     }
     open_files_.pop_back();
@@ -148,52 +156,189 @@ void SceneReader::read(const std::string& path, std::string text) {
 
 void SceneReader::read_directive(Lexer& lexer, const Token& word) {
     Position at = lexer.at(word);
-    bool is_option = contains(option_words, word.text);
-    bool is_world = contains(world_words, word.text);
-    if (is_option && in_world_) {
-        fail(at, std::string(word.text) + " must stand before WorldBegin");
+    if (word.type != Token::word || to_number(word.text)) {
+        fail(at, "expected a directive, not " + Lexer::describe(word));
     }
-    if (is_world && !in_world_) fail(at, std::string(word.text) + " must stand after WorldBegin");
-    if (contains(transform_words, word.text)) {
-        read_transform(lexer, word);
-    } else if (is_option) {
-        read_option_directive(lexer, word);
-    } else if (is_world) {
-        read_world_directive(lexer, word);
-    } else {
-        read_other_directive(lexer, word);
+    std::string name(word.text);
+    auto found = directives.find(name);
+    if (found == directives.end()) {
+        if (name == "WorldEnd") fail(at, "WorldEnd is not part of pbrt-v4: leave it out");
+        std::vector<std::string> known;
+        for (const auto& [directive, how] : directives) {
+            if (how.read) known.push_back(directive);
+        }
+        fail_unknown(at, "directive", name, known);
     }
+    auto [block, read] = found->second;
+    if (!read) fail(at, name + " is not supported");
+    if (block == Block::options && in_world_) fail(at, name + " must stand before WorldBegin");
+    if (block == Block::world && !in_world_) fail(at, name + " must stand after WorldBegin");
+    (this->*read)(lexer, word);
 }
 
-void SceneReader::read_transform(Lexer& lexer, const Token& word) {
+void SceneReader::move(Lexer& lexer, const Token& word) {
     Position at = lexer.at(word);
-    Transform t;
-    bool replaces = word.text == "Identity" || word.text == "Transform";
-    if (word.text == "Translate") {
-        t = translation(read_three(lexer, word));
-    } else if (word.text == "Scale") {
-        t = scaling(read_three(lexer, word));
-    } else if (word.text == "Rotate") {
-        double degrees = read_plain_number(lexer, word);
-        Double3 axis = read_three(lexer, word);
-        if (length(axis) == 0) fail(at, "Rotate needs an axis that is not 0 0 0");
-        t = rotation(degrees, axis);
-    } else if (word.text == "LookAt") {
-        Double3 eye = read_three(lexer, word), look = read_three(lexer, word);
-        t = look_at(eye, look, read_three(lexer, word));
-        if (!is_usable(t))
-            fail(at, "LookAt needs two points, and an up that is not along the view");
-        t = inverse(t);
-    } else if (word.text != "Identity") {
-        t = read_matrix(lexer, word);
+    TransformStep step = read_transform(lexer, word);
+    if (state_.set_start) state_.start = apply(step, state_.start, at);
+    if (state_.set_end) state_.end = apply(step, state_.end, at);
+}
+
+void SceneReader::active_transform(Lexer& lexer, const Token&) {
+    Token which = lexer.next();
+    bool all = which.text == "All", start = which.text == "StartTime";
+    if (which.type != Token::word || !(all || start || which.text == "EndTime")) {
+        fail(lexer.at(which),
+             "ActiveTransform needs All, StartTime or EndTime, not " + Lexer::describe(which));
     }
-    for (auto [transform, set] :
-         {std::pair{&state_.start, state_.set_start}, std::pair{&state_.end, state_.set_end}}) {
-        if (set) *transform = replaces ? t : *transform * t;
-        if (!is_usable(*transform)) {
-            fail(at, "the transform has no inverse, or its numbers are too large or too small");
+    state_.set_start = all || start;
+    state_.set_end = all || !start;
+}
+
+void SceneReader::color_space(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    if (token.text == "srgb") return;
+    for (const char* name : {"aces2065-1", "dci-p3", "rec2020"}) {
+        if (token.text != name) continue;
+        notes_.push_back(message_at(lexer.at(word), "note",
+                                    "ColorSpace " + quote(name) + " is read as \"srgb\""));
+        return;
+    }
+    fail_unknown(lexer.at(token), "ColorSpace", std::string(token.text),
+                 {"aces2065-1", "dci-p3", "rec2020", "srgb"});
+}
+
+void SceneReader::include(Lexer& lexer, const Token& word) {
+    constexpr size_t deepest = 100;
+    constexpr int most = 10000;
+    Token token = expect_string(lexer, word, "a file name");
+    Position at = lexer.at(token);
+    NamedFile file = read_named_file(scene_.file, at, lexer.unescape(token));
+    for (const std::string& open : open_files_) {
+        std::error_code none;
+        if (open == file.path || std::filesystem::equivalent(open, file.path, none)) {
+            fail(at, quote(file.path) + " includes itself");
         }
     }
+    if (open_files_.size() > deepest) fail(at, "files include each other more than 100 deep");
+    if (++includes_ > most) fail(at, "more than 10000 files are included");
+    read(file.path, std::move(file.bytes));
+}
+
+void SceneReader::accelerator(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_accelerator(params, notes_);
+}
+
+void SceneReader::camera(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_camera(params, still_transform(params.at()), scene_.camera, exposure_);
+    has_camera_ = true;
+}
+
+void SceneReader::film(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_film(params, scene_, exposure_, notes_);
+}
+
+void SceneReader::integrator(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_integrator(params, scene_, notes_);
+}
+
+void SceneReader::option(Lexer& lexer, const Token& word) {
+    Token name = expect_string(lexer, word, "a name");
+    Token value = lexer.next();
+    if (value.type != Token::word && value.type != Token::string) {
+        fail(lexer.at(value), "Option needs a value, not " + Lexer::describe(value));
+    }
+    read_option(lexer.at(name), lexer.unescape(name), notes_);
+}
+
+void SceneReader::pixel_filter(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_pixel_filter(params, notes_);
+    has_filter_ = true;
+}
+
+void SceneReader::sampler(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_sampler(params, scene_, notes_);
+}
+
+void SceneReader::world_begin(Lexer&, const Token&) {
+    in_world_ = true;
+    state_ = {};
+}
+
+void SceneReader::area_light_source(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    state_.emission = read_area_light(params);
+}
+
+void SceneReader::begin(Lexer& lexer, const Token& word) {
+    saved_.push_back({state_, lexer.at(word), std::string(word.text)});
+}
+
+void SceneReader::end(Lexer& lexer, const Token& word) {
+    std::string name(word.text);
+    if (saved_.empty()) fail(lexer.at(word), name + " without a beginning");
+    const SavedState& saved = saved_.back();
+    if (saved.begin.front() != name.front()) {
+        fail(lexer.at(word), name + " cannot close the " + saved.begin + " of line " +
+                                 std::to_string(saved.at.line));
+    }
+    state_ = saved.state;
+    saved_.pop_back();
+}
+
+void SceneReader::light_source(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    Light light = read_light(params, still_transform(params.at()));
+    if (!is_black(light.L)) scene_.lights.push_back(light);
+}
+
+void SceneReader::make_named_material(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    std::string name = lexer.unescape(token);
+    Params params(lexer, word, false);
+    params.read_type();
+    uint32_t index = find_material(name, lexer.at(token));
+    NamedMaterial& named = named_materials_[name];
+    if (named.defined) fail(lexer.at(token), "a second material " + quote(name));
+    named.defined = true;
+    scene_.materials[index] = read_material(params);
+}
+
+void SceneReader::material(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    state_.material = static_cast<uint32_t>(scene_.materials.size());
+    scene_.materials.push_back(read_material(params));
+}
+
+void SceneReader::named_material(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    state_.material = find_material(lexer.unescape(token), lexer.at(token));
+}
+
+void SceneReader::reverse_orientation(Lexer&, const Token&) {
+    state_.reverse_orientation = !state_.reverse_orientation;
+}
+
+void SceneReader::shape(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    ShapeState state = {still_transform(params.at()), state_.material, state_.emission,
+                        state_.reverse_orientation};
+    read_shape(params, state, scene_, notes_);
+}
+
+// The number of the named material, which may be defined after its use.
+uint32_t SceneReader::find_material(const std::string& name, const Position& at) {
+    auto [place, is_new] = named_materials_.try_emplace(name);
+    if (is_new) {
+        place->second = {static_cast<uint32_t>(scene_.materials.size()), false, at};
+        scene_.materials.emplace_back();
+    }
+    return place->second.index;
 }
 
 // The current transform; throws where it moves while the shutter is open.
@@ -202,174 +347,7 @@ const Transform& SceneReader::still_transform(const Position& at) const {
     return state_.start;
 }
 
-void SceneReader::read_option_directive(Lexer& lexer, const Token& word) {
-    Position at = lexer.at(word);
-    if (word.text == "WorldBegin") {
-        in_world_ = true;
-        state_.start = state_.end = {};
-        state_.set_start = state_.set_end = true;
-        return;
-    }
-    Params params(lexer, word, word.text != "Option");
-    if (word.text == "Camera") {
-        read_camera(params, still_transform(at), scene_.camera, exposure_);
-        has_camera_ = true;
-    } else if (word.text == "Film") {
-        read_film(params, scene_, exposure_, notes_);
-    } else if (word.text == "PixelFilter") {
-        read_pixel_filter(params, notes_);
-        has_filter_ = true;
-    } else if (word.text == "Sampler") {
-        read_sampler(params, scene_, notes_);
-    } else if (word.text == "Integrator") {
-        read_integrator(params, scene_, notes_);
-    } else if (word.text == "Accelerator") {
-        read_accelerator(params, notes_);
-    } else {
-        read_option(params, notes_);
-    }
-}
-
-void SceneReader::read_world_directive(Lexer& lexer, const Token& word) {
-    Position at = lexer.at(word);
-    if (word.text == "AttributeBegin" || word.text == "TransformBegin") {
-        begin_attribute(at, word);
-    } else if (word.text == "AttributeEnd" || word.text == "TransformEnd") {
-        end_attribute(at, word);
-    } else if (word.text == "ReverseOrientation") {
-        state_.reverse_orientation = !state_.reverse_orientation;
-    } else if (word.text == "NamedMaterial") {
-        use_material(lexer);
-    } else if (word.text == "MakeNamedMaterial") {
-        name_material(lexer, word);
-    } else {
-        Params params(lexer, word);
-        if (word.text == "Material") {
-            scene_.materials.push_back(read_material(params));
-            state_.material = static_cast<uint32_t>(scene_.materials.size()) - 1;
-        } else if (word.text == "AreaLightSource") {
-            state_.emission = read_area_light(params);
-        } else if (word.text == "LightSource") {
-            Light light = read_light(params, still_transform(at));
-            if (!is_black(light.L)) scene_.lights.push_back(light);
-        } else {
-            read_shape(
-                params,
-                {still_transform(at), state_.material, state_.emission, state_.reverse_orientation},
-                scene_, notes_);
-        }
-    }
-}
-
-void SceneReader::read_other_directive(Lexer& lexer, const Token& word) {
-    Position at = lexer.at(word);
-    if (word.text == "Include") return include(lexer);
-    if (word.text == "ColorSpace") {
-        Params params(lexer, word);
-        std::vector<std::string> known = {"aces2065-1", "dci-p3", "rec2020", "srgb"};
-        if (!contains(known, params.type())) params.fail_type(known);
-        params.finish();
-        if (params.type() != "srgb") {
-            notes_.push_back(message_at(at, "note", params.owner() + " is read as \"srgb\""));
-        }
-    } else if (word.text == "ActiveTransform") {
-        Token which = lexer.next();
-        bool all = which.text == "All";
-        if (!all && which.text != "StartTime" && which.text != "EndTime") {
-            fail_unknown(lexer.at(which), "time", std::string(which.text),
-                         {"All", "EndTime", "StartTime"});
-        }
-        state_.set_start = all || which.text == "StartTime";
-        state_.set_end = all || which.text == "EndTime";
-    } else {
-        if (contains(pbrt_only, word.text)) {
-            fail(at, std::string(word.text) + " is not supported");
-        }
-        if (to_number(word.text) || word.type != Token::word) {
-            fail(at, "expected a directive, not " + Lexer::describe(word));
-        }
-        std::vector<std::string> known = transform_words;
-        for (const auto& words : {option_words, world_words, other_words}) {
-            known.insert(known.end(), words.begin(), words.end());
-        }
-        fail_unknown(at, "directive", std::string(word.text), known);
-    }
-}
-
-void SceneReader::begin_attribute(const Position& at, const Token& word) {
-    saved_.push_back({state_, at, std::string(word.text)});
-}
-
-void SceneReader::end_attribute(const Position& at, const Token& word) {
-    if (saved_.empty()) fail(at, std::string(word.text) + " without its beginning");
-    if (saved_.back().begin.front() != word.text.front()) {
-        fail(at, std::string(word.text) + " closes the " + saved_.back().begin + " of line " +
-                     std::to_string(saved_.back().at.line));
-    }
-    state_ = saved_.back().state;
-    saved_.pop_back();
-}
-
-void SceneReader::include(Lexer& lexer) {
-    Token token = lexer.next();
-    Position at = lexer.at(token);
-    if (token.type != Token::string) {
-        fail(at, "Include needs a file name in quotes, not " + Lexer::describe(token));
-    }
-    constexpr int most = 10000;
-    if (++includes_ > most) fail(at, "more than 10000 files included");
-    NamedFile file = read_named_file(scene_.file, at, lexer.unescape(token));
-    std::error_code ignored;
-    for (const std::string& open : open_files_) {
-        if (std::filesystem::equivalent(open, file.path, ignored)) {
-            fail(at, "the file includes itself");
-        }
-    }
-    read(file.path, std::move(file.bytes));
-}
-
-// The number of the named material, which may be defined only later.
-uint32_t SceneReader::find_material(const std::string& name, const Position& at) {
-    auto [place, is_new] = named_materials_.try_emplace(name);
-    if (is_new) {
-        place->second.index = static_cast<uint32_t>(scene_.materials.size());
-        place->second.first_use = at;
-        scene_.materials.emplace_back();
-    }
-    return place->second.index;
-}
-
-void SceneReader::name_material(Lexer& lexer, const Token& word) {
-    Token token = lexer.peek();
-    Position at = lexer.at(token);
-    if (token.type != Token::string) {
-        fail(at, "MakeNamedMaterial needs a name in quotes, not " + Lexer::describe(token));
-    }
-    std::string name = lexer.unescape(lexer.next());
-    Params params(lexer, word, false);
-    params.read_type();
-    uint32_t index = find_material(name, at);
-    if (named_materials_[name].defined) fail(at, "a second material " + quote(name));
-    named_materials_[name].defined = true;
-    scene_.materials[index] = read_material(params);
-}
-
-void SceneReader::use_material(Lexer& lexer) {
-    Token token = lexer.next();
-    if (token.type != Token::string) {
-        fail(lexer.at(token),
-             "NamedMaterial needs a name in quotes, not " + Lexer::describe(token));
-    }
-    state_.material = find_material(lexer.unescape(token), lexer.at(token));
-}
-
-void SceneReader::check_scene() const {
-    auto refuse = [&](const std::string& text) {
-        throw InputError(printable(scene_.file) + ": error: " + text);
-    };
-    if (!saved_.empty()) {
-        fail(saved_.back().at, saved_.back().begin + " is never closed");
-    }
+void SceneReader::check_materials() const {
     std::vector<std::string> known;
     for (const auto& [name, material] : named_materials_) {
         if (material.defined) known.push_back(name);
@@ -377,15 +355,20 @@ void SceneReader::check_scene() const {
     for (const auto& [name, material] : named_materials_) {
         if (!material.defined) fail_unknown(material.first_use, "NamedMaterial", name, known);
     }
-    if (!in_world_) refuse("no WorldBegin");
-    if (!has_camera_) refuse("no Camera");
-    if (scene_.geometry.size() == 0) refuse("no Shape");
-    if (scene_.lights.empty()) refuse("no lights: all would be black");
 }
 
 Scene SceneReader::finish() {
-    check_scene();
+    auto refuse = [&](const std::string& text) {
+        throw InputError(printable(scene_.file) + ": error: " + text);
+    };
+    if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
+    check_materials();
+    if (!in_world_) refuse("no WorldBegin");
+    if (!has_camera_) refuse("no Camera");
+    if (scene_.geometry.size() == 0) refuse("no Shape");
+    if (scene_.lights.empty()) refuse("no light: the picture would be black");
     number_light_primitives(scene_);
+
     // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.
     float exposure = exposure_.shutter * exposure_.iso / 100;
     for (Light& light : scene_.lights) light.L *= exposure;

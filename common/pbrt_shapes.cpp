@@ -1,137 +1,11 @@
 #include "common/pbrt_shapes.h"
 
+#include <limits>
+
 #include "common/pbrt_files.h"
-#include "common/ply.h"
+#include "common/pbrt_mesh.h"
 
 namespace {
-
-constexpr float farthest = 1e9f;  // beyond it, squares of areas overflow a float
-
-// A mesh as it stands in the file.
-struct Mesh {
-    std::vector<Double3> positions, normals;
-    std::vector<uint32_t> indices;
-};
-
-std::vector<Double3> group_by_three(const std::vector<double>& numbers) {
-    std::vector<Double3> groups(numbers.size() / 3);
-    for (size_t i = 0; i < groups.size(); i++) {
-        groups[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-    }
-    return groups;
-}
-
-Mesh read_triangle_mesh(Params& params) {
-    Mesh mesh;
-    const Param* P = params.find("point3", "P");
-    if (!P) fail(params.at(), params.owner() + " needs \"point3 P\"");
-    mesh.positions = group_by_three(P->numbers);
-
-    // Check that what belongs to vertices is given for each.
-    const Param *N = params.find("normal", "N"), *S = params.find("vector3", "S");
-    const Param* uv = params.find("point2", "uv");
-    for (const Param* param : {N, S, uv}) {
-        if (!param) continue;
-        size_t count = param->numbers.size() / (param == uv ? 2 : 3);
-        if (count == mesh.positions.size()) continue;
-        fail(param->at, quote(param->name) + " is given for " + std::to_string(count) + " of " +
-                            std::to_string(mesh.positions.size()) + " vertices");
-    }
-    if (N) mesh.normals = group_by_three(N->numbers);
-
-    const Param* indices = params.find("integer", "indices");
-    if (!indices) {
-        if (mesh.positions.size() != 3)
-            fail(params.at(), params.owner() + " needs \"integer indices\"");
-        mesh.indices = {0, 1, 2};
-        return mesh;
-    }
-    if (indices->numbers.size() % 3 != 0) {
-        fail(indices->at, "\"indices\" has " + std::to_string(indices->numbers.size()) +
-                              " numbers, not a multiple of 3");
-    }
-    for (double index : indices->numbers) {
-        if (index < 0 || index >= static_cast<double>(mesh.positions.size())) {
-            fail(indices->at, "index " + std::to_string(static_cast<int>(index)) +
-                                  " is out of range: there are " +
-                                  std::to_string(mesh.positions.size()) + " vertices");
-        }
-        mesh.indices.push_back(static_cast<uint32_t>(index));
-    }
-    const Param* faces = params.find("integer", "faceIndices");
-    if (faces && faces->numbers.size() != mesh.indices.size() / 3) {
-        fail(faces->at, "\"faceIndices\" needs one number for each triangle");
-    }
-    return mesh;
-}
-
-Mesh convert(const PlyMesh& ply) {
-    Mesh mesh;
-    for (Vec3 p : ply.positions) mesh.positions.push_back({p.x, p.y, p.z});
-    for (Vec3 n : ply.normals) mesh.normals.push_back({n.x, n.y, n.z});
-    mesh.indices = ply.indices;
-    return mesh;
-}
-
-void check_extent(const Params& params, Vec3 p) {
-    if (max_component(abs(p)) <= farthest) return;
-    fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
-}
-
-// Adds positions and normals in world space; returns the number of the first.
-uint32_t add_vertices(const Params& params, const ShapeState& state, const Mesh& mesh,
-                      Geometry& geometry) {
-    size_t first = geometry.positions.size();
-    if (first + mesh.positions.size() > UINT32_MAX / 2) fail(params.at(), "too many vertices");
-    for (const Double3& p : mesh.positions) {
-        geometry.positions.push_back(to_vec3(transform_point(state.world_from_object, p)));
-        check_extent(params, geometry.positions.back());
-    }
-    if (mesh.normals.empty() && geometry.normals.empty()) return static_cast<uint32_t>(first);
-
-    geometry.normals.resize(first);
-    for (const Double3& n : mesh.normals) {
-        Double3 world = transform_normal(state.world_from_object, n);
-        // Keep lengths, by which pbrt weighs them, but not those whose square leaves float.
-        double size = length(world);
-        if (size > 0 && !(size > 1e-6 && size < 1e6)) world = normalize(world);
-        Vec3 normal = to_vec3(world);
-        geometry.normals.push_back(state.reverse_orientation ? -normal : normal);
-    }
-    geometry.normals.resize(geometry.positions.size());
-    return static_cast<uint32_t>(first);
-}
-
-void add_mesh(const Params& params, const ShapeState& state, const Mesh& mesh, Scene& scene,
-              Notes& notes) {
-    Geometry& g = scene.geometry;
-    uint32_t first = add_vertices(params, state, mesh, g);
-    bool mirrored = determinant(state.world_from_object) < 0;
-    size_t empty = 0;
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-        uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
-                 c = first + mesh.indices[i + 2];
-        Vec3 normal = cross(g.positions[b] - g.positions[a], g.positions[c] - g.positions[a]);
-        if (!(length_squared(normal) >= std::numeric_limits<float>::min())) {
-            empty++;
-            continue;
-        }
-        // Turn the triangle to the side that shines: that of its vertices' normals, if it has any.
-        bool turn = mirrored != state.reverse_orientation;
-        if (!mesh.normals.empty()) {
-            float side = dot(normal, g.normals[a] + g.normals[b] + g.normals[c]);
-            if (side != 0) turn = side < 0;
-        }
-        if (turn) std::swap(b, c);
-        g.triangles.push_back({{a, b, c}, static_cast<uint32_t>(scene.shapes.size())});
-    }
-    if (empty > 0) {
-        notes.push_back(message_at(params.at(), "note",
-                                   "left out " + std::to_string(empty) +
-                                       (empty == 1 ? " triangle" : " triangles") +
-                                       " without area"));
-    }
-}
 
 // Refuses a radius of which the square is no float, or that reaches too far.
 void check_radius(const Params& params, Vec3 c, float r) {
@@ -245,16 +119,20 @@ void add_shape(const Params& params, const ShapeState& state, std::vector<Primit
 void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& notes) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
+    auto add = [&](const TriangleMesh& mesh) {
+        uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
+        add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
+    };
     if (params.type() == "trianglemesh") {
-        Mesh mesh = read_triangle_mesh(params);
+        TriangleMesh mesh = read_triangle_mesh(params);
         params.finish();
-        add_mesh(params, state, mesh, scene, notes);
+        add(mesh);
     } else if (params.type() == "plymesh") {
         const Param* name = params.find_exactly("string", "filename", 1);
-        if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
         params.finish();
+        if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
         NamedFile file = read_named_file(scene.file, name->at, name->strings[0]);
-        add_mesh(params, state, convert(parse_ply(file.path, file.bytes)), scene, notes);
+        add(parse_ply(file.path, file.bytes));
     } else if (params.type() == "sphere") {
         add_sphere(params, state, scene);
     } else if (params.type() == "disk") {

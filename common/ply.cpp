@@ -251,7 +251,7 @@ void skip(Reader& reader, const Property& property) {
     for (uint64_t n = read_length(reader, property); n > 0; n--) reader.value(*property.type);
 }
 
-void read_vertices(Reader& reader, const Element& element, PlyMesh& mesh) {
+void read_vertices(Reader& reader, const Element& element, TriangleMesh& mesh) {
     // Find where in a vertex its coordinates and its normal stand.
     constexpr std::array<const char*, 6> names = {"x", "y", "z", "nx", "ny", "nz"};
     std::array<const Property*, 6> wanted;
@@ -282,7 +282,7 @@ void read_vertices(Reader& reader, const Element& element, PlyMesh& mesh) {
     }
 }
 
-void read_faces(Reader& reader, const Element& element, size_t vertices, PlyMesh& mesh) {
+void read_faces(Reader& reader, const Element& element, size_t vertices, TriangleMesh& mesh) {
     const Property* corners = element.find("vertex_indices");
     if (!corners) corners = element.find("vertex_index");
     if (!corners || !corners->count_type || corners->type->is_float) {
@@ -317,7 +317,7 @@ void read_faces(Reader& reader, const Element& element, size_t vertices, PlyMesh
 
 }  // namespace
 
-PlyMesh parse_ply(const std::string& file, const std::string& bytes) {
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
     if (bytes.starts_with("\x1f\x8b")) {
         throw InputError(printable(file) + ": error: compressed by gzip: unpack it first");
     }
@@ -337,7 +337,7 @@ PlyMesh parse_ply(const std::string& file, const std::string& bytes) {
                          quote(vertex ? "face" : "vertex"));
     }
 
-    PlyMesh mesh;
+    TriangleMesh mesh;
     for (const Element& element : elements) {
         check_count(reader, element);
         if (&element == vertex) {

@@ -6,7 +6,8 @@
 
 #include "common/vec.h"
 
-struct PlyMesh {
+/// A mesh in its own space.
+struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;      // of the vertices, as in the file; empty or one for each
     std::vector<uint32_t> indices;  // three for each triangle, all < positions.size()
@@ -19,4 +20,4 @@ struct PlyMesh {
 /// errors  InputError "file:line:column: error: ..." for the header and an ASCII body,
 ///         "file: error: ... at byte N" for a binary one
 /// source  Turk 1994, "The PLY Polygon File Format"      tested by  "input: PLY ..."
-PlyMesh parse_ply(const std::string& file, const std::string& bytes);
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes);

@@ -2,8 +2,10 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/error.h"
+#include "common/nearest.h"
 
 /// A place in a text file; lines and columns count from 1, columns in characters.
 struct Position {
@@ -39,4 +41,15 @@ inline std::string message_at(const Position& at, const std::string& kind,
 /// Throws the InputError for something wrong at a place in a file.
 [[noreturn]] inline void fail(const Position& at, const std::string& text) {
     throw InputError(message_at(at, "error", text));
+}
+
+/// Throws `unknown KIND "word"` with the nearest of the known words, or all of them.
+[[noreturn]] inline void fail_unknown(const Position& at, const std::string& kind,
+                                      const std::string& word,
+                                      const std::vector<std::string>& known) {
+    std::string hint = nearest_word(word, known);
+    if (!hint.empty())
+        fail(at, "unknown " + kind + ' ' + quote(word) + ": did you mean " + quote(hint) + '?');
+    for (const std::string& name : known) hint += (hint.empty() ? " (known: " : ", ") + name;
+    fail(at, "unknown " + kind + ' ' + quote(word) + hint + (hint.empty() ? "" : ")"));
 }
