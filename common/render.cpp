@@ -192,6 +192,16 @@ void refuse_delta_lights(const Scene& scene) {
     }
 }
 
+void refuse_glossy(const Scene& scene) {
+    for (const Shape& shape : scene.shapes) {
+        const Material& m = scene.materials[shape.material];
+        if (m.type != MaterialType::conductor || m.alpha == 0) continue;
+        throw InputError(scene.file + ":" + std::to_string(m.line) + ":" +
+                         std::to_string(m.column) +
+                         ": error: rough conductors are not supported before chapter 12");
+    }
+}
+
 Rendering render_film(const Scene& scene, const RenderOptions& options, Trace trace) {
     Rendering result{Film(scene.width, scene.height), {}, {}};
     TileRenderer renderer(scene, options, trace, result);

@@ -40,6 +40,10 @@ void prepare(Scene& scene, int threads);
 /// by chance never finds one.
 void refuse_delta_lights(const Scene& scene);
 
+/// Throws InputError when a surface of the scene is a rough conductor, which chapters before 12 have
+/// not got.
+void refuse_glossy(const Scene& scene);
+
 /// Renders in passes over the whole picture, until scene.spp samples a pixel, or options.time, or
 /// Ctrl-C. The same pixels for any number of threads.
 Rendering render_film(const Scene& scene, const RenderOptions& options, Trace trace);

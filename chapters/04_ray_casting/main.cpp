@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "04_ray_casting", "scenes/cornell-spheres.pbrt");
         Scene scene = load(options);
+        refuse_glossy(scene);
         return render(scene, options, ch04::trace);
     });
 }

@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "06_path_tracing", "scenes/cornell.pbrt");
         Scene scene = load(options);
+        refuse_glossy(scene);
         refuse_delta_lights(scene);
         return render(scene, options, ch06::trace);
     });

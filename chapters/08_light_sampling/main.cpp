@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "08_light_sampling", "scenes/cornell.pbrt", {measure});
         Scene scene = load(options);
+        refuse_glossy(scene);
         return render(scene, options, ch08::trace);
     });
 }

@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "10_light_importance", "scenes/thousand-lights.pbrt");
         Scene scene = load(options);
+        refuse_glossy(scene);
         ch10::prepare(scene);
         return render(scene, options, ch10::trace);
     });

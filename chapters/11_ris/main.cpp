@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "11_ris", "scenes/thousand-lights.pbrt", {candidates});
         Scene scene = load(options);
+        refuse_glossy(scene);
         ch11::prepare(scene);
         return render(scene, options, ch11::trace);
     });
