@@ -4,11 +4,13 @@
 
 /// The share of unpolarised light that a metal of complex index eta + i k reflects; one channel.
 ///
-///   a^2 + b^2 = sqrt((eta^2 - k^2 - sin^2)^2 + 4 eta^2 k^2),  a^2 = (a^2 + b^2 + eta^2 - k^2 -
-///   sin^2) / 2 R_s = (a^2 + b^2 - 2 a cos + cos^2) / (a^2 + b^2 + 2 a cos + cos^2) R_p = R_s
-///   (cos^2 (a^2 + b^2) - 2 a cos sin^2 + sin^4) / (cos^2 (a^2 + b^2) + 2 a cos sin^2 + sin^4)
+///   d = eta^2 - k^2 - sin^2,  a2_b2 = a^2 + b^2 = sqrt(d^2 + 4 eta^2 k^2),  a^2 = (a2_b2 + d) / 2
+///   R_s = (a2_b2 - 2 a cos + cos^2) / (a2_b2 + 2 a cos + cos^2)
+///   R_p = R_s (cos^2 a2_b2 - 2 a cos sin^2 + sin^4) / (cos^2 a2_b2 + 2 a cos sin^2 + sin^4)
+///   R = (R_s + R_p) / 2
 ///
 /// source  Born, Wolf, "Principles of Optics", ch. 14
+/// tested by  "identity: a metal's reflectance is Fresnel's with a complex index"
 inline float fresnel_conductor(float cos_i, float eta, float k) {
     float cos2 = cos_i * cos_i, sin2 = std::max(0.0f, 1 - cos2);
     float d = eta * eta - k * k - sin2;

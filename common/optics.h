@@ -22,8 +22,9 @@ inline std::optional<Vec3> refract(Vec3 wo, Vec3 n, float eta) {
 
 /// The share of unpolarised light that glass reflects; the rest, 1 - R, goes through.
 ///
-///   r_s = (cos_i - eta cos_t) / (cos_i + eta cos_t),  r_p = (eta cos_i - cos_t) / (eta cos_i +
-///   cos_t) R = (r_s^2 + r_p^2) / 2
+///   r_s = (cos_i - eta cos_t) / (cos_i + eta cos_t)
+///   r_p = (eta cos_i - cos_t) / (eta cos_i + cos_t)
+///   R = (r_s^2 + r_p^2) / 2
 ///
 /// cos_i in [0,1]; eta: index beyond the surface over index here. 1 under total reflection.
 /// source  Fresnel 1823      tested by  "truth: Fresnel's equations for glass"
