@@ -104,6 +104,26 @@ float read_factor(Params& params, const std::string& name, float fallback) {
     return value;
 }
 
+Double3 read_point(Params& params, const std::string& name, Vec3 fallback) {
+    Vec3 p = params.point(name, fallback);
+    return {p.x, p.y, p.z};
+}
+
+// Where a point light stands.
+Vec3 read_position(Params& params, const Transform& world_from_light) {
+    Double3 from = read_point(params, "from", {0, 0, 0});
+    Vec3 p = to_vec3(transform_point(world_from_light, from));
+    if (!(max_component(abs(p)) <= 1e9f)) fail(params.at("from"), "the light is farther than 1e9");
+    return p;
+}
+
+// The unit vector towards a distant light.
+Vec3 read_direction(Params& params, const Transform& world_from_light) {
+    Double3 from = read_point(params, "from", {0, 0, 0}), to = read_point(params, "to", {0, 0, 1});
+    if (from == to) fail(params.at("to"), "\"from\" and \"to\" are the same point");
+    return to_vec3(normalize(transform_vector(world_from_light, subtract(from, to))));
+}
+
 void check_finite(const Params& params, Rgb L) {
     if (!is_finite(L)) fail(params.at(), params.owner() + " is too bright for a float");
 }
@@ -149,25 +169,17 @@ Light read_light(Params& params, const Transform& world_from_light) {
     light.line = params.at().line;
     light.column = params.at().column;
     float scale = read_factor(params, "scale", 1);
-    auto read_point = [&](const std::string& name, Vec3 fallback) {
-        Vec3 p = params.point(name, fallback);
-        return Double3{p.x, p.y, p.z};
-    };
     if (params.type() == "point") {
         light.type = LightType::point;
+        light.p = read_position(params, world_from_light);
         light.L = params.illuminant("I", {1, 1, 1}) * scale;
         if (params.find("float", "power")) {
             light.L *= read_factor(params, "power", 0) / (4 * pi);
         }
-        light.p = to_vec3(transform_point(world_from_light, read_point("from", {0, 0, 0})));
-        if (!(max_component(abs(light.p)) <= 1e9f)) fail(params.at("from"), "farther than 1e9");
     } else if (params.type() == "distant") {
         light.type = LightType::distant;
+        light.p = read_direction(params, world_from_light);
         light.L = params.illuminant("L", {1, 1, 1}) * scale * read_factor(params, "illuminance", 1);
-        Double3 from = read_point("from", {0, 0, 0}), to = read_point("to", {0, 0, 1});
-        if (from == to) fail(params.at("to"), "\"from\" and \"to\" are the same point");
-        Double3 back = transform_vector(world_from_light, subtract(from, to));
-        light.p = to_vec3(normalize(back));
     } else if (params.type() == "infinite") {
         light.type = LightType::infinite;
         if (params.find("string", "filename")) {

@@ -1,36 +1,13 @@
 #include "common/ply.h"
 
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <optional>
-
-#include "common/nearest.h"
-#include "common/pbrt_lexer.h"
+#include "common/ply_bytes.h"
 
 namespace {
 
-enum class Format { ascii, little, big };
-
-struct ScalarType {
-    const char *name, *other_name;
-    size_t size;
-    bool is_float, is_signed;
-};
-constexpr std::array<ScalarType, 8> scalar_types = {{{"char", "int8", 1, false, true},
-                                                     {"uchar", "uint8", 1, false, false},
-                                                     {"short", "int16", 2, false, true},
-                                                     {"ushort", "uint16", 2, false, false},
-                                                     {"int", "int32", 4, false, true},
-                                                     {"uint", "uint32", 4, false, false},
-                                                     {"float", "float32", 4, true, true},
-                                                     {"double", "float64", 8, true, true}}};
-
 struct Property {
     std::string name;
-    const ScalarType* type = nullptr;
-    const ScalarType* count_type = nullptr;  // of a list; null for a single value
+    const PlyScalar* type = nullptr;
+    const PlyScalar* count_type = nullptr;  // of a list; null for a single value
 };
 
 struct Element {
@@ -47,116 +24,26 @@ struct Element {
     }
 };
 
-// The bytes of the file and how far they are read, in words or in binary values.
-class Reader {
-public:
-    Reader(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
-
-    Format format = Format::ascii;
-    size_t left() const { return bytes_.size() - position_; }
-    Position at() const { return at_; }
-
-    /// Throws at the last word read, or at the byte that is reached.
-    [[noreturn]] void fail_here(const std::string& text) const {
-        if (format == Format::ascii) fail(at_, text);
-        throw InputError(
-            printable(file_ + ": error: " + text + " at byte " + std::to_string(position_)));
-    }
-
-    /// The next word of the line; empty at its end.
-    std::string_view word() {
-        while (left() > 0 && (peek() == ' ' || peek() == '\t')) step();
-        at_ = {file_, line_, column_};
-        size_t start = position_;
-        while (left() > 0 && !is_space(peek())) step();
-        return bytes_.substr(start, position_ - start);
-    }
-    /// Reads over the rest of the line and its end: LF, CR LF or CR.
-    void end_line() {
-        while (left() > 0 && peek() != '\n' && peek() != '\r') step();
-        bool carriage_return = left() > 0 && peek() == '\r';
-        if (left() > 0) step();
-        if (carriage_return && left() > 0 && peek() == '\n') step();
-        line_++;
-        column_ = 1;
-    }
-
-    double value(const ScalarType& type) {
-        return format == Format::ascii ? ascii_value(type) : binary_value(type);
-    }
-
-private:
-    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-    char peek() const { return bytes_[position_]; }
-    void step() {
-        position_++;
-        column_++;
-    }
-
-    double ascii_value(const ScalarType& type) {
-        std::string_view text = word();
-        while (text.empty() && left() > 0) {
-            end_line();
-            text = word();
-        }
-        if (text.empty()) fail_here("the file ends too early");
-        if (type.is_float) {
-            if (auto number = to_number(text)) return *number;
-            fail_here("expected a number, not " + quote(text));
-        }
-        auto number = to_number(text);
-        if (!number || *number != std::floor(*number) || std::abs(*number) > 4294967295.0) {
-            fail_here("expected a whole number, not " + quote(text));
-        }
-        return *number;
-    }
-
-    double binary_value(const ScalarType& type) {
-        if (left() < type.size) fail_here("the file ends too early");
-        uint64_t bits = 0;
-        for (size_t i = 0; i < type.size; i++) {
-            size_t j = format == Format::little ? i : type.size - 1 - i;
-            bits |= uint64_t{static_cast<unsigned char>(bytes_[position_ + i])} << (8 * j);
-        }
-        position_ += type.size;
-        if (type.is_float) {
-            return type.size == 8 ? std::bit_cast<double>(bits)
-                                  : double{std::bit_cast<float>(static_cast<uint32_t>(bits))};
-        }
-        // Spread the sign bit of a signed value over the bits above it.
-        int shift = static_cast<int>(64 - 8 * type.size);
-        if (type.is_signed)
-            return static_cast<double>(static_cast<int64_t>(bits << shift) >> shift);
-        return static_cast<double>(bits);
-    }
-
-    std::string file_;
-    std::string_view bytes_;
-    size_t position_ = 0;
-    int line_ = 1, column_ = 1;
-    Position at_;
-};
-
-const ScalarType* find_scalar(std::string_view name) {
-    for (const ScalarType& type : scalar_types) {
+const PlyScalar* find_scalar(std::string_view name) {
+    for (const PlyScalar& type : ply_scalars) {
         if (name == type.name || name == type.other_name) return &type;
     }
     return nullptr;
 }
 
-const ScalarType* read_scalar(Reader& reader) {
+const PlyScalar* read_scalar(PlyBytes& reader) {
     std::string_view name = reader.word();
-    if (const ScalarType* type = find_scalar(name)) return type;
+    if (const PlyScalar* type = find_scalar(name)) return type;
     std::vector<std::string> known;
-    for (const ScalarType& type : scalar_types) known.push_back(type.name);
+    for (const PlyScalar& type : ply_scalars) known.push_back(type.name);
     std::string nearest = nearest_word(name, known);
     reader.fail_here("unknown property type " + quote(name) +
                      (nearest.empty() ? "" : ": did you mean " + quote(nearest) + '?'));
 }
 
-Property read_property(Reader& reader) {
+Property read_property(PlyBytes& reader) {
     Property property;
-    Reader look_ahead = reader;
+    PlyBytes look_ahead = reader;
     if (look_ahead.word() == "list") {
         reader.word();
         property.count_type = read_scalar(reader);
@@ -168,7 +55,7 @@ Property read_property(Reader& reader) {
     return property;
 }
 
-Element read_element(Reader& reader) {
+Element read_element(PlyBytes& reader) {
     Element element;
     element.name = reader.word();
     element.at = reader.at();
@@ -181,12 +68,12 @@ Element read_element(Reader& reader) {
     return element;
 }
 
-Format read_format(Reader& reader) {
+PlyFormat read_format(PlyBytes& reader) {
     std::string_view name = reader.word();
-    std::optional<Format> format;
-    if (name == "ascii") format = Format::ascii;
-    if (name == "binary_little_endian") format = Format::little;
-    if (name == "binary_big_endian") format = Format::big;
+    std::optional<PlyFormat> format;
+    if (name == "ascii") format = PlyFormat::ascii;
+    if (name == "binary_little_endian") format = PlyFormat::little;
+    if (name == "binary_big_endian") format = PlyFormat::big;
     if (!format) reader.fail_here("unknown format " + quote(name));
     if (std::string_view version = reader.word(); version != "1.0") {
         reader.fail_here("unknown version " + quote(version));
@@ -195,11 +82,11 @@ Format read_format(Reader& reader) {
 }
 
 // Reads the header and returns what follows it; the body starts where the reader stands.
-std::vector<Element> read_header(Reader& reader) {
+std::vector<Element> read_header(PlyBytes& reader) {
     if (reader.word() != "ply") reader.fail_here("not a PLY file: it does not start with ply");
     reader.end_line();
     std::vector<Element> elements;
-    std::optional<Format> format;
+    std::optional<PlyFormat> format;
     while (true) {
         std::string_view keyword = reader.word();
         if (keyword == "end_header") break;
@@ -224,11 +111,11 @@ std::vector<Element> read_header(Reader& reader) {
 }
 
 // Refuses a count that the rest of the file cannot hold, before anything is allocated for it.
-void check_count(const Reader& reader, const Element& element) {
+void check_count(const PlyBytes& reader, const Element& element) {
     uint64_t bytes = 0;  // of the smallest element
     for (const Property& property : element.properties) {
-        const ScalarType& first = property.count_type ? *property.count_type : *property.type;
-        bytes += reader.format == Format::ascii ? 2 : first.size;
+        const PlyScalar& first = property.count_type ? *property.count_type : *property.type;
+        bytes += reader.format == PlyFormat::ascii ? 2 : first.size;
     }
     if (bytes > 0 && element.count > (reader.left() + 1) / bytes) {
         fail(element.at, "the file is too short for " + std::to_string(element.count) + ' ' +
@@ -237,7 +124,7 @@ void check_count(const Reader& reader, const Element& element) {
 }
 
 // How many values the list has; 1 for a single value.
-uint64_t read_length(Reader& reader, const Property& property) {
+uint64_t read_length(PlyBytes& reader, const Property& property) {
     if (!property.count_type) return 1;
     double length = reader.value(*property.count_type);
     if (length < 0) reader.fail_here("a list of negative length");
@@ -247,11 +134,11 @@ uint64_t read_length(Reader& reader, const Property& property) {
     return static_cast<uint64_t>(length);
 }
 
-void skip(Reader& reader, const Property& property) {
+void skip(PlyBytes& reader, const Property& property) {
     for (uint64_t n = read_length(reader, property); n > 0; n--) reader.value(*property.type);
 }
 
-void read_vertices(Reader& reader, const Element& element, TriangleMesh& mesh) {
+void read_vertices(PlyBytes& reader, const Element& element, TriangleMesh& mesh) {
     // Find where in a vertex its coordinates and its normal stand.
     constexpr std::array<const char*, 6> names = {"x", "y", "z", "nx", "ny", "nz"};
     std::array<const Property*, 6> wanted;
@@ -282,7 +169,7 @@ void read_vertices(Reader& reader, const Element& element, TriangleMesh& mesh) {
     }
 }
 
-void read_faces(Reader& reader, const Element& element, size_t vertices, TriangleMesh& mesh) {
+void read_faces(PlyBytes& reader, const Element& element, size_t vertices, TriangleMesh& mesh) {
     const Property* corners = element.find("vertex_indices");
     if (!corners) corners = element.find("vertex_index");
     if (!corners || !corners->count_type || corners->type->is_float) {
@@ -321,7 +208,7 @@ TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
     if (bytes.starts_with("\x1f\x8b")) {
         throw InputError(printable(file) + ": error: compressed by gzip: unpack it first");
     }
-    Reader reader(file, bytes);
+    PlyBytes reader(file, bytes);
     std::vector<Element> elements = read_header(reader);
 
     // Know how many vertices there will be, since faces may come before them.

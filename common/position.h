@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/nearest.h"
+#include "common/utf8.h"
 
 /// A place in a text file; lines and columns count from 1, columns in characters.
 struct Position {
@@ -13,10 +14,13 @@ struct Position {
     int line = 0, column = 0;
 };
 
-/// `text` made fit for one line of a terminal: control characters become '?'.
+/// `text` made fit for one line of a terminal: what is no character to print becomes '?'.
 inline std::string printable(std::string text) {
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    for (size_t i = 0; i < text.size();) {
+        size_t length = utf8_length(text, i);
+        bool control = static_cast<unsigned char>(text[i]) < 0x20 || text[i] == 0x7f;
+        if (control || length == 0) text[i] = '?';
+        i += std::max(length, size_t{1});
     }
     return text;
 }
