@@ -52,8 +52,17 @@ inline double chi_square(std::span<const double> counts) {
                       std::vector(counts.size(), total / static_cast<double>(counts.size())));
 }
 
-/// The value that chi^2 of 99 degrees of freedom (10 x 10 cells) exceeds once in a million.
-inline constexpr double chi_square_gate_99 = 180.792;
+/// The chance that chi^2 of so many degrees of freedom is larger than x; gates ask for > 1e-6.
+inline double chi_square_tail(double x, int freedom) {
+    bool odd = freedom % 2 == 1;
+    double h = x / 2, tail = odd ? std::erfc(std::sqrt(h)) : 0;
+    double term = odd ? std::exp(-h) * std::sqrt(h) / std::tgamma(1.5) : std::exp(-h);
+    for (int k = odd ? 3 : 2; k <= freedom; k += 2) {
+        tail += term;
+        term *= h / (k / 2.0);
+    }
+    return tail;
+}
 
 /// The source of a function or class: from the line that starts with `first` to the next line that
 /// starts with `}`. What a chapter teaches and what common/ keeps of it are compared by this.

@@ -188,16 +188,17 @@ TEST_SUITE("sampler: uniform and independent") {
                         if (!(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1)) FAIL(p.x, " ", p.y);
                     }
                     double chi2 = chi_square_10x10(points);
-                    CHECK(chi2 < chi_square_gate_99);
-                    CHECK(chi2 > 45);  // once in a million too even: pixels that know each other
+                    CHECK(chi_square_tail(chi2, 99) > 1e-6);
+                    CHECK(chi_square_tail(chi2, 99) <
+                          1 - 1e-6);  // nor too even: pixels are independent
                 }
     }
 
     TEST_CASE("teeth: a coordinate that is squared fails the chi^2 gate") {
         std::vector<Vec2> points = pixel_points(Sampler(SamplerType::independent, 1, 1), 0, 100000);
-        CHECK(chi_square_10x10(points) < chi_square_gate_99);
+        CHECK(chi_square_tail(chi_square_10x10(points), 99) > 1e-6);
         for (Vec2& p : points) p.x = std::pow(p.x, 1.05f);
-        CHECK(chi_square_10x10(points) > chi_square_gate_99);
+        CHECK(chi_square_tail(chi_square_10x10(points), 99) < 1e-6);
     }
 
     TEST_CASE("truth: moments of one number and of a pair") {
@@ -286,7 +287,7 @@ TEST_SUITE("sampler: uniform and independent") {
         for (uint32_t i = 0; i < 10; i++) {
             std::array<double, 10> counts{};
             for (uint32_t seed = 0; seed < 100000; seed++) counts[permute(i, 10, hash32(seed))]++;
-            CHECK(chi_square(counts) < 46.0);  // 9 degrees of freedom, once in 1.7 million
+            CHECK(chi_square_tail(chi_square(counts), 9) > 1e-6);
         }
     }
 
