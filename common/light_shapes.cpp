@@ -4,29 +4,25 @@
 
 namespace {
 
-/// A primitive of a light, taken apart: a triangle p0 p1 p2, or a sphere or disk of radius r at p0.
-struct Emitter {
-    enum Kind : uint8_t { triangle, sphere, disk } kind;
-    Vec3 p0, p1, p2, n;
-    float r = 0;
-    bool inward = false;
-};
-
 Emitter emitter_of(const Scene& scene, uint32_t prim) {
     const Geometry& g = scene.geometry;
+    Emitter e;
     size_t i = prim;
     if (i < g.triangles.size()) {
         const auto& v = g.triangles[i].v;
-        Vec3 p0 = g.positions[v[0]], p1 = g.positions[v[1]], p2 = g.positions[v[2]];
-        return {Emitter::triangle, p0, p1, p2, normalize(cross(p1 - p0, p2 - p0))};
-    }
-    i -= g.triangles.size();
-    if (i < g.spheres.size()) {
+        e.p0 = g.positions[v[0]], e.p1 = g.positions[v[1]], e.p2 = g.positions[v[2]];
+        e.n = normalize(cross(e.p1 - e.p0, e.p2 - e.p0));
+    } else if ((i -= g.triangles.size()) < g.spheres.size()) {
         const Sphere& s = g.spheres[i];
-        return {Emitter::sphere, s.c, {}, {}, {}, s.r, scene.shapes[s.shape].reverse};
+        e.kind = Emitter::sphere, e.p0 = s.c, e.r = s.r;
+        e.inward = scene.shapes[s.shape].reverse;
+    } else {
+        const Disk& d = g.disks[i - g.spheres.size()];
+        e.kind = Emitter::disk, e.p0 = d.c, e.n = d.n, e.r = d.r;
     }
-    const Disk& d = g.disks[i - g.spheres.size()];
-    return {Emitter::disk, d.c, {}, {}, d.n, d.r};
+    float size = std::max(max_component(abs(e.p0)) + e.r, max_component(abs(e.p1)));
+    e.eps = rounding_error(std::max(size, max_component(abs(e.p2))));
+    return e;
 }
 
 float area_of(const Emitter& e) {
@@ -38,28 +34,29 @@ float area_of(const Emitter& e) {
     return 0;
 }
 
-float size_of(const Emitter& e) {
-    float size = std::max(max_component(abs(e.p0)) + e.r, max_component(abs(e.p1)));
-    return std::max(size, max_component(abs(e.p2)));
+/// The light's primitive number `index`.
+Emitter emitter_of(const Scene& scene, size_t light, uint32_t index) {
+    if (index == 0) return scene.light_shapes[light].first;
+    return emitter_of(scene, scene.lights[light].first_prim + index);
 }
 
 LightPoint sample_emitter_area(const Emitter& e, Vec2 u) {
-    float eps = rounding_error(size_of(e));
     switch (e.kind) {
         case Emitter::triangle: {
             float s = std::sqrt(u.x);
             Vec3 p = (1 - s) * e.p0 + s * (1 - u.y) * e.p1 + s * u.y * e.p2;
-            return {p, e.n, eps, 1};
+            return {p, e.n, e.eps, 1};
         }
         case Emitter::sphere: {
             float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * pi * u.y;
             Vec3 n = {r * std::cos(phi), r * std::sin(phi), z};
-            return {e.p0 + e.r * n, e.inward ? -n : n, eps, 1};
+            return {e.p0 + e.r * n, e.inward ? -n : n, e.eps, 1};
         }
         case Emitter::disk: {
             Frame frame(e.n);
             float r = e.r * std::sqrt(u.x), phi = 2 * pi * u.y;
-            return {e.p0 + r * std::cos(phi) * frame.s + r * std::sin(phi) * frame.t, e.n, eps, 1};
+            return {e.p0 + r * std::cos(phi) * frame.s + r * std::sin(phi) * frame.t, e.n, e.eps,
+                    1};
         }
     }
     return {};
@@ -110,7 +107,7 @@ LightPoint sample_two(const Emitter& e, const Seen& first, const Seen& second, V
     const Seen& chosen = u.x < share ? first : second;
     u.x = u.x < share ? u.x / share : (u.x - share) / (1 - share);
     u.x = std::min(u.x, 0x1.fffffep-1f);
-    return {sample_seen(e, chosen, x, u), e.n, rounding_error(size_of(e)), 1 / omega};
+    return {sample_seen(e, chosen, x, u), e.n, e.eps, 1 / omega};
 }
 
 bool is_near(const LightShape& shape, Vec3 x) {
@@ -131,14 +128,16 @@ struct Plan {
 Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
     const Light& l = scene.lights[light];
     const LightShape& shape = scene.light_shapes[light];
-    Plan plan{Way::area, emitter_of(scene, l.first_prim + index), {}, 0};
+    Plan plan{Way::area, emitter_of(scene, light, index), {}, 0};
     if (plan.e.kind == Emitter::sphere && l.prims == 1) {
         float d2 = length_squared(x - plan.e.p0), r2 = plan.e.r * plan.e.r;
         plan.sin2 = r2 / d2;
         if (plan.sin2 < 0.9999f && !plan.e.inward) plan.way = Way::cone;
         return plan;
     }
-    if (!is_near(shape, x)) return plan;
+    float off_plane = std::abs(dot(plan.e.n, plan.e.p0 - x));
+    float eps = plan.e.eps + rounding_error(max_component(abs(x)));
+    if (!is_near(shape, x) || off_plane <= eps) return plan;  // far away, or edge-on
     auto look = [&](size_t i, Vec3 p0, Vec3 p1, Vec3 p2) { plan.seen[i] = see(x, p0, p1, p2); };
     if (shape.parallelogram) {
         Vec3 p = shape.corner + shape.e1, q = shape.corner + shape.e2;
@@ -178,6 +177,7 @@ void prepare_light_shapes(Scene& scene) {
         const Light& light = scene.lights[i];
         if (light.type != LightType::area) continue;
         LightShape& shape = scene.light_shapes[i];
+        shape.first = emitter_of(scene, light.first_prim);
         Vec3 low = {infinity, infinity, infinity}, high = -low;
         double area = 0;
         for (uint32_t k = 0; k < light.prims; k++) {
@@ -205,11 +205,11 @@ LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
     if (!(shape.area > 0)) return {};
     LightPoint y;
     if (shape.parallelogram) {
-        Emitter e = emitter_of(scene, scene.lights[light].first_prim);
-        y = {shape.corner + u.x * shape.e1 + u.y * shape.e2, e.n, rounding_error(size_of(e)), 1};
+        const Emitter& e = shape.first;
+        y = {shape.corner + u.x * shape.e1 + u.y * shape.e2, e.n, e.eps, 1};
     } else {
         uint32_t i = choose_by_area(shape, u.x);
-        y = sample_emitter_area(emitter_of(scene, scene.lights[light].first_prim + i), u);
+        y = sample_emitter_area(emitter_of(scene, light, i), u);
     }
     y.pdf = 1 / shape.area;
     return y;
@@ -221,7 +221,6 @@ LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) 
     Vec2 v = u;
     uint32_t index = shape.parallelogram ? 0 : choose_by_area(shape, v.x);
     Plan way = plan(scene, light, x, index);
-    float eps = rounding_error(size_of(way.e));
     switch (way.way) {
         case Way::area: {
             LightPoint y = sample_area(scene, light, u);
@@ -234,7 +233,7 @@ LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) 
             float d = length(to_centre), sin2 = std::max(0.0f, 1 - w.z * w.z);
             float t = d * w.z - std::sqrt(std::max(0.0f, way.e.r * way.e.r - d * d * sin2));
             Vec3 n = normalize(x + t * Frame(to_centre / d).to_world(w) - way.e.p0);
-            return {way.e.p0 + way.e.r * n, n, eps, pdf_cone(way.sin2)};
+            return {way.e.p0 + way.e.r * n, n, way.e.eps, pdf_cone(way.sin2)};
         }
         case Way::two: return sample_two(way.e, way.seen[0], way.seen[1], x, u);
         case Way::square: {
@@ -244,7 +243,8 @@ LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) 
         }
         case Way::one: {
             float share = area_of(way.e) / shape.area;
-            return {sample_seen(way.e, way.seen[0], x, v), way.e.n, eps, share / way.seen[0].omega};
+            return {sample_seen(way.e, way.seen[0], x, v), way.e.n, way.e.eps,
+                    share / way.seen[0].omega};
         }
     }
     return {};
