@@ -40,9 +40,20 @@ struct Light {
     int line = 0, column = 0;            // where the scene file makes it, for messages
 };
 
+/// A primitive of a light, taken apart: a triangle p0 p1 p2, or a sphere or disk of radius r at p0.
+struct Emitter {
+    enum Kind : uint8_t { triangle, sphere, disk } kind = triangle;
+    bool inward = false;  // a sphere that shines inwards
+    Vec3 p0, p1, p2;
+    Vec3 n;  // unit
+    float r = 0;
+    float eps = 0;  // m: how far a point of it may be off
+};
+
 /// What sampling an area light needs to know of it beforehand (light_shapes.h fills this in).
 struct LightShape {
-    float area = 0;  // m^2, of all its primitives
+    Emitter first;   // of its primitives
+    float area = 0;  // m^2, of all of them
     Vec3 centre;     // of a sphere around it, m
     float radius = 0;
     bool parallelogram = false;  // two triangles that make corner + s e1 + t e2
