@@ -1,0 +1,27 @@
+// What a render's --stats file says, read back by the tools.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The JSON object that --stats wrote: one level, one name once.
+class StatsFile {
+public:
+    explicit StatsFile(std::string json) : json_(std::move(json)) {}
+
+    /// The file NAME.json beside the picture NAME.pfm; nothing when there is none.
+    static std::optional<StatsFile> beside(const std::string& picture);
+    static std::string path_beside(const std::string& picture);
+
+    /// The number, or the first of the list of numbers, of that name; nothing where it is null or
+    /// missing.
+    std::optional<double> number(const std::string& name) const;
+    std::vector<double> numbers(const std::string& name) const;
+    /// The text of that name, as JSON writes it; empty when missing.
+    std::string text(const std::string& name) const;
+
+private:
+    const char* value(const std::string& name) const;
+    std::string json_;
+};

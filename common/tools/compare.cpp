@@ -1,0 +1,114 @@
+// compare A B: how far picture A is from the reference B.
+#include <cstdio>
+#include <filesystem>
+
+#include "common/command_line.h"
+#include "common/comparison.h"
+#include "common/error.h"
+#include "common/files.h"
+#include "common/stats_file.h"
+#include "common/table.h"
+
+namespace {
+
+struct CompareOptions {
+    std::vector<std::string> pictures;
+    std::string out;
+    double trim = 0, range = 0;
+    std::string command;
+};
+
+CompareOptions parse(int argc, char** argv) {
+    CompareOptions o;
+    o.command = command_line(argc, argv);
+    std::vector<Option> options = {
+        {"out", "FILE", "write the error of each pixel as a colour (.ppm, .pfm or .png)",
+         [&](const std::string& text) {
+             if (!is_image_path(text)) fail_value("out", text, "a .ppm, .pfm or .png file");
+             o.out = text;
+         }},
+        {"range", "R", "the relative error that is white there (default: of all but 1 %)",
+         [&](const std::string& text) { o.range = parse_positive("range", text); }},
+        {"trim", "PERCENT", "leave the worst pixels out of the errors",
+         [&](const std::string& text) {
+             o.trim = parse_positive("trim", text);
+             if (o.trim >= 100) fail_value("trim", text, "less than 100");
+         }},
+    };
+    parse_options(argc, argv, "A B",
+                  "How far picture A is from the reference B, .ppm or .pfm. Standard errors are "
+                  "taken from what --stats wrote beside a picture (NAME.json), or NAME.err.pfm.",
+                  options, [&](const std::string& word) { o.pictures.push_back(word); });
+    if (o.pictures.size() != 2) {
+        throw UsageError("error: two pictures are needed, not " +
+                         std::to_string(o.pictures.size()) + "; --help says how");
+    }
+    return o;
+}
+
+/// The standard error of a picture's mean as the files beside it tell; value NaN: not known.
+struct KnownError {
+    double value = NAN;
+    std::string source;
+};
+
+KnownError known_error(const std::string& picture) {
+    // One sample of each pixel's standard error: their squares add up to that of the sum.
+    std::string path = std::filesystem::path(picture).replace_extension(".err.pfm").string();
+    if (std::filesystem::exists(path)) {
+        Image errors = read_image(path);
+        double squares = 0;
+        for (Rgb e : errors.pixels) squares += std::pow(static_cast<double>(average(e)), 2);
+        return {std::sqrt(squares) / static_cast<double>(errors.pixels.size()), path};
+    }
+    std::optional<StatsFile> stats = StatsFile::beside(picture);
+    if (!stats) return {};
+    return {stats->number("standard_error").value_or(NAN), StatsFile::path_beside(picture)};
+}
+
+void print_mean(const char* name, const std::string& file, double mean, const KnownError& error) {
+    std::printf("%s  %s  mean %.6g", name, file.c_str(), mean);
+    if (std::isnan(error.value)) {
+        std::printf(", standard error unknown\n");
+    } else {
+        std::printf(" +- %.2g (%s)\n", error.value, error.source.c_str());
+    }
+}
+
+void print(const CompareOptions& o, const Comparison& c) {
+    KnownError a = known_error(o.pictures[0]), b = known_error(o.pictures[1]);
+    print_mean("A", o.pictures[0], c.mean_a, a);
+    print_mean("B", o.pictures[1], c.mean_b, b);
+    double difference = c.mean_a - c.mean_b, se = std::hypot(a.value, b.value);
+    bool known = !std::isnan(se);
+    if (!known) se = c.standard_error;
+    bool same = std::abs(difference) <= 1e-6 * std::abs(c.mean_b);  // rounding
+    std::printf("A - B  %.3g (%.3g %%), %s standard errors by %s\n", difference,
+                100 * difference / c.mean_b, digits(same ? 0 : difference / se, 3).c_str(),
+                known ? "the files beside both" : "the differences of pixels within blocks");
+    if (o.trim > 0) std::printf("without the worst %g %% of the pixels:\n", o.trim);
+    std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);
+    std::printf("worst 0.1 %% of the pixels: %.3g %% of the squared error\n", 100 * c.worst_share);
+    std::printf("median of A/B over the pixels: %.5g\n", c.median_ratio);
+    if (c.blocks == 0) return;
+    std::printf("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks, c.worst_z,
+                c.worst_x, c.worst_y, c.beyond_5);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        CompareOptions o = parse(argc, argv);
+        if (!o.out.empty()) check_writable(o.out);
+        Image a = read_image(o.pictures[0]), b = read_image(o.pictures[1]);
+        check_comparable(a, o.pictures[0], b, o.pictures[1]);
+        print(o, compare(a, b, o.trim));
+        if (o.out.empty()) return 0;
+        double range = o.range > 0 ? o.range : error_range(a, b);
+        write_image(o.out, error_image(a, b, range), o.command);
+        std::printf("wrote %s: relative error |A-B| / sqrt(B^2 + 0.01), black 0, white %.3g\n",
+                    o.out.c_str(), range);
+        return 0;
+    });
+}
