@@ -231,7 +231,7 @@ inline Rgb shade_all(const Scene& scene, const Hit& x, Rgb beta, PathLog& log) {
                 break;
             case LightType::point: add({light.p, {}, light.L, 0, true}); break;
             case LightType::distant: {  // a lamp so far away that its rays are parallel
-                constexpr float far = 1e6f;
+                constexpr float far = 1e12f;
                 add({x.p + far * light.p, {}, light.L * (far * far), 0, true});
                 break;
             }
