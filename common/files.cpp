@@ -103,14 +103,16 @@ bool same_file(const std::string& a, const std::string& b) {
 std::string read_file(const std::string& path) {
     std::error_code none;
     if (fs::is_directory(path, none)) fail(path, "cannot read", EISDIR);
+    constexpr size_t largest = size_t{1} << 30;
+    bool too_large = fs::is_regular_file(path, none) && fs::file_size(path, none) > largest;
+    if (too_large) throw InputError(path + ": error: larger than 1 GiB");
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in) fail(path, "cannot read", errno);
 
     // Read in pieces, since a pipe has no size to ask for.
-    constexpr size_t largest = size_t{1} << 30;
     std::string bytes;
-    std::string piece(1 << 20, '\0');
+    std::string piece(1 << 16, '\0');
     while (in) {
         in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
         bytes.append(piece, 0, static_cast<size_t>(in.gcount()));

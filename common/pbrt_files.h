@@ -4,12 +4,10 @@
 
 #include "common/position.h"
 
-struct NamedFile {
-    std::string path, bytes;
-};
+/// The path of the file that is named at a place in a scene file: relative to the file that names
+/// it, or, where there is no such file, to the main scene file, which is what pbrt does.
+std::string find_named_file(const std::string& main_file, const Position& at,
+                            const std::string& name);
 
-/// Reads the file that is named at a place in a scene file: relative to the file that names it, or,
-/// where there is none, to the main scene file, which is what pbrt does.
-/// Throws InputError at that place when it cannot be read.
-NamedFile read_named_file(const std::string& main_file, const Position& at,
-                          const std::string& name);
+/// The bytes of the file; throws InputError at the place that names it when it cannot be read.
+std::string read_named_file(const std::string& path, const Position& at);

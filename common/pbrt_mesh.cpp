@@ -13,7 +13,6 @@ std::vector<Vec3> group_by_three(const std::vector<double>& numbers) {
 }
 
 std::vector<uint32_t> read_indices(Params& params, size_t vertices) {
-    const Param* faces = params.find("integer", "faceIndices");
     const Param* param = params.find("integer", "indices");
     if (!param) {
         if (vertices == 3) return {0, 1, 2};
@@ -22,9 +21,6 @@ std::vector<uint32_t> read_indices(Params& params, size_t vertices) {
     if (param->numbers.size() % 3 != 0) {
         fail(param->at, "\"indices\" has " + std::to_string(param->numbers.size()) +
                             " numbers, not a multiple of 3");
-    }
-    if (faces && faces->numbers.size() != param->numbers.size() / 3) {
-        fail(faces->at, "\"faceIndices\" needs one number for each triangle");
     }
     std::vector<uint32_t> indices;
     for (double index : param->numbers) {
@@ -89,6 +85,10 @@ TriangleMesh read_triangle_mesh(Params& params) {
     }
     if (N) mesh.normals = group_by_three(N->numbers);
     mesh.indices = read_indices(params, mesh.positions.size());
+    const Param* faces = params.find("integer", "faceIndices");
+    if (faces && faces->numbers.size() != mesh.indices.size() / 3) {
+        fail(faces->at, "\"faceIndices\" needs one number for each triangle");
+    }
     return mesh;
 }
 

@@ -31,8 +31,8 @@ const ParamType& find_type(const Position& at, const std::string& name) {
         if (type.name == name) return type;
         known.emplace_back(type.name);
     }
-    // Know the names that the third edition of pbrt had.
-    if (name == "color") known = {"rgb"};
+    // Know the names that these had in the third edition of pbrt.
+    if (name == "color") fail(at, "unknown parameter type \"color\": did you mean \"rgb\"?");
     if (name == "point" || name == "vector") known = {name + '3'};
     fail_unknown(at, "parameter type", name, known);
 }

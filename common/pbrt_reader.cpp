@@ -1,5 +1,6 @@
 #include "common/pbrt_reader.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/files.h"
@@ -50,8 +51,14 @@ const std::map<std::string, SceneReader::Directive, std::less<>> SceneReader::di
     {"WorldBegin", {Block::options, &R::world_begin}},
 };
 
+// The one name of a file that has many, such as a/../b.
+static std::string canonical(const std::string& path) {
+    std::error_code none;
+    return std::filesystem::weakly_canonical(path, none).string();
+}
+
 void SceneReader::read(const std::string& path, std::string text) {
-    open_files_.push_back(path);
+    open_files_.push_back(canonical(path));
     Lexer lexer(path, std::move(text));
     for (Token token = lexer.next(); token.type != Token::end; token = lexer.next()) {
         read_directive(lexer, token);
@@ -76,6 +83,7 @@ void SceneReader::read_directive(Lexer& lexer, const Token& word) {
     }
     auto [block, read] = found->second;
     if (!read) fail(at, name + " is not supported");
+    if (name == "WorldBegin" && in_world_) fail(at, "a second WorldBegin");
     if (block == Block::options && in_world_) fail(at, name + " must stand before WorldBegin");
     if (block == Block::world && !in_world_) fail(at, name + " must stand after WorldBegin");
     (this->*read)(lexer, word);
@@ -86,16 +94,14 @@ void SceneReader::include(Lexer& lexer, const Token& word) {
     constexpr int most = 10000;
     Token token = expect_string(lexer, word, "a file name");
     Position at = lexer.at(token);
-    NamedFile file = read_named_file(scene_.file, at, lexer.unescape(token));
-    for (const std::string& open : open_files_) {
-        std::error_code none;
-        if (open == file.path || std::filesystem::equivalent(open, file.path, none)) {
-            fail(at, quote(file.path) + " includes itself");
-        }
+    std::string path = find_named_file(scene_.file, at, lexer.unescape(token));
+    std::string file = canonical(path);
+    if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
+        fail(at, quote(path) + " includes itself");
     }
     if (open_files_.size() > deepest) fail(at, "files include each other more than 100 deep");
     if (++includes_ > most) fail(at, "more than 10000 files are included");
-    read(file.path, std::move(file.bytes));
+    read(path, read_named_file(path, at));
 }
 
 void SceneReader::check_materials() const {

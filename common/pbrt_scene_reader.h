@@ -82,7 +82,7 @@ private:
     State state_;
     std::vector<SavedState> saved_;
     std::map<std::string, NamedMaterial> named_materials_;
-    std::vector<std::string> open_files_;
+    std::vector<std::string> open_files_;  // by their canonical names
     int includes_ = 0;
     bool in_world_ = false, has_camera_ = false, has_filter_ = false;
 };

@@ -131,8 +131,8 @@ void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& no
         const Param* name = params.find_exactly("string", "filename", 1);
         params.finish();
         if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
-        NamedFile file = read_named_file(scene.file, name->at, name->strings[0]);
-        add(parse_ply(file.path, file.bytes));
+        std::string path = find_named_file(scene.file, name->at, name->strings[0]);
+        add(parse_ply(path, read_named_file(path, name->at)));
     } else if (params.type() == "sphere") {
         add_sphere(params, state, scene);
     } else if (params.type() == "disk") {
