@@ -153,8 +153,7 @@ int explain(const Scene& scene, const RenderOptions& options, Trace trace) {
     path.insert(path.end(), log.vertices().begin(), log.vertices().end());
     std::filesystem::path file = options.out[0];
     file.replace_extension(".svg");
-    std::error_code none;  // the write reports it
-    if (file.string().starts_with("out/")) std::filesystem::create_directories("out", none);
+    check_outputs({file.string()}, options.scene);
     write_file_atomically(file.string(), draw(scene, path));
     if (!options.quiet) std::printf("wrote %s\n", file.string().c_str());
     return is_finite(L) ? 0 : 1;

@@ -100,6 +100,21 @@ bool same_file(const std::string& a, const std::string& b) {
     return x.filename() == y.filename() && fs::equivalent(x.parent_path(), y.parent_path(), none);
 }
 
+void check_outputs(const std::vector<std::string>& files, const std::string& input) {
+    for (size_t i = 0; i < files.size(); i++) {
+        std::error_code none;  // check_writable reports it
+        if (files[i].starts_with("out/")) fs::create_directories("out", none);
+        if (same_file(files[i], input)) {
+            throw UsageError("error: '" + files[i] + "' is the input, and would be overwritten");
+        }
+        for (size_t j = 0; j < i; j++) {
+            if (!same_file(files[i], files[j])) continue;
+            throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
+        }
+        check_writable(files[i]);
+    }
+}
+
 std::string read_file(const std::string& path) {
     std::error_code none;
     if (fs::is_directory(path, none)) fail(path, "cannot read", EISDIR);

@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// Writes `bytes` to a new file beside `path` and renames it over `path`: a full disk or a kill
 /// leaves what was there before. A device or pipe is written to directly.
@@ -14,6 +15,11 @@ void check_writable(const std::string& path);
 
 /// Whether both names are of the same file, through links too; it need not exist yet.
 bool same_file(const std::string& a, const std::string& b);
+
+/// Asked before the work whose results are to be written to these files: makes the folder out/ when
+/// one of them is in it, and throws InputError for one that cannot be written, UsageError when two
+/// are the same or one is the input.
+void check_outputs(const std::vector<std::string>& files, const std::string& input = "");
 
 /// The whole file; throws InputError when it is missing, a folder, or larger than 1 GiB.
 std::string read_file(const std::string& path);

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "common/error.h"
+#include "common/files.h"
 #include "common/image.h"
 #include "common/nearest.h"
 #include "common/path_log.h"
@@ -134,5 +135,6 @@ TableOptions parse_table_options(int argc, char** argv, const std::string& name,
                       throw UsageError("error: '" + word + "' is not an option; --help lists them");
                   });
     if (o.out.empty()) o.out = {"out/" + name + ".ppm", "out/" + name + ".tsv"};
+    check_outputs(o.out);
     return o;
 }

@@ -41,5 +41,6 @@ struct TableOptions {
     bool quiet = false;
 };
 
-/// The options of a chapter that prints a table; n is its default number of samples.
+/// The options of a chapter that prints a table; n is its default number of samples. Throws
+/// InputError when an output cannot be written.
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n);

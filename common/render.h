@@ -40,8 +40,8 @@ void prepare(Scene& scene, int threads);
 /// by chance never finds one.
 void refuse_delta_lights(const Scene& scene);
 
-/// Throws InputError when a surface of the scene is a rough conductor, which chapters before 12 have
-/// not got.
+/// Throws InputError when a surface of the scene is a rough conductor, which chapters before 12
+/// have not got.
 void refuse_glossy(const Scene& scene);
 
 /// Renders in passes over the whole picture, until scene.spp samples a pixel, or options.time, or
@@ -52,8 +52,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, Trace tr
 /// writes what the options ask for. Returns the exit code.
 int render(const Scene& scene, const RenderOptions& options, Trace trace);
 
-/// Throws now what writing the results would throw later, for a place that cannot be written to;
-/// and UsageError when two results, or a result and the scene, have the same place.
+/// Throws now what writing the results would throw later; see files.h. Makes the folder of --split.
 void check_outputs(const RenderOptions& options);
 
 /// Writes pictures and statistics, and prints a summary; 1 when a sample was not finite.

@@ -97,15 +97,6 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     for (const std::string& path : options.out) std::printf("wrote %s\n", path.c_str());
 }
 
-// The folder of our own default outputs is made, and that of --split; others must exist.
-void make_folders(const RenderOptions& options) {
-    std::error_code none;  // the write reports it
-    for (const std::string& path : options.out) {
-        if (path.starts_with("out/")) std::filesystem::create_directories("out", none);
-    }
-    if (!options.split.empty()) std::filesystem::create_directories(options.split, none);
-}
-
 void write_classes(const RenderOptions& options, const Rendering& r) {
     for (const auto& [path_class, film] : r.classes) {
         write_image(options.split + "/" + path_class + ".pfm", film.image(), options.command);
@@ -119,24 +110,17 @@ void write_classes(const RenderOptions& options, const Rendering& r) {
 }  // namespace
 
 void check_outputs(const RenderOptions& options) {
-    make_folders(options);
     std::vector<std::string> files = options.out;
     if (!options.stats.empty()) files.push_back(options.stats);
-    for (size_t i = 0; i < files.size(); i++) {
-        if (same_file(files[i], options.scene)) {
-            throw UsageError("error: '" + files[i] + "' is the scene, and would be overwritten");
-        }
-        for (size_t j = 0; j < i; j++) {
-            if (!same_file(files[i], files[j])) continue;
-            throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
-        }
-        check_writable(files[i]);
+    if (!options.split.empty()) {
+        std::error_code none;  // found out below
+        std::filesystem::create_directories(options.split, none);
+        files.push_back(options.split + "/LE.pfm");
     }
-    if (!options.split.empty()) check_writable(options.split + "/LE.pfm");
+    check_outputs(files, options.scene);
 }
 
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    make_folders(options);
     Image image = r.film.image();
     for (const std::string& path : options.out) write_image(path, image, options.command);
     if (!options.split.empty()) write_classes(options, r);
