@@ -218,15 +218,17 @@ LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
 LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
     const LightShape& shape = scene.light_shapes[light];
     if (!(shape.area > 0)) return {};
+    auto by_area = [&] {
+        LightPoint y = sample_area(scene, light, u);
+        y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
+        return y;
+    };
+    if (shape.first.kind != Emitter::sphere && !is_near(shape, x)) return by_area();
     Vec2 v = u;
     uint32_t index = shape.parallelogram ? 0 : choose_by_area(shape, v.x);
     Plan way = plan(scene, light, x, index);
     switch (way.way) {
-        case Way::area: {
-            LightPoint y = sample_area(scene, light, u);
-            y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
-            return y;
-        }
+        case Way::area: return by_area();
         case Way::cone: {
             Vec3 to_centre = way.e.p0 - x;
             Vec3 w = sample_cone(way.sin2, u);
