@@ -1,73 +1,89 @@
-# Path by Path. `make help` lists what there is.
-CXX      ?= g++
-SHELL    := /bin/bash
+# Path by Path. `make help` lists what there is: the lines that start with "#:".
+SHELL     := /bin/bash
 MAKEFLAGS += --no-builtin-rules -j$(shell nproc)
-OPT      ?= -O3 -march=native
-CXXFLAGS := -std=c++20 $(OPT) -ffp-contract=off -pthread -I. \
-            -Wall -Wextra -Wshadow -Wconversion
-B        := build
-ifdef SAN  # make SAN=1 test: the same under the address and undefined-behaviour sanitizers
-OPT      := -O1 -g -march=native -fsanitize=address,undefined -fno-sanitize-recover=all
-B        := build/san
+B         := build
+OPT       := -O3 -march=native
+ifdef SAN
+OPT       := -O1 -g -march=native -fsanitize=address,undefined -fno-sanitize-recover=all
+B         := build/san
 endif
+CXXFLAGS  := -std=c++20 $(OPT) -ffp-contract=off -pthread -I. -Wall -Wextra -Wshadow -Wconversion
 
-chapters := $(notdir $(wildcard chapters/[0-9]*))
-tools    := $(basename $(notdir $(wildcard common/tools/*.cpp)))
-common   := $(patsubst %.cpp,$B/%.o,$(wildcard common/*.cpp))
-tests    := $(patsubst %.cpp,$B/%.o,$(wildcard tests/*.cpp))
-meshes   := $(patsubst scenes/make_%.cpp,scenes/%.ply,$(wildcard scenes/make_*.cpp))
-pictures := $(chapters:%=out/%.png)
+chapters  := $(notdir $(wildcard chapters/[0-9]*))
+numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
+tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
+common    := $(patsubst %.cpp,$B/obj/%.o,$(wildcard common/*.cpp))
+tests     := $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/*.cpp))
+meshes    := $(patsubst scenes/make_%.cpp,scenes/%.ply,$(wildcard scenes/make_*.cpp))
 
-.PHONY: all programs pictures test test-slow help clean $(shell seq -w 01 18)
+.PHONY: all programs test test-slow pictures readmes book diff help clean always $(numbers)
 .SECONDARY:
 .DELETE_ON_ERROR:
+.SECONDEXPANSION:
 
-all: $(pictures)
-	@printf 'The pictures:\n'; printf '  %s\n' $^
-
-programs: $(chapters:%=$B/%) $(tools:%=$B/%) $(meshes)
-
-# One chapter: make 06 builds and runs it.
-$(shell seq -w 01 18): %:
-	@$(MAKE) --no-print-directory $(patsubst chapters/%,$B/%,$(wildcard chapters/$*_*)) $(meshes)
-	$(patsubst chapters/%,$B/%,$(wildcard chapters/$*_*))
-
+#: make              install what is missing, build, and render each chapter's picture into out/
+all: $(chapters:%=out/%.png)
+	@printf 'The pictures:\n'; printf '  %s\n' $^ $(^:.png=.ppm)
 out/%.png: $B/% $(meshes)
 	@mkdir -p out
-	$< --quiet --out out/$*.png --out out/$*.ppm
+	$< --quiet --out $@ --out out/$*.ppm
 
+#: make test         build, and run all tests but the slow ones
 test: $B/tests programs
+	common/tools/fill_readmes --check
 	$B/tests --test-suite-exclude='*slow*'
+#: make test-slow    run the slow ones
 test-slow: $B/tests programs
 	$B/tests --test-suite='*slow*'
 
+#: make 06           build and run one chapter
+$(numbers): %: $$(filter $B/$$*_%,$(chapters:%=$B/%)) $(meshes)
+	$<
+#: make diff CH=07   what a chapter changes of the one before
+diff:
+	@new=$$(ls -d chapters/$(CH)_*) || { echo 'usage: make diff CH=07' >&2; exit 2; }; \
+	 old=$$(ls -d chapters/[0-9]* | grep -B1 -x "$$new" | head -1); \
+	 git --no-pager diff --no-index --color=auto $$old/estimator.h $$new/estimator.h; true
+
+#: make programs     build the programs, and run nothing
+programs: $(chapters:%=$B/%) $(tools:%=$B/%) $(meshes)
 $B/tests: $(tests) $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
-$B/%: $B/chapters/%/main.o $(common)
+$B/%: $B/obj/chapters/%/main.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
-$B/%: $B/common/tools/%.o $(common)
+$B/%: $B/obj/common/tools/%.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
-$B/make_%: $B/scenes/make_%.o $(common)
+$B/make_%: $B/obj/scenes/make_%.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
 scenes/%.ply: $B/make_%
 	$< $@
-$B/%.o: %.cpp | $B/packages
+$B/obj/%.o: %.cpp $B/flags | $B/packages
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) -MMD -MP -c $< -o $@
+-include $(shell find $B/obj -name '*.d' 2>/dev/null)
 
-# The two packages that the programs are compiled with, from Debian when they are missing.
+# Changes when the compiler or its flags do: then all is compiled again.
+$B/flags: always
+	@mkdir -p $B; echo '$(CXX) $(CXXFLAGS)' | cmp -s - $@ || echo '$(CXX) $(CXXFLAGS)' >$@
+# The two libraries that the programs are compiled with, from Debian when they are missing.
 $B/packages:
-	@mkdir -p $B
-	@printf '#include <doctest/doctest.h>\n#include <stb/stb_image_write.h>\n' | \
+	@mkdir -p $B; printf '#include <doctest/doctest.h>\n#include <stb/stb_image_write.h>\n' | \
 	    $(CXX) -x c++ -fsyntax-only - 2>/dev/null || common/tools/install doctest-dev libstb-dev
 	@touch $@
 
-# What a chapter adds to the one before: make diff CH=07
-diff:
-	@old=$$(ls chapters | grep -B1 "^$(CH)_" | head -1); new=$$(ls chapters | grep "^$(CH)_"); \
-	 git --no-pager diff --no-index --color=auto chapters/$$old/estimator.h chapters/$$new/estimator.h; true
-
+#: make pictures     render the small pictures that the READMEs show, by the commands they name
+pictures: programs
+	common/tools/make_pictures $B
+#: make readmes      put code, diffs and what the programs print into the READMEs
+readmes: programs
+	common/tools/fill_readmes
+#: make book         all READMEs as one page: out/book.html
+book:
+	common/tools/make_book out/book.html
+#: make clean        remove all that was built and rendered
 clean:
 	rm -rf build out
-
--include $(shell find $B -name '*.d' 2>/dev/null)
+#: make SAN=1 test   the same under the address and undefined-behaviour sanitizers
+#: make CXX=clang++  the same with another compiler
+help:
+	@sed -n 's/^#: //p' Makefile
