@@ -14,7 +14,7 @@ numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 common    := $(patsubst %.cpp,$B/obj/%.o,$(wildcard common/*.cpp))
 tests     := $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/*.cpp))
-meshes    := $(patsubst scenes/make_%.cpp,scenes/%.ply,$(wildcard scenes/make_*.cpp))
+made      := scenes/knot.ply
 
 .PHONY: all programs test test-slow pictures readmes book diff help clean always $(numbers)
 .SECONDARY:
@@ -24,7 +24,7 @@ meshes    := $(patsubst scenes/make_%.cpp,scenes/%.ply,$(wildcard scenes/make_*.
 #: make              install what is missing, build, and render each chapter's picture into out/
 all: $(chapters:%=out/%.png)
 	@printf 'The pictures:\n'; printf '  %s\n' $^ $(^:.png=.ppm)
-out/%.png: $B/% $(meshes)
+out/%.png: $B/% $(made)
 	@mkdir -p out
 	$< --quiet --out $@ --out out/$*.ppm
 
@@ -37,7 +37,7 @@ test-slow: $B/tests programs
 	$B/tests --test-suite='*slow*'
 
 #: make 06           build and run one chapter
-$(numbers): %: $$(filter $B/$$*_%,$(chapters:%=$B/%)) $(meshes)
+$(numbers): %: $$(filter $B/$$*_%,$(chapters:%=$B/%)) $(made)
 	$<
 #: make diff CH=07   what a chapter changes of the one before
 diff:
@@ -46,7 +46,7 @@ diff:
 	 git --no-pager diff --no-index --color=auto $$old/estimator.h $$new/estimator.h; true
 
 #: make programs     build the programs, and run nothing
-programs: $(chapters:%=$B/%) $(tools:%=$B/%) $(meshes)
+programs: $(chapters:%=$B/%) $(tools:%=$B/%) $(made)
 $B/tests: $(tests) $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
 $B/%: $B/obj/chapters/%/main.o $(common)
@@ -55,7 +55,7 @@ $B/%: $B/obj/common/tools/%.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
 $B/make_%: $B/obj/scenes/make_%.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
-scenes/%.ply: $B/make_%
+$(made): $B/make_$$(basename $$(@F))
 	$< $@
 $B/obj/%.o: %.cpp $B/flags | $B/packages
 	@mkdir -p $(@D)
