@@ -14,7 +14,7 @@ numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 common    := $(patsubst %.cpp,$B/obj/%.o,$(wildcard common/*.cpp))
 tests     := $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/*.cpp))
-made      := scenes/knot.ply
+made      := scenes/knot.ply scenes/thousand-lights.pbrt
 
 .PHONY: all programs test test-slow pictures readmes book diff help clean always $(numbers)
 .SECONDARY:
