@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "common/error.h"
 #include "common/files.h"
 
 struct MalformedCase {
@@ -33,15 +32,4 @@ inline std::vector<MalformedCase> read_malformed_cases(const std::string& path) 
         }
     }
     return cases;
-}
-
-/// What the InputError that `run` throws says; "no error" when it throws none.
-template <class Run>
-std::string message_of(const Run& run) {
-    try {
-        run();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
 }
