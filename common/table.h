@@ -1,6 +1,6 @@
 // Tables of results: aligned for people, tab-separated for programs.
 #pragma once
-#include <chrono>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -28,13 +28,16 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,
                    const Image& picture);
 
-/// Seconds since it was made.
+/// Seconds of processor time since it was made: what else runs on the machine does not count.
 class Stopwatch {
 public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
+    double seconds() const { return now() - start_; }
 
 private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    static double now() {
+        std::timespec t{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    }
+    double start_ = now();
 };

@@ -454,6 +454,13 @@ TEST_SUITE("ch02 Poisson disc") {
         CHECK(std::abs(count.mean() - 64.9) < 1.5);
     }
 
+    TEST_CASE("truth: make_points finds about as many Poisson discs as it was asked for") {
+        RunningStats count;
+        for (uint32_t seed = 0; seed < 50; seed++)
+            count.add(static_cast<double>(ch02::make_points(PointSet::poisson, 100, seed).size()));
+        CHECK(std::abs(count.mean() - 97) < 3);
+    }
+
     TEST_CASE("failure: a radius too large ends with one point, and no radius with none") {
         for (uint32_t seed = 0; seed < 20; seed++) {
             CHECK(ch02::poisson_disc_points(0.7072f, 1000, seed).size() == 1);

@@ -6,9 +6,9 @@ static void add_rows(Table& table, const std::vector<ch03::Experiment>& experime
         Stopwatch watch;
         ch03::Outcome o = ch03::run(e, n, seed);
         table.rows.push_back({e.what, e.density, std::to_string(n), digits(o.stats.mean(), 6),
-                              digits(o.stats.standard_error(), 2),
+                              digits(n < 2 ? NAN : o.stats.standard_error(), 2),
                               digits(o.stats.mean() - e.truth, 2), digits(e.variance),
-                              digits(o.stats.variance()), digits(o.largest_share, 2),
+                              digits(n < 2 ? NAN : o.stats.variance()), digits(o.largest_share, 2),
                               digits(watch.seconds(), 2)});
     }
 }
