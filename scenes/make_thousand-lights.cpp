@@ -14,8 +14,8 @@ constexpr const char* head =
     R"(# A floor with boxes under 1000 square lights that shine downwards, their powers spread evenly in
 # the logarithm from 0.0008 to 8 W. Written by make_thousand-lights.cpp.
 # Shows: how many lights there are must cost nothing, and which of them are asked decides all.
-# True of its picture: the same mean for every way of choosing lights; the noise of a uniform choice
-# is that of one light in twenty, for the rest give next to nothing.
+# True of its picture: no light is seen from its front, so it is black with --max-depth 0. The mean
+# is the same however lights are chosen; chosen all alike, most give next to nothing.
 Film "rgb" "integer xresolution" [256] "integer yresolution" [256]
 PixelFilter "box"
 Sampler "independent" "integer pixelsamples" [64]
@@ -43,7 +43,7 @@ double between(Sampler& sampler, double low, double high) {
 /// A box on the floor, and its grey.
 std::string box(Sampler& sampler, double x, double z) {
     double grey = between(sampler, 0.35, 0.75), side = between(sampler, 0.6, 1.2);
-    double height = between(sampler, 0.5, 2), angle = between(sampler, 0, 90);
+    double height = between(sampler, 0.3, 1), angle = between(sampler, 0, 90);
     std::string box = format(
         "AttributeBegin\n  Material \"diffuse\" \"rgb reflectance\""
         " [%.3f %.3f %.3f]\n",
@@ -59,7 +59,7 @@ std::string box(Sampler& sampler, double x, double z) {
 
 /// A square light; tilted at random, but never so far that the camera sees its front.
 std::string light(Sampler& sampler) {
-    double x = between(sampler, -9, 9), y = between(sampler, 2.3, 3.6), z = between(sampler, -9, 9);
+    double x = between(sampler, -9, 9), y = between(sampler, 1.5, 2.8), z = between(sampler, -9, 9);
     double turn = between(sampler, 0, 360), tilt = between(sampler, 0, 12);
     double half = between(sampler, 0.02, 0.08), warm = between(sampler, 0.75, 1.25);
     double power = 0.0008 * std::pow(1e4, between(sampler, 0, 1));
