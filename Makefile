@@ -48,18 +48,18 @@ diff:
 #: make programs     build the programs, and run nothing
 programs: $(chapters:%=$B/%) $(tools:%=$B/%) $(made)
 $B/tests: $(tests) $(common)
-	$(CXX) $(CXXFLAGS) $^ -o $@
+	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 $B/%: $B/obj/chapters/%/main.o $(common)
-	$(CXX) $(CXXFLAGS) $^ -o $@
+	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 $B/%: $B/obj/common/tools/%.o $(common)
-	$(CXX) $(CXXFLAGS) $^ -o $@
+	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 $B/make_%: $B/obj/scenes/make_%.o $(common)
-	$(CXX) $(CXXFLAGS) $^ -o $@
+	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 $(made): $B/make_$$(basename $$(@F))
 	$< $@
 $B/obj/%.o: %.cpp $B/flags | $B/packages
-	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) -MMD -MP -c $< -o $@
+	@mkdir -p $(@D); echo "compile $<"
+	@$(CXX) $(CXXFLAGS) -MMD -MP -c $< -o $@
 -include $(shell find $B/obj -name '*.d' 2>/dev/null)
 
 # Changes when the compiler or its flags do: then all is compiled again.
