@@ -80,10 +80,11 @@ readmes: programs
 #: make book         all READMEs as one page: out/book.html
 book:
 	common/tools/make_book out/book.html
+include $(wildcard tests/*/rules.mk)
 #: make clean        remove all that was built and rendered
 clean:
 	rm -rf build out
 #: make SAN=1 test   the same under the address and undefined-behaviour sanitizers
 #: make CXX=clang++  the same with another compiler
 help:
-	@sed -n 's/^#: //p' Makefile
+	@sed -n "s/^#: //p" Makefile tests/*/rules.mk
