@@ -27,13 +27,13 @@ struct Bounds {
     void add(Vec3 p) { low = min(low, p), high = max(high, p); }
 };
 
-Bounds bounds_of(const Scene& scene, const std::vector<Vec3>& path) {
+Bounds bounds_of(const Scene& scene, const std::vector<PathVertex>& path) {
     Bounds b;
     for (Vec3 p : scene.geometry.positions) b.add(p);
     for (const Sphere& s : scene.geometry.spheres) {
         b.add(s.c - Vec3{s.r, s.r, s.r}), b.add(s.c + Vec3{s.r, s.r, s.r});
     }
-    for (Vec3 p : path) b.add(p);
+    for (const PathVertex& x : path) b.add(x.p);
     return b;
 }
 
@@ -99,18 +99,21 @@ void draw_scene(Svg& svg, const Projection& view, const Geometry& g) {
     }
 }
 
-std::string draw(const Scene& scene, const std::vector<Vec3>& path) {
+std::string draw(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& path) {
     Bounds b = bounds_of(scene, path);
+    b.add(eye);
     Svg svg;
     for (const Projection& view : {fit("front: x to the right, y up", 0, 1, 0, b),
                                    fit("top: x to the right, z up", 0, 2, panel + 2 * margin, b)}) {
         draw_scene(svg, view, scene.geometry);
-        for (size_t i = 0; i + 1 < path.size(); i++) {
-            svg.line(view, path[i], path[i + 1], "stroke='#c03' stroke-width='2'");
+        for (const PathVertex& x : path) {
+            Vec3 from = x.from < 0 ? eye : path[static_cast<size_t>(x.from)].p;
+            svg.line(view, from, x.p, "stroke='#c03' stroke-width='2'");
         }
-        for (size_t i = 0; i < path.size(); i++) {
-            svg.circle(view, path[i], 3, "fill='#c03'");
-            svg.text(view.x(path[i]) + 5, view.y(path[i]) - 5, i == 0 ? "E" : std::to_string(i));
+        for (size_t i = 0; i <= path.size(); i++) {
+            Vec3 p = i == 0 ? eye : path[i - 1].p;
+            svg.circle(view, p, 3, "fill='#c03'");
+            svg.text(view.x(p) + 5, view.y(p) - 5, i == 0 ? "E" : std::to_string(i));
         }
         svg.text(view.left + margin, panel + 2 * margin + 12, view.title);
     }
@@ -149,12 +152,10 @@ int explain(const Scene& scene, const RenderOptions& options, Trace trace) {
     if (log.paths_cut() > 0) std::printf("    is ended by the depth limit %d\n", scene.max_depth);
     std::printf("L (%.6g, %.6g, %.6g)\n", double{L.r}, double{L.g}, double{L.b});
 
-    std::vector<Vec3> path = {ray.o};
-    path.insert(path.end(), log.vertices().begin(), log.vertices().end());
     std::filesystem::path file = options.out[0];
     file.replace_extension(".svg");
     check_outputs({file.string()}, options.scene);
-    write_file_atomically(file.string(), draw(scene, path));
+    write_file_atomically(file.string(), draw(scene, ray.o, log.vertices()));
     if (!options.quiet) std::printf("wrote %s\n", file.string().c_str());
     return is_finite(L) ? 0 : 1;
 }

@@ -48,11 +48,15 @@ void PathLog::forget() {
     scattered_.clear();
     steps_.clear();
     vertices_.clear();
+    latest_.clear();
     contributions_.clear();
 }
 
 void PathLog::note_vertex(const Hit& x) {
-    vertices_.push_back(x.p);
+    size_t depth = scattered_.size();
+    latest_.resize(depth + 1);
+    latest_[depth] = static_cast<int>(vertices_.size());
+    vertices_.push_back({x.p, depth > 0 ? latest_[depth - 1] : -1});
     if (!keep_steps_) return;
     steps_ += format("vertex %zu  %s at ", vertices_.size(), name(x.material->type)) +
               to_text(x.p) + ", n " + to_text(x.n) +

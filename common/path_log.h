@@ -14,6 +14,12 @@ struct Contribution {
     Rgb L;
 };
 
+/// Where the path went, and the vertex that it came from (-1: the eye).
+struct PathVertex {
+    Vec3 p;
+    int from;
+};
+
 struct ClassFilter;
 
 /// trace() tells a PathLog what it does. Unless someone listens, that costs one untaken branch.
@@ -60,7 +66,7 @@ public:
 
     bool listening() const { return listening_; }
     const std::vector<Contribution>& contributions() const { return contributions_; }
-    const std::vector<Vec3>& vertices() const { return vertices_; }
+    const std::vector<PathVertex>& vertices() const { return vertices_; }
     const std::string& steps() const { return steps_; }
     uint64_t paths_cut() const { return paths_cut_; }
 
@@ -79,7 +85,8 @@ private:
     uint64_t paths_cut_ = 0;
     std::string scattered_;  // D and S of the vertices left so far, the first one last
     std::string steps_;
-    std::vector<Vec3> vertices_;
+    std::vector<PathVertex> vertices_;
+    std::vector<int> latest_;  // vertex for each number of scatterings before it
     std::vector<Contribution> contributions_;
     std::shared_ptr<const ClassFilter> filter_;
     std::vector<std::pair<std::string, bool>> known_classes_;  // what the filter said of them

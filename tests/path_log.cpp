@@ -52,6 +52,24 @@ TEST_SUITE("path log") {
         CHECK(log.contributions().at(1).path_class == "LE");
     }
 
+    TEST_CASE("truth: each vertex knows the one it was reached from, on a tree of paths too") {
+        PathLog log("");
+        log.start();
+        auto meet = [&](float x) {
+            Hit hit{};
+            hit.p = {x, 0, 0};
+            log.vertex(hit);
+        };
+        auto go_on = [&] { log.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1}); };
+        // 1 -> 2 -> 3, back to 2 -> nothing, back to 1 -> 4 -> 5
+        meet(1), go_on(), meet(2), go_on(), meet(3), log.step_back();
+        go_on(), log.step_back(), log.step_back(), go_on(), meet(4), go_on(), meet(5);
+        std::vector<int> from;
+        for (const PathVertex& x : log.vertices()) from.push_back(x.from);
+        CHECK(from == std::vector<int>{-1, 0, 1, 0, 3});
+        CHECK(log.vertices()[4].p == Vec3{5, 0, 0});
+    }
+
     TEST_CASE("identity: a log that does not listen returns all and keeps nothing") {
         PathLog log;
         CHECK(found_after(log, "DSDS") == Rgb{1, 1, 1});
