@@ -340,6 +340,12 @@ TEST_SUITE("ch03 integrals") {
         }
     }
 
+    TEST_CASE("identity: of N equal samples each has the share 1/N of the squares") {
+        Experiment e = find(ch03::integrals(), "x^-1/2", "1/(2 sqrt x)");
+        CHECK(ch03::run(e, 1000, 1).largest_share == 0.001);
+        CHECK(ch03::run(e, 1, 1).largest_share == 1);
+    }
+
     TEST_CASE("teeth: a density that does not integrate to 1 is seen at once") {
         Density wrong = ch03::linear;
         wrong.pdf = [](double x) { return 1.02 * 2 * x; };
