@@ -2,6 +2,10 @@
 SHELL     := /bin/bash
 MAKEFLAGS += --no-builtin-rules -j$(shell nproc)
 B         := build
+ifneq ($(filter 0% 1%,$B),)  # make compare A=08 B=09: a chapter, not the folder to build in
+second    := $B
+override B := build
+endif
 OPT       := -O3 -march=native
 ifdef SAN
 OPT       := -O1 -g -march=native -fsanitize=address,undefined -fno-sanitize-recover=all
@@ -81,6 +85,7 @@ readmes: programs
 book:
 	common/tools/make_book out/book.html
 include $(wildcard tests/*/rules.mk)
+
 #: make clean        remove all that was built and rendered
 clean:
 	rm -rf build out

@@ -8,6 +8,8 @@
 #include "common/film.h"
 #include "common/merging.h"
 #include "common/sampler.h"
+#include "tests/measure/agreement.h"
+#include "tests/measure/spread.h"
 
 namespace {
 
@@ -190,5 +192,83 @@ TEST_SUITE("merging") {
         CHECK(!stats.number("none"));
         CHECK(!stats.number("b"));
         CHECK(stats.numbers("list") == std::vector<double>{1, 2.5, 3});
+    }
+}
+
+TEST_SUITE("measuring") {
+    TEST_CASE("truth: relMSE from the spread of renders") {
+        // Two pixels: one of mean 2 and variance 1/2, one of mean 0.
+        Image a(2, 1), b(2, 1);
+        a.pixels = {{1.5f, 1.5f, 1.5f}, {0, 0, 0}};
+        b.pixels = {{2.5f, 2.5f, 2.5f}, {0, 0, 0}};
+        Spread spread;
+        spread.add(a);
+        spread.add(b);
+        CHECK(spread.mean().pixels[0] == Rgb{2, 2, 2});
+        CHECK(spread.rel_mse(spread.mean()) ==
+              doctest::Approx(0.5 / 4.01 / 2).epsilon(1e-12).scale(0));
+        // One bright and rare pixel: a better mean makes it count for what it is.
+        CHECK(spread.rel_mse(grey(2, 1, 0)) == doctest::Approx(25).epsilon(1e-6).scale(0));
+    }
+
+    TEST_CASE("truth: relMSE of noise falls like 1 / spp") {
+        for (float sigma : {0.2f, 0.1f}) {
+            Spread spread;
+            for (uint32_t run = 0; run < 16; run++) spread.add(noisy(grey(64, 64, 1), sigma, run));
+            double expected = static_cast<double>(sigma * sigma) / 1.01;
+            CHECK(spread.rel_mse(grey(64, 64, 1)) ==
+                  doctest::Approx(expected).epsilon(0.03).scale(0));
+        }
+    }
+
+    TEST_CASE("identity: the median of odd and even many numbers") {
+        CHECK(median({3, 1, 2}) == 2);
+        CHECK(median({4, 1, 3, 2}) == 2.5);
+        CHECK(std::isnan(median({})));
+    }
+
+    TEST_CASE("truth: mean, standard error and skewness of batches") {
+        Estimate e = estimate_of({1, 2, 3, 6});
+        CHECK(e.mean == 3);
+        CHECK(e.se == doctest::Approx(std::sqrt(14.0 / 3 / 4)).epsilon(1e-9).scale(0));
+        CHECK(e.skewness == doctest::Approx(4.5 / std::pow(3.5, 1.5)).epsilon(1e-12).scale(0));
+        CHECK(e.reliable());
+        // One lucky batch of many.
+        std::vector<double> rare(64, 0.0);
+        rare[17] = 1;
+        CHECK(!estimate_of(rare).reliable());
+        CHECK(!estimate_of(std::vector<double>(64, 0.0)).reliable());
+        // No noise at all is exact up to rounding.
+        Estimate exact = estimate_of(std::vector<double>(64, 0.8));
+        CHECK(exact.reliable());
+        CHECK(exact.se == doctest::Approx(0.8e-6).epsilon(1e-9).scale(0));
+    }
+
+    TEST_CASE("truth: z of three estimates") {
+        // The others: (1/4 * 10 + 1 * 12) / (5/4), with variance 4/5.
+        std::vector<Estimate> e = {{13, 1, 0}, {10, 2, 0}, {12, 1, 0}, {99, 0.1, 5}};
+        Verdict v = judge(e, 0);
+        CHECK(v.known);
+        CHECK(v.others_mean == doctest::Approx(11.6).epsilon(1e-12).scale(0));
+        CHECK(v.z == doctest::Approx(1.4 / std::sqrt(1.8)).epsilon(1e-12).scale(0));
+        CHECK(!judge(e, 3).known);                       // too few lucky samples
+        CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);  // nothing to hold it against
+    }
+
+    TEST_CASE("teeth: a bias of ten standard errors is seen, and in the right method") {
+        std::vector<Estimate> e;
+        for (uint32_t method = 0; method < 6; method++) {
+            std::vector<double> values;
+            Sampler sampler(SamplerType::independent, method, 1);
+            for (uint32_t batch = 0; batch < 64; batch++) {
+                sampler.start(0, batch);
+                values.push_back(static_cast<double>(sampler.u1()) + (method == 3 ? 0.36 : 0));
+            }
+            e.push_back(estimate_of(values));  // of standard error 0.036
+        }
+        for (size_t i = 0; i < e.size(); i++) {
+            CHECK(judge(e, i).known);
+            CHECK((std::abs(judge(e, i).z) > 5) == (i == 3));
+        }
     }
 }

@@ -1,0 +1,229 @@
+// Do all methods say the same? In total, block by block, for each path length and class of path.
+#include <cstdio>
+#include <map>
+
+#include "common/error.h"
+#include "tests/measure/agreement.h"
+#include "tests/measure/gnuplot.h"
+#include "tests/measure/measure.h"
+
+namespace {
+
+/// The values of each quantity, batch by batch: "total", "block 16,32", "length 2", "class LDE".
+using Batches = std::map<std::string, std::vector<double>>;
+
+constexpr int block = 16;  // pixels
+const std::vector<std::string> kinds = {"total", "block", "length", "class"};
+
+double block_mean(const Image& image, int x0, int y0) {
+    RunningStats mean;
+    for (int y = y0; y < std::min(image.height, y0 + block); y++) {
+        for (int x = x0; x < std::min(image.width, x0 + block); x++) {
+            mean.add(static_cast<double>(average(image.at(x, y))));
+        }
+    }
+    return mean.mean();
+}
+
+void add_batch(const Rendering& r, size_t batch, size_t count, Batches& batches) {
+    auto at = [&](const std::string& key) -> double& {
+        std::vector<double>& values = batches[key];
+        values.resize(count);
+        return values[batch];
+    };
+    at("total") = r.film.mean();
+    Image image = r.film.image();
+    for (int y = 0; y < image.height; y += block) {
+        for (int x = 0; x < image.width; x += block) {
+            at("block " + std::to_string(x) + "," + std::to_string(y)) = block_mean(image, x, y);
+        }
+    }
+    for (const auto& [path_class, film] : r.classes) {
+        bool is_long = path_class == "longer";
+        std::string length = is_long ? path_class : std::to_string(path_class.size() - 2);
+        at("class " + path_class) += film.mean();
+        at("length " + length) += film.mean();
+    }
+}
+
+/// Renders `runs` batches, in about `seconds` together.
+Batches measure(const Method& method, size_t index, Scene& scene, const MeasureOptions& o,
+                double seconds) {
+    auto seed = [&](int run) {
+        return static_cast<uint32_t>(1000 * index) + static_cast<uint32_t>(run);
+    };
+    constexpr int trial = 16;
+    Stopwatch watch;
+    render_once(method, scene, o, trial, seed(999), true);
+    int spp = static_cast<int>(trial * seconds * o.threads / o.runs / watch.seconds());
+    Batches batches;
+    for (int run = 0; run < o.runs; run++) {
+        Rendering r = render_once(method, scene, o, std::max(1, spp), seed(run), true);
+        add_batch(r, static_cast<size_t>(run), static_cast<size_t>(o.runs), batches);
+    }
+    return batches;
+}
+
+/// What one method found on a scene.
+struct Column {
+    const Method* method;
+    Batches batches;
+    std::map<std::string, double> worst = {};  // |z| by kind
+    double z_total = NAN, relative_se = NAN;
+};
+struct SceneResult {
+    std::string scene;
+    std::vector<Column> columns;  // of the methods that can render it
+};
+
+/// Judges one quantity of one method: a row of the details, and a line where it fails.
+void judge_one(const std::string& scene, const std::string& key, Column& c, const Estimate& e,
+               const Verdict& v, Table& details, std::string& failures) {
+    if (key == "total") {
+        c.relative_se = e.se / e.mean;
+        if (v.known) c.z_total = v.z;
+    }
+    auto known = [&](double x, int significant) { return v.known ? digits(x, significant) : "-"; };
+    details.rows.push_back({scene, c.method->name, key, digits(e.mean, 6), digits(e.se, 3),
+                            known(v.others_mean, 6), known(v.others_se, 3),
+                            v.known ? digits(v.z, 3) : "too few lucky samples"});
+    if (!v.known) return;
+    double& worst = c.worst[key.substr(0, key.find(' '))];
+    worst = std::max(worst, std::abs(v.z));
+    if (std::abs(v.z) <= 5) return;
+    const std::vector<std::string>& row = details.rows.back();
+    failures += scene + ", chapter " + row[1] + ", " + key + ": " + row[3] + " +- " + row[4] +
+                ", the others " + row[5] + " +- " + row[6] + ", z " + row[7] + "\n";
+}
+
+void judge_scene(SceneResult& result, Table& details, std::string& failures) {
+    Batches all;
+    for (const Column& c : result.columns) all.insert(c.batches.begin(), c.batches.end());
+    for (const auto& [key, unused] : all) {
+        std::vector<Estimate> estimates;
+        for (const Column& c : result.columns) {
+            auto found = c.batches.find(key);
+            estimates.push_back(found == c.batches.end() ? Estimate{} : estimate_of(found->second));
+        }
+        for (size_t i = 0; i < estimates.size(); i++) {
+            judge_one(result.scene, key, result.columns[i], estimates[i], judge(estimates, i),
+                      details, failures);
+        }
+    }
+}
+
+std::string cell(const Column& c) {
+    double worst = 0;
+    for (const auto& [kind, z] : c.worst) worst = std::max(worst, z);
+    char text[64];
+    std::snprintf(text, sizeof text, "%+.1f %4.1f", c.z_total, worst);
+    return std::isnan(c.z_total) ? "?" : text + std::string(c.relative_se > 0.01 ? "*" : " ");
+}
+
+Table matrix_of(const std::vector<SceneResult>& results, const std::vector<Method>& methods) {
+    Table matrix{{"scene"}, {}};
+    for (const Method& m : methods) matrix.columns.push_back(m.name);
+    for (const SceneResult& result : results) {
+        matrix.rows.push_back({result.scene});
+        for (const Method& m : methods) {
+            std::string text = "-";
+            for (const Column& c : result.columns) {
+                if (c.method->name == m.name) text = cell(c);
+            }
+            matrix.rows.back().push_back(text);
+        }
+    }
+    return matrix;
+}
+
+/// Rows: scenes. Columns: methods, each with its four kinds.
+void draw(const std::string& path, const std::vector<SceneResult>& results,
+          const std::vector<Method>& methods) {
+    std::string data, x_labels, y_labels;
+    for (size_t m = 0; m < methods.size(); m++) {
+        std::string x = std::to_string(5 * m);
+        x_labels += (m ? ", " : "") + quoted_for_gnuplot(methods[m].name) + " " + x + ".5 + 1";
+        for (size_t s = 0; s < results.size(); s++) {
+            for (const Column& c : results[s].columns) {
+                if (c.method->name != methods[m].name) continue;
+                for (size_t k = 0; k < kinds.size(); k++) {
+                    auto found = c.worst.find(kinds[k]);
+                    if (found == c.worst.end()) continue;
+                    data += std::to_string(5 * m + k) + " " + std::to_string(s) + " " +
+                            digits(found->second) + "\n";
+                }
+            }
+        }
+    }
+    for (size_t s = 0; s < results.size(); s++) {
+        y_labels +=
+            (s ? ", " : "") + quoted_for_gnuplot(results[s].scene) + " " + std::to_string(s);
+    }
+    std::string script = "$data << EOD\n" + data +
+                         R"(EOD
+set title 'Largest |z| of each chapter against all others: total, blocks, lengths, classes'
+set xlabel 'chapter'
+set cbrange [0:6]
+set cblabel '|z|, beyond 5 fails'
+set palette defined (0 '#f0f6fc', 2 '#9ecae1', 3.5 '#3182bd', 5 '#08306b', 5.001 '#d62728', 6 '#d62728')
+set style fill solid
+unset key
+)"
+                         "set xtics (" +
+                         x_labels + ") scale 0\nset ytics (" + y_labels +
+                         ") scale 0\nset xrange [-1:" + std::to_string(5 * methods.size() - 1) +
+                         "]\nset yrange [" + std::to_string(results.size()) + "-0.5:-0.5]\n" +
+                         "plot $data using 1:2:(0.45):(0.42):3 with boxxyerror palette linewidth 0";
+    draw_chart(path, script, 1100, 160 + 24 * static_cast<int>(results.size()));
+}
+
+/// Measures one scene with every method that can render it, and judges.
+SceneResult agree_on(const std::string& path, const std::vector<Method>& methods,
+                     const MeasureOptions& o, double cell_seconds) {
+    Scene scene = load_scene_for(path, o);
+    SceneResult result{scene_name(path), {}};
+    for (size_t m = 0; m < methods.size(); m++) {
+        auto prepared = prepared_for(methods[m], scene);
+        if (!prepared) continue;
+        result.columns.push_back({&methods[m], measure(methods[m], m, *prepared, o, cell_seconds)});
+    }
+    return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        MeasureOptions o = parse_measure_options(
+            argc, argv, "[SCENE...]",
+            "z values of every method against all others, on every scene: in total, in blocks of "
+            "16x16 pixels, for each path length and each class of path. Beyond 5 it fails.",
+            {.spp = 0, .runs = 64, .width = 64, .height = 64, .seconds = 300});
+        if (o.words.empty()) o.words = all_scenes();
+        if (o.methods.empty()) o.methods = {"all", "12-bsdf", "12-light"};
+        std::vector<Method> methods = methods_named(o.methods);
+        std::vector<SceneResult> results;
+        Table details{{"scene", "chapter", "quantity", "mean", "standard error", "mean of others",
+                       "standard error of others", "z"},
+                      {}};
+        std::string failures;
+        double cell_seconds = o.seconds / static_cast<double>(o.words.size() * methods.size());
+        for (const std::string& word : o.words) {
+            try {
+                results.push_back(agree_on(find_scene(word), methods, o, cell_seconds));
+            } catch (const InputError& e) {
+                std::printf("left out: %s\n", e.what());
+                continue;
+            }
+            judge_scene(results.back(), details, failures);
+        }
+        std::printf("%s", aligned(matrix_of(results, methods)).c_str());
+        std::printf(
+            "z of the image mean, then the largest |z| of blocks, lengths and classes.\n"
+            "*: its standard error is above 1 %% of the mean; ?: too few lucky samples.\n%s",
+            failures.c_str());
+        write_table(o.out, "agree", details);
+        draw(o.out + "/agree", results, methods);
+        return failures.empty() ? 0 : 1;
+    });
+}

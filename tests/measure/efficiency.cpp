@@ -1,0 +1,107 @@
+// Chapter against chapter: variance at equal samples, time, and both in one number.
+#include <cstdio>
+
+#include "tests/measure/measure.h"
+
+namespace {
+
+/// A method on a scene: all its renders.
+struct Contender {
+    const Method* method;
+    Scene scene;
+    Spread spread;
+    std::vector<double> seconds;
+    double rel_mse = 0;  // of one render of options.spp samples
+    double efficiency() const { return 1 / (rel_mse * median(seconds)); }
+};
+
+/// Renders by turns, so that what else the machine does slows all of them alike.
+std::vector<Contender> run(const std::string& path, const std::vector<Method>& methods,
+                           const MeasureOptions& o) {
+    Scene scene = load_scene_for(path, o);
+    std::vector<Contender> contenders;
+    for (const Method& method : methods) {
+        if (auto prepared = prepared_for(method, scene)) {
+            contenders.push_back({&method, std::move(*prepared), {}, {}});
+        }
+    }
+    for (int run = 0; run < o.runs; run++) {
+        for (Contender& c : contenders) {
+            Rendering r = render_once(*c.method, c.scene, o, o.spp, static_cast<uint32_t>(run));
+            c.spread.add(r.film.image());
+            c.seconds.push_back(r.stats.seconds);
+        }
+    }
+
+    // Hold all of them against the mean of the quietest.
+    Image best;
+    double least = INFINITY;
+    for (Contender& c : contenders) {
+        Image mean = c.spread.mean();
+        double own = c.spread.rel_mse(mean);
+        if (own < least) least = own, best = mean;
+    }
+    for (Contender& c : contenders) c.rel_mse = c.spread.rel_mse(best);
+    return contenders;
+}
+
+Table table_of(const std::string& scene, const std::vector<Contender>& contenders,
+               const MeasureOptions& o) {
+    const Contender& first = contenders[0];
+    Table table{
+        {scene, "relMSE", "seconds", "M samples/s", "efficiency", "times " + first.method->name},
+        {}};
+    for (const Contender& c : contenders) {
+        double seconds = median(c.seconds);
+        double samples = double(c.scene.width) * c.scene.height * o.spp;
+        table.rows.push_back({c.method->label, short_number(c.rel_mse), short_number(seconds),
+                              short_number(samples / seconds / 1e6), short_number(c.efficiency()),
+                              short_number(c.efficiency() / first.efficiency())});
+    }
+    return table;
+}
+
+/// A chapter's number stands for the chapter before, it and its variants, on its scenes.
+void expand_chapter(MeasureOptions& o) {
+    if (o.words.size() != 1 || o.words[0].size() != 2) return;
+    std::string before;
+    for (const Method& m : all_methods()) {
+        if (m.name < o.words[0] && !is_variant(m)) before = m.name;
+    }
+    Method chapter = methods_named({o.words[0]})[0];
+    if (o.methods.empty()) {
+        if (!before.empty()) o.methods.push_back(before);
+        o.methods.push_back(chapter.name + "+");
+    }
+    o.words = chapter.scenes;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        MeasureOptions o = parse_measure_options(
+            argc, argv, "CHAPTER|SCENE...",
+            "Variance at equal samples, time, and efficiency 1 / (relMSE seconds), of several "
+            "methods. A chapter's number stands for the chapter before, it and its variants, on "
+            "its scenes.",
+            {.methods = {}, .spp = 64, .runs = 8, .width = 256, .height = 256});
+        expand_chapter(o);
+        if (o.words.empty()) o.words = {"cornell"};
+        if (o.methods.empty()) o.methods = {"all"};
+        std::vector<Method> methods = methods_named(o.methods);
+        std::printf("%dx%d pixels, %d spp, %d renders each, %d threads\n", o.width, o.height, o.spp,
+                    o.runs, o.threads);
+        for (const std::string& word : o.words) {
+            std::string path = find_scene(word), name = scene_name(path);
+            std::vector<Contender> contenders = run(path, methods, o);
+            if (contenders.empty()) continue;
+            Table table = table_of(name, contenders, o);
+            std::printf("\n%s", markdown(table).c_str());
+            std::fflush(stdout);
+            std::replace(name.begin(), name.end(), '/', '-');
+            write_table(o.out, "efficiency-" + name, table);
+        }
+        return 0;
+    });
+}

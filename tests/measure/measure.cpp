@@ -1,0 +1,118 @@
+#include "tests/measure/measure.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <sstream>
+#include <thread>
+
+#include "common/error.h"
+#include "common/files.h"
+#include "common/pbrt_reader.h"
+
+namespace {
+
+std::vector<std::string> split_list(const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream stream(text);
+    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+    return words;
+}
+
+}  // namespace
+
+MeasureOptions parse_measure_options(int argc, char** argv, const std::string& positional,
+                                     const std::string& about, MeasureOptions defaults,
+                                     std::vector<Option> extra) {
+    MeasureOptions o = defaults;
+    auto integer = [](const char* name, int& value, int low, int high) {
+        return [=, &value](const std::string& text) {
+            value = static_cast<int>(parse_integer(name, text, low, high));
+        };
+    };
+    std::vector<Option> options = {
+        {"methods", "A,B", "such as 08,12; 12+: chapter 12 and its variants; all: every chapter",
+         [&](const std::string& text) { o.methods = split_list(text); }},
+        {"spp", "N", "samples per pixel (default " + std::to_string(o.spp) + ")",
+         integer("spp", o.spp, 1, 1 << 30)},
+        {"runs", "R", "renders with seeds of their own (default " + std::to_string(o.runs) + ")",
+         integer("runs", o.runs, 2, 100000)},
+        {"size", "WxH", "pixels (default: as the scene says)",
+         [&](const std::string& text) {
+             std::smatch match;
+             if (!std::regex_match(text, match, std::regex("(\\d{1,5})x(\\d{1,5})"))) {
+                 fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
+             }
+             o.width = std::stoi(match[1]), o.height = std::stoi(match[2]);
+         }},
+        {"max-depth", "D", "scattering events (default: as the scene says)",
+         integer("max-depth", o.max_depth, 0, 1 << 30)},
+        {"threads", "T", "default: one for each processor", integer("threads", o.threads, 1, 1024)},
+        {"sampler", "KIND", "independent (default), stratified or sobol",
+         [&](const std::string& text) {
+             o.sampler = static_cast<SamplerType>(
+                 parse_choice("sampler", text, {"independent", "stratified", "sobol"}));
+         }},
+        {"seconds", "S", "time to spend (default " + digits(o.seconds) + ")",
+         [&](const std::string& text) { o.seconds = parse_positive("seconds", text); }},
+        {"out", "DIR", "where tables and charts go (default " + o.out + ")",
+         [&](const std::string& text) { o.out = text; }},
+    };
+    options.insert(options.begin(), extra.begin(), extra.end());
+    parse_options(argc, argv, positional, about, options,
+                  [&](const std::string& word) { o.words.push_back(word); });
+    if (o.threads == 0) {
+        o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    }
+    return o;
+}
+
+Scene load_scene_for(const std::string& path, const MeasureOptions& options) {
+    Scene scene = load_scene(path, nullptr);
+    if (options.width > 0) scene.width = options.width, scene.height = options.height;
+    if (options.max_depth >= 0) scene.max_depth = options.max_depth;
+    prepare(scene, options.threads);
+    return scene;
+}
+
+Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& options, int spp,
+                      uint32_t seed, bool classes) {
+    RenderOptions o;
+    o.name = method.name;
+    o.threads = options.threads;
+    o.sampler = options.sampler;
+    o.seed = seed;
+    o.quiet = true;
+    if (classes) o.split = "in memory";
+    scene.spp = spp;
+    Rendering r = method.render(scene, o);
+    if (r.stats.interrupted) throw InputError("error: interrupted");
+    return r;
+}
+
+void write_table(const std::string& folder, const std::string& name, const Table& table) {
+    std::filesystem::create_directories(folder);
+    write_file_atomically(folder + "/" + name + ".tsv", tab_separated(table));
+}
+
+std::string short_number(double x) {
+    char text[64];
+    std::snprintf(text, sizeof text, std::abs(x) >= 100 && std::abs(x) < 1e7 ? "%.0f" : "%.3g", x);
+    return text;
+}
+
+std::string markdown(const Table& table) {
+    // Pad the first column here; the bars then belong to the cells that are aligned.
+    Table barred = table;
+    barred.rows.insert(barred.rows.begin(), std::vector<std::string>(table.columns.size(), "--:"));
+    barred.rows[0][0] = "---";
+    size_t width = table.columns[0].size();
+    for (const auto& row : barred.rows) width = std::max(width, row[0].size());
+    auto add_bars = [&](std::vector<std::string>& cells) {
+        cells[0] = "| " + cells[0] + std::string(width - cells[0].size(), ' ');
+        for (std::string& cell : cells) cell += " |";
+    };
+    add_bars(barred.columns);
+    for (auto& row : barred.rows) add_bars(row);
+    return aligned(barred);
+}

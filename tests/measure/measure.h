@@ -1,0 +1,44 @@
+// What the measuring programs share: their options, renders with different seeds, and what the
+// spread of those says.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common/command_line.h"
+#include "common/table.h"
+#include "tests/measure/methods.h"
+#include "tests/measure/spread.h"
+
+/// What all measuring programs understand; each has its own defaults.
+struct MeasureOptions {
+    std::vector<std::string> words = {};    // on the command line: scenes, or a chapter
+    std::vector<std::string> methods = {};  // names; empty: the program's choice
+    int spp = 64, runs = 8;
+    int width = 0, height = 0;  // 0: as the scene says
+    int max_depth = -1;         // -1: as the scene says
+    int threads = 0;            // 0: one for each processor
+    SamplerType sampler = SamplerType::independent;
+    double seconds = 0;       // s, of the program's choice
+    std::string out = "out";  // folder for tables and charts
+};
+
+/// Reads the command line over `defaults`.
+MeasureOptions parse_measure_options(int argc, char** argv, const std::string& positional,
+                                     const std::string& about, MeasureOptions defaults,
+                                     std::vector<Option> extra = {});
+
+/// The scene of this path at the size and depth of the options, ready but for Method::prepare.
+Scene load_scene_for(const std::string& path, const MeasureOptions& options);
+
+/// One render of a prepared scene; `classes`: with the films of the classes of path.
+Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& options, int spp,
+                      uint32_t seed, bool classes = false);
+
+/// Writes the table to FOLDER/NAME.tsv, and makes the folder.
+void write_table(const std::string& folder, const std::string& name, const Table& table);
+
+/// x with three significant digits, without an exponent where that is short.
+std::string short_number(double x);
+
+/// The table in Markdown, its columns aligned so that it reads as plain text too.
+std::string markdown(const Table& table);

@@ -1,0 +1,10 @@
+#include "chapters/07_russian_roulette/estimator.h"
+#include "tests/measure/methods.h"
+
+[[maybe_unused]] static const bool added =
+    add_method({.name = "07",
+                .label = "07 Russian roulette",
+                .color = "#8c564b",
+                .scenes = {"cornell", "closed-sphere"},
+                .refuse = {refuse_glossy, refuse_delta_lights},
+                .render = by_trace(ch07::trace)});

@@ -1,0 +1,17 @@
+#include "chapters/08_light_sampling/estimator.h"
+#include "tests/measure/methods.h"
+
+using ch08::LightMeasure, ch08::light_measure;
+
+static bool add(const char* name, const char* label, const char* color, LightMeasure measure) {
+    return add_method({.name = name,
+                       .label = label,
+                       .color = color,
+                       .scenes = {"cornell", "near-light", "near-disk"},
+                       .refuse = {refuse_glossy},
+                       .render = by_trace(ch08::trace, [=] { light_measure = measure; })});
+}
+[[maybe_unused]] static const bool added[] = {
+    add("08", "08 light sampling", "#1f77b4", LightMeasure::solid_angle),
+    add("08-area", "08 lights by area", "#9ecae1", LightMeasure::area),
+};

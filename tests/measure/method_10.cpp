@@ -1,0 +1,11 @@
+#include "chapters/10_light_importance/estimator.h"
+#include "tests/measure/methods.h"
+
+[[maybe_unused]] static const bool added =
+    add_method({.name = "10",
+                .label = "10 light importance",
+                .color = "#2ca02c",
+                .scenes = {"thousand-lights", "two-lights", "far-and-near"},
+                .refuse = {refuse_glossy},
+                .prepare = ch10::prepare,
+                .render = by_trace(ch10::trace)});

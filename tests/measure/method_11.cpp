@@ -1,0 +1,17 @@
+#include "chapters/11_ris/estimator.h"
+#include "tests/measure/methods.h"
+
+static bool add(const char* name, const char* label, const char* color, int M) {
+    return add_method({.name = name,
+                       .label = label,
+                       .color = color,
+                       .scenes = {"thousand-lights", "hidden-light"},
+                       .refuse = {refuse_glossy},
+                       .prepare = ch11::prepare,
+                       .render = by_trace(ch11::trace, [=] { ch11::M = M; })});
+}
+[[maybe_unused]] static const bool added[] = {
+    add("11", "11 RIS, M = 8", "#ff7f0e", 8),
+    add("11-m2", "11 RIS, M = 2", "#fdae6b", 2),
+    add("11-m32", "11 RIS, M = 32", "#a63603", 32),
+};

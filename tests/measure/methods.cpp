@@ -1,0 +1,93 @@
+#include "tests/measure/methods.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/error.h"
+#include "common/nearest.h"
+
+namespace {
+
+std::vector<Method>& registry() {
+    static std::vector<Method> methods;
+    return methods;
+}
+
+}  // namespace
+
+bool add_method(Method method) {
+    auto& methods = registry();
+    auto before = [](const Method& a, const Method& b) { return a.name < b.name; };
+    methods.insert(std::upper_bound(methods.begin(), methods.end(), method, before), method);
+    return true;
+}
+
+const std::vector<Method>& all_methods() { return registry(); }
+
+std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
+    Trace trace, std::function<void()> set_up) {
+    return [=](const Scene& scene, const RenderOptions& options) {
+        if (set_up) set_up();
+        return render_film(scene, options, trace);
+    };
+}
+
+std::vector<Method> methods_named(const std::vector<std::string>& names) {
+    std::vector<Method> found;
+    std::vector<std::string> known;
+    for (const Method& m : all_methods()) known.push_back(m.name);
+    for (const std::string& name : names) {
+        size_t before = found.size();
+        for (const Method& m : all_methods()) {
+            bool plus = name.size() == 3 && name[2] == '+';
+            bool wanted = plus            ? m.name.substr(0, 2) == name.substr(0, 2)
+                          : name == "all" ? !is_variant(m)
+                                          : m.name == name;
+            if (wanted) found.push_back(m);
+        }
+        if (found.size() == before) parse_choice("methods", name, known);
+    }
+    return found;
+}
+
+std::optional<Scene> prepared_for(const Method& method, const Scene& scene) {
+    try {
+        for (auto refuse : method.refuse) refuse(scene);
+    } catch (const InputError&) {
+        return {};
+    }
+    Scene prepared = scene;
+    if (method.prepare) method.prepare(prepared);
+    return prepared;
+}
+
+std::vector<std::string> all_scenes() {
+    std::vector<std::string> scenes;
+    for (const char* folder : {"scenes", "tests/references"}) {
+        std::vector<std::string> here;
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            if (entry.path().extension() == ".pbrt") here.push_back(entry.path().string());
+        }
+        std::sort(here.begin(), here.end());
+        scenes.insert(scenes.end(), here.begin(), here.end());
+    }
+    return scenes;
+}
+
+std::string scene_name(const std::string& path) {
+    std::filesystem::path p(path);
+    std::string folder = p.parent_path().filename().string();
+    return (folder == "scenes" ? "" : folder + "/") + p.stem().string();
+}
+
+std::string find_scene(const std::string& name) {
+    if (std::filesystem::exists(name)) return name;
+    std::vector<std::string> known;
+    for (const std::string& path : all_scenes()) {
+        known.push_back(scene_name(path));
+        if (known.back() == name) return path;
+    }
+    std::string nearest = nearest_word(name, known);
+    throw UsageError("error: no scene '" + name + "'" +
+                     (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
+}

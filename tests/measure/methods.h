@@ -1,0 +1,55 @@
+// The ways to render a scene that the measuring programs know, each with one name, one colour and
+// one label everywhere.
+//
+// A chapter joins by a file method_NN.cpp of its own, which hands add_method() what is below; no
+// other file changes. (A file of its own, because what chapter NN teaches is in common/ later under
+// the same name, and overloads of both would be ambiguous.) `render` makes the whole film, so that
+// a chapter may also splat, share its samples out, or begin with photons; for a plain trace() it is
+// by_trace(). The film is unbiased for any seed, spp and threads of the options, and with
+// options.split it gives the films of the classes as well.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/render.h"
+
+struct Method {
+    std::string name;                      // "08"; with an option of the chapter, "08-area"
+    std::string label = {};                // in legends
+    std::string color = {};                // "#rrggbb"
+    std::vector<std::string> scenes = {};  // what its chapter is about, for make efficiency
+    std::vector<void (*)(const Scene&)> refuse = {};  // throw InputError for what it cannot render
+    std::function<void(Scene&)> prepare = {};         // of the chapter; may be empty
+    std::function<Rendering(const Scene&, const RenderOptions&)> render = {};
+};
+
+/// Whether the method is a chapter with an option, and not the chapter as it is.
+inline bool is_variant(const Method& method) { return method.name.size() > 2; }
+
+/// Adds to all_methods(); returns true.
+bool add_method(Method method);
+
+/// render for a chapter that has nothing but trace(); `set_up` (may be empty) sets its options.
+std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
+    Trace trace, std::function<void()> set_up = {});
+
+/// All methods, sorted by name.
+const std::vector<Method>& all_methods();
+
+/// The methods of these names, or UsageError. "all": every chapter; "08+": chapter 08 and its
+/// variants.
+std::vector<Method> methods_named(const std::vector<std::string>& names);
+
+/// A scene made ready for a method; nothing when the method cannot render it.
+std::optional<Scene> prepared_for(const Method& method, const Scene& scene);
+
+/// All scenes that belong to the project, as paths: scenes/ and tests/references/.
+std::vector<std::string> all_scenes();
+
+/// "cornell" for scenes/cornell.pbrt, "references/veach-mis" for the scenes of others.
+std::string scene_name(const std::string& path);
+
+/// The path of a scene from its path or its scene_name, or UsageError.
+std::string find_scene(const std::string& name);
