@@ -96,7 +96,7 @@ inline Measured block_of(const Film& film, int x0, int y0, int side) {
     return {mean / pixels, std::sqrt(squares) / pixels};
 }
 
-/// Two pictures held against each other: the whole, and each block of 8 x 8 pixels.
+/// Two pictures held against each other: the whole, and each block of pixels.
 struct Agreement {
     double z_image = 0, worst_z = 0;       // standard errors apart
     double relative_se = 0, relative = 0;  // of the image mean: joint standard error, difference
@@ -104,25 +104,26 @@ struct Agreement {
     bool agrees() const { return z_image < 5 && worst_z < 5; }  // false for NaN
 };
 
-/// a(x0, y0, side) and b(x0, y0, side) give the blocks of pictures of size x size pixels.
+/// a(x0, y0, side) and b(x0, y0, side) give the blocks of pictures of size x size pixels. A block
+/// must be so large that light was found in it some hundred times, else its error is unknown.
 template <class BlockA, class BlockB>
-Agreement hold_against(int size, const BlockA& a, const BlockB& b) {
+Agreement hold_against(int size, int side, const BlockA& a, const BlockB& b) {
     Measured all_a = a(0, 0, size), all_b = b(0, 0, size);
     Agreement result;
     result.z_image = z_between(all_a, all_b);
     result.relative_se = std::hypot(all_a.se, all_b.se) / all_b.mean;
     result.relative = std::abs(all_a.mean / all_b.mean - 1);
-    for (int y = 0; y < size; y += 8)
-        for (int x = 0; x < size; x += 8) {
-            double z = z_between(a(x, y, 8), b(x, y, 8));
+    for (int y = 0; y < size; y += side)
+        for (int x = 0; x < size; x += side) {
+            double z = z_between(a(x, y, side), b(x, y, side));
             if (z <= result.worst_z) continue;
             result.worst_z = z, result.worst_x = x, result.worst_y = y;
         }
     return result;
 }
-inline Agreement hold_against(const Film& a, const Film& b) {
+inline Agreement hold_against(const Film& a, const Film& b, int block_side = 8) {
     return hold_against(
-        a.width, [&](int x, int y, int side) { return block_of(a, x, y, side); },
+        a.width, block_side, [&](int x, int y, int side) { return block_of(a, x, y, side); },
         [&](int x, int y, int side) { return block_of(b, x, y, side); });
 }
 
