@@ -246,6 +246,26 @@ TEST_SUITE("sampler: uniform and independent") {
         check_mean(sample, 0, 1, 0.02);
     }
 
+    TEST_CASE("density: the numbers of one long path are uniform, and each pair independent") {
+        for (SamplerType type : all_types) {
+            CAPTURE(static_cast<int>(type));
+            Sampler sampler(type, 3, 16);
+            sampler.start(5, 7);
+            std::vector<Vec2> points;
+            RunningStats lag;
+            float last = sampler.u1();
+            for (int i = 0; i < 100000; i++) {
+                points.push_back(sampler.u2());
+                lag.add(12 * (double{points.back().x} - 0.5) * (double{last} - 0.5));
+                last = points.back().y;
+            }
+            double chi2 = chi_square_10x10(points);
+            CHECK(chi_square_tail(chi2, 99) > 1e-6);
+            CHECK(chi_square_tail(chi2, 99) < 1 - 1e-6);
+            check_mean(lag, 0, 1, 0.03);
+        }
+    }
+
     TEST_CASE("truth: pairs of different dimensions are shuffled apart, E[xy] is 1/4") {
         // x from the first pair and y from the second: strata in the same order for both would
         // give 1/3 - 1/(12 N^2) = 0.3333.

@@ -60,6 +60,9 @@ TEST_SUITE("stats") {
         CHECK(RunningStats().count() == 0);
         CHECK(RunningStats().mean() == 0);
         CHECK(RunningStats().standard_error() == 0);
+        RunningStats nothing;
+        nothing.merge(RunningStats());
+        CHECK(nothing.mean() == 0);
         CHECK(stats_of({7}).mean() == 7);
         CHECK(stats_of({7}).variance() == 0);
         CHECK(stats_of({7}).standard_error() == 0);
