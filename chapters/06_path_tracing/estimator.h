@@ -1,8 +1,7 @@
 // Chapter 06: path tracing. The rendering equation, solved by a random walk from the eye.
 //
 //   Lo(x, wo) = Le(x, wo) + integral f(x, wo, wi) Li(x, wi) cos(wi) dwi
-//             ~ Le(x, wo) + f(x, wo, wi) Li(x, wi) cos(wi) / pdf_w(wi)      for one wi drawn by
-//             pdf_w
+//             ~ Le(x, wo) + f(x, wo, wi) Li(x, wi) cos(wi) / pdf_w(wi)      one wi, drawn by pdf_w
 #pragma once
 #include "common/metal.h"
 #include "common/optics.h"
@@ -26,8 +25,7 @@ struct BsdfSample {
 ///
 ///   z = 1 - u1,  phi = 2 pi u2;      pdf_w = 1 / (2 pi)
 ///
-/// u in [0,1)^2; z in (0,1]: never on the horizon.
-/// tested by  "density: uniform hemisphere"
+/// u in [0,1)^2; z in (0,1]      tested by  "density: uniform hemisphere"
 inline Vec3 sample_uniform_hemisphere(Vec2 u) {
     float z = 1 - u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * pi * u.y;
     return {r * std::cos(phi), r * std::sin(phi), z};

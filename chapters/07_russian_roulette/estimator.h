@@ -1,6 +1,7 @@
 // Chapter 07: Russian roulette. End a path by chance, and let the survivors count for all.
 //
 //   E[q (X / q) + (1 - q) 0] = E[X]      for any survival probability q in (0,1]
+//   its variance:  Var[X] / q + E[X]^2 (1 - q) / q
 #pragma once
 #include "common/bsdf.h"
 #include "common/metal.h"
@@ -77,9 +78,9 @@ inline float survival_probability(Rgb beta, int depth) {
 ///
 ///   L = sum over the path's vertices x_k of  beta_k Le(x_k),   beta_k = product of f cos / pdf_w
 ///
-/// Unbiased up to scene.max_depth scattering events, which may now be many. Variance: what roulette
-/// adds, E^2 (1 - q) / q per decision, buys the time of the paths that end.
-/// source  Arvo, Kirk 1990      tested by  "ch07 russian roulette"
+/// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
+/// only when it happens to hit some.
+/// source  Kajiya 1986; roulette: Arvo, Kirk 1990      tested by  "ch07 russian roulette"
 inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
