@@ -195,6 +195,8 @@ void prepare_light_shapes(Scene& scene) {
         shape.radius = length(high - low) / 2;
         bool triangles = light.first_prim + light.prims <= scene.geometry.triangles.size();
         if (light.prims == 2 && triangles) find_parallelogram(scene.geometry, light, shape);
+        bool one = light.prims == 1 && shape.first.kind != Emitter::sphere;
+        shape.flat = one || shape.parallelogram;
     }
 }
 

@@ -56,6 +56,7 @@ struct LightShape {
     float area = 0;  // m^2, of all of them
     Vec3 centre;     // of a sphere around it, m
     float radius = 0;
+    bool flat = false;           // one triangle or disk, or a parallelogram
     bool parallelogram = false;  // two triangles that make corner + s e1 + t e2
     Vec3 corner, e1, e2;
     std::vector<float> area_up_to;  // running sum over its primitives, where they are more than one

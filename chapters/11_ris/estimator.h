@@ -76,62 +76,96 @@ inline float survival_probability(Rgb beta, int depth) {
 }
 
 /// M: how many candidates compete for one shadow ray.
-inline int M = 8;
+inline int M = 16;
 
 /// Gets the scene ready for this chapter's trace().
 inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0.25)); }
 
-/// One candidate, chosen among M by its unshadowed contribution.
-struct Reservoir {
-    LightSample y;
-    Rgb f_Le_cos;          // of y: what it would send to wo if nothing were in between
-    float weight_sum = 0;  // of all candidates so far
+/// p_hat: what light i could send by way of x if nothing were in between, from its centre alone.
+///
+///   area:  p_hat = L A cos_x cos_y / d^2,  with each cosine as large as any point of the light may
+///          have it (it lies within `spread` radians of the centre), and d at least its radius
+///
+/// 0 only where the light surely gives nothing.      [W m^-2]
+inline float potential(const Scene& scene, size_t i, const Hit& x) {
+    const Light& light = scene.lights[i];
+    float L = average(light.L);
+    if (light.type == LightType::infinite) return pi * L;
+    if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
+    const LightShape& shape = scene.light_shapes[i];
+    bool area = light.type == LightType::area;
+    Vec3 to_y = (area ? shape.centre : light.p) - x.p;
+    float d2 = std::max(dot(to_y, to_y), 1e-30f), inv_d = 1 / std::sqrt(d2);
+    float spread = area ? shape.radius * inv_d : 0, more = spread + spread * spread;
+    if (spread > 0.5f) return L * shape.area / std::max(d2, shape.radius * shape.radius);
+    float cos_x = std::min(1.0f, dot(to_y, x.n) * inv_d + more);
+    if (!(cos_x > 0)) return 0;
+    if (!area) return L * cos_x / d2;
+    float cos_y = 1;  // of a light that is flat
+    if (shape.flat) {
+        cos_y = -dot(to_y, shape.first.n) * inv_d;
+        cos_y = std::min(1.0f, (light.two_sided ? std::abs(cos_y) : cos_y) + more);
+    }
+    return cos_y > 0 ? L * shape.area * cos_x * cos_y / d2 : 0;
+}
 
-    /// Takes candidate c in place of y with probability weight / weight_sum.
+/// The light kept among the candidates so far.
+struct Reservoir {
+    size_t light = 0;
+    float p_hat = 0;       // of that light
+    float weight_sum = 0;  // of all candidates
+
+    /// Takes the candidate with probability weight / weight_sum.
     ///
     /// u in [0,1) decides, and is made uniform again for the next candidate.
-    void offer(const LightSample& c, Rgb contribution, float weight, float& u) {
+    void offer(size_t candidate, float p_hat_candidate, float weight, float& u) {
         if (!(weight > 0)) return;
         weight_sum += weight;
         float share = weight / weight_sum;
         if (u < share) {
-            y = c, f_Le_cos = contribution;
+            light = candidate, p_hat = p_hat_candidate;
             u /= share;
         } else {
             u = (u - share) / (1 - share);
         }
     }
+    /// W: what the kept light counts for all others, in place of 1 / probability.
+    float W(int candidates) const {
+        return p_hat > 0 ? weight_sum / (static_cast<float>(candidates) * p_hat) : 0;
+    }
 };
+
+/// Draws M lights by power, and keeps one in proportion to its potential at x.
+inline Reservoir resample_lights(const Scene& scene, const Hit& x, Sampler& sampler) {
+    Reservoir kept;
+    float u = sampler.u1(), u1 = sampler.u1();
+    for (int i = 0; i < M; i++) {
+        // One candidate from each of M slices of the table.
+        float slice = (static_cast<float>(i) + u1) / static_cast<float>(M);
+        size_t light = pick_light(scene, slice);
+        float p_hat = potential(scene, light, x);
+        kept.offer(light, p_hat, p_hat / pmf_light(scene, light), u);
+    }
+    return kept;
+}
 
 /// Estimates what all lights send by way of x to wo, by the best of M candidates.
 ///
-///   p_hat(y) = average of f Le cos over the channels: all that is known without a shadow ray
+///   Ld = f Le V cos / pdf_one W      one point on the light that was kept
 ///
 /// Unbiased where p_hat > 0 wherever the light counts.
 /// Var = Var_p / M + (1 - 1/M) Var_q: what the shadows leave, Var_q, no M takes away.
 /// source  Talbot, Cline, Egbert 2005      tested by  "truth: RIS on four lights, all tuples"
 inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& sampler, Rgb beta,
                         PathLog& log) {
-    if (x.material->type != MaterialType::diffuse) return {};
-
-    // Let the candidates compete.
-    Reservoir kept;
-    float u = sampler.u1();
-    for (int i = 0; i < M; i++) {
-        float u1 = sampler.u1();
-        LightSample c = sample_light(scene, x, u1, sampler.u2());
-        if (c.pdf_w == 0) continue;
-        Rgb f_Le_cos = eval_bsdf(x, wo, c.wi) * c.Le * std::max(0.0f, dot(c.wi, x.n));
-        float p_hat = average(f_Le_cos);
-        kept.offer(c, f_Le_cos, p_hat / c.pdf_w, u);
-    }
-    if (kept.weight_sum == 0) return {};
-
-    // Ask for shadow only where the winner is.
-    const LightSample& y = kept.y;
-    float W = kept.weight_sum / (static_cast<float>(M) * average(kept.f_Le_cos));
-    if (occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * kept.f_Le_cos * W, y.wi, 1 / W, pdf_bsdf(x, wo, y.wi));
+    if (x.material->type != MaterialType::diffuse || scene.lights.empty()) return {};
+    Reservoir kept = resample_lights(scene, x, sampler);
+    LightSample y = sample_one_light(scene, kept.light, x, sampler.u2());
+    float W = kept.W(M);
+    if (y.pdf_w == 0 || W == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (std::max(0.0f, dot(y.wi, x.n)) / y.pdf_w * W);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w / W, pdf_bsdf(x, wo, y.wi));
 }
 
 /// Estimates Li along the ray from one path.

@@ -4,7 +4,7 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        Option candidates = {"m", "M", "light candidates for each shadow ray (default 8)",
+        Option candidates = {"m", "M", "light candidates for each shadow ray (default 16)",
                              [](const std::string& text) {
                                  ch11::M = static_cast<int>(parse_integer("m", text, 1, 1024));
                              }};

@@ -4,7 +4,7 @@
 //   L = mis_l f Le V cos / pdf_l + mis_b f Le cos / pdf_b,    mis_l + mis_b = 1 for every direction
 #pragma once
 #include "common/bsdf.h"
-#include "common/light_table.h"
+#include "common/light_resampling.h"
 #include "common/metal.h"
 #include "common/optics.h"
 #include "common/path_log.h"
@@ -135,100 +135,117 @@ enum class Heuristic : uint8_t { balance, power };
 struct Settings {
     Strategy strategy = Strategy::mis;
     Heuristic heuristic = Heuristic::power;
-    int M = 1;  // light candidates for one shadow ray
+    int M = 16;  // light candidates for one shadow ray
 };
 inline Settings settings;
 
-/// The weight of a direction that strategy a drew, and b could have drawn.
-///
-///   balance: a / (a + b);  power: a^2 / (a^2 + b^2);      a, b: samples times density, sr^-1
-///
-/// Written in b / a, which neither overflows nor makes 0 / 0. a > 0.
-/// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1"
-inline float mis_weight(float a, float b) {
-    float ratio = b / a;
-    if (settings.heuristic == Heuristic::power) ratio *= ratio;
-    return 1 / (1 + ratio);
-}
-
 /// Gets the scene ready for this chapter's trace().
-inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0.25)); }
+inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0)); }
 
-/// One candidate, chosen among M by its unshadowed contribution.
-struct Reservoir {
-    LightSample y;
-    Rgb f_Le_cos;          // of y: what it would send to wo if nothing were in between
-    float weight_sum = 0;  // of all candidates so far
-
-    /// Takes candidate c in place of y with probability weight / weight_sum.
-    ///
-    /// u in [0,1) decides, and is made uniform again for the next candidate.
-    void offer(const LightSample& c, Rgb contribution, float weight, float& u) {
-        if (!(weight > 0)) return;
-        weight_sum += weight;
-        float share = weight / weight_sum;
-        if (u < share) {
-            y = c, f_Le_cos = contribution;
-            u /= share;
-        } else {
-            u = (u - share) / (1 - share);
-        }
-    }
+/// The ways of looking for light, each with its number of samples times its density, in sr^-1.
+struct Densities {
+    float resampled = 0;  // the best of M lights by power: nearly M pmf, but never above 1
+    float uniform = 0;    // one light, all alike: finds what power and potential misjudge
+    float bsdf = 0;
 };
 
-/// mis_l of a candidate, and mis_b of a direction that met a light: the same two densities.
-inline float mis_light(const LightSample& y, float pdf_b) {
-    if (settings.strategy == Strategy::light || y.delta) return 1;
-    return mis_weight(static_cast<float>(settings.M) * y.pdf_w, pdf_b);
-}
-inline float mis_bsdf(float pdf_b, float pdf_l) {
-    if (settings.strategy != Strategy::mis) return settings.strategy == Strategy::bsdf ? 1 : 0;
-    return mis_weight(pdf_b, static_cast<float>(settings.M) * pdf_l);
+/// The densities with which each way finds a direction that lies on `light`.
+inline Densities densities(const Scene& scene, size_t light, float pdf_one, float pdf_b) {
+    float N = static_cast<float>(scene.lights.size());
+    float best = std::min(1.0f, static_cast<float>(settings.M) * pmf_light(scene, light));
+    bool both = settings.strategy != Strategy::light;
+    return {best * pdf_one, N > 1 ? pdf_one / N : 0, both ? pdf_b : 0};
 }
 
-/// Estimates what all lights send by way of x to wo, by the best of M candidates.
+/// The weight of a direction that was drawn in the way of density a, one of those in d.
 ///
-///   p_hat(y) = average of mis_l f Le cos: with the weight inside, candidates of which the BSDF
-///   takes care already are not chosen
+///   balance: a / sum d_k;  power: a^2 / sum d_k^2      d_k: samples times density, sr^-1
+///
+/// Written in ratios d_k / a, which neither overflow nor make 0 / 0. a > 0.
+/// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1"
+inline float mis_weight(float a, const Densities& d) {
+    float sum = 0;
+    for (float ratio : {d.resampled / a, d.uniform / a, d.bsdf / a}) {
+        sum += settings.heuristic == Heuristic::power ? ratio * ratio : ratio;
+    }
+    return 1 / sum;
+}
+
+/// Light from one point y of a light that was chosen with probability 1 / W.
+inline Rgb light_from(const Scene& scene, const Hit& x, Vec3 wo, size_t light, Vec2 u, float W,
+                      float Densities::*way, Rgb beta, PathLog& log) {
+    LightSample y = sample_one_light(scene, light, x, u);
+    if (y.pdf_w == 0 || W == 0) return {};
+    Rgb f = eval_bsdf(x, wo, y.wi);
+    if (is_black(f)) return {};
+    Densities d = densities(scene, light, y.pdf_w, y.delta ? 0 : pdf_bsdf(x, wo, y.wi));
+    float mis_l = mis_weight(d.*way, d);
+    Rgb Ld = f * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * W);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, d.*way, d.bsdf, mis_l);
+}
+
+/// How much of a light's potential a rough conductor turns to wo, and the BSDF does not find
+/// itself.
+///
+///   mis_l f + 0.05, f and mis_l towards the light's centre; 0.05: its other points may differ
+inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo) {
+    if (scene.lights[light].type != LightType::area) return 1;
+    const LightShape& shape = scene.light_shapes[light];
+    Vec3 to_y = shape.centre - x.p;
+    float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
+    Vec3 wi = to_y / std::sqrt(d2);
+    Densities d = densities(scene, light, d2 / shape.area, pdf_bsdf(x, wo, wi));
+    return mis_weight(d.resampled, d) * average(eval_bsdf(x, wo, wi)) + 0.05f;
+}
+
+/// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
+/// inside: candidates of which the BSDF takes care are not chosen.
+///
+///   p_hat = potential (mis_l f + 0.05)      f, mis_l: towards the light's centre
+inline Reservoir resample_lights(const Scene& scene, const Hit& x, Vec3 wo, Sampler& sampler) {
+    Reservoir kept;
+    float u = sampler.u1(), u1 = sampler.u1();
+    for (int i = 0; i < settings.M; i++) {
+        float slice = (static_cast<float>(i) + u1) / static_cast<float>(settings.M);
+        size_t light = pick_light(scene, slice);
+        float p_hat = potential(scene, light, x);
+        if (x.material->type == MaterialType::conductor && p_hat > 0) {
+            p_hat *= lobe_share(scene, light, x, wo);
+        }
+        kept.offer(light, p_hat, p_hat / pmf_light(scene, light), u);
+    }
+    return kept;
+}
+
+/// Estimates what all lights send by way of x to wo, in the two ways that aim at lights.
 ///
 /// source  Veach, Guibas 1995; Talbot et al. 2005      tested by  "truth: MIS in one dimension"
 inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& sampler, Rgb beta,
                         PathLog& log) {
     if (is_specular(*x.material) || settings.strategy == Strategy::bsdf) return {};
-
-    // Let the candidates compete.
-    Reservoir kept;
-    float u = sampler.u1();
-    for (int i = 0; i < settings.M; i++) {
-        float u1 = sampler.u1();
-        LightSample c = sample_light(scene, x, u1, sampler.u2());
-        if (c.pdf_w == 0) continue;
-        Rgb f_Le_cos = eval_bsdf(x, wo, c.wi) * c.Le * std::max(0.0f, dot(c.wi, x.n));
-        f_Le_cos *= mis_light(c, pdf_bsdf(x, wo, c.wi));
-        kept.offer(c, f_Le_cos, average(f_Le_cos) / c.pdf_w, u);
+    size_t N = scene.lights.size();
+    if (N == 0) return {};
+    if (N == 1) {
+        return light_from(scene, x, wo, 0, sampler.u2(), 1, &Densities::resampled, beta, log);
     }
-    if (kept.weight_sum == 0) return {};
-
-    // Ask for shadow only where the winner is.
-    const LightSample& y = kept.y;
-    float W = kept.weight_sum / (static_cast<float>(settings.M) * average(kept.f_Le_cos));
-    if (occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    float pdf_b = pdf_bsdf(x, wo, y.wi);
-    return log.direct(beta * kept.f_Le_cos * W, y.wi, y.pdf_w, pdf_b, mis_light(y, pdf_b));
+    Reservoir kept = resample_lights(scene, x, wo, sampler);
+    Rgb L = light_from(scene, x, wo, kept.light, sampler.u2(), kept.W(settings.M),
+                       &Densities::resampled, beta, log);
+    float count = static_cast<float>(N);
+    size_t any = std::min(static_cast<size_t>(sampler.u1() * count), N - 1);
+    return L + light_from(scene, x, wo, any, sampler.u2(), count, &Densities::uniform, beta, log);
 }
 
 /// The weight of emission that the direction s, drawn at x, has met: in y, or else in the sky.
 inline float mis_emission(const Scene& scene, const Hit& x, const BsdfSample& s, const Hit* y) {
-    if (s.specular) return 1;
-    if (settings.strategy != Strategy::mis) return mis_bsdf(0, 0);
-    float pdf_l = 0;
-    if (y != nullptr && y->light >= 0) {
-        size_t light = static_cast<size_t>(y->light);
-        pdf_l = pmf_light(scene, light) * pdf_one_light(scene, light, x, *y);
-    } else if (y == nullptr && scene.sky_light >= 0) {
-        pdf_l = pmf_light(scene, static_cast<size_t>(scene.sky_light)) * pdf_sky(x, s.wi);
-    }
-    return mis_bsdf(s.pdf_w, pdf_l);
+    if (s.specular || settings.strategy == Strategy::bsdf) return 1;
+    if (settings.strategy == Strategy::light) return 0;
+    if (y == nullptr && scene.sky_light < 0) return 1;
+    size_t light = static_cast<size_t>(y != nullptr ? y->light : scene.sky_light);
+    float pdf_one = y != nullptr ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, s.wi);
+    Densities d = densities(scene, light, pdf_one, s.pdf_w);
+    return mis_weight(d.bsdf, d);
 }
 
 /// Estimates Li along the ray from one path.
