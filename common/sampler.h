@@ -43,14 +43,14 @@ inline uint32_t sobol_second(uint32_t index) {
 /// Owen's scrambling of a 32-bit fraction: each bit is flipped or not by a random function of the
 /// bits above it. The points stay as evenly spread as they were, and each becomes uniform.
 /// source  Laine, Karras 2011; constants: Vegdahl 2021
-inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
-    x = reverse_bits(x);
+inline uint32_t scramble_reversed(uint32_t x, uint32_t seed) {  // x: bits reversed
     x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
+    x = (x + seed) * ((seed >> 16) | 1u);
     x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return reverse_bits(x);
+    return x ^ x * 0x53a22864u;
+}
+inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
+    return reverse_bits(scramble_reversed(reverse_bits(x), seed));
 }
 
 /// Point u jittered inside stratum i of n: strata of equal area 1/n for any n.
@@ -106,13 +106,14 @@ public:
     void start(uint32_t pixel, uint32_t sample) {
         pixel_ = hash32(pixel, seed_);
         sample_ = sample;
+        reversed_sample_ = reverse_bits(sample);
         dimension_ = 0;
         state_ = uint64_t{hash32(pixel_, sample)} << 32 | hash32(sample, pixel_ + 1);
     }
 
     float u1() {
         if (type_ == SamplerType::independent) return to_unit_float(random_bits());
-        return u2().x;
+        return type_ == SamplerType::sobol ? sobol_1d() : u2().x;
     }
     Vec2 u2() {
         if (type_ == SamplerType::sobol) return sobol();
@@ -131,16 +132,25 @@ private:
         uint32_t set = hash32(pixel_, dimension_++ + (sample_ / spp_ << 16));
         return jitter_in_stratum(permute(sample_ % spp_, spp_, set), spp_, independent());
     }
+    // The points of owen_scramble(index) in both coordinates, where index is owen_scramble(sample):
+    // written without turning bits round that would be turned back.
+    float sobol_1d() {
+        uint32_t set = hash32(pixel_ + 0x632be5abu * dimension_++);
+        uint32_t reversed_index = scramble_reversed(reversed_sample_, set);
+        return sobol_first(reverse_bits(reversed_index), set);
+    }
     Vec2 sobol() {
         uint32_t set = hash32(pixel_ + 0x632be5abu * dimension_++);
-        uint32_t index = owen_scramble(sample_, set);
-        uint32_t x = owen_scramble(reverse_bits(index), set * 0x9e3779b1u + 1);
+        uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, set));
         uint32_t y = owen_scramble(sobol_second(index), set * 0x85ebca77u + 2);
-        return {to_unit_float(x), to_unit_float(y)};
+        return {sobol_first(index, set), to_unit_float(y)};
+    }
+    static float sobol_first(uint32_t index, uint32_t set) {
+        return to_unit_float(reverse_bits(scramble_reversed(index, set * 0x9e3779b1u + 1)));
     }
 
     SamplerType type_;
     uint32_t seed_, spp_;
-    uint32_t pixel_ = 0, sample_ = 0, dimension_ = 0;
+    uint32_t pixel_ = 0, sample_ = 0, reversed_sample_ = 0, dimension_ = 0;
     uint64_t state_ = 0;
 };

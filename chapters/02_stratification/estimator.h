@@ -60,14 +60,14 @@ inline uint32_t sobol_second(uint32_t index) {
 /// Owen's scrambling of a 32-bit fraction: each bit is flipped or not by a random function of the
 /// bits above it. The points stay as evenly spread as they were, and each becomes uniform.
 /// source  Laine, Karras 2011; constants: Vegdahl 2021
-inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
-    x = reverse_bits(x);
+inline uint32_t scramble_reversed(uint32_t x, uint32_t seed) {  // x: bits reversed
     x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
+    x = (x + seed) * ((seed >> 16) | 1u);
     x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return reverse_bits(x);
+    return x ^ x * 0x53a22864u;
+}
+inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
+    return reverse_bits(scramble_reversed(reverse_bits(x), seed));
 }
 
 /// The digits of i in `base`, mirrored at the point: 6 = 110 becomes 0.011 = 3/8 in base 2.
