@@ -1,46 +1,44 @@
 // How a ray finds its way through the hierarchy of bounding boxes (chapter 05).
 #include "common/bvh.h"
 
-#include <array>
 #include <bit>
 
 #include "common/shapes.h"
-#include "common/simd.h"
 
 namespace {
 
-/// For each mask of 8 bits: the lanes whose bits are set, one after the other, 4 bits each.
-constexpr auto packed_lanes = [] {
-    std::array<uint32_t, 256> lanes = {};
-    for (uint32_t mask = 0; mask < 256; mask++) {
-        int n = 0;
-        for (uint32_t i = 0; i < 8; i++) {
-            if (mask >> i & 1) lanes[mask] |= i << (4 * n++);
-        }
+/// One axis of a ray, made ready for boxes: distance to a plane = plane * inv - o_inv.
+///
+/// Distances are lengths of d times `scale`, the longest side of d, so that they do not overflow
+/// for a very short or a very long d.
+///
+/// A hit may lie outside of its primitive's box by what rounding did to it, and the distances are
+/// rounded too. The former is padded for when a box is built; for the latter the far planes are
+/// taken a bit further away. Never closer: what a box lets through for nothing the triangles
+/// turn down, but what it keeps out is lost.
+struct AxisRay {
+    Floats inv_near, o_near, inv_far, o_far;
+    size_t near_row, far_row;  // of BvhNode::plane
+    uint32_t negative;
+
+    AxisRay(const Ray& ray, int axis, float scale) {
+        // Where d is 0, put one so small that the ray stays within the padding.
+        float d = ray.d[axis];
+        float inv = scale / std::copysign(std::max(std::abs(d), 0x1p-40f * scale), d);
+        Floats further = splat(1 + 0x1p-20f);
+        inv_near = splat(inv);
+        o_near = splat(ray.o[axis] * inv);
+        inv_far = inv_near * further;
+        o_far = o_near * further;
+        negative = std::bit_cast<uint32_t>(d) >> 31;
+        near_row = 2 * static_cast<size_t>(axis) + negative;
+        far_row = near_row ^ 1;
     }
-    return lanes;
-}();
-
-/// A ray made ready for boxes. Distances along it are measured on the axis where d is longest, so
-/// that nothing overflows for a very short or a very long d.
-struct BoxRay {
-    Float8 inv[3], o_inv[3];
-    int near_row[3];
-    uint32_t octant = 0;
-    float scale;  // from lengths of d to distances
-
-    BoxRay(const Ray& ray) {
-        scale = max_component(abs(ray.d));
-        for (int axis = 0; axis < 3; axis++) {
-            // A direction of 0 becomes one so small that it stays within the padding of the boxes.
-            float d = ray.d[axis] / scale;
-            float inverse = 1 / std::copysign(std::max(std::abs(d), 0x1p-40f), d);
-            bool negative = std::signbit(d);
-            inv[axis] = splat8(inverse);
-            o_inv[axis] = splat8(ray.o[axis] * inverse);
-            near_row[axis] = 2 * axis + (negative ? 1 : 0);
-            octant |= static_cast<uint32_t>(negative) << axis;
-        }
+    Floats enter(const BvhNode& node) const {
+        return multiply_subtract(load(node.plane[near_row]), inv_near, o_near);
+    }
+    Floats leave(const BvhNode& node) const {
+        return multiply_subtract(load(node.plane[far_row]), inv_far, o_far);
     }
 };
 
@@ -48,130 +46,154 @@ struct BoxRay {
 float next_below(float t) { return std::bit_cast<float>(std::bit_cast<uint32_t>(t) - 1); }
 float next_above(float t) { return std::bit_cast<float>(std::bit_cast<uint32_t>(t) + 1); }
 
-/// intersect_triangle() on eight at once: the same operations in the same order, so the same bits.
-/// Returns true as soon as anything is hit when `any` is set.
+/// intersect_triangle() on a whole block: the same operations in the same order, so the same bits.
+/// Hits up to best.t count, that included; of those at best.t only ones with a lower number.
 template <bool any>
-bool test_triangles(const BvhBlock& block, const Ray& ray, const Shear& shear, PrimHit& best) {
+[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, const Ray& ray,
+                                                  const Shear& shear, PrimHit& best) {
+    // Shear space, so that the ray is the z axis.
     auto [kx, ky, kz, sx, sy, sz] = shear;
-    Float8 ox = splat8(ray.o[kx]), oy = splat8(ray.o[ky]), oz = splat8(ray.o[kz]);
-    Float8 shear_x = splat8(sx), shear_y = splat8(sy);
-    Float8 az = load8(block.vertex[kz]) - oz;
-    Float8 bz = load8(block.vertex[3 + kz]) - oz;
-    Float8 cz = load8(block.vertex[6 + kz]) - oz;
-    Float8 ax = load8(block.vertex[kx]) - ox - shear_x * az;
-    Float8 ay = load8(block.vertex[ky]) - oy - shear_y * az;
-    Float8 bx = load8(block.vertex[3 + kx]) - ox - shear_x * bz;
-    Float8 by = load8(block.vertex[3 + ky]) - oy - shear_y * bz;
-    Float8 cx = load8(block.vertex[6 + kx]) - ox - shear_x * cz;
-    Float8 cy = load8(block.vertex[6 + ky]) - oy - shear_y * cz;
-    Float8 e0 = cx * by - cy * bx, e1 = ax * cy - ay * cx, e2 = bx * ay - by * ax;
-    Float8 zero = splat8(0);
-    uint32_t outside = less(min8(min8(e0, e1), e2), zero) & less(zero, max8(max8(e0, e1), e2));
-    if (outside == 0xff) return false;
-    Float8 det = e0 + e1 + e2;
-    Float8 t = (e0 * az + e1 * bz + e2 * cz) * splat8(sz) / det;
-    uint32_t hits = ~outside & less(zero, t) & less_equal(t, splat8(best.t));
+    Floats ox = splat(ray.o[kx]), oy = splat(ray.o[ky]), oz = splat(ray.o[kz]);
+    Floats shear_x = splat(sx), shear_y = splat(sy), zero = splat(0);
+    Floats az = load(block.vertex[kz]) - oz;
+    Floats ax = load(block.vertex[kx]) - ox - shear_x * az;
+    Floats ay = load(block.vertex[ky]) - oy - shear_y * az;
+    Floats bz = load(block.vertex[3 + kz]) - oz;
+    Floats bx = load(block.vertex[3 + kx]) - ox - shear_x * bz;
+    Floats by = load(block.vertex[3 + ky]) - oy - shear_y * bz;
+    Floats cz = load(block.vertex[6 + kz]) - oz;
+    Floats cx = load(block.vertex[6 + kx]) - ox - shear_x * cz;
+    Floats cy = load(block.vertex[6 + ky]) - oy - shear_y * cz;
+
+    // Leave out the triangles that the ray passes by.
+    Floats e0 = cx * by - cy * bx, e1 = ax * cy - ay * cx, e2 = bx * ay - by * ax;
+    uint32_t outside = less(min(min(e0, e1), e2), zero) & less(zero, max(max(e0, e1), e2));
+    if (outside == (1u << lanes) - 1) return false;
+
+    Floats det = e0 + e1 + e2;
+    Floats t = (e0 * az + e1 * bz + e2 * cz) * splat(sz) / det;
+    uint32_t hits = ~outside & less(zero, t) & less_equal(t, splat(best.t));
     if (any || hits == 0) return hits != 0;
 
-    alignas(32) float ts[8], b1[8], b2[8];
-    store8(t, ts);
-    store8(e1 / det, b1);
-    store8(e2 / det, b2);
+    // Keep the nearest.
+    alignas(64) float ts[lanes], e1s[lanes], e2s[lanes], dets[lanes];
+    store(t, ts);
+    store(e1, e1s);
+    store(e2, e2s);
+    store(det, dets);
     for (; hits != 0; hits &= hits - 1) {
-        int i = std::countr_zero(hits);
-        if (ts[i] < best.t || (ts[i] == best.t && block.prim[i] < best.prim))
-            best = {block.prim[i], ts[i], b1[i], b2[i]};
+        int k = std::countr_zero(hits);
+        if (ts[k] < best.t || (ts[k] == best.t && block.prim[k] < best.prim))
+            best = {block.prim[k], ts[k], e1s[k] / dets[k], e2s[k] / dets[k]};
     }
     return true;
 }
 
 /// The spheres and disks of a block, one by one.
-template <bool any>
 bool test_others(const BvhBlock& block, const Geometry& g, Ray ray, PrimHit& best) {
     bool found = false;
     for (uint32_t prim : block.prim) {
         size_t i = prim;
         if (prim == PrimHit::none || i < g.triangles.size()) continue;
-        i -= g.triangles.size();
         ray.t_max = next_above(best.t);
         std::optional<float> t;
-        if (i < g.spheres.size()) {
+        if ((i -= g.triangles.size()) < g.spheres.size()) {
             t = intersect_sphere(ray, g.spheres[i].c, g.spheres[i].r);
         } else {
             const Disk& disk = g.disks[i - g.spheres.size()];
             t = intersect_disk(ray, disk.c, disk.n, disk.r);
         }
-        if (!t || (*t == best.t && prim > best.prim)) continue;
+        if (!t || (*t == best.t && prim >= best.prim)) continue;
         best = {prim, *t};
         found = true;
-        if (any) return true;
     }
     return found;
 }
 
-template <bool any>
-PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
+/// Asks for a child's memory before it is needed.
+void prefetch(const Bvh& bvh, uint32_t child) {
+    const void* p = child & BvhNode::leaf
+                        ? static_cast<const void*>(&bvh.blocks[child & BvhNode::index])
+                        : static_cast<const void*>(&bvh.nodes[child]);
+    for (int line = 0; line < 9; line++)
+        __builtin_prefetch(static_cast<const char*>(p) + 64 * line);
+}
+
+template <bool any, bool counting>
+PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count) {
+    // A rounded t may come before its box; and boxes at the same t must be looked at.
     constexpr float slack = 1 + 0x1p-12f;
     PrimHit best;
-    if (!(ray.t_max > 0)) return best;
-    BoxRay r(ray);
+    float scale = max_component(abs(ray.d));
+    if (!(ray.t_max > 0 && scale > 0)) return {};
+    const AxisRay x(ray, 0, scale), y(ray, 1, scale), z(ray, 2, scale);
+    uint32_t octant = x.negative | y.negative << 1 | z.negative << 2;
     Shear shear = shear_to_ray(ray.d);
-    best.t = next_below(ray.t_max);  // hits up to here count, this one included
-    float best_distance = best.t * r.scale * slack;
+    best.t = next_below(ray.t_max);
+    float reach = best.t * scale * slack;
 
-    alignas(32) uint32_t stack[512];
-    alignas(32) float stack_near[512];
-    int size = 0;
+    // Children still to be visited, the nearest on top, each with the distance to its box. At most
+    // lanes - 1 stay behind on each level, and the builder makes no more than 96 levels.
+    constexpr uint32_t nothing_left = ~0u;
+    alignas(64) uint32_t stack[97 * lanes];
+    alignas(64) float stack_enter[97 * lanes];
+    int size = 1;
+    stack[0] = nothing_left;
+    stack_enter[0] = -infinity;
+    auto pop = [&] {
+        do size--;
+        while (!(stack_enter[size] <= reach));
+        return stack[size];
+    };
+
     uint32_t current = bvh.root;
     while (true) {
-        if (current & BvhNode::leaf) {
-            const BvhBlock& block = bvh.blocks[current & BvhNode::index];
-            bool found = test_triangles<any>(block, ray, shear, best);
-            if (current & BvhNode::mixed && !(any && found))
-                found |= test_others<any>(block, g, ray, best);
-            if (found) {
-                if (any) {
-                    best.prim = 0;
-                    return best;
-                }
-                best_distance = best.t * r.scale * slack;
-            }
-        } else {
+        // Go down to a leaf.
+        while (!(current & BvhNode::leaf)) {
             const BvhNode& node = bvh.nodes[current];
-            Float8 near[3], far[3];
-            for (int axis = 0; axis < 3; axis++) {
-                int row = r.near_row[axis];
-                near[axis] = multiply_subtract(load8(node.plane[row]), r.inv[axis], r.o_inv[axis]);
-                far[axis] =
-                    multiply_subtract(load8(node.plane[row ^ 1]), r.inv[axis], r.o_inv[axis]);
+            if (counting) count->nodes++;
+            Floats enter = max(max(x.enter(node), y.enter(node)), max(z.enter(node), splat(0)));
+            Floats leave = min(min(x.leave(node), y.leave(node)), min(z.leave(node), splat(reach)));
+            uint32_t hits = less_equal(enter, leave);
+            if (hits == 0) {
+                current = pop();
+            } else if ((hits & (hits - 1)) == 0) {
+                current = node.child[std::countr_zero(hits)];
+            } else {
+                // Put them on the stack from far to near, and go on with the nearest.
+                Ints order = lanes_of(node.far_first[octant]);
+                enter = permute(enter, order);
+                hits = less_equal(enter, permute(leave, order));
+                store(compress(permute(load(node.child), order), hits), stack + size);
+                store(compress(enter, hits), stack_enter + size);
+                size += std::popcount(hits) - 1;
+                current = stack[size];
+                prefetch(bvh, stack[size - 1]);
             }
-            Float8 enter = max8(max8(near[0], near[1]), max8(near[2], splat8(0)));
-            Float8 leave = min8(min8(far[0], far[1]), min8(far[2], splat8(best_distance)));
-            Int8 order = order_lanes(node.order[r.octant]);
-            enter = permute(enter, order);
-            uint32_t mask = less_equal(enter, permute(leave, order) * splat8(1 + 0x1p-20f));
-            Int8 pack = order_lanes(packed_lanes[mask]);
-            store8(permute(enter, pack), stack_near + size);
-            store8(permute(permute(load8_int(node.child), order), pack), stack + size);
-            size += std::popcount(mask);
         }
-        do {
-            if (size == 0) {
-                if (best.prim == PrimHit::none) best.t = infinity;
-                return best;
-            }
-            size--;
-        } while (!(stack_near[size] <= best_distance));
-        current = stack[size];
+        if (current == nothing_left) break;
+
+        const BvhBlock& block = bvh.blocks[current & BvhNode::index];
+        if (counting) count->blocks++;
+        bool found = test_triangles<any>(block, ray, shear, best);
+        if (current & BvhNode::mixed && !(any && found)) found |= test_others(block, g, ray, best);
+        if (any && found) return {0};
+        if (found) reach = best.t * scale * slack;
+        current = pop();
     }
+    return best.prim == PrimHit::none ? PrimHit{} : best;
 }
 
 }  // namespace
 
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
-    return traverse<false>(bvh, geometry, ray);
+    return traverse<false, false>(bvh, geometry, ray, nullptr);
+}
+
+PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count) {
+    return traverse<false, true>(bvh, geometry, ray, &count);
 }
 
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
-    return traverse<true>(bvh, geometry, ray).prim != PrimHit::none;
+    return traverse<true, false>(bvh, geometry, ray, nullptr).prim != PrimHit::none;
 }

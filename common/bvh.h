@@ -4,33 +4,45 @@
 // lesson: so this header must not include shapes.h; what needs it belongs into bvh.cpp.
 #pragma once
 #include "common/geometry.h"
+#include "common/pages.h"
+#include "common/simd.h"
 
-/// Eight boxes side by side, and what is in them: one node of the hierarchy.
+/// One node of the hierarchy: boxes side by side, and what is in each.
 struct alignas(64) BvhNode {
-    float plane[6][8];  // row 2 axis: lower, row 2 axis + 1: upper ends; lo > hi where unused
-    uint32_t child[8];
-    uint32_t order[8];  // for each octant of directions: the children from far to near, 4 bits each
+    float plane[6][lanes];   // row 2 axis: lower ends, row 2 axis + 1: upper; lower > upper: unused
+    uint32_t child[lanes];   // index into Bvh::nodes, or leaf | index into Bvh::blocks
+    LaneOrder far_first[8];  // for each octant of directions: the children from far to near
 
-    static constexpr uint32_t leaf = 1u << 31, mixed = 1u << 30, index = mixed - 1;
+    static constexpr uint32_t leaf = 1u << 31;
+    static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
+    static constexpr uint32_t index = mixed - 1;
 };
 
-/// Eight primitives side by side: one leaf. Lanes that are no triangle have NaN for vertices.
+/// One leaf: primitives side by side. Lanes that hold no triangle have NaN for vertices.
 struct alignas(64) BvhBlock {
-    float vertex[9][8];  // row 3 k + axis: vertex k
-    uint32_t prim[8];
+    float vertex[9][lanes];  // row 3 k + axis: vertex k
+    uint32_t prim[lanes];    // PrimHit::none: unused
 };
 
-/// A child is an index into nodes; or, with bit `leaf` set, into blocks; with bit `mixed` set too,
-/// a block that holds spheres or disks.
+/// Nodes with as many children as one instruction tests, leaves of as many triangles.
 struct Bvh {
-    uint32_t root = 0;
-    std::vector<BvhNode> nodes;
-    std::vector<BvhBlock> blocks;
+    uint32_t root = 0;  // as BvhNode::child
+    std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
+    std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
 };
 
+/// What traversals looked at: nodes, and blocks of primitives.
+struct BvhCount {
+    uint64_t nodes = 0, blocks = 0;
+};
+
+/// The same hierarchy for any number of threads.
 Bvh build_bvh(const Geometry& geometry, int threads);
 
-/// The first primitive that the ray hits; of two at the same t the one with the lower number.
+/// The first primitive that the ray hits, as linear_scan() finds it, bit for bit: of two at the
+/// same t the one with the lower number.
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
+/// The same, and adds to `count`.
+PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);
 /// Whether the ray hits anything.
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);

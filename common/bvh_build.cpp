@@ -1,47 +1,76 @@
-// Builds the hierarchy of bounding boxes: binned surface area heuristic, eight children per node.
+// Builds the hierarchy of bounding boxes (chapter 05): a tree of two children per node where the
+// surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
+#include <bit>
+#include <deque>
+#include <memory>
+#include <mutex>
+
 #include "common/bvh.h"
 #include "common/parallel.h"
-#include "common/simd.h"
 
 namespace {
 
-/// A box with its lower ends negated, so that one max8 grows both: -lo.xyz, any, hi.xyz, any.
-struct alignas(32) Ref {
-    Vec3 neg_lo;
-    uint32_t prim;
-    Vec3 hi;
-    uint32_t unused = 0;
+constexpr int bins = 16;
+constexpr uint32_t small = lanes / 2;      // references that are not split any further
+constexpr uint32_t worth_a_thread = 4096;  // references
+constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
+
+/// A box with its lower ends negated, -lo.xyz, any, hi.xyz, any: growing it is one maximum.
+struct alignas(32) Box {
+    float v[8];
+
+    static Box empty() {
+        Box box;
+        std::fill_n(box.v, 8, -infinity);
+        return box;
+    }
+    void grow(const Box& b) {
+        for (int i = 0; i < 8; i++) v[i] = v[i] > b.v[i] ? v[i] : b.v[i];
+    }
+    /// Half of its surface; 0 when it is empty.
+    float area() const {
+        float x = v[0] + v[4], y = v[1] + v[5], z = v[2] + v[6];
+        return x < 0 ? 0 : x * y + y * z + z * x;
+    }
+    /// Twice its centre, as a box.
+    Box center() const {
+        Box c;
+        for (int i = 0; i < 4; i++) c.v[i] = v[i] - v[i + 4];
+        for (int i = 0; i < 4; i++) c.v[i + 4] = v[i + 4] - v[i];
+        return c;
+    }
 };
+
+/// The box of a primitive, with its number in the place of v[3].
+struct Ref {
+    Box box;
+
+    uint32_t prim() const { return std::bit_cast<uint32_t>(box.v[3]); }
+};
+using Refs = std::vector<Ref, PageAllocator<Ref>>;
 
 /// References begin .. end-1, the box around them, and the box around twice their centres.
 struct Range {
     uint32_t begin = 0, end = 0;
-    Float8 box, centers;
+    Box box = Box::empty(), centers = Box::empty();
+
     uint32_t size() const { return end - begin; }
+    void grow(const Box& b) {
+        box.grow(b);
+        centers.grow(b.center());
+    }
 };
 
-constexpr int bins = 16;
-constexpr uint32_t leaf_size = 8;
-
-Float8 nothing() { return splat8(-infinity); }
-Float8 twice_center(Float8 box) { return box - swap_halves(box); }
-
-/// Half the surface of a box; 0 for none.
-float half_area(Float8 box) {
-    float e[8];
-    store8(box + swap_halves(box), e);
-    return e[0] < 0 ? 0 : e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
-}
-
-/// The box of a primitive, padded by more than its rounded hits can lie outside of it.
-bool make_ref(const Geometry& g, uint32_t prim, Ref& ref) {
+/// The box of a primitive, padded: a rounded hit may lie outside of the exact one. Nothing for a
+/// primitive with NaN or infinity in it, which no ray can hit.
+Ref make_ref(const Geometry& g, uint32_t prim) {
     Vec3 lo, hi;
     size_t i = prim;
     if (i < g.triangles.size()) {
         const Triangle& tri = g.triangles[i];
         Vec3 a = g.positions[tri.v[0]], b = g.positions[tri.v[1]], c = g.positions[tri.v[2]];
-        if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return false;
-        lo = min(min(a, b), c);
+        bool finite = is_finite(a) && is_finite(b) && is_finite(c);
+        lo = finite ? min(min(a, b), c) : Vec3{infinity, infinity, infinity};
         hi = max(max(a, b), c);
     } else if ((i -= g.triangles.size()) < g.spheres.size()) {
         float r = std::abs(g.spheres[i].r);
@@ -49,190 +78,328 @@ bool make_ref(const Geometry& g, uint32_t prim, Ref& ref) {
         hi = g.spheres[i].c + Vec3{r, r, r};
     } else {
         const Disk& disk = g.disks[i - g.spheres.size()];
-        Vec3 n = disk.n;
-        Vec3 side = std::abs(disk.r) / length(n) *
-                    Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
-        lo = disk.c - side;
-        hi = disk.c + side;
+        Vec3 n = disk.n / length(disk.n);
+        Vec3 r = std::abs(disk.r) *
+                 Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
+        lo = disk.c - r;
+        hi = disk.c + r;
     }
+    if (!is_finite(lo) || !is_finite(hi)) prim = PrimHit::none;
     float pad = 0x1p-20f * max_component(max(abs(lo), abs(hi)));
-    ref = {-lo + Vec3{pad, pad, pad}, prim, hi + Vec3{pad, pad, pad}};
-    return is_finite(lo) && is_finite(hi);
+    return {{pad - lo.x, pad - lo.y, pad - lo.z, std::bit_cast<float>(prim), hi.x + pad, hi.y + pad,
+             hi.z + pad, 0}};
 }
 
-/// Which bin a reference belongs to, on each axis.
+/// Cuts the box around the centres into slices, on each axis.
 struct Binning {
-    Float8 offset, scale;
+    float first[3], per_length[3];
 
-    explicit Binning(Float8 centers) {
-        offset = swap_halves(centers);
-        scale = splat8(bins * (1 - 0x1p-20f)) / (centers + offset);
+    explicit Binning(const Box& centers) {
+        for (int axis = 0; axis < 3; axis++) {
+            first[axis] = centers.v[axis];
+            per_length[axis] = bins * (1 - 0x1p-20f) / (centers.v[4 + axis] + centers.v[axis]);
+        }
     }
-    /// Lane 4 + axis: the bin. Where all centres are the same (0 * inf is NaN): bin 0.
-    Int8 bin(Float8 twice_center) const {
-        Float8 x = (twice_center + offset) * scale;
-        return to_int(min8(max8(x, splat8(0)), splat8(bins - 1)));
+    /// The slice of a centre. Where all are the same, 0 * infinity is NaN, and that becomes 0.
+    int operator()(const Box& center, int axis) const {
+        float x = (center.v[4 + axis] + first[axis]) * per_length[axis];
+        x = x > 0 ? x : 0;
+        return static_cast<int>(x < bins - 1 ? x : bins - 1);
     }
 };
 
 struct Split {
     float cost = infinity;
-    int axis = 0, bin = 0;  // bins below `bin` go to the left
+    int axis = 0, bin = 0;  // what is in a lower bin goes to the left
 };
 
-/// Tries all planes between bins on all axes; cost: sum of half area x number of references.
-Split find_split(const std::vector<Ref>& refs, const Range& range, const Binning& binning) {
-    Float8 box[3][bins];
+/// How many blocks n primitives take.
+float blocks(uint32_t n) { return static_cast<float>((n + lanes - 1) / lanes); }
+
+/// The split between two bins that is cheapest by the surface area heuristic:
+///
+///   cost = area(left) blocks(left) + area(right) blocks(right)
+///
+/// A ray that meets the whole box meets a part with probability area(part) / area(whole).
+/// source  MacDonald, Booth 1990; in bins: Wald 2007
+Split find_split(const Refs& refs, const Range& range, const Binning& bin_of) {
+    // Sort into bins.
+    Box box[3][bins];
     uint32_t count[3][bins] = {};
-    for (auto& axis : box)
-        for (Float8& b : axis) b = nothing();
+    std::fill_n(&box[0][0], 3 * bins, Box::empty());
     for (uint32_t i = range.begin; i < range.end; i++) {
-        Float8 b = load8(&refs[i]);
-        int32_t bin[8];
-        store8(binning.bin(twice_center(b)), bin);
+        Box center = refs[i].box.center();
         for (int axis = 0; axis < 3; axis++) {
-            Float8& to = box[axis][bin[4 + axis]];
-            to = max8(to, b);
-            count[axis][bin[4 + axis]]++;
+            int bin = bin_of(center, axis);
+            box[axis][bin].grow(refs[i].box);
+            count[axis][bin]++;
         }
     }
+
+    // Sweep from the right, then from the left.
     Split best;
     for (int axis = 0; axis < 3; axis++) {
         float right_cost[bins];
-        Float8 right = nothing();
+        Box part = Box::empty();
         uint32_t n = 0;
-        for (int i = bins - 1; i > 0; i--) {
-            right = max8(right, box[axis][i]);
-            n += count[axis][i];
-            right_cost[i] = half_area(right) * static_cast<float>(n);
+        for (int bin = bins - 1; bin > 0; bin--) {
+            part.grow(box[axis][bin]);
+            n += count[axis][bin];
+            right_cost[bin] = part.area() * blocks(n);
         }
-        Float8 left = nothing();
+        part = Box::empty();
         n = 0;
-        for (int i = 1; i < bins; i++) {
-            left = max8(left, box[axis][i - 1]);
-            n += count[axis][i - 1];
-            if (n == 0 || n == range.size()) continue;
-            float cost = half_area(left) * static_cast<float>(n) + right_cost[i];
-            if (cost < best.cost) best = {cost, axis, i};
+        for (int bin = 1; bin < bins; bin++) {
+            part.grow(box[axis][bin - 1]);
+            n += count[axis][bin - 1];
+            float cost = part.area() * blocks(n) + right_cost[bin];
+            if (cost < best.cost && n > 0 && n < range.size()) best = {cost, axis, bin};
         }
     }
     return best;
 }
 
-/// The boxes of references begin .. end-1.
-Range bound(const std::vector<Ref>& refs, uint32_t begin, uint32_t end) {
-    Range range;
-    range.begin = begin;
-    range.end = end;
-    range.box = range.centers = nothing();
-    for (uint32_t i = begin; i < end; i++) {
-        Float8 b = load8(&refs[i]);
-        range.box = max8(range.box, b);
-        range.centers = max8(range.centers, twice_center(b));
-    }
-    return range;
-}
+/// A node with two children, or none. A wide node is made of some of those below it: given a
+/// number of its places, `share` says how to fill them.
+struct Node {
+    Box box;
+    Node* children = nullptr;  // two, side by side
+    uint32_t begin, end;       // its references
+    uint8_t axis = 0;          // of the split: the left child is on the lower side
+    // [k - 2]: of k places, so many go to the left child; 0: k - 1 places do as well.
+    uint8_t share[lanes - 1] = {};
 
-/// Splits a range in two where it is cheapest, or by index where that does not work. Returns the
-/// axis.
-int split(std::vector<Ref>& refs, const Range& range, bool by_cost, Range& left, Range& right) {
-    Binning binning(range.centers);
-    Split best;
-    if (by_cost) best = find_split(refs, range, binning);
-    uint32_t middle = range.begin + range.size() / 2;
-    if (best.cost < infinity) {
-        auto goes_left = [&](const Ref& ref) {
-            int32_t bin[8];
-            store8(binning.bin(twice_center(load8(&ref))), bin);
-            return bin[4 + best.axis] < best.bin;
-        };
-        auto first = refs.begin() + range.begin, last = refs.begin() + range.end;
-        middle = static_cast<uint32_t>(std::partition(first, last, goes_left) - refs.begin());
-    }
-    left = bound(refs, range.begin, middle);
-    right = bound(refs, middle, range.end);
-    return best.axis;
-}
+    bool fits_a_block() const { return end - begin <= lanes; }
+};
 
-struct Builder {
-    const Geometry& g;
-    std::vector<Ref> refs;
-    Bvh bvh;
+/// [k]: the cost of all below a node that may take up to k places of the wide node above.
+using Costs = std::array<float, lanes + 1>;
 
-    uint32_t make_leaf(const Range& range) {
-        BvhBlock block;
-        uint32_t child = BvhNode::leaf | static_cast<uint32_t>(bvh.blocks.size());
-        constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-        for (uint32_t lane = 0; lane < 8; lane++) {
-            uint32_t prim = lane < range.size() ? refs[range.begin + lane].prim : PrimHit::none;
-            block.prim[lane] = prim;
-            bool triangle = prim < g.triangles.size();
-            if (!triangle && prim != PrimHit::none) child |= BvhNode::mixed;
-            for (size_t k = 0; k < 3; k++)
-                for (int axis = 0; axis < 3; axis++)
-                    block.vertex[3 * k + static_cast<size_t>(axis)][lane] =
-                        triangle ? g.positions[g.triangles[prim].v[k]][axis] : nan;
+/// The cheapest way to make wide nodes of a binary tree.
+///
+///   cost(node, 1) = area + (0 if it fits a block, else split(node, lanes))
+///   cost(node, k) = min(cost(node, k - 1), split(node, k))
+///   split(node, k) = min over j of cost(left, j) + cost(right, k - j)
+///
+/// Areas are probabilities, as above; to visit a node costs as much as to test a block.
+/// source  Ylitie, Karras, Laine 2017, section 3.1
+Costs share_places(Node& node, const Costs& left, const Costs& right) {
+    Costs split, cost;
+    uint8_t share[lanes + 1];
+    for (size_t k = 2; k <= lanes; k++) {
+        split[k] = infinity;
+        share[k] = 1;
+        for (size_t j = 1; j < k; j++) {
+            if (left[j] + right[k - j] < split[k]) {
+                split[k] = left[j] + right[k - j];
+                share[k] = static_cast<uint8_t>(j);
+            }
         }
-        bvh.blocks.push_back(block);
+    }
+    cost[1] = node.box.area() + (node.fits_a_block() ? 0 : split[lanes]);
+    for (size_t k = 2; k <= lanes; k++) {
+        bool better = split[k] < cost[k - 1];
+        cost[k] = better ? split[k] : cost[k - 1];
+        node.share[k - 2] = better || k == lanes ? share[k] : 0;
+    }
+    return cost;
+}
+
+/// The nodes that fill `places` of a wide node, those far along the octant's directions first.
+struct Gathered {
+    std::array<const Node*, lanes> node;
+    uint32_t size = 0;
+
+    void add(const Node& root, size_t places, uint32_t octant) {
+        while (places > 1 && root.share[places - 2] == 0) places--;
+        if (places == 1) {
+            node[size++] = &root;
+            return;
+        }
+        size_t left = root.share[places - 2];
+        bool negative = octant >> root.axis & 1;
+        if (negative) add(root.children[0], left, octant);
+        add(root.children[1], places - left, octant);
+        if (!negative) add(root.children[0], left, octant);
+    }
+};
+
+class Builder {
+public:
+    Builder(const Geometry& geometry, int threads)
+        : g_(geometry), threads_(threads), idle_threads_(threads - 1) {}
+
+    Bvh build() {
+        Range all = make_refs();
+        Node root;
+        build(root, all, 0);
+        bvh_.root = emit(root);
+        bvh_.blocks.resize(leaves_.size());
+        in_chunks(leaves_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) fill_block(*leaves_[i], bvh_.blocks[i]);
+        });
+        return std::move(bvh_);
+    }
+
+private:
+    static constexpr int chunks = 64;
+
+    /// Calls work(begin, end, chunk) for the parts of 0 .. size-1, on all threads.
+    template <typename Work>
+    void in_chunks(size_t size, const Work& work) {
+        parallel_for(chunks, threads_, [&](int i) {
+            auto part = static_cast<size_t>(i);
+            work(size * part / chunks, size * (part + 1) / chunks, i);
+        });
+    }
+
+    Range make_refs() {
+        refs_.resize(g_.size());
+        std::array<Range, chunks> parts;
+        in_chunks(refs_.size(), [&](size_t begin, size_t end, int chunk) {
+            Range part{0, 0};
+            for (size_t i = begin; i < end; i++) {
+                refs_[i] = make_ref(g_, static_cast<uint32_t>(i));
+                if (refs_[i].prim() != PrimHit::none) part.grow(refs_[i].box);
+            }
+            parts[static_cast<size_t>(chunk)] = part;
+        });
+        std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
+        Range all{0, static_cast<uint32_t>(refs_.size())};
+        for (const Range& part : parts) {
+            all.box.grow(part.box);
+            all.centers.grow(part.centers);
+        }
+        return all;
+    }
+
+    /// Builds the tree over a range, on another thread for one half when one is idle.
+    Costs build(Node& node, const Range& range, int level) {
+        node.box = range.box;
+        node.begin = range.begin;
+        node.end = range.end;
+        if (range.size() <= small) {
+            Costs cost;
+            cost.fill(range.box.area());
+            return cost;
+        }
+        Range left, right;
+        node.axis = split(range, level < cost_levels, left, right);
+        node.children = new_pair();
+        Costs left_cost, right_cost;
+        auto build_left = [&] { left_cost = build(node.children[0], left, level + 1); };
+        auto build_right = [&] { right_cost = build(node.children[1], right, level + 1); };
+        if (range.size() >= worth_a_thread && idle_threads_-- > 0) {
+            std::jthread other([&] {
+                build_left();
+                idle_threads_++;
+            });
+            build_right();
+            idle_threads_++;
+            other.join();
+            idle_threads_--;
+        } else {
+            if (range.size() >= worth_a_thread) idle_threads_++;
+            build_left();
+            build_right();
+        }
+        return share_places(node, left_cost, right_cost);
+    }
+
+    /// Parts a range in two, by cost or else by number, and returns the axis.
+    uint8_t split(const Range& range, bool by_cost, Range& left, Range& right) {
+        Binning bin_of(range.centers);
+        Split best;
+        if (by_cost) best = find_split(refs_, range, bin_of);
+        uint32_t middle = range.begin + range.size() / 2;
+        left = {range.begin, range.begin};
+        right = {range.end, range.end};
+        while (left.end < right.begin) {
+            Ref& ref = refs_[left.end];
+            bool goes_left = best.cost < infinity ? bin_of(ref.box.center(), best.axis) < best.bin
+                                                  : left.end < middle;
+            if (goes_left) {
+                left.grow(ref.box);
+                left.end++;
+            } else {
+                right.grow(ref.box);
+                std::swap(ref, refs_[--right.begin]);
+            }
+        }
+        return static_cast<uint8_t>(best.axis);
+    }
+
+    Node* new_pair() {
+        std::lock_guard lock(mutex_);
+        return pairs_.emplace_back().data();
+    }
+
+    /// Writes a wide node, or takes down a leaf, and what is below. Returns its BvhNode::child.
+    uint32_t emit(const Node& root) {
+        if (root.fits_a_block()) return emit_leaf(root);
+        auto index = static_cast<uint32_t>(bvh_.nodes.size());
+        bvh_.nodes.emplace_back();
+        BvhNode node;
+        Gathered children;
+        children.add(root, lanes, 7);
+        for (uint32_t i = 0; i < lanes; i++) {
+            bool used = i < children.size;
+            Box box = used ? children.node[i]->box : Box::empty();
+            for (int axis = 0; axis < 3; axis++) {
+                node.plane[2 * axis][i] = -box.v[axis];
+                node.plane[2 * axis + 1][i] = box.v[4 + axis];
+            }
+            node.child[i] = used ? emit(*children.node[i]) : 0;
+        }
+        for (uint32_t octant = 0; octant < 8; octant++) {
+            Gathered sorted;
+            sorted.add(root, lanes, octant);
+            node.far_first[octant] = 0;
+            for (uint32_t i = 0; i < lanes; i++) {
+                auto end = children.node.begin() + children.size;
+                auto lane = i < children.size
+                                ? std::find(children.node.begin(), end, sorted.node[i]) -
+                                      children.node.begin()
+                                : i;
+                node.far_first[octant] |= static_cast<LaneOrder>(lane) << (4 * i);
+            }
+        }
+        bvh_.nodes[index] = node;
+        return index;
+    }
+
+    uint32_t emit_leaf(const Node& leaf) {
+        uint32_t child = BvhNode::leaf | static_cast<uint32_t>(leaves_.size());
+        leaves_.push_back(&leaf);
+        for (uint32_t i = leaf.begin; i < leaf.end; i++)
+            if (refs_[i].prim() >= g_.triangles.size()) child |= BvhNode::mixed;
         return child;
     }
 
-    uint32_t build(const Range& range, int depth) {
-        if (range.size() <= leaf_size) return make_leaf(range);
-        Range children[8] = {range};
-        int n = 1;
-        int order[8][8] = {};
-        while (n < 8) {
-            int widest = -1;
-            for (int i = 0; i < n; i++) {
-                if (children[i].size() <= leaf_size) continue;
-                if (widest < 0 || half_area(children[i].box) > half_area(children[widest].box))
-                    widest = i;
+    void fill_block(const Node& leaf, BvhBlock& block) {
+        std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
+        std::fill_n(block.prim, lanes, PrimHit::none);
+        for (uint32_t i = 0; i < leaf.end - leaf.begin; i++) {
+            uint32_t prim = block.prim[i] = refs_[leaf.begin + i].prim();
+            if (prim >= g_.triangles.size()) continue;
+            for (size_t k = 0; k < 3; k++) {
+                Vec3 p = g_.positions[g_.triangles[prim].v[k]];
+                for (int axis = 0; axis < 3; axis++)
+                    block.vertex[3 * k + static_cast<size_t>(axis)][i] = p[axis];
             }
-            if (widest < 0) break;
-            Range left, right;
-            int axis = split(refs, children[widest], depth < 32, left, right);
-            children[widest] = left;
-            children[n] = right;
-            for (int octant = 0; octant < 8; octant++) {
-                // Far to near: along +axis the right one is the far one.
-                int* o = order[octant];
-                int* at = std::find(o, o + n, widest);
-                bool negative = octant >> axis & 1;
-                std::copy_backward(at + 1, o + n, o + n + 1);
-                at[0] = negative ? widest : n;
-                at[1] = negative ? n : widest;
-            }
-            n++;
         }
-        auto index = static_cast<uint32_t>(bvh.nodes.size());
-        bvh.nodes.emplace_back();
-        BvhNode node;
-        for (int i = 0; i < 8; i++) {
-            float box[8];
-            store8(i < n ? children[i].box : nothing(), box);
-            for (int axis = 0; axis < 3; axis++) {
-                node.plane[2 * axis][i] = -box[axis];
-                node.plane[2 * axis + 1][i] = box[4 + axis];
-            }
-            node.child[i] = i < n ? build(children[i], depth + 1) : 0;
-            node.order[i] = 0;
-            for (int k = 0; k < 8; k++)
-                node.order[i] |= static_cast<uint32_t>(k < n ? order[i][k] : k) << (4 * k);
-        }
-        bvh.nodes[index] = node;
-        return index;
     }
+
+    const Geometry& g_;
+    int threads_;
+    std::atomic<int> idle_threads_;
+    Refs refs_;
+    std::mutex mutex_;
+    std::deque<std::array<Node, 2>> pairs_;
+    std::vector<const Node*> leaves_;  // in the order of their blocks
+    Bvh bvh_;
 };
 
 }  // namespace
 
-Bvh build_bvh(const Geometry& geometry, int /*threads*/) {
-    Builder b{geometry, {}, {}};
-    for (uint32_t prim = 0; prim < geometry.size(); prim++) {
-        Ref ref;
-        if (make_ref(geometry, prim, ref)) b.refs.push_back(ref);
-    }
-    b.bvh.root = b.build(bound(b.refs, 0, static_cast<uint32_t>(b.refs.size())), 0);
-    return std::move(b.bvh);
-}
+Bvh build_bvh(const Geometry& geometry, int threads) { return Builder(geometry, threads).build(); }

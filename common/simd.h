@@ -1,145 +1,203 @@
-// Eight floats at once: AVX2 where the compiler may use it, elsewhere plain loops with the same
-// results. Each instruction that chapter 05 needs is named here once.
+// Many floats at once: 16 with AVX-512, 8 with AVX2, elsewhere plain loops over 8. Each
+// instruction that chapter 05 needs is named here once. The arithmetic is that of single floats,
+// lane by lane, with the same rounding, so that all three give the same hits.
 #pragma once
+#include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
-
 #ifdef __AVX2__
 #include <immintrin.h>
 #endif
 
-/// Eight floats; their arithmetic is that of single floats, lane by lane, with the same rounding.
-struct Float8 {
-#ifdef __AVX2__
-    __m256 v;
-#else
-    float v[8];
-#endif
+#if defined(__AVX512F__)
+
+inline constexpr int lanes = 16;
+using LaneOrder = uint64_t;  // lane k of the result is lane (order >> 4 k) & 15 of the source
+inline constexpr __mmask16 all_lanes = 0xffff;  // the forms without a mask make g++ 12 warn
+struct Floats {
+    __m512 v;
+};
+struct Ints {
+    __m512i v;
 };
 
-/// Eight whole numbers.
-struct Int8 {
-#ifdef __AVX2__
-    __m256i v;
-#else
-    int32_t v[8];
-#endif
-};
-
-#ifdef __AVX2__
-
-inline Float8 load8(const void* p) { return {_mm256_load_ps(static_cast<const float*>(p))}; }
-inline Int8 load8_int(const void* p) { return {_mm256_load_si256(static_cast<const __m256i*>(p))}; }
-inline void store8(Float8 a, void* p) { _mm256_storeu_ps(static_cast<float*>(p), a.v); }
-inline void store8(Int8 a, void* p) { _mm256_storeu_si256(static_cast<__m256i*>(p), a.v); }
-inline Float8 splat8(float a) { return {_mm256_set1_ps(a)}; }
-inline Float8 operator+(Float8 a, Float8 b) { return {_mm256_add_ps(a.v, b.v)}; }
-inline Float8 operator-(Float8 a, Float8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
-inline Float8 operator*(Float8 a, Float8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
-inline Float8 operator/(Float8 a, Float8 b) { return {_mm256_div_ps(a.v, b.v)}; }
-/// a b - c; one rounding or two.
-inline Float8 multiply_subtract(Float8 a, Float8 b, Float8 c) {
-#ifdef __FMA__
-    return {_mm256_fmsub_ps(a.v, b.v, c.v)};
-#else
-    return a * b - c;
-#endif
+inline Floats splat(float a) { return {_mm512_set1_ps(a)}; }
+inline Floats load(const float* p) { return {_mm512_load_ps(p)}; }
+inline Ints load(const uint32_t* p) { return {_mm512_load_si512(p)}; }
+inline void store(Floats a, float* p) { _mm512_storeu_ps(p, a.v); }
+inline void store(Ints a, uint32_t* p) { _mm512_storeu_si512(p, a.v); }
+/// a b - c with one rounding.
+inline Floats multiply_subtract(Floats a, Floats b, Floats c) {
+    return {_mm512_fmsub_ps(a.v, b.v, c.v)};
 }
-/// a < b ? a : b, so that b comes back when either is NaN; max8 likewise.
-inline Float8 min8(Float8 a, Float8 b) { return {_mm256_min_ps(a.v, b.v)}; }
-inline Float8 max8(Float8 a, Float8 b) { return {_mm256_max_ps(a.v, b.v)}; }
-/// Bit i is set where lane i of a is less than (or equal to) that of b; NaN: not set.
-inline uint32_t less(Float8 a, Float8 b) {
+/// a < b ? a : b, so that b comes back when either is NaN; max likewise.
+inline Floats min(Floats a, Floats b) { return {_mm512_maskz_min_ps(all_lanes, a.v, b.v)}; }
+inline Floats max(Floats a, Floats b) { return {_mm512_maskz_max_ps(all_lanes, a.v, b.v)}; }
+/// Bit k is set where lane k of a is less than (or equal to) that of b; not where either is NaN.
+inline uint32_t less(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
+inline uint32_t less_equal(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ); }
+inline Ints lanes_of(LaneOrder order) {
+    // The lower half of the order goes to the lower eight lanes.
+    const __m512i shifts =
+        _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 0, 4, 8, 12, 16, 20, 24, 28);
+    __m512i halves = _mm512_maskz_set1_epi32(0x00ff, static_cast<int>(order));
+    halves = _mm512_mask_set1_epi32(halves, 0xff00, static_cast<int>(order >> 32));
+    return {_mm512_maskz_srlv_epi32(all_lanes, halves, shifts)};
+}
+inline Floats permute(Floats a, Ints from) { return {_mm512_maskz_permutexvar_ps(all_lanes, from.v, a.v)}; }
+inline Ints permute(Ints a, Ints from) { return {_mm512_maskz_permutexvar_epi32(all_lanes, from.v, a.v)}; }
+/// Moves the lanes whose bits are set to the front, in their order.
+inline Floats compress(Floats a, uint32_t mask) {
+    return {_mm512_maskz_compress_ps(static_cast<__mmask16>(mask), a.v)};
+}
+inline Ints compress(Ints a, uint32_t mask) {
+    return {_mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), a.v)};
+}
+
+#else
+
+inline constexpr int lanes = 8;
+using LaneOrder = uint32_t;
+
+namespace simd_details {
+/// For each mask: its set bits as a LaneOrder.
+inline constexpr auto set_bits = [] {
+    std::array<LaneOrder, 256> orders = {};
+    for (uint32_t mask = 0; mask < 256; mask++) {
+        for (uint32_t k = 0, n = 0; k < 8; k++) {
+            if (mask >> k & 1) orders[mask] |= k << 4 * n++;
+        }
+    }
+    return orders;
+}();
+}  // namespace simd_details
+
+#ifdef __AVX2__
+
+struct Floats {
+    __m256 v;
+};
+struct Ints {
+    __m256i v;
+};
+
+inline Floats splat(float a) { return {_mm256_set1_ps(a)}; }
+inline Floats load(const float* p) { return {_mm256_load_ps(p)}; }
+inline Ints load(const uint32_t* p) {
+    return {_mm256_load_si256(reinterpret_cast<const __m256i*>(p))};
+}
+inline void store(Floats a, float* p) { _mm256_storeu_ps(p, a.v); }
+inline void store(Ints a, uint32_t* p) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
+#ifdef __FMA__
+inline Floats multiply_subtract(Floats a, Floats b, Floats c) {
+    return {_mm256_fmsub_ps(a.v, b.v, c.v)};
+}
+#else
+inline Floats multiply_subtract(Floats a, Floats b, Floats c) { return {a.v * b.v - c.v}; }
+#endif
+inline Floats min(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
+inline Floats max(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
+inline uint32_t less(Floats a, Floats b) {
     return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)));
 }
-inline uint32_t less_equal(Float8 a, Float8 b) {
+inline uint32_t less_equal(Floats a, Floats b) {
     return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
 }
-/// The lower four lanes change places with the upper four.
-inline Float8 swap_halves(Float8 a) { return {_mm256_permute2f128_ps(a.v, a.v, 1)}; }
-/// Rounds towards 0.
-inline Int8 to_int(Float8 a) { return {_mm256_cvttps_epi32(a.v)}; }
-/// Lane i becomes lane `order` >> 4 i, for i = 0 .. 7.
-inline Int8 order_lanes(uint32_t order) {
-    const __m256i shifts = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
-    return {_mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(order)), shifts)};
+inline Ints lanes_of(LaneOrder order) {
+    return {_mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(order)),
+                              _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28))};
 }
-inline Float8 permute(Float8 a, Int8 lanes) { return {_mm256_permutevar8x32_ps(a.v, lanes.v)}; }
-inline Int8 permute(Int8 a, Int8 lanes) { return {_mm256_permutevar8x32_epi32(a.v, lanes.v)}; }
+inline Floats permute(Floats a, Ints from) { return {_mm256_permutevar8x32_ps(a.v, from.v)}; }
+inline Ints permute(Ints a, Ints from) { return {_mm256_permutevar8x32_epi32(a.v, from.v)}; }
 
 #else
 
-inline Float8 load8(const void* p) {
-    Float8 a;
-    std::memcpy(a.v, p, sizeof a.v);
+struct Floats {
+    float v[lanes];
+};
+struct Ints {
+    uint32_t v[lanes];
+};
+
+namespace simd_details {
+template <typename Result, typename Lane>
+Result each_lane(const Lane& lane) {
+    Result a;
+    for (int k = 0; k < lanes; k++) a.v[k] = lane(k);
     return a;
 }
-inline Int8 load8_int(const void* p) {
-    Int8 a;
-    std::memcpy(a.v, p, sizeof a.v);
-    return a;
-}
-inline void store8(Float8 a, void* p) { std::memcpy(p, a.v, sizeof a.v); }
-inline void store8(Int8 a, void* p) { std::memcpy(p, a.v, sizeof a.v); }
-template <typename F>
-Float8 lane_by_lane(const F& f) {
-    Float8 a;
-    for (int i = 0; i < 8; i++) a.v[i] = f(i);
-    return a;
-}
-inline Float8 splat8(float a) {
-    return lane_by_lane([&](int) { return a; });
-}
-inline Float8 operator+(Float8 a, Float8 b) {
-    return lane_by_lane([&](int i) { return a.v[i] + b.v[i]; });
-}
-inline Float8 operator-(Float8 a, Float8 b) {
-    return lane_by_lane([&](int i) { return a.v[i] - b.v[i]; });
-}
-inline Float8 operator*(Float8 a, Float8 b) {
-    return lane_by_lane([&](int i) { return a.v[i] * b.v[i]; });
-}
-inline Float8 operator/(Float8 a, Float8 b) {
-    return lane_by_lane([&](int i) { return a.v[i] / b.v[i]; });
-}
-inline Float8 multiply_subtract(Float8 a, Float8 b, Float8 c) { return a * b - c; }
-inline Float8 min8(Float8 a, Float8 b) {
-    return lane_by_lane([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; });
-}
-inline Float8 max8(Float8 a, Float8 b) {
-    return lane_by_lane([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
-}
-inline uint32_t less(Float8 a, Float8 b) {
+template <typename Test>
+uint32_t mask_of(const Test& test) {
     uint32_t mask = 0;
-    for (int i = 0; i < 8; i++) mask |= static_cast<uint32_t>(a.v[i] < b.v[i]) << i;
+    for (int k = 0; k < lanes; k++) mask |= static_cast<uint32_t>(test(k)) << k;
     return mask;
 }
-inline uint32_t less_equal(Float8 a, Float8 b) {
-    uint32_t mask = 0;
-    for (int i = 0; i < 8; i++) mask |= static_cast<uint32_t>(a.v[i] <= b.v[i]) << i;
-    return mask;
+}  // namespace simd_details
+
+inline Floats splat(float a) {
+    return simd_details::each_lane<Floats>([&](int) { return a; });
 }
-inline Float8 swap_halves(Float8 a) {
-    return lane_by_lane([&](int i) { return a.v[i ^ 4]; });
+inline Floats load(const float* p) {
+    return simd_details::each_lane<Floats>([&](int k) { return p[k]; });
 }
-inline Int8 to_int(Float8 a) {
-    Int8 b;
-    for (int i = 0; i < 8; i++) b.v[i] = static_cast<int32_t>(a.v[i]);
-    return b;
+inline Ints load(const uint32_t* p) {
+    return simd_details::each_lane<Ints>([&](int k) { return p[k]; });
 }
-inline Int8 order_lanes(uint32_t order) {
-    Int8 lanes;
-    for (int i = 0; i < 8; i++) lanes.v[i] = static_cast<int32_t>(order >> (4 * i) & 7);
-    return lanes;
+inline void store(const Floats& a, float* p) { std::copy_n(a.v, lanes, p); }
+inline void store(const Ints& a, uint32_t* p) { std::copy_n(a.v, lanes, p); }
+inline Floats operator+(const Floats& a, const Floats& b) {
+    return simd_details::each_lane<Floats>([&](int k) { return a.v[k] + b.v[k]; });
 }
-inline Float8 permute(Float8 a, Int8 lanes) {
-    return lane_by_lane([&](int i) { return a.v[lanes.v[i]]; });
+inline Floats operator-(const Floats& a, const Floats& b) {
+    return simd_details::each_lane<Floats>([&](int k) { return a.v[k] - b.v[k]; });
 }
-inline Int8 permute(Int8 a, Int8 lanes) {
-    Int8 b;
-    for (int i = 0; i < 8; i++) b.v[i] = a.v[lanes.v[i]];
-    return b;
+inline Floats operator*(const Floats& a, const Floats& b) {
+    return simd_details::each_lane<Floats>([&](int k) { return a.v[k] * b.v[k]; });
+}
+inline Floats operator/(const Floats& a, const Floats& b) {
+    return simd_details::each_lane<Floats>([&](int k) { return a.v[k] / b.v[k]; });
+}
+inline Floats multiply_subtract(const Floats& a, const Floats& b, const Floats& c) {
+    return a * b - c;
+}
+inline Floats min(const Floats& a, const Floats& b) {
+    return simd_details::each_lane<Floats>(
+        [&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; });
+}
+inline Floats max(const Floats& a, const Floats& b) {
+    return simd_details::each_lane<Floats>(
+        [&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
+}
+inline uint32_t less(const Floats& a, const Floats& b) {
+    return simd_details::mask_of([&](int k) { return a.v[k] < b.v[k]; });
+}
+inline uint32_t less_equal(const Floats& a, const Floats& b) {
+    return simd_details::mask_of([&](int k) { return a.v[k] <= b.v[k]; });
+}
+inline Ints lanes_of(LaneOrder order) {
+    return simd_details::each_lane<Ints>([&](int k) { return order >> 4 * k & 7; });
+}
+inline Floats permute(const Floats& a, const Ints& from) {
+    return simd_details::each_lane<Floats>([&](int k) { return a.v[from.v[k]]; });
+}
+inline Ints permute(const Ints& a, const Ints& from) {
+    return simd_details::each_lane<Ints>([&](int k) { return a.v[from.v[k]]; });
 }
 
+#endif
+
+inline Floats compress(const Floats& a, uint32_t mask) {
+    return permute(a, lanes_of(simd_details::set_bits[mask]));
+}
+inline Ints compress(const Ints& a, uint32_t mask) {
+    return permute(a, lanes_of(simd_details::set_bits[mask]));
+}
+
+#endif
+
+#ifdef __AVX2__
+inline Floats operator+(Floats a, Floats b) { return {a.v + b.v}; }
+inline Floats operator-(Floats a, Floats b) { return {a.v - b.v}; }
+inline Floats operator*(Floats a, Floats b) { return {a.v * b.v}; }
+inline Floats operator/(Floats a, Floats b) { return {a.v / b.v}; }
 #endif
