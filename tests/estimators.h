@@ -105,9 +105,14 @@ inline int check_classes(const Scene& scene_a, Trace trace_a, const Scene& scene
     return compared;
 }
 
-/// relMSE of one sample for each pixel: the mean over the pixels of variance / (mean^2 + 0.01).
+/// relMSE of one sample for each pixel: the mean over the film of variance / (mean^2 + 0.01), with
+/// the means of blocks of 8 x 8 pixels: those of single pixels are too noisy to be divided by.
 inline double rel_mse(const Film& film) {
     double sum = 0, n = static_cast<double>(film.spp);
-    for (const PixelSum& p : film.pixels()) sum += p.m2 / (n - 1) / (p.mean * p.mean + 0.01);
-    return sum / static_cast<double>(film.pixels().size());
+    for (int y = 0; y < film.height; y += 8)
+        for (int x = 0; x < film.width; x += 8) {
+            Measured block = block_of(film, x, y, 8);
+            sum += 64 * n * block.se * block.se / (block.mean * block.mean + 0.01);
+        }
+    return sum / (film.width * film.height / 64);
 }
