@@ -29,7 +29,10 @@ float read_alpha(Params& params) {
     float roughness = params.number("roughness", 0);
     float u = params.number("uroughness", roughness), v = params.number("vroughness", roughness);
     bool remap = params.boolean("remaproughness", true);
-    if (u < 0 || v < 0) fail(params.at(), "roughness must not be negative");
+    constexpr float roughest = 100;
+    if (!(std::min(u, v) >= 0 && std::max(u, v) <= roughest)) {
+        fail(params.at(), "roughness must be from 0 to 100");
+    }
     if (u != v) fail(params.at(), "uroughness and vroughness that differ are not supported");
     return remap ? std::sqrt(u) : u;
 }
@@ -38,8 +41,9 @@ float read_alpha(Params& params) {
 std::optional<Rgb> read_metal(Params& params, const std::string& name) {
     if (const Param* rgb = params.find_exactly("rgb", name, 3)) {
         Rgb value = read_rgb(*rgb);
-        if (std::min({value.r, value.g, value.b}) < 0) {
-            fail(rgb->at, quote(name) + " must not be negative");
+        constexpr float largest = 1e4f;  // so that its fourth power is a float
+        if (std::min({value.r, value.g, value.b}) < 0 || max_component(value) > largest) {
+            fail(rgb->at, quote(name) + " must be from 0 to 1e4");
         }
         return value;
     }
@@ -90,7 +94,9 @@ Material read_dielectric(Params& params) {
         fail(glass->at, "glass with a spectrum for eta (dispersion) is not supported yet");
     }
     material.ior = params.number("eta", 1.5f);
-    if (!(material.ior > 0)) fail(params.at("eta"), "eta must be greater than 0");
+    if (!(material.ior >= 1e-4f && material.ior <= 1e4f)) {
+        fail(params.at("eta"), "\"eta\" must be from 1e-4 to 1e4");
+    }
     if (read_alpha(params) >= smooth_below) {
         fail(params.at(), "a rough dielectric is not supported");
     }

@@ -30,33 +30,29 @@ void note(Notes& notes, const Params& params, const std::string& text) {
     notes.push_back(message_at(params.at(), "note", params.owner() + ' ' + text));
 }
 
-}  // namespace
-
-void read_camera(Params& params, const Transform& camera_from_world, Camera& camera,
-                 Exposure& exposure) {
-    if (params.type() != "perspective") params.fail_type({"perspective"});
-    camera = {};
-    Transform world_from_camera = inverse(camera_from_world);
+void place_camera(const Params& params, const Transform& world_from_camera, Camera& camera) {
     camera.o = to_vec3(world_from_camera.o);
     camera.right = to_vec3(world_from_camera.x);
     camera.up = to_vec3(world_from_camera.y);
     camera.forward = to_vec3(world_from_camera.z);
-
     for (Vec3 axis : {camera.right, camera.up, camera.forward}) {
-        float size = length(axis);
-        if (!(size > 1e-9f && size < 1e9f && max_component(abs(camera.o)) < 1e9f)) {
+        bool usable = length(axis) > 1e-6f && length(axis) < 1e6f;
+        if (!usable || !(max_component(abs(camera.o)) <= 1e9f)) {
             fail(params.at(), "the camera's transform is too large or too small");
         }
     }
+}
 
+// Reads what part of the plane in front of the camera is seen.
+void read_screen(Params& params, Camera& camera) {
     camera.fov = params.number("fov", 90);
     if (!(camera.fov > 0 && camera.fov < 180)) {
         fail(params.at("fov"), "fov must be greater than 0 and less than 180 degrees");
     }
     if (const Param* aspect = params.find_exactly("float", "frameaspectratio", 1)) {
         camera.frame_aspect = static_cast<float>(aspect->numbers[0]);
-        if (!(*camera.frame_aspect > 0)) {
-            fail(aspect->at, "frameaspectratio must be greater than 0");
+        if (!(*camera.frame_aspect >= 1e-4f && *camera.frame_aspect <= 1e4f)) {
+            fail(aspect->at, "frameaspectratio must be from 1e-4 to 1e4");
         }
     }
     if (const Param* window = params.find_exactly("float", "screenwindow", 4)) {
@@ -64,15 +60,28 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
         std::transform(window->numbers.begin(), window->numbers.end(), w.begin(),
                        [](double x) { return static_cast<float>(x); });
         if (!(w[0] < w[1] && w[2] < w[3])) fail(window->at, "screenwindow is empty");
+        for (float edge : w) {
+            if (std::abs(edge) > 1e4f) fail(window->at, "screenwindow reaches farther than 1e4");
+        }
     }
+}
 
+}  // namespace
+
+void read_camera(Params& params, const Transform& camera_from_world, Camera& camera,
+                 Exposure& exposure) {
+    if (params.type() != "perspective") params.fail_type({"perspective"});
+    camera = {};
+    place_camera(params, inverse(camera_from_world), camera);
+    read_screen(params, camera);
     float lens_radius = params.number("lensradius", 0);
     if (lens_radius < 0) fail(params.at("lensradius"), "lensradius must not be negative");
     if (lens_radius > 0) fail(params.at("lensradius"), "lensradius > 0 is not supported yet");
     params.ignore("float", {"focaldistance"});
     exposure.shutter = params.number("shutterclose", 1) - params.number("shutteropen", 0);
-    if (!(exposure.shutter > 0))
+    if (!(exposure.shutter > 0)) {
         fail(params.at("shutterclose"), "shutterclose must be after shutteropen");
+    }
     params.finish();
 }
 
@@ -96,8 +105,9 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, Notes& notes) {
     }
     std::string sensor = params.string("sensor", "cie1931");
     if (sensor != "cie1931") fail_unknown(params.at("sensor"), "sensor", sensor, {"cie1931"});
-    if (params.number("whitebalance", 0) != 0)
+    if (params.number("whitebalance", 0) != 0) {
         fail(params.at("whitebalance"), "whitebalance is not supported");
+    }
     if (params.find("float", "maxcomponentvalue")) {
         note(notes, params, "maxcomponentvalue is ignored: nothing is clamped");
     }

@@ -28,6 +28,7 @@ public:
     /// The directive and its type, for messages.
     std::string owner() const;
 
+    /// The one value of a parameter; `fallback` where it is not given.
     float number(const std::string& name, float fallback);
     int integer(const std::string& name, int fallback, int low, int high);
     bool boolean(const std::string& name, bool fallback);

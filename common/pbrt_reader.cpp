@@ -128,7 +128,11 @@ Scene SceneReader::finish() {
 
     // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.
     float exposure = exposure_.shutter * exposure_.iso / 100;
-    for (Light& light : scene_.lights) light.L *= exposure;
+    for (Light& light : scene_.lights) {
+        light.L *= exposure;
+        if (!is_finite(light.L) || is_black(light.L))
+            refuse("shutter or iso leave no usable light");
+    }
     if (!has_filter_) {
         notes_.push_back(printable(scene_.file) +
                          ": note: no PixelFilter: pbrt's \"gaussian\" is replaced by the box");

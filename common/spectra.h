@@ -11,7 +11,8 @@
 ///   B(lambda) = 1 / (lambda^5 (exp(c2 / (lambda T)) - 1)),  weighted with the CIE 1931 observer
 ///
 /// kelvin  T, from 500 to 1e6; what lies outside of sRGB (below about 1900 K) is cut off at 0
-/// source  Planck 1901; CIE 015      tested by  "truth: a black body of 6504 K is nearly white"
+/// source  Planck 1901; CIE 015
+/// tested by  "truth: black bodies have the chromaticities that the CIE gives"
 Rgb blackbody_rgb(double kelvin);
 
 /// The relative luminance of a linear sRGB color.

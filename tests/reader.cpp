@@ -340,6 +340,8 @@ TEST_SUITE("reader: shapes") {
         // Normals that say nothing leave the decision to the corners.
         CHECK(normal_of(triangle + "\"normal N\" [0 0 0 0 0 0 0 0 0]") == up);
         CHECK(normal_of(triangle + "\"normal N\" [1 0 0 0 1 0 1 1 0]") == up);
+        CHECK(normal_of("ReverseOrientation" + triangle + "\"normal N\" [1 0 0 0 1 0 1 1 0]") ==
+              down);
     }
 
     TEST_CASE("input: vertex normals are carried as normals, and turned by ReverseOrientation") {
@@ -351,6 +353,9 @@ TEST_SUITE("reader: shapes") {
         CHECK(near(scene.geometry.normals[0], {0, .6f, .8f}));
         scene = parse_world("ReverseOrientation" + slanted);
         CHECK(near(scene.geometry.normals[0], {0, -.6f, -.8f}));
+        // Lengths are kept, by which pbrt weighs them, unless their squares would leave a float.
+        scene = parse_world(triangle + "\"normal N\" [0 0 2  0 0 3e30  0 0 1e-30]");
+        CHECK(scene.geometry.normals == std::vector<Vec3>{{0, 0, 2}, {0, 0, 1}, {0, 0, 1}});
         // Every position has a normal once one has; meshes without get zeros.
         scene = parse_world(triangle + slanted + triangle);
         REQUIRE(scene.geometry.positions.size() == 9);
