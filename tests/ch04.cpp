@@ -187,8 +187,9 @@ TEST_SUITE("ch04 classes of paths") {
             PathCensus census = census_of(scene, ch04::trace, 4000, 1);
             CHECK(census.worst_sum < 1e-5);
             for (const auto& [name, sum] : census.by_class) {
-                CAPTURE(name);
-                CHECK(std::regex_match(name, std::regex("LD?S*E")));
+                const std::string& path_class = name;
+                CAPTURE(path_class);
+                CHECK(std::regex_match(path_class, std::regex("LD?S*E")));
             }
             CHECK(census.by_class.count("LDE") == 1);
             if (std::string(file) != "cornell") CHECK(census.by_class.count("LDSE") == 1);

@@ -105,7 +105,8 @@ TEST_SUITE("optics") {
             // In float, cos_t loses digits as it goes to 0 (grazing, and the critical angle).
             double sin = std::sin(degrees * std::numbers::pi / 180) / eta;
             double cos_t = std::sqrt(1 - sin * sin);
-            CAPTURE(degrees);
+            double angle = degrees;
+            CAPTURE(angle);
             CHECK(std::abs(reflected(degrees, eta) - R) < 1e-6 / std::min(1.0, cos_t));
         }
         for (double degrees : {41.82, 45.0, 60.0, 89.9}) CHECK(reflected(degrees, 1 / 1.5) == 1);
