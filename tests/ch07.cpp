@@ -8,8 +8,6 @@
 
 namespace {
 
-constexpr double pi_exact = std::numbers::pi;
-
 /// A path in a closed sphere that emits 1 and reflects a, drawn in proportion to the cosine (every
 /// bounce is worth a): X = sum (a / q)^k over the bounces k that roulette lets live.
 double furnace_path(double a, double q, Sampler& random, bool divide = true) {
