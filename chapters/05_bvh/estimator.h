@@ -7,6 +7,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "common/scene.h"
@@ -216,7 +217,8 @@ inline void test_prim(const Geometry& g, uint32_t prim, Ray ray, const Shear& sh
         const Disk& d = g.disks[i - g.spheres.size()];
         hit.t = intersect_disk(ray, d.c, d.n, d.r).value_or(infinity);
     }
-    if (hit.t < best.t || (hit.t == best.t && prim < best.prim)) best = hit;
+    bool tie = hit.t == best.t && best.prim != PrimHit::none;
+    if (hit.t < best.t || (tie && prim < best.prim)) best = hit;
 }
 
 /// Finds the nearest hit. In order, the nearer child comes first, and a box that begins behind the
@@ -280,6 +282,10 @@ inline PrimHit find(const Finder& f, const Geometry& g, const Ray& ray, Work& wo
         default: return traverse(f.hierarchy, g, ray, f.step == Step::ordered, work);
     }
 }
+
+inline const std::vector<std::string> step_names = {"linear", "median", "sah", "ordered", "wide"};
+
+inline size_t nodes_of(const Finder& f) { return f.hierarchy.nodes.size() + f.wide.nodes.size(); }
 
 /// Boxes and primitives that one ray is tested against.
 inline float work_of(const Finder& f, const Geometry& g, const Ray& ray) {

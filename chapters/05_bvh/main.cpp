@@ -12,28 +12,22 @@ static std::vector<std::string> measure(const Scene& scene, const std::string& n
     auto trace = [&](const Ray& ray) { find(finder, scene.geometry, ray, work); };
     double n = for_pixels(scene, stride, trace), seconds = watch.seconds() - build;
     auto per_ray = [&](uint64_t count) { return digits(static_cast<double>(count) / n, 4); };
-    size_t nodes = finder.hierarchy.nodes.size() + finder.wide.nodes.size();
-    return {name,
-            digits(build, 3),
-            std::to_string(nodes),
-            digits(sah_cost(finder.hierarchy), 4),
-            per_ray(work.boxes),
-            per_ray(work.prims),
-            digits(n / seconds / 1e6, 3)};
+    std::string nodes = std::to_string(nodes_of(finder));
+    std::string cost = digits(sah_cost(finder.hierarchy), 4), speed = digits(n / seconds / 1e6, 3);
+    return {name, digits(build, 3), nodes, cost, per_ray(work.boxes), per_ray(work.prims), speed};
 }
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        std::vector<std::string> names = {"linear", "median", "sah", "ordered", "wide"};
+        const auto& names = ch05::step_names;
         size_t step = 3;
         Option which{"step", "STEP", "drawn: linear, median, sah, ordered (default) or wide",
                      [&](const std::string& text) { step = parse_choice("step", text, names); }};
         auto o = parse_render_options(argc, argv, "05_bvh", "scenes/knot.pbrt", {which});
         Scene scene = load(o);
         Table table{{"step", "build s", "nodes", "SAH", "boxes/ray", "prims/ray", "M rays/s"}, {}};
-        for (size_t i = 0; i < names.size() && !o.quiet; i++) {
+        for (size_t i = 0; i < names.size() && !o.quiet; i++)
             table.rows.push_back(measure(scene, names[i], i));
-        }
         auto finder = make_finder(scene, static_cast<ch05::Step>(step));
         auto work = [&](const Ray& ray) { return work_of(finder, scene.geometry, ray); };
         write_results({o.name, o.command, 0, 0, o.out, o.quiet}, table,
