@@ -33,7 +33,7 @@ Scene clutter(uint32_t triangles) {
 Ray ray_number(uint32_t i) {
     Sampler sampler(SamplerType::independent, 6, 1);
     sampler.start(i, 0);
-    Vec3 o = 2 * random_point(sampler), d = random_point(sampler);
+    Vec3 o = 2 * random_point(sampler), d = random_point(sampler) - o;
     if (i % 4 == 0) {
         Vec3 axis = {0.0f, -0.0f, 0.0f};
         axis[static_cast<int>(i / 4 % 3)] = i % 8 == 0 ? 1.0f : -1.0f;
