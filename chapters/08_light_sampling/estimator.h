@@ -8,6 +8,7 @@
 #include "common/metal.h"
 #include "common/optics.h"
 #include "common/path_log.h"
+#include "common/roulette.h"
 #include "common/sampler.h"
 
 namespace ch08 {
@@ -62,17 +63,6 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
         case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
     }
     return {};
-}
-
-/// The probability with which a path of throughput beta goes on.
-///
-///   q = the largest channel of beta, within [0.05, 0.95];  1 for the first few vertices
-///
-/// Taken from the largest channel, no channel's beta / q can grow from vertex to vertex. Below 1,
-/// so that a path that loses nothing (mirrors, total reflection) ends as well.
-inline float survival_probability(Rgb beta, int depth) {
-    if (depth < 4) return 1;
-    return std::clamp(max_component(beta), 0.05f, 0.95f);
 }
 
 /// Light that was aimed at. pdf_w == 0: no sample, it contributes nothing.

@@ -8,29 +8,25 @@
 #include "common/metal.h"
 #include "common/optics.h"
 #include "common/path_log.h"
+#include "common/roulette.h"
 #include "common/sampler.h"
 
 namespace ch12 {
 
-/// How normals of microfacets spread on a rough conductor, in the frame where z is the normal.
-///
-///   D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2)                        (GGX)
-///
+/// How normals of microfacets spread on a rough conductor, in the frame where z is the normal:
+/// D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2).                             (GGX)
 /// source  Walter et al. 2007      tested by  "density: GGX normals"
 inline float ggx_D(Vec3 h, float alpha) {
     float a2 = alpha * alpha, d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
     return a2 / (pi * d * d);
 }
-/// Lambda, by which facets hide each other:  G1(w) = 1 / (1 + Lambda(w)),
-/// G(wo, wi) = 1 / (1 + Lambda(wo) + Lambda(wi)).      source  Smith 1967; Heitz 2014
+/// By which facets hide each other: G1(w) = 1 / (1 + Lambda(w)).     source  Smith 1967; Heitz 2014
 inline float ggx_lambda(Vec3 w, float alpha) {
     float tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
     return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
 }
-/// A microfacet normal among those that wo sees.
-///
-///   pdf(h) = G1(wo) D(h) wo.h / cos_o      stretch to alpha = 1, where it is a cap of the sphere
-///
+/// A microfacet normal among those that wo sees: pdf(h) = G1(wo) D(h) wo.h / cos_o. Stretched to
+/// alpha = 1, it is drawn from a cap of the sphere.
 /// source  Heitz 2018; Dupuy, Benyoub 2023
 inline Vec3 sample_ggx_normal(Vec3 wo, float alpha, Vec2 u) {
     Vec3 w = normalize({alpha * wo.x, alpha * wo.y, wo.z});
@@ -118,19 +114,8 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     return {};
 }
 
-/// The probability with which a path of throughput beta goes on.
-///
-///   q = the largest channel of beta, within [0.05, 0.95];  1 for the first few vertices
-///
-/// Taken from the largest channel, no channel's beta / q can grow from vertex to vertex. Below 1,
-/// so that a path that loses nothing (mirrors, total reflection) ends as well.
-inline float survival_probability(Rgb beta, int depth) {
-    if (depth < 4) return 1;
-    return std::clamp(max_component(beta), 0.05f, 0.95f);
-}
-
 /// Which ways of looking for light are used, and how they share it.
-enum class Strategy : uint8_t { bsdf, light, mis };
+enum class Strategy : uint8_t { bsdf, light, mis, one_sample };
 enum class Heuristic : uint8_t { balance, power };
 struct Settings {
     Strategy strategy = Strategy::mis;
@@ -161,7 +146,7 @@ inline Densities densities(const Scene& scene, size_t light, float pdf_one, floa
 ///
 ///   balance: a / sum d_k;  power: a^2 / sum d_k^2      d_k: samples times density, sr^-1
 ///
-/// Written in ratios d_k / a, which neither overflow nor make 0 / 0. a > 0.
+/// Ratios d_k / a neither overflow nor make 0 / 0. a > 0.
 /// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1"
 inline float mis_weight(float a, const Densities& d) {
     float sum = 0;
@@ -185,10 +170,8 @@ inline Rgb light_from(const Scene& scene, const Hit& x, Vec3 wo, size_t light, V
     return log.direct(beta * Ld, y.wi, d.*way, d.bsdf, mis_l);
 }
 
-/// How much of a light's potential a rough conductor turns to wo, and the BSDF does not find
-/// itself.
-///
-///   mis_l f + 0.05, f and mis_l towards the light's centre; 0.05: its other points may differ
+/// How much of a light's potential a rough conductor turns to wo, and the BSDF does not find:
+/// mis_l f + 0.05, f and mis_l towards the light's centre. 0.05: its other points may differ.
 inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo) {
     if (scene.lights[light].type != LightType::area) return 1;
     const LightShape& shape = scene.light_shapes[light];
@@ -201,8 +184,6 @@ inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo)
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
 /// inside: candidates of which the BSDF takes care are not chosen.
-///
-///   p_hat = potential (mis_l f + 0.05)      f, mis_l: towards the light's centre
 inline Reservoir resample_lights(const Scene& scene, const Hit& x, Vec3 wo, Sampler& sampler) {
     Reservoir kept;
     float u = sampler.u1(), u1 = sampler.u1();
@@ -218,12 +199,25 @@ inline Reservoir resample_lights(const Scene& scene, const Hit& x, Vec3 wo, Samp
     return kept;
 }
 
+/// What either side counts at a vertex: in one-sample MIS a coin lets one look, which counts twice.
+struct Chances {
+    float light = 1, bsdf = 1;
+};
+inline Chances draw_chances(Sampler& sampler) {
+    switch (settings.strategy) {
+        case Strategy::bsdf: return {0, 1};
+        case Strategy::light: return {1, 0};
+        case Strategy::one_sample: return sampler.u1() < 0.5f ? Chances{2, 0} : Chances{0, 2};
+        case Strategy::mis: break;
+    }
+    return {};
+}
+
 /// Estimates what all lights send by way of x to wo, in the two ways that aim at lights.
-///
 /// source  Veach, Guibas 1995; Talbot et al. 2005      tested by  "truth: MIS in one dimension"
 inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& sampler, Rgb beta,
                         PathLog& log) {
-    if (is_specular(*x.material) || settings.strategy == Strategy::bsdf) return {};
+    if (is_specular(*x.material) || is_black(beta)) return {};
     size_t N = scene.lights.size();
     if (N == 0) return {};
     if (N == 1) {
@@ -238,14 +232,14 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& samp
 }
 
 /// The weight of emission that the direction s, drawn at x, has met: in y, or else in the sky.
-inline float mis_emission(const Scene& scene, const Hit& x, const BsdfSample& s, const Hit* y) {
-    if (s.specular || settings.strategy == Strategy::bsdf) return 1;
-    if (settings.strategy == Strategy::light) return 0;
-    if (y == nullptr && scene.sky_light < 0) return 1;
+inline float mis_emission(const Scene& scene, const Hit& x, const BsdfSample& s, Chances chances,
+                          const Hit* y) {
+    if (s.specular) return 1;
+    if (settings.strategy == Strategy::bsdf || chances.bsdf == 0) return chances.bsdf;
     size_t light = static_cast<size_t>(y != nullptr ? y->light : scene.sky_light);
     float pdf_one = y != nullptr ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, s.wi);
     Densities d = densities(scene, light, pdf_one, s.pdf_w);
-    return mis_weight(d.bsdf, d);
+    return chances.bsdf * mis_weight(d.bsdf, d);
 }
 
 /// Estimates Li along the ray from one path.
@@ -258,11 +252,13 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     Hit last;
     BsdfSample s{{}, {}, 0, true};  // as if the camera were a mirror: it has aimed at no light
+    Chances chances;
     for (int depth = 0;; depth++) {
         // Find the next vertex. A path that leaves the scene ends in the sky.
         std::optional<Hit> x = intersect(scene, ray);
         if (!x) {
-            float mis_b = is_black(scene.sky) ? 0 : mis_emission(scene, last, s, nullptr);
+            if (is_black(scene.sky)) return L;
+            float mis_b = mis_emission(scene, last, s, chances, nullptr);
             return L + log.emitted(beta * scene.sky * mis_b, mis_b);
         }
         log.vertex(*x);
@@ -270,7 +266,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
         // Add what shines there, as far as it is this strategy's share.
         Rgb Le = emission(scene, *x);
         if (!is_black(Le)) {
-            float mis_b = mis_emission(scene, last, s, &*x);
+            float mis_b = mis_emission(scene, last, s, chances, &*x);
             L += log.emitted(beta * Le * mis_b, mis_b);
         }
         if (depth == scene.max_depth) {
@@ -280,7 +276,8 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
 
         // Aim at a light.
         Vec3 wo = -ray.d;
-        L += direct_light(scene, *x, wo, sampler, beta, log);
+        chances = draw_chances(sampler);
+        L += direct_light(scene, *x, wo, sampler, beta * chances.light, log);
 
         // Go on in one direction, and count it for all those that were not taken.
         float u1 = sampler.u1();

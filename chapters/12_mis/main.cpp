@@ -6,10 +6,10 @@ int main(int argc, char** argv) {
     using ch12::Heuristic, ch12::Strategy, ch12::settings;
     return run_program([&] {
         std::vector<Option> extra = {
-            {"strategy", "KIND", "mis (default), bsdf or light alone",
+            {"strategy", "KIND", "mis (default), one-sample, or bsdf or light alone",
              [](const std::string& text) {
                  settings.strategy = static_cast<Strategy>(
-                     parse_choice("strategy", text, {"bsdf", "light", "mis"}));
+                     parse_choice("strategy", text, {"bsdf", "light", "mis", "one-sample"}));
              }},
             {"heuristic", "KIND", "power (default) or balance",
              [](const std::string& text) {
