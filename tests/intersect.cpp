@@ -238,6 +238,9 @@ TEST_SUITE("intersect hits") {
         Hit x = look({0.25f, 0.25f, 0}, {0, 0, -1});
         CHECK(length(x.n - normalize({-0.5f, 0, 1})) < 1e-6f);
         CHECK(x.ng == Vec3{0, 0, 1});
+        x = look({0.25f, 0.25f, 0}, {0, 0, 1});  // from behind
+        CHECK(length(x.n - normalize({0.5f, 0, -1})) < 1e-6f);
+        CHECK(x.ng == Vec3{0, 0, -1});
         // From far to the right, the normal that leans left would look away.
         x = look({0.01f, 0.01f, 0}, normalize({-1, 0, -0.3f}));
         CHECK(x.n == x.ng);
@@ -256,15 +259,19 @@ TEST_SUITE("intersect hits") {
             prepare(scene, 1);
             Vec3 c = scene.geometry.spheres[0].c;
             double worst = 0;
+            int hits = 0;
             for (int i = 0; i < 2000; i++) {
-                Vec3 d = uniform_direction(random.u2()),
-                     o = c + 3 * r * uniform_direction(random.u2());
-                auto x = intersect(scene, {o, d});
-                if (!x) continue;
+                // From nearby and from far away, towards a point inside.
+                Vec3 from = (i % 2 == 0 ? 3 : 1e4f) * r * uniform_direction(random.u2());
+                Vec3 to = 0.9f * r * uniform_direction(random.u2());
+                auto x = intersect(scene, {c + from, normalize(to - from)});
+                if (!x) continue;  // so far away, rounding can make a ray miss
+                hits++;
                 worst = std::max(worst, off_sphere(x->p, c, to_double(r)) / to_double(x->eps));
                 CHECK(x->eps <= 1e-6f * (centre + r));
             }
             CHECK(worst <= 1);
+            CHECK(hits > 1900);
         }
     }
 
