@@ -150,10 +150,8 @@ void read_sampler(Params& params, Scene& scene, Notes& notes) {
 }
 
 void read_integrator(Params& params, Scene& scene, Notes& notes) {
-    scene.max_depth = 5;
-    if (params.type() != "ambientocclusion") {
-        scene.max_depth = params.integer("maxdepth", 5, 0, 1 << 30);
-    }
+    bool has_depth = params.type() != "ambientocclusion";
+    scene.max_depth = has_depth ? params.integer("maxdepth", 5, 0, 1 << 30) : 5;
     accept(params, {{"ambientocclusion", {}, {"maxdistance"}, {}, {"cossample"}},
                     {"bdpt",
                      {},

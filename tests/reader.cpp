@@ -110,7 +110,7 @@ TEST_SUITE("reader: language") {
         const std::string odd =
             "\xef\xbb\xbf# a scene\r\n"
             "Film\t\"rgb\"\"integer   xresolution\"[64]# the width\r\n"
-            "#\"integer xresolution\" 128\r\n"
+            "#\"integer xresolution\" 128\r"
             "\"integer yresolution\" # between\r\n [ # inside\r\n +32 ]\r\n"
             "Sampler \"independent\" \"integer pixelsamples\" [ 7 ]\r\n"
             "Integrator \"path\" \"integer maxdepth\" [\r\n9\r\n]\r\n"
@@ -128,6 +128,11 @@ TEST_SUITE("reader: language") {
         CHECK(parse_options("Film \"rgb\" \"integer xresolution\" 5 \"integer xresolution\" 6")
                   .width == 6);
         CHECK(parse_options("Film \"rgb\" \"integer xresolution\" 5 Film \"rgb\"").width == 1280);
+        CHECK(parse_options(
+                  "Integrator \"path\" \"integer maxdepth\" 9 Integrator \"ambientocclusion\"")
+                  .max_depth == 5);
+        CHECK(!parse_options("Camera \"perspective\" \"float frameaspectratio\" 2")
+                   .camera.frame_aspect);
     }
 
     TEST_CASE("input: escapes in a name mean what they say") {
