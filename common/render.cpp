@@ -214,7 +214,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, Trace tr
 
     // A pass takes every pixel once, or more often when they are so few that threads would idle.
     int pixels = scene.width * scene.height;  // at most 2^28
-    int samples_per_pass = std::max(1, (1 << 16) / pixels);
+    int samples_per_pass = std::max(1, (1 << 18) / pixels);
     int spp = options.time > 0 ? (options.spp > 0 ? options.spp : 1 << 30) : scene.spp;
     int done = 0;
     do {
