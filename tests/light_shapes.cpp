@@ -271,7 +271,9 @@ TEST_SUITE("light shapes") {
         Sampler random = random_numbers(1);
         for (int i = 0; i < 100000; i++) {
             Vec2 u = i == 0 ? Vec2{0, 0} : i == 1 ? Vec2{below_one, 0} : random.u2();
-            counts[static_cast<size_t>(sample_area(scene, 0, u).p.x + 0.5f)]++;
+            Vec3 p = sample_area(scene, 0, u).p;
+            REQUIRE(is_finite(p));
+            counts[static_cast<size_t>(p.x + 0.5f)]++;
         }
         CHECK(counts[0] == 0);
         CHECK(counts[2] == 0);
