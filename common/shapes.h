@@ -20,8 +20,7 @@ inline Shear shear_to_ray(Vec3 d) {
     Vec3 a = abs(d);
     int kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
     int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
-    float sz = 1 / d[kz];
-    return {kx, ky, kz, d[kx] * sz, d[ky] * sz, sz};
+    return {kx, ky, kz, d[kx] / d[kz], d[ky] / d[kz], 1 / d[kz]};
 }
 
 /// Where the ray meets the triangle p0 p1 p2, from either side, edges and corners included.

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
         Option which{"step", "STEP", "drawn: linear, median, sah, ordered (default) or wide",
                      [&](const std::string& text) { step = parse_choice("step", text, names); }};
         auto o = parse_render_options(argc, argv, "05_bvh", "scenes/knot.pbrt", {which});
+        check_outputs(o);
         Scene scene = load(o);
         Table table{{"step", "build s", "nodes", "SAH", "boxes/ray", "prims/ray", "M rays/s"}, {}};
         for (size_t i = 0; i < names.size() && !o.quiet; i++)
