@@ -9,25 +9,30 @@ namespace {
 struct Contender {
     const Method* method;
     Scene scene;
-    Spread spread;
-    std::vector<double> seconds;
-    double rel_mse = 0;  // of one render of options.spp samples
+    int spp;
+    Spread spread = {};
+    std::vector<double> seconds = {};
+    double rel_mse = 0;  // of one render
     double efficiency() const { return 1 / (rel_mse * median(seconds)); }
 };
 
-/// Renders by turns, so that what else the machine does slows all of them alike.
-std::vector<Contender> run(const std::string& path, const std::vector<Method>& methods,
-                           const MeasureOptions& o) {
+std::vector<Contender> contenders_on(const std::string& path, const std::vector<Method>& methods,
+                                     const MeasureOptions& o) {
     Scene scene = load_scene_for(path, o);
     std::vector<Contender> contenders;
     for (const Method& method : methods) {
         if (auto prepared = prepared_for(method, scene)) {
-            contenders.push_back({&method, std::move(*prepared), {}, {}});
+            contenders.push_back({&method, std::move(*prepared), o.spp});
         }
     }
+    return contenders;
+}
+
+/// Renders by turns, so that what else the machine does slows all of them alike.
+void run(std::vector<Contender>& contenders, const MeasureOptions& o) {
     for (int run = 0; run < o.runs; run++) {
         for (Contender& c : contenders) {
-            Rendering r = render_once(*c.method, c.scene, o, o.spp, static_cast<uint32_t>(run));
+            Rendering r = render_once(*c.method, c.scene, o, c.spp, static_cast<uint32_t>(run));
             c.spread.add(r.film.image());
             c.seconds.push_back(r.stats.seconds);
         }
@@ -42,20 +47,30 @@ std::vector<Contender> run(const std::string& path, const std::vector<Method>& m
         if (own < least) least = own, best = mean;
     }
     for (Contender& c : contenders) c.rel_mse = c.spread.rel_mse(best);
-    return contenders;
 }
 
-Table table_of(const std::string& scene, const std::vector<Contender>& contenders,
-               const MeasureOptions& o) {
+/// Gives each as many samples as it makes in the time of the first.
+void take_equal_time(std::vector<Contender>& contenders) {
+    double seconds = median(contenders[0].seconds);
+    for (Contender& c : contenders) {
+        double spp = c.spp * seconds / median(c.seconds);
+        c.spp = std::max(1, static_cast<int>(std::lround(spp)));
+        c.spread = {};
+        c.seconds.clear();
+    }
+}
+
+Table table_of(const std::string& scene, const std::vector<Contender>& contenders) {
     const Contender& first = contenders[0];
-    Table table{
-        {scene, "relMSE", "seconds", "M samples/s", "efficiency", "times " + first.method->name},
-        {}};
+    Table table{{scene, "spp", "relMSE", "seconds", "M samples/s", "efficiency",
+                 "times " + first.method->name},
+                {}};
     for (const Contender& c : contenders) {
         double seconds = median(c.seconds);
-        double samples = double(c.scene.width) * c.scene.height * o.spp;
-        table.rows.push_back({c.method->label, short_number(c.rel_mse), short_number(seconds),
-                              short_number(samples / seconds / 1e6), short_number(c.efficiency()),
+        double samples = double(c.scene.width) * c.scene.height * c.spp;
+        table.rows.push_back({c.method->label, std::to_string(c.spp), short_number(c.rel_mse),
+                              short_number(seconds), short_number(samples / seconds / 1e6),
+                              short_number(c.efficiency()),
                               short_number(c.efficiency() / first.efficiency())});
     }
     return table;
@@ -80,27 +95,35 @@ void expand_chapter(MeasureOptions& o) {
 
 int main(int argc, char** argv) {
     return run_program([&] {
+        bool equal_time = false;
+        Option also = {"equal-time", "", "then once more, with what each makes in equal time",
+                       [&](const std::string&) { equal_time = true; }};
         MeasureOptions o = parse_measure_options(
             argc, argv, "CHAPTER|SCENE...",
             "Variance at equal samples, time, and efficiency 1 / (relMSE seconds), of several "
             "methods. A chapter's number stands for the chapter before, it and its variants, on "
-            "its scenes.",
-            {.methods = {}, .spp = 64, .runs = 8, .width = 256, .height = 256});
+            "its scenes. Seconds are of the processors, over threads.",
+            {.spp = 64, .runs = 8, .width = 256, .height = 256}, {also});
         expand_chapter(o);
         if (o.words.empty()) o.words = {"cornell"};
         if (o.methods.empty()) o.methods = {"all"};
         std::vector<Method> methods = methods_named(o.methods);
-        std::printf("%dx%d pixels, %d spp, %d renders each, %d threads\n", o.width, o.height, o.spp,
-                    o.runs, o.threads);
+        std::printf("%dx%d pixels, %d renders each, %d threads\n", o.width, o.height, o.runs,
+                    o.threads);
         for (const std::string& word : o.words) {
-            std::string path = find_scene(word), name = scene_name(path);
-            std::vector<Contender> contenders = run(path, methods, o);
+            std::string path = find_scene(word), name = file_name(scene_name(path));
+            std::vector<Contender> contenders = contenders_on(path, methods, o);
             if (contenders.empty()) continue;
-            Table table = table_of(name, contenders, o);
+            run(contenders, o);
+            Table table = table_of(scene_name(path), contenders);
             std::printf("\n%s", markdown(table).c_str());
-            std::fflush(stdout);
-            std::replace(name.begin(), name.end(), '/', '-');
             write_table(o.out, "efficiency-" + name, table);
+            if (!equal_time) continue;
+            take_equal_time(contenders);
+            run(contenders, o);
+            table = table_of("in equal time", contenders);
+            std::printf("\n%s", markdown(table).c_str());
+            write_table(o.out, "equal-time-" + name, table);
         }
         return 0;
     });

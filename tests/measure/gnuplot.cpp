@@ -1,11 +1,11 @@
 #include "tests/measure/gnuplot.h"
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "common/error.h"
 #include "common/files.h"
+#include "common/table.h"
 
 namespace {
 
@@ -19,15 +19,16 @@ void need_gnuplot() {
 
 void draw_chart(const std::string& path, const std::string& script, int width, int height) {
     need_gnuplot();
-    std::string size = std::to_string(width) + "," + std::to_string(height);
-    std::string file = path + ".gnuplot";
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-    write_file_atomically(
-        file, "set terminal svg noenhanced size " + size +
-                  " font 'DejaVu Sans,15' background '#ffffff'\nset output '" + path + ".svg'\n" +
-                  script + "\nset terminal png noenhanced size " + size +
-                  " font 'DejaVu Sans,12'\nset output '" + path + ".png'\nreplot\n");
-    if (std::system(("gnuplot " + file).c_str()) != 0) {
+    std::string size = std::to_string(width) + "," + std::to_string(height), all;
+    for (const char* kind : {"svg", "png"}) {
+        all += std::string("set terminal ") + (kind[0] == 's' ? "svg" : "pngcairo") +
+               " noenhanced font 'DejaVu Sans,15' background '#ffffff' size " + size +
+               "\nset output '" + path + "." + kind + "'\n" + script + "\nunset output\nreset\n";
+    }
+    std::string file = path + ".gnuplot";
+    write_file_atomically(file, all);
+    if (std::system(("gnuplot '" + file + "'").c_str()) != 0) {
         throw InputError(file + ": error: gnuplot failed");
     }
     std::filesystem::remove(file);
@@ -37,4 +38,13 @@ std::string quoted_for_gnuplot(const std::string& text) {
     std::string quoted = "'";
     for (char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
     return quoted + "'";
+}
+
+std::string data_block(const std::string& name, const std::vector<std::vector<double>>& rows) {
+    std::string block = "$" + name + " << EOD\n";
+    for (const auto& row : rows) {
+        for (double x : row) block += digits(x, 9) + " ";
+        block += "\n";
+    }
+    return block + "EOD\n";
 }

@@ -85,7 +85,9 @@ Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& 
     o.quiet = true;
     if (classes) o.split = "in memory";
     scene.spp = spp;
+    Stopwatch watch;
     Rendering r = method.render(scene, o);
+    r.stats.seconds = watch.seconds() / options.threads;
     if (r.stats.interrupted) throw InputError("error: interrupted");
     return r;
 }

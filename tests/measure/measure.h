@@ -31,6 +31,8 @@ MeasureOptions parse_measure_options(int argc, char** argv, const std::string& p
 Scene load_scene_for(const std::string& path, const MeasureOptions& options);
 
 /// One render of a prepared scene; `classes`: with the films of the classes of path.
+/// stats.seconds is processor time over threads: what a clock shows on a machine with nothing else
+/// to do.
 Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& options, int spp,
                       uint32_t seed, bool classes = false);
 

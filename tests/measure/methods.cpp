@@ -13,6 +13,15 @@ std::vector<Method>& registry() {
     return methods;
 }
 
+std::vector<std::string> scenes_in(const char* folder) {
+    std::vector<std::string> scenes;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path().string());
+    }
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
+}
+
 }  // namespace
 
 bool add_method(Method method) {
@@ -61,16 +70,11 @@ std::optional<Scene> prepared_for(const Method& method, const Scene& scene) {
     return prepared;
 }
 
+std::vector<std::string> own_scenes() { return scenes_in("scenes"); }
+
 std::vector<std::string> all_scenes() {
-    std::vector<std::string> scenes;
-    for (const char* folder : {"scenes", "tests/references"}) {
-        std::vector<std::string> here;
-        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-            if (entry.path().extension() == ".pbrt") here.push_back(entry.path().string());
-        }
-        std::sort(here.begin(), here.end());
-        scenes.insert(scenes.end(), here.begin(), here.end());
-    }
+    std::vector<std::string> scenes = own_scenes(), others = scenes_in("tests/references");
+    scenes.insert(scenes.end(), others.begin(), others.end());
     return scenes;
 }
 
@@ -78,6 +82,11 @@ std::string scene_name(const std::string& path) {
     std::filesystem::path p(path);
     std::string folder = p.parent_path().filename().string();
     return (folder == "scenes" ? "" : folder + "/") + p.stem().string();
+}
+
+std::string file_name(std::string scene_name) {
+    std::replace(scene_name.begin(), scene_name.end(), '/', '-');
+    return scene_name;
 }
 
 std::string find_scene(const std::string& name) {

@@ -23,6 +23,7 @@ struct Method {
     std::vector<void (*)(const Scene&)> refuse = {};  // throw InputError for what it cannot render
     std::function<void(Scene&)> prepare = {};         // of the chapter; may be empty
     std::function<Rendering(const Scene&, const RenderOptions&)> render = {};
+    bool biased = false;  // on purpose
 };
 
 /// Whether the method is a chapter with an option, and not the chapter as it is.
@@ -45,11 +46,15 @@ std::vector<Method> methods_named(const std::vector<std::string>& names);
 /// A scene made ready for a method; nothing when the method cannot render it.
 std::optional<Scene> prepared_for(const Method& method, const Scene& scene);
 
-/// All scenes that belong to the project, as paths: scenes/ and tests/references/.
+/// The scenes of scenes/, as paths; and those with the ones of tests/references/.
+std::vector<std::string> own_scenes();
 std::vector<std::string> all_scenes();
 
 /// "cornell" for scenes/cornell.pbrt, "references/veach-mis" for the scenes of others.
 std::string scene_name(const std::string& path);
+
+/// The same as part of a file's name: without a slash.
+std::string file_name(std::string scene_name);
 
 /// The path of a scene from its path or its scene_name, or UsageError.
 std::string find_scene(const std::string& name);

@@ -55,6 +55,12 @@ public:
         }
         return sum / static_cast<double>(sums_.size());
     }
+    /// The mean squared error of one of the renders: the variance, averaged alike.
+    double mse() const {
+        double sum = 0;
+        for (const RunningStats& s : sums_) sum += s.variance();
+        return sum / static_cast<double>(sums_.size());
+    }
 
 private:
     int width_ = 0, height_ = 0;

@@ -1,0 +1,111 @@
+// Error against time for every method and scene: charts, pictures in equal time, and a table.
+#include <cstdio>
+
+#include "common/error.h"
+#include "tests/measure/curves.h"
+#include "tests/measure/points.h"
+
+namespace {
+
+/// All curves of a scene, each against references that another chapter has made.
+std::vector<Curve> measure_scene(const std::string& path, const std::vector<Method>& methods,
+                                 const MeasureOptions& o, double seconds) {
+    Scene scene = load_scene_for(path, o);
+    std::vector<Curve> curves;
+    for (const Method& method : methods) {
+        auto prepared = prepared_for(method, scene);
+        if (!prepared) continue;
+        Reference reference =
+            reference_for(scene_name(path), method, scene.width, scene.height, scene.max_depth);
+        curves.push_back(measure_curve(method, *prepared, reference, o, seconds));
+    }
+    return curves;
+}
+
+void add_points(const std::string& scene, const std::vector<Curve>& curves, Table& points) {
+    for (const Curve& c : curves) {
+        for (const CurvePoint& p : c.points) {
+            auto [low, high] = std::minmax_element(p.rel_mse.begin(), p.rel_mse.end());
+            points.rows.push_back({scene, c.method->name, std::to_string(p.spp), digits(p.seconds),
+                                   digits(root_mean_square(p.rmse)), digits(mean_of(p.rel_mse)),
+                                   digits(*low), digits(*high)});
+        }
+    }
+}
+
+void add_summary(const std::string& scene, const std::vector<Curve>& curves, Table& summary) {
+    double first = NAN;  // the first that converges is the measure of the others
+    for (const Curve& c : curves) {
+        if (std::isnan(first) && !c.flat()) first = c.cost();
+        std::string slope = "exact", faster = "-";
+        if (!c.points.empty()) {
+            char text[32];
+            std::snprintf(text, sizeof text, "%.2f", c.slope);
+            slope = text;
+            faster = c.flat() ? "never" : short_number(first / c.cost());
+        }
+        const CurvePoint none{0, 0, {}, {}};
+        const CurvePoint& last = c.points.empty() ? none : c.points.back();
+        summary.rows.push_back({scene, c.method->label, std::to_string(last.spp),
+                                short_number(last.seconds), short_number(mean_of(last.rel_mse)),
+                                slope, faster});
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        MeasureOptions o = parse_measure_options(
+            argc, argv, "[SCENE...]",
+            "Error against time of every method on every scene, against references of known error "
+            "(make references). Writes chart-SCENE.svg, .png and .tsv, equal-time-SCENE.png, and "
+            "chart-summary.tsv.",
+            {.spp = 0, .runs = 4, .width = 64, .height = 64, .seconds = 600});
+        if (o.words.empty()) {
+            o.words = own_scenes();
+            chart_points(o.out, 1 << 16, 64);
+        }
+        Table summary{{"scene", "method", "spp", "seconds", "relMSE", "slope", "times faster"}, {}};
+        for (const std::string& word : o.words) {
+            std::string path = find_scene(word), name = scene_name(path);
+            std::vector<std::string> names = o.methods;
+            if (names.empty()) names = {"all", "12-sobol"};
+            if (o.methods.empty() && name == "cornell") {
+                names.insert(names.end(), {"depth-cap", "clamp", "wrong-pdf"});
+            }
+            if (o.methods.empty() && name == "veach-mis") {
+                names.insert(names.end(), {"12-bsdf", "12-light"});
+            }
+            std::vector<Method> methods = methods_named(names);
+            double seconds = o.seconds * o.threads / static_cast<double>(o.words.size()) /
+                             static_cast<double>(methods.size());
+            std::vector<Curve> curves;
+            try {
+                curves = measure_scene(path, methods, o, seconds);
+            } catch (const InputError& e) {
+                std::printf("left out: %s\n", e.what());
+                continue;
+            }
+            Table points{{"scene", "method", "spp", "seconds", "RMSE", "relMSE", "least", "most"},
+                         {}};
+            add_points(name, curves, points);
+            add_summary(name, curves, summary);
+            std::string file = file_name(name);
+            write_table(o.out, "chart-" + file, points);
+            draw_curves(o.out + "/chart-" + file, name, curves, o.runs);
+            Scene scene = load_scene_for(path, o);
+            draw_equal_time(
+                o.out + "/equal-time-" + file, name, curves, path,
+                reference_for(name, {.name = "none"}, scene.width, scene.height, scene.max_depth),
+                o);
+        }
+        write_table(o.out, "chart-summary", summary);
+        std::printf("%s", markdown(summary).c_str());
+        std::printf(
+            "slope: of log RMSE over log samples; in theory -0.50. times faster: at equal "
+            "error,\nagainst the first method of the scene; never: it stays at its bias; "
+            "exact: below 10 times\nthe error of the reference from the first sample on.\n");
+        return 0;
+    });
+}

@@ -1,0 +1,43 @@
+// Error against time: a method's renders of one scene with ever more samples.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tests/measure/measure.h"
+#include "tests/measure/reference.h"
+
+/// The renders with one number of samples.
+struct CurvePoint {
+    int spp;
+    double seconds;                     // of one render: processor time over threads
+    std::vector<double> rmse, rel_mse;  // of each run, against the reference
+};
+
+struct Curve {
+    const Method* method;
+    std::vector<CurvePoint> points;
+    double slope = NAN;  // fitted: log RMSE over log spp, last 3 points; in theory -1/2
+
+    /// relMSE times seconds: where the error falls as it should, the same for any number of
+    /// samples, and the time that a relMSE of 1 takes.
+    double cost() const;
+    bool flat() const { return slope > -0.25; }
+};
+
+/// Root of the mean of the squares; mean.
+double root_mean_square(const std::vector<double>& values);
+double mean_of(const std::vector<double>& values);
+
+/// Renders with 1, 4, 16, ... spp, `runs` of each, for about `seconds` of all processors together,
+/// and as long as the error is at least 10 times the reference's own.
+Curve measure_curve(const Method& method, Scene& scene, const Reference& reference,
+                    const MeasureOptions& o, double seconds);
+
+/// Draws RMSE and relMSE over seconds, with bands from the least to the largest of the runs.
+void draw_curves(const std::string& path, const std::string& title,
+                 const std::vector<Curve>& curves, int runs);
+
+/// The pictures that all methods make in the same time, and their errors on one scale.
+void draw_equal_time(const std::string& path, const std::string& title,
+                     const std::vector<Curve>& curves, const std::string& scene_path,
+                     const Reference& reference, const MeasureOptions& o);

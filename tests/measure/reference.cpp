@@ -1,0 +1,49 @@
+#include "tests/measure/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/error.h"
+#include "common/stats_file.h"
+
+std::string reference_path(const std::string& scene, const std::string& method) {
+    return std::string(reference_folder) + "/" + file_name(scene) + "." + method;
+}
+
+Reference reference_for(const std::string& scene, const Method& under_test, int width, int height,
+                        int max_depth) {
+    Reference reference;
+    reference.image = Image(width, height);
+    double weights = 0, rel_weights = 0;
+    for (const Method& method : all_methods()) {
+        std::string path = reference_path(scene, method.name);
+        if (method.name == under_test.name || !std::filesystem::exists(path + ".pfm")) continue;
+        bool same_chapter = method.name.substr(0, 2) == under_test.name.substr(0, 2);
+        if (same_chapter && is_variant(under_test)) continue;
+        Image image = read_image(path + ".pfm");
+        std::optional<StatsFile> stats = StatsFile::beside(path + ".pfm");
+        if (image.width != width || image.height != height || !stats ||
+            stats->number("max_depth") != max_depth) {
+            throw InputError(path +
+                             ".pfm: error: not of this size and depth; run: make references");
+        }
+
+        // The less sure a picture is, the less it counts.
+        double weight = 1 / std::pow(stats->number("rmse").value_or(INFINITY), 2);
+        for (size_t i = 0; i < image.pixels.size(); i++) {
+            reference.image.pixels[i] += static_cast<float>(weight) * image.pixels[i];
+        }
+        weights += weight;
+        rel_weights += 1 / stats->number("rel_mse").value_or(INFINITY);
+        reference.made_by += (weights > weight ? " and " : "") + method.name;
+    }
+    if (weights == 0) {
+        throw InputError(scene + ": error: no reference that another chapter than " +
+                         under_test.name + " has made; run: make references");
+    }
+    for (Rgb& p : reference.image.pixels) p /= static_cast<float>(weights);
+    reference.rmse = std::sqrt(1 / weights);
+    reference.rel_mse = 1 / rel_weights;
+    return reference;
+}

@@ -1,0 +1,149 @@
+// Renders the references: each of a scene by two methods, in parts with seeds of their own.
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/error.h"
+#include "common/files.h"
+#include "common/merging.h"
+#include "tests/measure/measure.h"
+#include "tests/measure/reference.h"
+
+namespace {
+
+std::string part_path(const Method& method, const Scene& scene, const MeasureOptions& o, int seed) {
+    std::filesystem::path name = reference_path(scene_name(scene.file), method.name);
+    return o.out + "/" + name.filename().string() + "." + std::to_string(seed) + ".pfm";
+}
+
+/// One part, from the folder when it was rendered before.
+MergePart render_part(const Method& method, const Scene& scene, const MeasureOptions& o,
+                      const std::string& command, int seed) {
+    std::string path = part_path(method, scene, o, seed);
+    if (!StatsFile::beside(path)) {
+        RenderOptions options;
+        options.name = method.name;
+        options.command = command;
+        options.scene = scene.file;
+        options.threads = o.threads;
+        options.sampler = o.sampler;
+        options.seed = static_cast<uint32_t>(seed);
+        options.quiet = true;
+        options.out = {path};
+        options.stats = StatsFile::path_beside(path);
+        Rendering r = method.render(scene, options);
+        if (r.stats.interrupted) throw InputError("error: interrupted; run it again to go on");
+        write_results(scene, options, r);
+    }
+    return read_part(path);
+}
+
+/// How many samples a part takes: a power of two, as the parts before it, or what o.seconds allow.
+int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int first_seed) {
+    std::string first = part_path(method, scene, o, first_seed);
+    if (StatsFile::beside(first)) return static_cast<int>(read_part(first).spp);
+    constexpr int trial = 16;
+    double seconds = render_once(method, scene, o, trial, 0).stats.seconds / trial;
+    return std::max(
+        1, static_cast<int>(std::bit_floor(static_cast<unsigned>(o.seconds / o.runs / seconds))));
+}
+
+/// The method that is quickest to a small error, and the quickest of the other chapters; where one
+/// chapter alone can render the scene, another of its variants.
+std::vector<std::string> two_best(const Scene& scene, const MeasureOptions& o) {
+    struct Candidate {
+        double cost;
+        std::string name;
+        bool operator<(const Candidate& b) const { return cost < b.cost; }
+    };
+    std::vector<Candidate> candidates;
+    for (const Method& method : all_methods()) {
+        auto prepared = prepared_for(method, scene);
+        if (!prepared || method.biased) continue;
+        Spread spread;
+        double seconds = 0;
+        for (uint32_t seed = 0; seed < 4; seed++) {
+            Rendering r = render_once(method, *prepared, o, 16, seed);
+            spread.add(r.film.image());
+            seconds += r.stats.seconds;
+        }
+        candidates.push_back({spread.rel_mse(spread.mean()) * seconds, method.name});
+    }
+    std::sort(candidates.begin(), candidates.end());
+    auto of_other_chapter = [&](const Candidate& c) {
+        return c.name.substr(0, 2) != candidates[0].name.substr(0, 2);
+    };
+    auto second = std::find_if(candidates.begin(), candidates.end(), of_other_chapter);
+    if (second == candidates.end()) second = candidates.begin() + 1;
+    return {candidates[0].name, second->name};
+}
+
+/// Merges the parts; how far they lie apart says how sure the whole is.
+///
+/// first_seed  other for each method: the same numbers would make the same errors
+void make_reference(const Method& method, const Scene& scene, const MeasureOptions& o,
+                    const std::string& command, int first_seed) {
+    std::vector<MergePart> parts;
+    Spread spread;
+    for (int seed = first_seed; seed < first_seed + o.runs; seed++) {
+        parts.push_back(render_part(method, scene, o, command, seed));
+        spread.add(parts.back().image);
+    }
+    check_parts(parts);
+    Image image = merged_image(parts);
+    double rel_mse = spread.rel_mse(image) / o.runs, rmse = std::sqrt(spread.mse() / o.runs);
+    std::string path = reference_path(scene_name(scene.file), method.name);
+    std::string stats = merged_stats(parts, image);
+    stats.insert(stats.rfind("\n}"),
+                 ",\n  \"rmse\": " + digits(rmse) + ",\n  \"rel_mse\": " + digits(rel_mse));
+    std::filesystem::create_directories(reference_folder);
+    write_image(path + ".pfm", image, command);
+    write_file_atomically(path + ".json", stats);
+    std::printf("%s.pfm  %d spp, rmse %.2g, relMSE %.2g\n", path.c_str(), o.runs * scene.spp, rmse,
+                rel_mse);
+    std::fflush(stdout);
+}
+
+/// Those of methods that were chosen some other time.
+void remove_references(const std::string& scene) {
+    for (const Method& method : all_methods()) {
+        for (const char* ending : {".pfm", ".json"}) {
+            std::filesystem::remove(reference_path(scene, method.name) + ending);
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        MeasureOptions o = parse_measure_options(
+            argc, argv, "[SCENE...]",
+            "Renders the references of the charts by two methods, so that each method has one that "
+            "another has made, in --runs parts that take --seconds together. Parts that are in "
+            "--out already are not rendered again: those of other machines can be put there.",
+            {.spp = 0,
+             .runs = 8,
+             .width = 64,
+             .height = 64,
+             .sampler = SamplerType::sobol,
+             .seconds = 60,
+             .out = "out/references"});
+        std::filesystem::create_directories(o.out);
+        if (o.words.empty()) o.words = own_scenes();
+        for (const std::string& word : o.words) {
+            Scene scene = load_scene_for(find_scene(word), o);
+            std::vector<std::string> names = o.methods.empty() ? two_best(scene, o) : o.methods;
+            remove_references(scene_name(scene.file));
+            int first_seed = 1;
+            for (const Method& method : methods_named(names)) {
+                Scene prepared = prepared_for(method, scene).value();
+                prepared.spp = o.spp > 0 ? o.spp : part_samples(method, prepared, o, first_seed);
+                make_reference(method, prepared, o, command_line(argc, argv), first_seed);
+                first_seed += 1000;
+            }
+        }
+        return 0;
+    });
+}
