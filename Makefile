@@ -34,7 +34,6 @@ out/%.png: $B/% $(made)
 
 #: make test         build, and run all tests but the slow ones
 test: $B/tests programs
-	common/tools/fill_readmes --check
 	$B/tests --test-suite-exclude='*slow*'
 #: make test-slow    run the slow ones
 test-slow: $B/tests programs

@@ -319,7 +319,6 @@ TEST_SUITE("ch11 ris") {
                                                       {"cornell-spheres", 8},
                                                       {"two-lights", 4},
                                                       {"far-and-near", 2},
-                                                      {"hidden-light", 6},
                                                       {"thousand-lights", 4},
                                                       {"near-light", 2},
                                                       {"horizon-sky", 2}}) {
