@@ -1,23 +1,19 @@
 # Path by Path. `make help` lists what there is: the lines that start with "#:".
 SHELL     := /bin/bash
 MAKEFLAGS += --no-builtin-rules -j$(shell nproc)
-B         := build
-ifneq ($(filter 0% 1%,$B),)  # make compare A=08 B=09: a chapter, not the folder to build in
-second    := $B
-override B := build
-endif
+BUILD     := build
 OPT       := -O3 -march=native
 ifdef SAN
 OPT       := -O1 -g -march=native -fsanitize=address,undefined -fno-sanitize-recover=all
-B         := build/san
+BUILD     := build/san
 endif
 CXXFLAGS  := -std=c++20 $(OPT) -ffp-contract=off -pthread -I. -Wall -Wextra -Wshadow -Wconversion
 
 chapters  := $(notdir $(wildcard chapters/[0-9]*))
 numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
-common    := $(patsubst %.cpp,$B/obj/%.o,$(wildcard common/*.cpp))
-tests     := $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/*.cpp))
+common    := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard common/*.cpp))
+tests     := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/*.cpp))
 made      := scenes/knot.ply scenes/thousand-lights.pbrt
 
 .PHONY: all programs test test-slow pictures readmes book diff help clean always $(numbers)
@@ -28,19 +24,19 @@ made      := scenes/knot.ply scenes/thousand-lights.pbrt
 #: make              install what is missing, build, and render each chapter's picture into out/
 all: $(chapters:%=out/%.png)
 	@printf 'The pictures:\n'; printf '  %s\n' $^ $(^:.png=.ppm)
-out/%.png: $B/% $(made)
+out/%.png: $(BUILD)/% $(made)
 	@mkdir -p out
 	$< --quiet --out $@ --out out/$*.ppm
 
 #: make test         build, and run all tests but the slow ones
-test: $B/tests programs
-	$B/tests --test-suite-exclude='*slow*'
+test: $(BUILD)/tests programs
+	$(BUILD)/tests --test-suite-exclude='*slow*'
 #: make test-slow    run the slow ones
-test-slow: $B/tests programs
-	$B/tests --test-suite='*slow*'
+test-slow: $(BUILD)/tests programs
+	$(BUILD)/tests --test-suite='*slow*'
 
 #: make 06           build and run one chapter
-$(numbers): %: $$(filter $B/$$*_%,$(chapters:%=$B/%)) $(made)
+$(numbers): %: $$(filter $(BUILD)/$$*_%,$(chapters:%=$(BUILD)/%)) $(made)
 	$<
 #: make diff CH=07   what a chapter changes of the one before
 diff:
@@ -49,34 +45,34 @@ diff:
 	 git --no-pager diff --no-index --color=auto $$old/estimator.h $$new/estimator.h; true
 
 #: make programs     build the programs, and run nothing
-programs: $(chapters:%=$B/%) $(tools:%=$B/%) $(made)
-$B/tests: $(tests) $(common)
+programs: $(chapters:%=$(BUILD)/%) $(tools:%=$(BUILD)/%) $(made)
+$(BUILD)/tests: $(tests) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-$B/%: $B/obj/chapters/%/main.o $(common)
+$(BUILD)/%: $(BUILD)/obj/chapters/%/main.o $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-$B/%: $B/obj/common/tools/%.o $(common)
+$(BUILD)/%: $(BUILD)/obj/common/tools/%.o $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-$B/make_%: $B/obj/scenes/make_%.o $(common)
+$(BUILD)/make_%: $(BUILD)/obj/scenes/make_%.o $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-$(made): $B/make_$$(basename $$(@F))
+$(made): $(BUILD)/make_$$(basename $$(@F))
 	$< $@
-$B/obj/%.o: %.cpp $B/flags | $B/packages
+$(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "compile $<"
 	@$(CXX) $(CXXFLAGS) -MMD -MP -c $< -o $@
--include $(shell find $B/obj -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
 # Changes when the compiler or its flags do: then all is compiled again.
-$B/flags: always
+$(BUILD)/flags: always
 	@mkdir -p $B; echo '$(CXX) $(CXXFLAGS)' | cmp -s - $@ || echo '$(CXX) $(CXXFLAGS)' >$@
 # The two libraries that the programs are compiled with, from Debian when they are missing.
-$B/packages:
+$(BUILD)/packages:
 	@mkdir -p $B; printf '#include <doctest/doctest.h>\n#include <stb/stb_image_write.h>\n' | \
 	    $(CXX) -x c++ -fsyntax-only - 2>/dev/null || common/tools/install doctest-dev libstb-dev
 	@touch $@
 
 #: make pictures     render the small pictures that the READMEs show, by the commands they name
 pictures: programs
-	common/tools/make_pictures $B
+	common/tools/make_pictures $(BUILD)
 #: make readmes      put code, diffs and what the programs print into the READMEs
 readmes: programs
 	common/tools/fill_readmes

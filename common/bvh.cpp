@@ -125,7 +125,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     constexpr float slack = 1 + 0x1p-12f;
     PrimHit best;
     float scale = max_component(abs(ray.d));
-    if (!(ray.t_max > 0 && scale > 0)) return {};
+    if (!(scale > 0 && ray.t_max > 0)) return {};
     const AxisRay x(ray, 0, scale), y(ray, 1, scale), z(ray, 2, scale);
     uint32_t octant = x.negative | y.negative << 1 | z.negative << 2;
     Shear shear = shear_to_ray(ray.d);
@@ -134,11 +134,10 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
 
     // Children still to be visited, the nearest on top, each with the distance to its box. At most
     // lanes - 1 stay behind on each level, and the builder makes no more than 96 levels.
-    constexpr uint32_t nothing_left = ~0u;
     alignas(64) uint32_t stack[97 * lanes];
     alignas(64) float stack_enter[97 * lanes];
     int size = 1;
-    stack[0] = nothing_left;
+    stack[0] = BvhNode::nothing;
     stack_enter[0] = -infinity;
     auto pop = [&] {
         do size--;
@@ -152,8 +151,8 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         while (!(current & BvhNode::leaf)) {
             const BvhNode& node = bvh.nodes[current];
             if (counting) count->nodes++;
-            Floats enter = max(max(x.enter(node), y.enter(node)), max(z.enter(node), splat(0)));
-            Floats leave = min(min(x.leave(node), y.leave(node)), min(z.leave(node), splat(reach)));
+            Floats enter = max(x.enter(node), max(y.enter(node), max(z.enter(node), splat(0))));
+            Floats leave = min(x.leave(node), min(y.leave(node), min(z.leave(node), splat(reach))));
             uint32_t hits = less_equal(enter, leave);
             if (hits == 0) {
                 current = pop();
@@ -171,7 +170,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
                 prefetch(bvh, stack[size - 1]);
             }
         }
-        if (current == nothing_left) break;
+        if (current == BvhNode::nothing) break;
 
         const BvhBlock& block = bvh.blocks[current & BvhNode::index];
         if (counting) count->blocks++;

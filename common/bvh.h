@@ -16,6 +16,7 @@ struct alignas(64) BvhNode {
     static constexpr uint32_t leaf = 1u << 31;
     static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
     static constexpr uint32_t index = mixed - 1;
+    static constexpr uint32_t nothing = ~0u;  // an unused child
 };
 
 /// One leaf: primitives side by side. Lanes that hold no triangle have NaN for vertices.

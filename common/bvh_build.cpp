@@ -15,49 +15,47 @@ constexpr uint32_t small = lanes / 2;      // references that are not split any 
 constexpr uint32_t worth_a_thread = 4096;  // references
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
-/// A box with its lower ends negated, -lo.xyz, any, hi.xyz, any: growing it is one maximum.
-struct alignas(32) Box {
-    float v[8];
+/// Four floats that are worked on at once; the last one is not used, or for something else.
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int32_t __attribute__((vector_size(16)));
 
-    static Box empty() {
-        Box box;
-        std::fill_n(box.v, 8, -infinity);
-        return box;
-    }
+Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
+
+/// A box with its lower ends negated, so that both ends grow by a maximum.
+struct Box {
+    Float4 neg_lo = {-infinity, -infinity, -infinity};
+    Float4 hi = {-infinity, -infinity, -infinity};
+
     void grow(const Box& b) {
-        for (int i = 0; i < 8; i++) v[i] = v[i] > b.v[i] ? v[i] : b.v[i];
+        neg_lo = max(neg_lo, b.neg_lo);
+        hi = max(hi, b.hi);
     }
     /// Half of its surface; 0 when it is empty.
     float area() const {
-        float x = v[0] + v[4], y = v[1] + v[5], z = v[2] + v[6];
-        return x < 0 ? 0 : x * y + y * z + z * x;
+        Float4 e = neg_lo + hi;
+        return e[0] < 0 ? 0 : e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
     }
-    /// Twice its centre, as a box.
-    Box center() const {
-        Box c;
-        for (int i = 0; i < 4; i++) c.v[i] = v[i] - v[i + 4];
-        for (int i = 0; i < 4; i++) c.v[i + 4] = v[i + 4] - v[i];
-        return c;
-    }
+    /// Twice its centre.
+    Float4 center() const { return hi - neg_lo; }
 };
 
-/// The box of a primitive, with its number in the place of v[3].
+/// The box of a primitive, with its number in the place of neg_lo[3].
 struct Ref {
     Box box;
 
-    uint32_t prim() const { return std::bit_cast<uint32_t>(box.v[3]); }
+    uint32_t prim() const { return std::bit_cast<uint32_t>(box.neg_lo[3]); }
 };
 using Refs = std::vector<Ref, PageAllocator<Ref>>;
 
 /// References begin .. end-1, the box around them, and the box around twice their centres.
 struct Range {
     uint32_t begin = 0, end = 0;
-    Box box = Box::empty(), centers = Box::empty();
+    Box box = {}, centers = {};
 
     uint32_t size() const { return end - begin; }
     void grow(const Box& b) {
         box.grow(b);
-        centers.grow(b.center());
+        centers.grow({-b.center(), b.center()});
     }
 };
 
@@ -86,25 +84,25 @@ Ref make_ref(const Geometry& g, uint32_t prim) {
     }
     if (!is_finite(lo) || !is_finite(hi)) prim = PrimHit::none;
     float pad = 0x1p-20f * max_component(max(abs(lo), abs(hi)));
-    return {{pad - lo.x, pad - lo.y, pad - lo.z, std::bit_cast<float>(prim), hi.x + pad, hi.y + pad,
-             hi.z + pad, 0}};
+    Ref ref;
+    ref.box.neg_lo = Float4{pad - lo.x, pad - lo.y, pad - lo.z, std::bit_cast<float>(prim)};
+    ref.box.hi = Float4{pad + hi.x, pad + hi.y, pad + hi.z};
+    return ref;
 }
 
 /// Cuts the box around the centres into slices, on each axis.
 struct Binning {
-    float first[3], per_length[3];
+    Float4 neg_first, per_length;
 
-    explicit Binning(const Box& centers) {
-        for (int axis = 0; axis < 3; axis++) {
-            first[axis] = centers.v[axis];
-            per_length[axis] = bins * (1 - 0x1p-20f) / (centers.v[4 + axis] + centers.v[axis]);
-        }
-    }
-    /// The slice of a centre. Where all are the same, 0 * infinity is NaN, and that becomes 0.
-    int operator()(const Box& center, int axis) const {
-        float x = (center.v[4 + axis] + first[axis]) * per_length[axis];
-        x = x > 0 ? x : 0;
-        return static_cast<int>(x < bins - 1 ? x : bins - 1);
+    explicit Binning(const Box& centers)
+        : neg_first(centers.neg_lo),
+          per_length(bins * (1 - 0x1p-20f) / (centers.neg_lo + centers.hi)) {}
+
+    /// The slice on each axis. Where all centres are the same, 0 * infinity is NaN: slice 0.
+    Int4 operator()(const Box& box) const {
+        Float4 x = max((box.center() + neg_first) * per_length, Float4{});
+        constexpr float last = bins - 1;
+        return __builtin_convertvector(x < last ? x : Float4{} + last, Int4);
     }
 };
 
@@ -113,46 +111,45 @@ struct Split {
     int axis = 0, bin = 0;  // what is in a lower bin goes to the left
 };
 
-/// How many blocks n primitives take.
-float blocks(uint32_t n) { return static_cast<float>((n + lanes - 1) / lanes); }
-
 /// The split between two bins that is cheapest by the surface area heuristic:
 ///
-///   cost = area(left) blocks(left) + area(right) blocks(right)
+///   cost = area(left) n(left) + area(right) n(right)
 ///
-/// A ray that meets the whole box meets a part with probability area(part) / area(whole).
+/// A ray that meets the whole box meets a part with probability area(part) / area(whole). n counts
+/// blocks, as each takes one test, however full; primitives where all fit into one block.
 /// source  MacDonald, Booth 1990; in bins: Wald 2007
 Split find_split(const Refs& refs, const Range& range, const Binning& bin_of) {
     // Sort into bins.
     Box box[3][bins];
     uint32_t count[3][bins] = {};
-    std::fill_n(&box[0][0], 3 * bins, Box::empty());
     for (uint32_t i = range.begin; i < range.end; i++) {
-        Box center = refs[i].box.center();
+        Int4 bin = bin_of(refs[i].box);
         for (int axis = 0; axis < 3; axis++) {
-            int bin = bin_of(center, axis);
-            box[axis][bin].grow(refs[i].box);
-            count[axis][bin]++;
+            box[axis][bin[axis]].grow(refs[i].box);
+            count[axis][bin[axis]]++;
         }
     }
 
     // Sweep from the right, then from the left.
+    auto tests = [&](uint32_t n) {
+        return static_cast<float>(range.size() <= lanes ? n : (n + lanes - 1) / lanes);
+    };
     Split best;
     for (int axis = 0; axis < 3; axis++) {
         float right_cost[bins];
-        Box part = Box::empty();
+        Box part;
         uint32_t n = 0;
         for (int bin = bins - 1; bin > 0; bin--) {
             part.grow(box[axis][bin]);
             n += count[axis][bin];
-            right_cost[bin] = part.area() * blocks(n);
+            right_cost[bin] = part.area() * tests(n);
         }
-        part = Box::empty();
+        part = {};
         n = 0;
         for (int bin = 1; bin < bins; bin++) {
             part.grow(box[axis][bin - 1]);
             n += count[axis][bin - 1];
-            float cost = part.area() * blocks(n) + right_cost[bin];
+            float cost = part.area() * tests(n) + right_cost[bin];
             if (cost < best.cost && n > 0 && n < range.size()) best = {cost, axis, bin};
         }
     }
@@ -247,7 +244,7 @@ private:
     /// Calls work(begin, end, chunk) for the parts of 0 .. size-1, on all threads.
     template <typename Work>
     void in_chunks(size_t size, const Work& work) {
-        parallel_for(chunks, threads_, [&](int i) {
+        parallel_for(chunks, size < worth_a_thread ? 1 : threads_, [&](int i) {
             auto part = static_cast<size_t>(i);
             work(size * part / chunks, size * (part + 1) / chunks, i);
         });
@@ -311,21 +308,22 @@ private:
         Binning bin_of(range.centers);
         Split best;
         if (by_cost) best = find_split(refs_, range, bin_of);
-        uint32_t middle = range.begin + range.size() / 2;
-        left = {range.begin, range.begin};
-        right = {range.end, range.end};
-        while (left.end < right.begin) {
-            Ref& ref = refs_[left.end];
-            bool goes_left = best.cost < infinity ? bin_of(ref.box.center(), best.axis) < best.bin
-                                                  : left.end < middle;
-            if (goes_left) {
-                left.grow(ref.box);
-                left.end++;
-            } else {
-                right.grow(ref.box);
-                std::swap(ref, refs_[--right.begin]);
-            }
+        // Swap what goes left to the front. Which side that is nobody can predict, so no branch.
+        uint32_t middle = range.begin + range.size() / 2, front = range.begin;
+        Box box[2], centers[2];
+        for (uint32_t i = range.begin; i < range.end; i++) {
+            Ref ref = refs_[i];
+            bool goes_left =
+                best.cost < infinity ? bin_of(ref.box)[best.axis] < best.bin : i < middle;
+            box[goes_left].grow(ref.box);
+            centers[goes_left].grow({-ref.box.center(), ref.box.center()});
+            uint32_t to = goes_left ? front : i;
+            refs_[i] = refs_[to];
+            refs_[to] = ref;
+            front += goes_left;
         }
+        left = {range.begin, front, box[1], centers[1]};
+        right = {front, range.end, box[0], centers[0]};
         return static_cast<uint8_t>(best.axis);
     }
 
@@ -344,12 +342,12 @@ private:
         children.add(root, lanes, 7);
         for (uint32_t i = 0; i < lanes; i++) {
             bool used = i < children.size;
-            Box box = used ? children.node[i]->box : Box::empty();
+            Box box = used ? children.node[i]->box : Box{};
             for (int axis = 0; axis < 3; axis++) {
-                node.plane[2 * axis][i] = -box.v[axis];
-                node.plane[2 * axis + 1][i] = box.v[4 + axis];
+                node.plane[2 * axis][i] = -box.neg_lo[axis];
+                node.plane[2 * axis + 1][i] = box.hi[axis];
             }
-            node.child[i] = used ? emit(*children.node[i]) : 0;
+            node.child[i] = used ? emit(*children.node[i]) : BvhNode::nothing;
         }
         for (uint32_t octant = 0; octant < 8; octant++) {
             Gathered sorted;

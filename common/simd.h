@@ -44,8 +44,12 @@ inline Ints lanes_of(LaneOrder order) {
     halves = _mm512_mask_set1_epi32(halves, 0xff00, static_cast<int>(order >> 32));
     return {_mm512_maskz_srlv_epi32(all_lanes, halves, shifts)};
 }
-inline Floats permute(Floats a, Ints from) { return {_mm512_maskz_permutexvar_ps(all_lanes, from.v, a.v)}; }
-inline Ints permute(Ints a, Ints from) { return {_mm512_maskz_permutexvar_epi32(all_lanes, from.v, a.v)}; }
+inline Floats permute(Floats a, Ints from) {
+    return {_mm512_maskz_permutexvar_ps(all_lanes, from.v, a.v)};
+}
+inline Ints permute(Ints a, Ints from) {
+    return {_mm512_maskz_permutexvar_epi32(all_lanes, from.v, a.v)};
+}
 /// Moves the lanes whose bits are set to the front, in their order.
 inline Floats compress(Floats a, uint32_t mask) {
     return {_mm512_maskz_compress_ps(static_cast<__mmask16>(mask), a.v)};

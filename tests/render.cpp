@@ -142,14 +142,14 @@ TEST_SUITE("render loop") {
     }
 
     TEST_CASE("truth: the time ends it after a whole pass, or the samples do") {
-        Scene scene = empty_scene(300, 300, 1 << 20);
+        Scene scene = empty_scene(600, 600, 1 << 20);
         RenderOptions options = quiet_options();
         options.time = 0.05;
         calls = 0;
         Rendering r = render_film(scene, options, counting);
         CHECK(r.stats.seconds >= 0.05);
         CHECK(r.film.spp >= 1);
-        CHECK(static_cast<uint64_t>(calls) == 300 * 300 * r.film.spp);
+        CHECK(static_cast<uint64_t>(calls) == 600 * 600 * r.film.spp);
         options.time = 1e-9;
         CHECK(render_film(scene, options, counting).film.spp == 1);
         options.time = 1000;
@@ -159,10 +159,10 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("truth: an interrupt ends it after the pass, which is whole") {
         calls = 0;
-        Rendering r = render_film(empty_scene(300, 300, 1000), quiet_options(), interrupting);
+        Rendering r = render_film(empty_scene(600, 600, 1000), quiet_options(), interrupting);
         CHECK(r.stats.interrupted);
         CHECK(r.film.spp == 1);
-        CHECK(calls == 300 * 300);
+        CHECK(calls == 600 * 600);
         CHECK(r.film.mean() == 1);
         CHECK_FALSE(render_film(empty_scene(2, 2, 1), quiet_options(), counting).stats.interrupted);
     }

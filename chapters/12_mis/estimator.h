@@ -142,15 +142,15 @@ inline Densities densities(const Scene& scene, size_t light, float pdf_one, floa
     return {best * pdf_one, N > 1 ? pdf_one / N : 0, both ? pdf_b : 0};
 }
 
-/// The weight of a direction that was drawn in the way of density a, one of those in d.
+/// The weight of a direction that was drawn in one way, and could have been drawn in others.
 ///
-///   balance: a / sum d_k;  power: a^2 / sum d_k^2      d_k: samples times density, sr^-1
-///
-/// Ratios d_k / a neither overflow nor make 0 / 0. a > 0.
+///   balance: a / sum d_k;  power: a^2 / sum d_k^2      a: of `way`; d_k: of each, sr^-1
+/// Ratios d_k / a neither overflow nor make 0 / 0. a > 0; a may be infinite.
 /// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1"
-inline float mis_weight(float a, const Densities& d) {
-    float sum = 0;
-    for (float ratio : {d.resampled / a, d.uniform / a, d.bsdf / a}) {
+inline float mis_weight(float Densities::*way, const Densities& d) {
+    float sum = 1;
+    for (auto k : {&Densities::resampled, &Densities::uniform, &Densities::bsdf}) {
+        float ratio = k == way ? 0 : d.*k / d.*way;
         sum += settings.heuristic == Heuristic::power ? ratio * ratio : ratio;
     }
     return 1 / sum;
@@ -164,7 +164,7 @@ inline Rgb light_from(const Scene& scene, const Hit& x, Vec3 wo, size_t light, V
     Rgb f = eval_bsdf(x, wo, y.wi);
     if (is_black(f)) return {};
     Densities d = densities(scene, light, y.pdf_w, y.delta ? 0 : pdf_bsdf(x, wo, y.wi));
-    float mis_l = mis_weight(d.*way, d);
+    float mis_l = mis_weight(way, d);
     Rgb Ld = f * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * W);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
     return log.direct(beta * Ld, y.wi, d.*way, d.bsdf, mis_l);
@@ -179,7 +179,7 @@ inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo)
     float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
     Vec3 wi = to_y / std::sqrt(d2);
     Densities d = densities(scene, light, d2 / shape.area, pdf_bsdf(x, wo, wi));
-    return mis_weight(d.resampled, d) * average(eval_bsdf(x, wo, wi)) + 0.05f;
+    return mis_weight(&Densities::resampled, d) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
@@ -239,7 +239,7 @@ inline float mis_emission(const Scene& scene, const Hit& x, const BsdfSample& s,
     size_t light = static_cast<size_t>(y != nullptr ? y->light : scene.sky_light);
     float pdf_one = y != nullptr ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, s.wi);
     Densities d = densities(scene, light, pdf_one, s.pdf_w);
-    return chances.bsdf * mis_weight(d.bsdf, d);
+    return chances.bsdf * mis_weight(&Densities::bsdf, d);
 }
 
 /// Estimates Li along the ray from one path.

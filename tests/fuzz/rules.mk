@@ -1,7 +1,7 @@
 #: make SAN=1 fuzz   100,000 damaged scenes and meshes through the reader, under the sanitizers
-fuzz: $B/fuzz_reader
+fuzz: $(BUILD)/fuzz_reader
 	$<
-$B/fuzz_reader: $B/obj/tests/fuzz/reader.o $(common)
+$(BUILD)/fuzz_reader: $(BUILD)/obj/tests/fuzz/reader.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
 
 .PHONY: fuzz

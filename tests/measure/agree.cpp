@@ -165,7 +165,8 @@ set title 'Largest |z| of each chapter against all others: total, blocks, length
 set xlabel 'chapter'
 set cbrange [0:6]
 set cblabel '|z|, beyond 5 fails'
-set palette defined (0 '#f0f6fc', 2 '#9ecae1', 3.5 '#3182bd', 5 '#08306b', 5.001 '#d62728', 6 '#d62728')
+set palette defined (0 '#f0f6fc', 2 '#9ecae1', 3.5 '#3182bd', 5 '#08306b', \
+    5.001 '#d62728', 6 '#d62728')
 set style fill solid
 unset key
 )"

@@ -1,18 +1,40 @@
 # The programs that measure: all methods against each other, in error, time and stability.
 measuring := $(basename $(notdir $(shell grep -l '^int main' tests/measure/*.cpp)))
-measuring := $(filter-out bench,$(measuring))
-methods   := $(filter-out $(measuring:%=tests/measure/%.cpp) tests/measure/bench.cpp, \
-               $(wildcard tests/measure/*.cpp))
+methods   := $(filter-out $(measuring:%=tests/measure/%.cpp),$(wildcard tests/measure/*.cpp))
+comma     := ,
+chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
+quick      = $(if $(QUICK),$(1))
 
-.PHONY: $(measuring)
+.PHONY: chart stability agree efficiency compare references bench teeth
 
-$(measuring:%=$B/%): $B/%: $B/obj/tests/measure/%.o $(methods:%.cpp=$B/obj/%.o) $(common)
-	$(CXX) $(CXXFLAGS) $^ -o $@
+$(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
+	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
+$(BUILD)/bench: LIBS := $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
+$(BUILD)/gnuplot:
+	@command -v gnuplot >/dev/null || common/tools/install gnuplot-nox; mkdir -p $(@D); touch $@
 
-comma := ,
-chosen_methods := $(if $(A),--methods $(A)$(if $(second),$(comma)$(second)))
-
-agree: $B/agree $(made)
-	@$< $(SCENE)
-efficiency: $B/efficiency $(made)
-	@$< $(or $(CH),$(SCENE),cornell) $(chosen_methods)
+#: make chart        error against time of all chapters, and how time grows (QUICK=1: 2 minutes)
+chart: $(BUILD)/chart $(BUILD)/growth $(BUILD)/gnuplot $(made)
+	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
+	$(BUILD)/growth $(call quick,--quick)
+#: make stability    do methods fail where theory says, as it says, and nowhere else?
+stability: $(BUILD)/stability $(made)
+	$<
+#: make agree        z values of every chapter against the others, on every scene
+agree: $(BUILD)/agree $(BUILD)/gnuplot $(made)
+	$< $(SCENE)
+#: make efficiency CH=12   a chapter's error, time and efficiency beside the one before
+efficiency: $(BUILD)/efficiency $(made)
+	@$< $(or $(CH),$(SCENE),cornell) $(chosen)
+#: make compare A=08 B=09 SCENE=cornell   two chapters with equal samples, and with equal time
+compare: $(BUILD)/efficiency $(made)
+	@$< $(or $(SCENE),cornell) $(chosen) --equal-time
+#: make references   render what the charts compare with
+references: $(BUILD)/references $(made)
+	$< $(SCENE)
+#: make bench        rays per second of each step of chapter 05, beside Embree
+bench: $(BUILD)/bench $(BUILD)/gnuplot
+	$<
+#: make teeth        plant ten mistakes, one at a time, and show the test that sees each
+teeth: $(BUILD)/tests
+	tests/teeth $(BUILD)
