@@ -11,8 +11,8 @@
 namespace {
 
 constexpr const char* head =
-    R"(# A floor with boxes under 1000 square lights that shine downwards, their powers spread evenly
-# in the logarithm from 0.0008 to 8 W. Written by make_thousand-lights.cpp.
+    R"(# A floor with boxes under 1000 square lights that shine downwards, their powers spread
+# evenly in the logarithm from 0.0008 to 8 W. Written by make_thousand-lights.cpp.
 # Shows: how many lights there are must cost nothing, and which of them are asked decides all.
 # True of its picture: no light is seen from its front, so it is black with --max-depth 0. The mean
 # is the same however lights are chosen; chosen all alike, most give next to nothing.
