@@ -63,10 +63,10 @@ $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(BUILD)/packages
 
 # Changes when the compiler or its flags do: then all is compiled again.
 $(BUILD)/flags: always
-	@mkdir -p $B; echo '$(CXX) $(CXXFLAGS)' | cmp -s - $@ || echo '$(CXX) $(CXXFLAGS)' >$@
+	@mkdir -p $(@D); echo '$(CXX) $(CXXFLAGS)' | cmp -s - $@ || echo '$(CXX) $(CXXFLAGS)' >$@
 # The two libraries that the programs are compiled with, from Debian when they are missing.
 $(BUILD)/packages:
-	@mkdir -p $B; printf '#include <doctest/doctest.h>\n#include <stb/stb_image_write.h>\n' | \
+	@mkdir -p $(@D); printf '#include <doctest/doctest.h>\n#include <stb/stb_image_write.h>\n' | \
 	    $(CXX) -x c++ -fsyntax-only - 2>/dev/null || common/tools/install doctest-dev libstb-dev
 	@touch $@
 
