@@ -616,7 +616,6 @@ TEST_SUITE("ch12 mis") {
             CAPTURE(y0);
             double m = rel_mse_of(mis, 16, y0, 112, y1), b = rel_mse_of(bsdf, 16, y0, 112, y1),
                    l = rel_mse_of(light, 16, y0, 112, y1);
-            MESSAGE("plate " << y0 << " mis " << m << " bsdf " << b << " light " << l);
             CHECK(m < b);
             CHECK(m < l);
         }
