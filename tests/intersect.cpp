@@ -6,6 +6,7 @@
 #include "chapters/06_path_tracing/estimator.h"
 #include "common/shapes.h"
 #include "tests/gates.h"
+#include "tests/meshes.h"
 #include "tests/scenes.h"
 
 namespace {
@@ -27,42 +28,6 @@ Scene two_walls(float size, float distance) {
                "]\n";
     };
     return world_of("LightSource \"infinite\"\n" + wall(s) + wall(std::to_string(size + distance)));
-}
-
-/// A closed mesh around the origin: an octahedron whose faces are cut in four, again and again,
-/// with corners moved in and out.
-Geometry closed_mesh(int cuts) {
-    Geometry g;
-    g.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (uint32_t x : {0u, 1u})
-        for (uint32_t y : {2u, 3u})
-            for (uint32_t z : {4u, 5u}) g.triangles.push_back({{x, y, z}, 0});
-    Sampler random = random_numbers(3);
-    for (int cut = 0; cut < cuts; cut++) {
-        std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-        auto middle = [&](uint32_t a, uint32_t b) {
-            auto [found, added] =
-                middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(g.positions.size()));
-            if (added) {
-                Vec3 m = normalize(g.positions[a] + g.positions[b]);
-                g.positions.push_back((0.8f + 0.4f * random.u1()) * m);
-            }
-            return found->second;
-        };
-        std::vector<Triangle> finer;
-        for (const Triangle& t : g.triangles) {
-            auto [a, b, c] = t.v;
-            uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            for (Triangle part : {Triangle{{a, ab, ca}, 0},
-                                  {{ab, b, bc}, 0},
-                                  {{ca, bc, c}, 0},
-                                  {{ab, bc, ca}, 0}}) {
-                finer.push_back(part);
-            }
-        }
-        g.triangles = finer;
-    }
-    return g;
 }
 
 }  // namespace
