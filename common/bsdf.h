@@ -19,8 +19,8 @@ struct BsdfSample {
 ///
 /// u in [0,1)^2; z in (0,1]      tested by  "density: uniform hemisphere"
 inline Vec3 sample_uniform_hemisphere(Vec2 u) {
-    float z = 1 - u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * pi * u.y;
-    return {r * std::cos(phi), r * std::sin(phi), z};
+    float z = 1 - u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+    return from_cylindrical(r, u.y, z);
 }
 inline float pdf_uniform_hemisphere() { return 1 / (2 * pi); }
 inline Vec2 invert_uniform_hemisphere(Vec3 w) {

@@ -11,34 +11,22 @@ namespace {
 ///
 /// Distances are lengths of d times `scale`, the longest side of d, so that they do not overflow
 /// for a very short or a very long d.
-///
-/// A hit may lie outside of its primitive's box by what rounding did to it, and the distances are
-/// rounded too. The former is padded for when a box is built; for the latter the far planes are
-/// taken a bit further away. Never closer: what a box lets through for nothing the triangles
-/// turn down, but what it keeps out is lost.
 struct AxisRay {
-    Floats inv_near, o_near, inv_far, o_far;
-    size_t near_row, far_row;  // of BvhNode::plane
+    Floats inv, o_inv;
     uint32_t negative;
+    size_t near_row, far_row;  // of BvhNode::plane
 
-    AxisRay(const Ray& ray, int axis, float scale) {
-        // Where d is 0, put one so small that the ray stays within the padding.
-        float d = ray.d[axis];
-        float inv = scale / std::copysign(std::max(std::abs(d), 0x1p-40f * scale), d);
-        Floats further = splat(1 + 0x1p-20f);
-        inv_near = splat(inv);
-        o_near = splat(ray.o[axis] * inv);
-        inv_far = inv_near * further;
-        o_far = o_near * further;
-        negative = std::bit_cast<uint32_t>(d) >> 31;
-        near_row = 2 * static_cast<size_t>(axis) + negative;
-        far_row = near_row ^ 1;
-    }
+    AxisRay(const Ray& ray, int axis, float inverse)
+        : inv(splat(inverse)),
+          o_inv(splat(ray.o[axis] * inverse)),
+          negative(std::bit_cast<uint32_t>(ray.d[axis]) >> 31),
+          near_row(2 * static_cast<size_t>(axis) + negative),
+          far_row(near_row ^ 1) {}
     Floats enter(const BvhNode& node) const {
-        return multiply_subtract(load(node.plane[near_row]), inv_near, o_near);
+        return multiply_subtract(load(node.plane[near_row]), inv, o_inv);
     }
     Floats leave(const BvhNode& node) const {
-        return multiply_subtract(load(node.plane[far_row]), inv_far, o_far);
+        return multiply_subtract(load(node.plane[far_row]), inv, o_inv);
     }
 };
 
@@ -68,12 +56,11 @@ template <bool any>
     // Leave out the triangles that the ray passes by.
     Floats e0 = cx * by - cy * bx, e1 = ax * cy - ay * cx, e2 = bx * ay - by * ax;
     uint32_t outside = less(min(min(e0, e1), e2), zero) & less(zero, max(max(e0, e1), e2));
-    if (outside == (1u << lanes) - 1) return false;
 
     Floats det = e0 + e1 + e2;
     Floats t = (e0 * az + e1 * bz + e2 * cz) * splat(sz) / det;
     uint32_t hits = ~outside & less(zero, t) & less_equal(t, splat(best.t));
-    if (any || hits == 0) return hits != 0;
+    if (any) return hits != 0;
 
     // Keep the nearest.
     alignas(64) float ts[lanes], e1s[lanes], e2s[lanes], dets[lanes];
@@ -81,12 +68,13 @@ template <bool any>
     store(e1, e1s);
     store(e2, e2s);
     store(det, dets);
+    bool found = hits != 0;
     for (; hits != 0; hits &= hits - 1) {
         int k = std::countr_zero(hits);
         if (ts[k] < best.t || (ts[k] == best.t && block.prim[k] < best.prim))
             best = {block.prim[k], ts[k], e1s[k] / dets[k], e2s[k] / dets[k]};
     }
-    return true;
+    return found;
 }
 
 /// The spheres and disks of a block, one by one.
@@ -122,15 +110,23 @@ void prefetch(const Bvh& bvh, uint32_t child) {
 template <bool any, bool counting>
 PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count) {
     // A rounded t may come before its box; and boxes at the same t must be looked at.
-    constexpr float slack = 1 + 0x1p-12f;
+    constexpr float slack = 1 + 0x1p-12f, tiny = 0x1p-60f;
     PrimHit best;
     float scale = max_component(abs(ray.d));
     if (!(scale > 0 && ray.t_max > 0)) return {};
-    const AxisRay x(ray, 0, scale), y(ray, 1, scale), z(ray, 2, scale);
+    // Where d is 0, put one so small that the ray stays within the padding.
+    auto not_zero = [&](float d) { return std::copysign(std::max(std::abs(d), tiny * scale), d); };
+    Float4 inv = scale / Float4{not_zero(ray.d.x), not_zero(ray.d.y), not_zero(ray.d.z), 1};
+    const AxisRay x(ray, 0, inv[0]), y(ray, 1, inv[1]), z(ray, 2, inv[2]);
     uint32_t octant = x.negative | y.negative << 1 | z.negative << 2;
     Shear shear = shear_to_ray(ray.d);
     best.t = next_below(ray.t_max);
     float reach = best.t * scale * slack;
+    // A hit may lie outside of its primitive's box by what rounding did to it, and the distances
+    // are rounded too. The former is padded for when a box is built; for the latter the far planes
+    // are taken a bit further away. Never closer: what a box lets through for nothing the
+    // triangles turn down, but what it keeps out is lost.
+    Floats further = splat(1 + 0x1p-20f);
 
     // Children still to be visited, the nearest on top, each with the distance to its box. At most
     // lanes - 1 stay behind on each level, and the builder makes no more than 96 levels.
@@ -151,8 +147,9 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         while (!(current & BvhNode::leaf)) {
             const BvhNode& node = bvh.nodes[current];
             if (counting) count->nodes++;
-            Floats enter = max(x.enter(node), max(y.enter(node), max(z.enter(node), splat(0))));
-            Floats leave = min(x.leave(node), min(y.leave(node), min(z.leave(node), splat(reach))));
+            Floats enter = max(max(x.enter(node), y.enter(node)), max(z.enter(node), splat(0)));
+            Floats leave = min(x.leave(node), min(y.leave(node), z.leave(node))) * further;
+            leave = min(leave, splat(reach));
             uint32_t hits = less_equal(enter, leave);
             if (hits == 0) {
                 current = pop();
@@ -166,7 +163,9 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
                 store(compress(permute(load(node.child), order), hits), stack + size);
                 store(compress(enter, hits), stack_enter + size);
                 size += std::popcount(hits) - 1;
-                current = stack[size];
+                // The nearest, without a wait for what was just stored.
+                int last = 31 - std::countl_zero(hits);
+                current = node.child[node.far_first[octant] >> (4 * last) & (lanes - 1)];
                 prefetch(bvh, stack[size - 1]);
             }
         }
@@ -177,7 +176,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         bool found = test_triangles<any>(block, ray, shear, best);
         if (current & BvhNode::mixed && !(any && found)) found |= test_others(block, g, ray, best);
         if (any && found) return {0};
-        if (found) reach = best.t * scale * slack;
+        reach = best.t * scale * slack;
         current = pop();
     }
     return best.prim == PrimHit::none ? PrimHit{} : best;

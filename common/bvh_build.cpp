@@ -15,10 +15,6 @@ constexpr uint32_t small = lanes / 2;      // references that are not split any 
 constexpr uint32_t worth_a_thread = 4096;  // references
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
-/// Four floats that are worked on at once; the last one is not used, or for something else.
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = int32_t __attribute__((vector_size(16)));
-
 Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
 
 /// A box with its lower ends negated, so that both ends grow by a maximum.

@@ -9,8 +9,7 @@
 /// A uniform point of the unit disk, lifted to the sphere. u in [0,1)^2; z in (0,1].
 /// source  Malley 1988      tested by  "density: cosine hemisphere"
 inline Vec3 sample_cosine_hemisphere(Vec2 u) {
-    float r = std::sqrt(u.x), phi = 2 * pi * u.y;
-    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x)};
+    return from_cylindrical(std::sqrt(u.x), u.y, std::sqrt(1 - u.x));
 }
 inline float pdf_cosine_hemisphere(float cos) { return cos / pi; }
 inline Vec2 invert_cosine_hemisphere(Vec3 w) {

@@ -33,6 +33,7 @@ struct Geometry {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  // of the vertices; empty, or one for each position (0: flat there)
     std::vector<Triangle> triangles;
+    std::vector<Vec3> facet_normals;  // unit, of the triangles; prepare() works them out
     std::vector<Sphere> spheres;
     std::vector<Disk> disks;
 

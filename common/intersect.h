@@ -29,7 +29,7 @@ inline void finish_triangle(const Geometry& g, const PrimHit& found, Hit& x, uin
     float b0 = 1 - found.b1 - found.b2;
     x.p = b0 * p0 + found.b1 * p1 + found.b2 * p2;
     x.eps = rounding_error(max_component(b0 * abs(p0) + found.b1 * abs(p1) + found.b2 * abs(p2)));
-    x.n = x.ng = normalize(cross(p1 - p0, p2 - p0));
+    x.n = x.ng = g.facet_normals[found.prim];
     if (!g.normals.empty()) {
         Vec3 n = b0 * g.normals[tri.v[0]] + found.b1 * g.normals[tri.v[1]] +
                  found.b2 * g.normals[tri.v[2]];

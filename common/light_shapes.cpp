@@ -48,15 +48,13 @@ LightPoint sample_emitter_area(const Emitter& e, Vec2 u) {
             return {p, e.n, e.eps, 1};
         }
         case Emitter::sphere: {
-            float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * pi * u.y;
-            Vec3 n = {r * std::cos(phi), r * std::sin(phi), z};
+            float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+            Vec3 n = from_cylindrical(r, u.y, z);
             return {e.p0 + e.r * n, e.inward ? -n : n, e.eps, 1};
         }
         case Emitter::disk: {
-            Frame frame(e.n);
-            float r = e.r * std::sqrt(u.x), phi = 2 * pi * u.y;
-            return {e.p0 + r * std::cos(phi) * frame.s + r * std::sin(phi) * frame.t, e.n, e.eps,
-                    1};
+            Vec3 to_p = from_cylindrical(e.r * std::sqrt(u.x), u.y, 0);
+            return {e.p0 + Frame(e.n).to_world(to_p), e.n, e.eps, 1};
         }
     }
     return {};

@@ -149,6 +149,16 @@ float bounding_radius(const Geometry& g) {
     return g.size() > 0 ? length(high - low) / 2 : 0;
 }
 
+std::vector<Vec3> facet_normals(const Geometry& g) {
+    std::vector<Vec3> normals;
+    normals.reserve(g.triangles.size());
+    for (const Triangle& t : g.triangles) {
+        Vec3 p0 = g.positions[t.v[0]];
+        normals.push_back(normalize(cross(g.positions[t.v[1]] - p0, g.positions[t.v[2]] - p0)));
+    }
+    return normals;
+}
+
 }  // namespace
 
 void prepare(Scene& scene, int threads) {
@@ -165,6 +175,7 @@ void prepare(Scene& scene, int threads) {
 
     scene.radius = bounding_radius(scene.geometry);
     prepare_light_shapes(scene);
+    scene.geometry.facet_normals = facet_normals(scene.geometry);
     scene.bvh = build_bvh(scene.geometry, threads);
 }
 

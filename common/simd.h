@@ -9,6 +9,10 @@
 #include <immintrin.h>
 #endif
 
+/// Four floats, or ints, that are worked on at once; + - * / < and so on go lane by lane.
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int32_t __attribute__((vector_size(16)));
+
 #if defined(__AVX512F__)
 
 inline constexpr int lanes = 16;

@@ -9,9 +9,9 @@ inline float one_minus_cos(float sin2) { return sin2 / (1 + std::sqrt(std::max(0
 ///
 ///   cos = 1 - u1 (1 - cos_max);      pdf_w = 1 / (2 pi (1 - cos_max))
 inline Vec3 sample_cone(float sin2, Vec2 u) {
-    float h = u.x * one_minus_cos(sin2), phi = 2 * pi * u.y;
+    float h = u.x * one_minus_cos(sin2);
     float r = std::sqrt(std::max(0.0f, h * (2 - h)));
-    return {r * std::cos(phi), r * std::sin(phi), 1 - h};
+    return from_cylindrical(r, u.y, 1 - h);
 }
 inline float pdf_cone(float sin2) { return 1 / (2 * pi * one_minus_cos(sin2)); }
 inline Vec2 invert_cone(float sin2, Vec3 w) {

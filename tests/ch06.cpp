@@ -107,6 +107,18 @@ Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog&) {
 }  // namespace
 
 TEST_SUITE("ch06 bsdf") {
+    TEST_CASE("identity: cylindrical coordinates") {
+        for (int i = 0; i <= 4096; i++) {
+            double u = i / 4096.0, phi = 2 * std::numbers::pi * u;
+            Vec3 p = from_cylindrical(2, static_cast<float>(u), 3);
+            CHECK(std::abs(static_cast<double>(p.x) - 2 * std::cos(phi)) < 2.4e-7);
+            CHECK(std::abs(static_cast<double>(p.y) - 2 * std::sin(phi)) < 2.4e-7);
+            CHECK(p.z == 3);
+        }
+        CHECK(from_cylindrical(1, 0, 0) == Vec3{1, 0, 0});
+        CHECK(from_cylindrical(1, 0.75f, 0) == Vec3{0, -1, 0});
+    }
+
     TEST_CASE("identity: what common/ keeps of the chapter is what it teaches") {
         for (const char* first :
              {"struct BsdfSample", "inline Vec3 sample_uniform_hemisphere",

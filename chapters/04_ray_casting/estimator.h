@@ -56,8 +56,9 @@ struct Shear {
 
 inline Shear shear_to_ray(Vec3 d) {
     Vec3 a = abs(d);
-    int kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
-    int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    constexpr int longest[] = {0, 1, 2, 2}, after[] = {1, 2, 0};
+    int kz = longest[(a.y >= a.x) + 2 * (a.z >= std::max(a.x, a.y))];
+    int kx = after[kz], ky = after[kx];
     return {kx, ky, kz, d[kx] / d[kz], d[ky] / d[kz], 1 / d[kz]};
 }
 

@@ -30,9 +30,9 @@ inline float ggx_lambda(Vec3 w, float alpha) {
 /// source  Heitz 2018; Dupuy, Benyoub 2023
 inline Vec3 sample_ggx_normal(Vec3 wo, float alpha, Vec2 u) {
     Vec3 w = normalize({alpha * wo.x, alpha * wo.y, wo.z});
-    float z = (1 - u.x) * (1 + w.z) - w.z, phi = 2 * pi * u.y;
+    float z = (1 - u.x) * (1 + w.z) - w.z;
     float r = std::sqrt(std::max(0.0f, 1 - z * z));
-    Vec3 h = Vec3{r * std::cos(phi), r * std::sin(phi), z} + w;
+    Vec3 h = from_cylindrical(r, u.y, z) + w;
     return normalize({alpha * h.x, alpha * h.y, h.z});
 }
 inline float pdf_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
