@@ -17,8 +17,9 @@ enum class Metric {
 struct Prediction {
     Metric metric;
     double value;
+    bool fails = false;    // it is a failure
     bool at_most = false;  // the value is a bound
-    bool fails = false;    // and it is a failure
+    double spread = 0;     // of a relative variance: standard deviation of one (X / E[X] - 1)^2
 };
 
 /// One scene, one pixel; `truth` is its radiance.
@@ -29,10 +30,10 @@ struct StabilityCase {
     int spp;  // N
     struct Expected {
         std::vector<std::string> methods;
-        std::vector<Prediction> predictions;  // none: it must hold
+        std::vector<Prediction> predictions = {};
     };
     std::vector<Expected> expected;
-    std::vector<std::string> refuse;  // the methods that must refuse the scene
+    std::vector<std::string> refuse = {};  // the methods that must refuse the scene
 };
 
 std::vector<StabilityCase> stability_cases();

@@ -1,0 +1,213 @@
+// What theory says of samplers: relative variances by quadrature and by counting all cases, and how
+// often an error bar holds the truth.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "common/roulette.h"
+
+/// A small part of what a surface sees: the cosine there, what one of its samples is worth (f cos
+/// Le, up to a factor), and its solid angle in sr.
+struct Part {
+    double cos, value, omega;
+};
+
+/// Rings around the normal with cosines in [from, to], on a matt surface.
+inline std::vector<Part> rings(double from, double to, int n = 20000) {
+    std::vector<Part> parts;
+    for (int i = 0; i < n; i++) {
+        double c = from + (to - from) * (i + 0.5) / n;
+        parts.push_back({c, c, 2 * std::numbers::pi * (to - from) / n});
+    }
+    return parts;
+}
+
+inline double solid_angle(const std::vector<Part>& parts) {
+    double sum = 0;
+    for (const Part& p : parts) sum += p.omega;
+    return sum;
+}
+
+/// Mean, and mean of the square, of one sample value weight / pdf.
+struct Moments {
+    double mean = 0, square = 0;
+    double relative_variance() const { return square / (mean * mean) - 1; }
+};
+
+template <typename Pdf, typename Weight>
+Moments weighted(const std::vector<Part>& parts, const Pdf& pdf, const Weight& weight) {
+    Moments m;
+    for (const Part& p : parts) {
+        double x = p.value * weight(p);
+        m.mean += x * p.omega;
+        m.square += x * x / pdf(p) * p.omega;
+    }
+    return m;
+}
+
+/// Relative variance of one direction drawn by pdf(part), in sr^-1.
+///
+///   E[X^2] / E[X]^2 - 1,   E[X^2] = integral of value^2 / pdf
+template <typename Pdf>
+double variance_by(const std::vector<Part>& parts, const Pdf& pdf) {
+    return weighted(parts, pdf, [](const Part&) { return 1.0; }).relative_variance();
+}
+
+/// Relative variance of one direction of each of two densities, with the power heuristic.
+template <typename PdfA, typename PdfB>
+double variance_of_mis(const std::vector<Part>& parts, const PdfA& pdf_a, const PdfB& pdf_b) {
+    auto share = [](double a, double b) { return a * a / (a * a + b * b); };
+    Moments a = weighted(parts, pdf_a, [&](const Part& p) { return share(pdf_a(p), pdf_b(p)); });
+    Moments b = weighted(parts, pdf_b, [&](const Part& p) { return share(pdf_b(p), pdf_a(p)); });
+    double mean = a.mean + b.mean;
+    return (a.square - a.mean * a.mean + b.square - b.mean * b.mean) / (mean * mean);
+}
+
+inline double pdf_uniform(const Part&) { return 1 / (2 * std::numbers::pi); }
+inline double pdf_cosine(const Part& p) { return p.cos / std::numbers::pi; }
+
+/// A light that is drawn with probability pmf, and what it gives to the competition of candidates
+/// (p_hat) and, unless something is in between, to the estimate (f).
+struct Choice {
+    double pmf, p_hat, f;
+};
+
+/// All values that a sample can have.
+struct Outcome {
+    double chance, x;
+};
+using Outcomes = std::vector<Outcome>;
+
+inline double mean_of(const Outcomes& all) {
+    double mean = 0;
+    for (const Outcome& o : all) mean += o.chance * o.x;
+    return mean;
+}
+/// E[(X - m)^n] / m^n, m: the mean; for n = 2 the relative variance.
+inline double relative_moment(const Outcomes& all, int n) {
+    double m = mean_of(all), sum = 0;
+    for (const Outcome& o : all) sum += o.chance * std::pow(o.x / m - 1, n);
+    return sum;
+}
+/// The values of the sum of two independent samples.
+inline Outcomes sum_of(const Outcomes& a, const Outcomes& b) {
+    Outcomes sum;
+    for (const Outcome& p : a)
+        for (const Outcome& q : b) sum.push_back({p.chance * q.chance, p.x + q.x});
+    return sum;
+}
+
+/// One light out of two; share_a, share_b: MIS weights.
+inline Outcomes chosen(Choice a, Choice b, double share_a = 1, double share_b = 1) {
+    return {{a.pmf, share_a * a.f / a.pmf}, {b.pmf, share_b * b.f / b.pmf}};
+}
+
+/// RIS over two lights, M candidates from M slices of the table: k of them are the light b, M pmf_b
+/// rounded up or down.
+inline Outcomes resampled(Choice a, Choice b, int M, double share_a = 1, double share_b = 1) {
+    Outcomes all;
+    double least = std::floor(M * b.pmf);
+    for (double k : {least, least + 1}) {
+        double chance = 1 - std::abs(M * b.pmf - k);
+        double sum_a = (M - k) * a.p_hat / a.pmf, sum_b = k * b.p_hat / b.pmf, sum = sum_a + sum_b;
+        all.push_back({chance * sum_a / sum, share_a * a.f * sum / (M * a.p_hat)});
+        all.push_back({chance * sum_b / sum, share_b * b.f * sum / (M * b.p_hat)});
+    }
+    return all;
+}
+
+/// That plus one light out of two evenly, by the power heuristic (chapter 12).
+inline Outcomes two_opinions(Choice a, Choice b, int M) {
+    auto share = [&](const Choice& light) {  // of RIS
+        double d = std::min(1.0, M * light.pmf);
+        return d * d / (d * d + 0.25);
+    };
+    Choice even_a{0.5, 0, a.f}, even_b{0.5, 0, b.f};
+    return sum_of(resampled(a, b, M, share(a), share(b)),
+                  chosen(even_a, even_b, 1 - share(a), 1 - share(b)));
+}
+
+/// How often the 95 % interval of N samples, each 1 with probability p and else 0, holds p.
+inline double coverage_of_rare(double p, int N) {
+    double sum = 0, n = N;
+    for (int k = 0; k <= N; k++) {
+        double log_chance = std::lgamma(n + 1) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1) +
+                            k * std::log(p) + (n - k) * std::log1p(-p);
+        double error = 1.96 * std::sqrt(k * (1 - k / n) * n / (n - 1));
+        if (std::abs(k - n * p) <= error) sum += std::exp(log_chance);
+    }
+    return sum;
+}
+
+/// A path inside a sphere whose wall emits 1 and reflects `albedo`: nothing but its throughputs.
+struct WalkInside {
+    std::array<double, 3> albedo;
+    bool uniform;   // directions; else by the cosine
+    bool roulette;  // as in the chapters
+    bool aims;      // at each vertex, at the wall: brings exactly the albedo
+
+    /// What one path of at most 100 bounces brings, averaged over the channels.
+    /// u()  in [0,1)
+    template <typename Random>
+    double sample(Random&& u) const {
+        std::array<double, 3> beta = {1, 1, 1};
+        double sum = 1;
+        for (int depth = 0; depth < 100; depth++) {
+            double c = uniform ? 2 * u() : 1, before = 0, after = 0;
+            for (size_t i = 0; i < 3; i++) {
+                before += beta[i] * albedo[i] / 3;
+                beta[i] *= c * albedo[i];
+                after += beta[i] / 3;
+            }
+            if (aims) sum += before;
+            double q = roulette ? survival(beta, depth) : 1;
+            if (q < 1 && u() >= q) break;
+            for (double& x : beta) x /= q;
+            if (!aims) sum += after / q;
+            if (after < 1e-7) break;
+        }
+        return sum;
+    }
+
+    static double survival(const std::array<double, 3>& beta, int depth) {
+        auto b = [&](size_t i) { return static_cast<float>(beta[i]); };
+        return static_cast<double>(survival_probability({b(0), b(1), b(2)}, depth));
+    }
+
+    /// What a run of N paths says of itself.
+    struct Run {
+        double mean, se, square;
+    };
+    std::vector<Run> runs_of(int N, int runs) const {
+        std::mt19937_64 engine(1);
+        auto u = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+        std::vector<Run> result;
+        for (int run = 0; run < runs; run++) {
+            double sum = 0, squares = 0;
+            for (int i = 0; i < N; i++) {
+                double x = sample(u);
+                sum += x, squares += x * x;
+            }
+            double mean = sum / N, variance = (squares - N * mean * mean) / (N - 1.0);
+            result.push_back({mean, std::sqrt(variance / N), squares / N});
+        }
+        return result;
+    }
+
+    /// How often the 95 % interval of N such paths holds `truth`, from 2000 runs.
+    double coverage(double truth, int N) const {
+        double covered = 0;
+        for (const Run& r : runs_of(N, 2000)) covered += std::abs(r.mean - truth) <= 1.96 * r.se;
+        return covered / 2000;
+    }
+
+    /// From 2 million paths: for those whose throughputs are bounded.
+    double relative_variance() const {
+        Run all = runs_of(2000000, 1)[0];
+        return all.square / (all.mean * all.mean) - 1;
+    }
+};
