@@ -32,7 +32,7 @@ compare: $(BUILD)/efficiency $(made)
 #: make references   render what the charts compare with
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
-#: make bench        rays per second of each step of chapter 05, beside Embree
+#: make bench        rays per second of each step of chapter 05, beside Embree (2 minutes)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	$<
 #: make teeth        plant ten mistakes, one at a time, and show the test that sees each
