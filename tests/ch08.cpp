@@ -54,14 +54,16 @@ TEST_SUITE("ch08 light sampling") {
         struct Row {
             double R, h, x, E;
         };
-        for (auto [R, h, x, E] : {Row{1, 1, 0, 1.570796326795},
-                                  {1, 2, 0, 0.628318530718},
-                                  {0.5, 1, 0, 0.628318530718},
-                                  {1, 1, 0.5, 1.375963021307},
-                                  {1, 1, 1, 0.8683148536908},
-                                  {1, 1, 2, 0.1658333805868},
-                                  {1, 2, 3, 0.08060808692548}}) {
+        for (auto [R, h_here, x_here, E] : {Row{1, 1, 0, 1.570796326795},
+                                            {1, 2, 0, 0.628318530718},
+                                            {0.5, 1, 0, 0.628318530718},
+                                            {1, 1, 0.5, 1.375963021307},
+                                            {1, 1, 1, 0.8683148536908},
+                                            {1, 1, 2, 0.1658333805868},
+                                            {1, 2, 3, 0.08060808692548}}) {
+            const auto& h = h_here;
             CAPTURE(h);
+            const auto& x = x_here;
             CAPTURE(x);
             Scene scene = floor_under(shining + disk(R, h, x));
             for (LightMeasure measure : both_ways) {
@@ -97,17 +99,19 @@ TEST_SUITE("ch08 light sampling") {
         struct Row {
             double R, D, degrees, E;
         };
-        for (auto [R, D, degrees, E] : {Row{1, 2, 0, 0.7853981633974},
-                                        {1, 2, 30, 0.6801747615878},
-                                        {1, 2, 60, 0.3926990816987},
-                                        {0.5, 1, 45, 0.5553603672698},
-                                        {1, 10, 0, 0.0314159265359},
-                                        {1, 1.001, 0, 3.13531888051},
-                                        {1, 2, 70, 0.2753750579346},
-                                        {1, 2, 90, 0.09058607370608},
-                                        {1, 2, 100, 0.03544901531047},
-                                        {1, 1.25, 60, 1.076664812262}}) {
+        for (auto [R, D_here, degrees_here, E] : {Row{1, 2, 0, 0.7853981633974},
+                                                  {1, 2, 30, 0.6801747615878},
+                                                  {1, 2, 60, 0.3926990816987},
+                                                  {0.5, 1, 45, 0.5553603672698},
+                                                  {1, 10, 0, 0.0314159265359},
+                                                  {1, 1.001, 0, 3.13531888051},
+                                                  {1, 2, 70, 0.2753750579346},
+                                                  {1, 2, 90, 0.09058607370608},
+                                                  {1, 2, 100, 0.03544901531047},
+                                                  {1, 1.25, 60, 1.076664812262}}) {
+            const auto& D = D_here;
             CAPTURE(D);
+            const auto& degrees = degrees_here;
             CAPTURE(degrees);
             double a = degrees * pi_exact / 180;
             Scene scene = floor_under(shining + "Translate " + std::to_string(D * std::sin(a)) +
@@ -119,7 +123,7 @@ TEST_SUITE("ch08 light sampling") {
 
     TEST_CASE("truth: squares overhead, aside, tilted, and cut by the horizon") {
         const std::string wall = "Translate 0 0 1 Rotate -90 1 0 0 " + square(0, true);
-        for (const auto& [light, E] : std::vector<std::pair<std::string, double>>{
+        for (const auto& [light_here, E] : std::vector<std::pair<std::string, double>>{
                  {unit_square(1), 0.7522746884541},
                  {unit_square(1, 0.5, 0.5), 0.4352098756836},
                  {unit_square(2), 0.2308367977302},
@@ -132,6 +136,7 @@ TEST_SUITE("ch08 light sampling") {
                  {"Rotate 45 0 0 1 Translate 0 1 0 Scale 3 1 3 " + square(0, false),
                   2.184409062828},
                  {unit_square(10), 0.9966782906402 / 100}}) {
+            const auto& light = light_here;
             CAPTURE(light);
             Scene scene = floor_under(shining + light);
             for (LightMeasure measure : both_ways) {
@@ -321,9 +326,10 @@ TEST_SUITE("ch08 near lights") {
             double h, relative;
             int paths;
         };
-        for (auto [h, relative, paths] : {Row{1, 0.1666666666667, 40000},
-                                          {0.5, 1.066666666667, 100000},
-                                          {0.1, 33.00330033003, 600000}}) {
+        for (auto [h_here, relative, paths] : {Row{1, 0.1666666666667, 40000},
+                                               {0.5, 1.066666666667, 100000},
+                                               {0.1, 33.00330033003, 600000}}) {
+            const auto& h = h_here;
             CAPTURE(h);
             SquareMoments exact = disk_moments(h);
             double E = pi_exact / (1 + h * h);
@@ -337,10 +343,11 @@ TEST_SUITE("ch08 near lights") {
 
     TEST_CASE("variance: near-light, a disk, by solid angle: below 1/3 at any height") {
         // R = 1: Omega of the bounding square over that of the disk, times 1 + the disk's own.
-        for (auto [h, own] : {std::pair{1.0, 0.009812417174286},
-                              {0.5, 0.04863267791677},
-                              {0.1, 0.2235883582194},
-                              {0.01, 0.3202633598833}}) {
+        for (auto [h_here, own] : {std::pair{1.0, 0.009812417174286},
+                                   {0.5, 0.04863267791677},
+                                   {0.1, 0.2235883582194},
+                                   {0.01, 0.3202633598833}}) {
+            const auto& h = h_here;
             CAPTURE(h);
             double square = 4 * std::atan(1 / (h * std::sqrt(2 + h * h)));
             double round = 2 * pi_exact * (1 - h / std::sqrt(1 + h * h));
@@ -357,9 +364,10 @@ TEST_SUITE("ch08 near lights") {
         struct Row {
             double h, by_area, by_angle;
         };
-        for (auto [h, by_area, by_angle] : {Row{1, 0.03035451318485, 0.001873136382573},
-                                            {0.5, 0.2552916875306, 0.01448844117047},
-                                            {0.1, 10.31510018729, 0.1633910861555}}) {
+        for (auto [h_here, by_area, by_angle] : {Row{1, 0.03035451318485, 0.001873136382573},
+                                                 {0.5, 0.2552916875306, 0.01448844117047},
+                                                 {0.1, 10.31510018729, 0.1633910861555}}) {
+            const auto& h = h_here;
             CAPTURE(h);
             SquareMoments exact = square_moments(h);
             double E2 = exact.mean * exact.mean;
@@ -380,9 +388,10 @@ TEST_SUITE("ch08 near lights") {
         struct Row {
             double z, E, by_angle;
         };
-        for (auto [z, E, by_angle] : {Row{0.1, 1.327463828739, 0.3338560490858},
-                                      {0.01, 1.546162948515, 0.3333991466613},
-                                      {0.001, 1.568332682284, 0.3333400614046}}) {
+        for (auto [z_here, E, by_angle] : {Row{0.1, 1.327463828739, 0.3338560490858},
+                                           {0.01, 1.546162948515, 0.3333991466613},
+                                           {0.001, 1.568332682284, 0.3333400614046}}) {
+            const auto& z = z_here;
             CAPTURE(z);
             Scene scene = floor_under(shining + light_on_edge(z));
             RunningStats s = irradiance(scene, ch08::trace, 100000);
@@ -463,13 +472,14 @@ TEST_SUITE("ch08 near lights") {
 
 TEST_SUITE("ch08 pictures") {
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 07") {
-        for (const auto& [name, least] :
+        for (const auto& [name_here, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
                                                       {"color-bleeding", 6},
                                                       {"near-light", 2},
                                                       {"two-lights", 2},
                                                       {"light-in-glass", 4}}) {
+            const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, ch07::trace, scene, ch08::trace, 60000) >= least);
@@ -484,7 +494,8 @@ TEST_SUITE("ch08 pictures") {
         "failure: nobody aims at a light in glass: all its light comes by LSS, found by chance") {
         Scene scene = scene_from("scenes/light-in-glass.pbrt", 32, 8);
         PathCensus census = census_of(scene, ch08::trace, 40000, 1);
-        for (const auto& [name, part] : census.by_class) {
+        for (const auto& [name_here, part] : census.by_class) {
+            const auto& name = name_here;
             CAPTURE(name);
             CHECK((name.substr(0, 3) == "LSS" || part.sum == 0));
         }

@@ -148,7 +148,7 @@ TEST_SUITE("ch09 cosine sampling") {
             double factor;
             double (*weight)(double);
         };
-        for (auto [variant, factor, weight] :
+        for (auto [variant_here, factor, weight] :
              {Row{"as printed", 12.56637061436,
                   [](double dot) { return 2 * dot / (dot / (2 * pi_exact)); }},
               {"pdf repaired", 6.28318530718,
@@ -156,6 +156,7 @@ TEST_SUITE("ch09 cosine sampling") {
               {"BRDF repaired", 2,
                [](double dot) { return dot / pi_exact / (dot / (2 * pi_exact)); }},
               {"right", 1, [](double dot) { return dot / pi_exact / (dot / pi_exact); }}}) {
+            const auto& variant = variant_here;
             CAPTURE(variant);
             RunningStats s;
             Sampler random = random_numbers(1);
@@ -201,7 +202,7 @@ TEST_SUITE("ch09 cosine sampling") {
             double (*L)(double);
             double E, uniform, cosine;
         };
-        for (auto [sky, L, E, uniform, cosine] :
+        for (auto [sky_here, L, E, uniform, cosine] :
              {Row{"constant", [](double) { return 1.0; }, 3.14159265359, 3.289868133696, 0},
               {"zenith", [](double c) { return c; }, 2.094395102393, 3.509192675943,
                0.5483113556161},
@@ -211,6 +212,7 @@ TEST_SUITE("ch09 cosine sampling") {
                0.137077838904},
               {"overcast", [](double c) { return (1 + 2 * c) / 3; }, 2.443460952792, 3.387345708028,
                0.2436939358294}}) {
+            const auto& sky = sky_here;
             CAPTURE(sky);
             for (bool by_cosine : {false, true}) {
                 double variance = by_cosine ? cosine : uniform;
@@ -255,7 +257,7 @@ TEST_SUITE("ch09 cosine sampling") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 08") {
-        for (const auto& [name, least] :
+        for (const auto& [name_here, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
                                                       {"color-bleeding", 6},
@@ -264,6 +266,7 @@ TEST_SUITE("ch09 cosine sampling") {
                                                       {"light-in-glass", 4},
                                                       {"horizon-sky", 2},
                                                       {"hidden-light", 6}}) {
+            const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, ch08::trace, scene, ch09::trace, 40000) >= least);
@@ -279,7 +282,7 @@ TEST_SUITE("ch09 cosine sampling") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 8);
         PathCensus before = census_of(scene, ch08::trace, 100000, 1);
         PathCensus now = census_of(scene, ch09::trace, 100000, 2);
-        for (size_t length : {2, 3, 4}) {
+        for (size_t length : {2u, 3u, 4u}) {
             double a = before.by_length[length].measured(before.paths).se;
             double b = now.by_length[length].measured(now.paths).se;
             CAPTURE(length);

@@ -261,7 +261,7 @@ TEST_SUITE("ch10 light importance") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 09") {
-        for (const auto& [name, least] :
+        for (const auto& [name_here, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"two-lights", 4},
                                                       {"far-and-near", 2},
@@ -269,6 +269,7 @@ TEST_SUITE("ch10 light importance") {
                                                       {"thousand-lights", 4},
                                                       {"near-light", 2},
                                                       {"horizon-sky", 2}}) {
+            const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, ch09::trace, prepared(scene), ch10::trace, 40000) >= least);

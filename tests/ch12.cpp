@@ -449,9 +449,10 @@ TEST_SUITE("ch12 weights") {
         struct Row {
             double h, balance, power;
         };
-        for (auto [h, balance, power] : {Row{1, 0.1718126459636, 0.1287833300175},
-                                         {0.5, 0.1781064946388, 0.2237023499149},
-                                         {0.1, 0.1088012149308, 0.09025985025283}}) {
+        for (auto [h_here, balance, power] : {Row{1, 0.1718126459636, 0.1287833300175},
+                                              {0.5, 0.1781064946388, 0.2237023499149},
+                                              {0.1, 0.1088012149308, 0.09025985025283}}) {
+            const auto& h = h_here;
             CAPTURE(h);
             double E = pi_exact / (1 + h * h);
             for (Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
@@ -467,8 +468,9 @@ TEST_SUITE("ch12 weights") {
     TEST_CASE("failure: a density per area beside one per solid angle: 0.881, 1.105, 1.318") {
         // The light's samples weigh with the right density, the BSDF's with 1 / area.
         With settings(Strategy::mis, Heuristic::balance);
-        for (auto [h, wrong] :
+        for (auto [h_here, wrong] :
              {std::pair{0.5, 0.8809532795696}, {1.0, 1.105316968821}, {2.0, 1.317990844865}}) {
+            const auto& h = h_here;
             CAPTURE(h);
             // Irradiance of the disk, over z = cos: 2 pi z dz from h / sqrt(1 + h^2) to 1.
             double low = h / std::sqrt(1 + h * h), right = 0, mixed = 0, both_wrong = 0;
@@ -495,13 +497,14 @@ TEST_SUITE("ch12 mis") {
         const std::string near_and_far =
             "AttributeBegin " + shining + unit_square(1) + "AttributeEnd AttributeBegin " +
             shining + "Rotate 90 0 1 0 " + unit_square(1, 1.5) + "AttributeEnd\n";
-        for (const auto& [light, E] : std::vector<std::pair<std::string, double>>{
+        for (const auto& [light_here, E] : std::vector<std::pair<std::string, double>>{
                  {shining + disk(1, 1), 1.570796326795},
                  {shining + unit_square(0.1), 3.04212843837},
                  {shining + "Translate 2 0 0 Shape \"sphere\"", 0.09058607370608},
                  {near_and_far, 0.7522746884541 + 0.1046370751909},
                  {"LightSource \"infinite\"", pi_exact},
                  {"LightSource \"infinite\" " + shining + unit_square(1), pi_exact}}) {
+            const auto& light = light_here;
             CAPTURE(light);
             Scene scene = prepared(floor_under(light));
             for (Strategy strategy : all_strategies)
@@ -569,7 +572,7 @@ TEST_SUITE("ch12 mis") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 11") {
-        for (const auto& [name, least] :
+        for (const auto& [name_here, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
                                                       {"two-lights", 4},
@@ -579,6 +582,7 @@ TEST_SUITE("ch12 mis") {
                                                       {"near-light", 2},
                                                       {"light-in-glass", 4},
                                                       {"horizon-sky", 2}}) {
+            const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             Scene scene_11 = scene;
@@ -596,7 +600,8 @@ TEST_SUITE("ch12 mis") {
             With settings(strategy);
             PathCensus census = census_of(alone, ch12::trace, 100000, 2);
             CHECK(census.worst_sum < 1e-5);
-            for (auto& [name, part] : mis.by_class) {
+            for (auto& [name_here, part] : mis.by_class) {
+                const auto& name = name_here;
                 if (part.not_zero < 200 || census.by_class[name].not_zero < 200) continue;
                 CAPTURE(name);
                 CHECK(z_between(part.measured(mis.paths),
@@ -612,7 +617,8 @@ TEST_SUITE("ch12 mis") {
             return film_of(scene, ch12::trace, 32).film;
         };
         Film mis = film(Strategy::mis), bsdf = film(Strategy::bsdf), light = film(Strategy::light);
-        for (auto [y0, y1] : {std::pair{57, 66}, {72, 81}, {85, 95}, {99, 110}}) {
+        for (auto [y0_here, y1] : {std::pair{57, 66}, {72, 81}, {85, 95}, {99, 110}}) {
+            const auto& y0 = y0_here;
             CAPTURE(y0);
             double m = rel_mse_of(mis, 16, y0, 112, y1), b = rel_mse_of(bsdf, 16, y0, 112, y1),
                    l = rel_mse_of(light, 16, y0, 112, y1);

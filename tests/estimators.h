@@ -93,7 +93,8 @@ inline int check_classes(const Scene& scene_a, Trace trace_a, const Scene& scene
     CHECK(z_between(a.all.measured(a.paths), b.all.measured(b.paths)) < 5);
     int compared = 0;
     auto compare = [&](const auto& parts_a, auto& parts_b) {
-        for (const auto& [name, part] : parts_a) {
+        for (const auto& [name_here, part] : parts_a) {
+            const auto& name = name_here;
             if (part.not_zero < 100 || parts_b[name].not_zero < 100) continue;
             CAPTURE(name);
             CHECK(z_between(part.measured(a.paths), parts_b[name].measured(b.paths)) < 5);
