@@ -58,7 +58,7 @@ template <bool any>
     uint32_t outside = less(min(min(e0, e1), e2), zero) & less(zero, max(max(e0, e1), e2));
 
     Floats det = e0 + e1 + e2;
-    Floats t = (e0 * az + e1 * bz + e2 * cz) * splat(sz) / det;
+    Floats t = (e0 * az + e1 * bz + e2 * cz) / det * splat(sz);
     uint32_t hits = ~outside & less(zero, t) & less_equal(t, splat(best.t));
     if (any) return hits != 0;
 
@@ -113,7 +113,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     constexpr float slack = 1 + 0x1p-12f, tiny = 0x1p-60f;
     PrimHit best;
     float scale = max_component(abs(ray.d));
-    if (!(scale > 0 && ray.t_max > 0)) return {};
+    if (!(scale > 0 && scale < infinity && ray.t_max > 0)) return {};
     // Where d is 0, put one so small that the ray stays within the padding.
     auto not_zero = [&](float d) { return std::copysign(std::max(std::abs(d), tiny * scale), d); };
     Float4 inv = scale / Float4{not_zero(ray.d.x), not_zero(ray.d.y), not_zero(ray.d.z), 1};

@@ -43,7 +43,7 @@ inline std::optional<TriangleHit> intersect_triangle(const Ray& ray, const Shear
     float e0 = cx * by - cy * bx, e1 = ax * cy - ay * cx, e2 = bx * ay - by * ax;
     if ((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0)) return {};
     float det = e0 + e1 + e2;
-    float t = (e0 * a[kz] + e1 * b[kz] + e2 * c[kz]) * sz / det;
+    float t = (e0 * a[kz] + e1 * b[kz] + e2 * c[kz]) / det * sz;
     if (!(t > 0 && t < ray.t_max)) return {};  // also when det is 0, or anything NaN
     return TriangleHit{t, e1 / det, e2 / det};
 }

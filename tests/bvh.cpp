@@ -413,7 +413,7 @@ TEST_SUITE("ch05 bvh hits") {
         for (float x : odd)
             for (float y : odd)
                 for (float z : odd)
-                    for (float t_max : {infinity, largest, 1.0f, 0.0f, -1.0f}) {
+                    for (float t_max : {infinity, largest, 1.0f, smallest, 0.0f, -1.0f}) {
                         for (Ray ray : {Ray{{0.1f, 0.2f, 0.3f}, {x, y, z}, t_max},
                                         Ray{{x, y, z}, {0.3f, 0.2f, 0.5f}, t_max}}) {
                             PrimHit truth = linear_scan(g, ray);
@@ -423,7 +423,7 @@ TEST_SUITE("ch05 bvh hits") {
                             rays++;
                         }
                     }
-        CHECK(rays == 2 * 5 * 512);
+        CHECK(rays == 2 * 6 * 512);
     }
 }
 

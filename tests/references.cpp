@@ -3,6 +3,7 @@
 
 #include "chapters/06_path_tracing/estimator.h"
 #include "chapters/07_russian_roulette/estimator.h"
+#include "chapters/12_mis/estimator.h"
 #include "common/image.h"
 #include "tests/scenes.h"
 
@@ -30,8 +31,9 @@ struct Reference {
 /// Renders the reference's scene and holds it against the picture, block by block.
 Agreement hold_against_reference(const std::string& name, Trace trace, int spp, int block_side) {
     Reference reference(name);
-    Film film =
-        film_of(scene_from("tests/references/" + name + ".pbrt", 128, 100), trace, spp).film;
+    Scene scene = scene_from("tests/references/" + name + ".pbrt", 128, 100);
+    ch12::prepare(scene);  // the other chapters do not mind
+    Film film = film_of(scene, trace, spp).film;
     return hold_against(
         128, block_side, [&](int x, int y, int side) { return block_of(film, x, y, side); },
         [&](int x, int y, int side) { return reference.block(x, y, side); });
@@ -58,6 +60,24 @@ TEST_SUITE("references slow") {
             Agreement a = hold_against_reference("cornell-grey", trace, 1024, 8);
             check_agreement(a, 0.002);
             CHECK(a.relative < 0.01);
+        }
+    }
+
+    TEST_CASE("agreement: plates, many lights, hidden and close lights, with chapter 12") {
+        struct {
+            std::string name;
+            int spp;
+            double relative_se;
+        } cases[] = {{"veach-mis", 2048, 0.003},
+                     {"many-lights", 1024, 0.001},
+                     {"hidden-bright", 1024, 0.001},
+                     {"tiny-close-light", 1024, 0.003},
+                     {"cornell-grey", 1024, 0.001}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            Agreement a = hold_against_reference(c.name, ch12::trace, c.spp, 8);
+            check_agreement(a, c.relative_se);
+            CHECK(a.relative < 0.005);
         }
     }
 

@@ -45,13 +45,10 @@ inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
     return {1 - (c.z + w.z) / (1 + w.z), (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+/// f and density of a rough conductor on wo's side, both in sr^-1; wi turns by twice h's angle:
 ///
-///   diffuse:          f = reflectance / pi  on wo's side of the surface
-///   rough conductor:  f = D(h) F(wo.h) G(wo, wi) / (4 cos_o cos_i),  h = (wo + wi) / |wo + wi|
-inline Rgb eval_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
-    if (is_specular(*x.material) || dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
-    if (x.material->type == MaterialType::diffuse) return x.material->reflectance / pi;
+///   f = D(h) F(wo.h) G(wo, wi) / (4 cos_o cos_i),  h = (wo + wi) / |wo + wi|;  pdf(h) / (4 wo.h)
+[[gnu::noinline]] inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), i = frame.to_local(wi), h = normalize(o + i);
     float alpha = x.material->alpha;
@@ -59,17 +56,24 @@ inline Rgb eval_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
     Rgb F = fresnel_conductor(dot(o, h), x.material->eta, x.material->k);
     return F * (ggx_D(h, alpha) * G / (4 * o.z * i.z));
 }
-
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
-///
-///   rough conductor:  pdf_w = pdf(h) / (4 wo.h), since wi turns by twice the angle of h
-inline float pdf_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
-    if (is_specular(*x.material) || dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
-    if (x.material->type == MaterialType::diffuse) return pdf_cosine_hemisphere(dot(wi, x.n));
+[[gnu::noinline]] inline float pdf_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), h = normalize(o + frame.to_local(wi));
     float cos_oh = dot(o, h);
     return cos_oh > 0 ? pdf_ggx_normal(o, x.material->alpha, h) / (4 * cos_oh) : 0;
+}
+
+/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+inline Rgb eval_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
+    if (is_specular(*x.material) || dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    if (x.material->type == MaterialType::diffuse) return x.material->reflectance / pi;
+    return eval_rough_conductor(x, wo, wi);
+}
+/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+inline float pdf_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
+    if (is_specular(*x.material) || dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
+    if (x.material->type == MaterialType::diffuse) return pdf_cosine_hemisphere(dot(wi, x.n));
+    return pdf_rough_conductor(x, wo, wi);
 }
 
 /// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
@@ -124,7 +128,6 @@ struct Settings {
 };
 inline Settings settings;
 
-/// Gets the scene ready for this chapter's trace().
 inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0)); }
 
 /// The ways of looking for light, each with its number of samples times its density, in sr^-1.
@@ -162,7 +165,6 @@ inline Rgb light_from(const Scene& scene, const Hit& x, Vec3 wo, size_t light, V
     LightSample y = sample_one_light(scene, light, x, u);
     if (y.pdf_w == 0 || W == 0) return {};
     Rgb f = eval_bsdf(x, wo, y.wi);
-    if (is_black(f)) return {};
     Densities d = densities(scene, light, y.pdf_w, y.delta ? 0 : pdf_bsdf(x, wo, y.wi));
     float mis_l = mis_weight(way, d);
     Rgb Ld = f * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * W);
@@ -204,13 +206,10 @@ struct Chances {
     float light = 1, bsdf = 1;
 };
 inline Chances draw_chances(Sampler& sampler) {
-    switch (settings.strategy) {
-        case Strategy::bsdf: return {0, 1};
-        case Strategy::light: return {1, 0};
-        case Strategy::one_sample: return sampler.u1() < 0.5f ? Chances{2, 0} : Chances{0, 2};
-        case Strategy::mis: break;
-    }
-    return {};
+    if (settings.strategy == Strategy::bsdf) return {0, 1};
+    if (settings.strategy == Strategy::light) return {1, 0};
+    if (settings.strategy == Strategy::mis) return {};
+    return sampler.u1() < 0.5f ? Chances{2, 0} : Chances{0, 2};
 }
 
 /// Estimates what all lights send by way of x to wo, in the two ways that aim at lights.

@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
             "Variance at equal samples, time, and efficiency 1 / (relMSE seconds), of several "
             "methods. A chapter's number stands for the chapter before, it and its variants, on "
             "its scenes. Seconds are of the processors, over threads.",
-            {.spp = 64, .runs = 8, .width = 256, .height = 256}, {also});
+            {.spp = 64, .runs = 3, .width = 256, .height = 256}, {also});
         expand_chapter(o);
         if (o.words.empty()) o.words = {"cornell"};
         if (o.methods.empty()) o.methods = {"all"};

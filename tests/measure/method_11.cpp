@@ -11,7 +11,7 @@ static bool add(const char* name, const char* label, const char* color, int M) {
                        .render = by_trace(ch11::trace, [=] { ch11::M = M; })});
 }
 [[maybe_unused]] static const bool added[] = {
-    add("11", "11 RIS, M = 8", "#ff7f0e", 8),
+    add("11", "11 RIS, M = 16", "#ff7f0e", 16),
     add("11-m2", "11 RIS, M = 2", "#fdae6b", 2),
     add("11-m32", "11 RIS, M = 32", "#a63603", 32),
 };
