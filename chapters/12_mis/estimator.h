@@ -124,7 +124,7 @@ enum class Heuristic : uint8_t { balance, power };
 struct Settings {
     Strategy strategy = Strategy::mis;
     Heuristic heuristic = Heuristic::power;
-    int M = 16;  // light candidates for one shadow ray
+    int M = 16;  // light candidates for one shadow ray, but no more than there are lights
 };
 inline Settings settings;
 
@@ -140,7 +140,8 @@ struct Densities {
 /// The densities with which each way finds a direction that lies on `light`.
 inline Densities densities(const Scene& scene, size_t light, float pdf_one, float pdf_b) {
     float N = static_cast<float>(scene.lights.size());
-    float best = std::min(1.0f, static_cast<float>(settings.M) * pmf_light(scene, light));
+    float M = std::min(static_cast<float>(settings.M), N);
+    float best = std::min(1.0f, M * pmf_light(scene, light));
     bool both = settings.strategy != Strategy::light;
     return {best * pdf_one, N > 1 ? pdf_one / N : 0, both ? pdf_b : 0};
 }
@@ -186,16 +187,16 @@ inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo)
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
 /// inside: candidates of which the BSDF takes care are not chosen.
-inline Reservoir resample_lights(const Scene& scene, const Hit& x, Vec3 wo, Sampler& sampler) {
+inline Reservoir resample_lights(const Scene& scene, const Hit& x, Vec3 wo, int M,
+                                 Sampler& sampler) {
     Reservoir kept;
+    bool rough = x.material->type == MaterialType::conductor;
     float u = sampler.u1(), u1 = sampler.u1();
-    for (int i = 0; i < settings.M; i++) {
-        float slice = (static_cast<float>(i) + u1) / static_cast<float>(settings.M);
+    for (int i = 0; i < M; i++) {
+        float slice = (static_cast<float>(i) + u1) / static_cast<float>(M);
         size_t light = pick_light(scene, slice);
         float p_hat = potential(scene, light, x);
-        if (x.material->type == MaterialType::conductor && p_hat > 0) {
-            p_hat *= lobe_share(scene, light, x, wo);
-        }
+        if (rough && p_hat > 0) p_hat *= lobe_share(scene, light, x, wo);
         kept.offer(light, p_hat, p_hat / pmf_light(scene, light), u);
     }
     return kept;
@@ -222,9 +223,10 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& samp
     if (N == 1) {
         return light_from(scene, x, wo, 0, sampler.u2(), 1, &Densities::resampled, beta, log);
     }
-    Reservoir kept = resample_lights(scene, x, wo, sampler);
-    Rgb L = light_from(scene, x, wo, kept.light, sampler.u2(), kept.W(settings.M),
-                       &Densities::resampled, beta, log);
+    int M = std::min(settings.M, static_cast<int>(N));
+    Reservoir kept = resample_lights(scene, x, wo, M, sampler);
+    Rgb L = light_from(scene, x, wo, kept.light, sampler.u2(), kept.W(M), &Densities::resampled,
+                       beta, log);
     float count = static_cast<float>(N);
     size_t any = std::min(static_cast<size_t>(sampler.u1() * count), N - 1);
     return L + light_from(scene, x, wo, any, sampler.u2(), count, &Densities::uniform, beta, log);
@@ -237,8 +239,7 @@ inline float mis_emission(const Scene& scene, const Hit& x, const BsdfSample& s,
     if (settings.strategy == Strategy::bsdf || chances.bsdf == 0) return chances.bsdf;
     size_t light = static_cast<size_t>(y != nullptr ? y->light : scene.sky_light);
     float pdf_one = y != nullptr ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, s.wi);
-    Densities d = densities(scene, light, pdf_one, s.pdf_w);
-    return chances.bsdf * mis_weight(&Densities::bsdf, d);
+    return chances.bsdf * mis_weight(&Densities::bsdf, densities(scene, light, pdf_one, s.pdf_w));
 }
 
 /// Estimates Li along the ray from one path.

@@ -15,8 +15,7 @@ static Method method(const char* name, const char* label, const char* color,
 
 /// Directions of the BSDF alone never meet a point light.
 static Method bsdf_alone() {
-    Method m = method("12-bsdf", "12 BSDF sampling alone", "#e377c2",
-                      {Strategy::bsdf, Heuristic::power, 1});
+    Method m = method("12-bsdf", "12 BSDF sampling alone", "#e377c2", {.strategy = Strategy::bsdf});
     m.refuse = {refuse_delta_lights};
     return m;
 }
@@ -57,12 +56,11 @@ static Method depth_cap() {
 [[maybe_unused]] static const bool added[] = {
     add_method(method("12", "12 MIS", "#d62728", {})),
     add_method(method("12-balance", "12 MIS, balance heuristic", "#f4a6a7",
-                      {Strategy::mis, Heuristic::balance, 1})),
+                      {.heuristic = Heuristic::balance})),
     add_method(bsdf_alone()),
-    add_method(method("12-light", "12 light sampling alone", "#9467bd",
-                      {Strategy::light, Heuristic::power, 1})),
     add_method(
-        method("12-m8", "12 MIS in RIS, M = 8", "#7f0000", {Strategy::mis, Heuristic::power, 8})),
+        method("12-light", "12 light sampling alone", "#9467bd", {.strategy = Strategy::light})),
+    add_method(method("12-m8", "12 MIS in RIS, M = 8", "#7f0000", {.M = 8})),
     add_method(with_sobol()),
     add_method(clamp()),
     add_method(depth_cap()),
