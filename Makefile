@@ -30,6 +30,7 @@ out/%.png: $(BUILD)/% $(made)
 
 #: make test         build, and run all tests but the slow ones
 test: $(BUILD)/tests programs
+	common/tools/fill_readmes --check
 	$(BUILD)/tests --test-suite-exclude='*slow*'
 #: make test-slow    run the slow ones
 test-slow: $(BUILD)/tests programs
@@ -84,7 +85,6 @@ include $(wildcard tests/*/rules.mk)
 #: make clean        remove all that was built and rendered
 clean:
 	rm -rf build out
-#: make SAN=1 test   the same under the address and undefined-behaviour sanitizers
-#: make CXX=clang++  the same with another compiler
+#: make SAN=1 test   under the address and undefined-behaviour sanitizers; CXX=clang++ also works
 help:
 	@sed -n "s/^#: //p" Makefile tests/*/rules.mk
