@@ -107,6 +107,30 @@ struct Split {
     int axis = 0, bin = 0;  // what is in a lower bin goes to the left
 };
 
+/// What is in the slices: the box around it, and how much it is.
+struct Bins {
+    Box box[3][bins];
+    uint32_t count[3][bins] = {};
+
+    void add(const Refs& refs, uint32_t begin, uint32_t end, const Binning& bin_of) {
+        for (uint32_t i = begin; i < end; i++) {
+            Int4 bin = bin_of(refs[i].box);
+            for (int axis = 0; axis < 3; axis++) {
+                box[axis][bin[axis]].grow(refs[i].box);
+                count[axis][bin[axis]]++;
+            }
+        }
+    }
+    void add(const Bins& other) {
+        for (int axis = 0; axis < 3; axis++) {
+            for (int bin = 0; bin < bins; bin++) {
+                box[axis][bin].grow(other.box[axis][bin]);
+                count[axis][bin] += other.count[axis][bin];
+            }
+        }
+    }
+};
+
 /// The split between two bins that is cheapest by the surface area heuristic:
 ///
 ///   cost = area(left) n(left) + area(right) n(right)
@@ -114,21 +138,10 @@ struct Split {
 /// A ray that meets the whole box meets a part with probability area(part) / area(whole). n counts
 /// blocks, as each takes one test, however full; primitives where all fit into one block.
 /// source  MacDonald, Booth 1990; in bins: Wald 2007
-Split find_split(const Refs& refs, const Range& range, const Binning& bin_of) {
-    // Sort into bins.
-    Box box[3][bins];
-    uint32_t count[3][bins] = {};
-    for (uint32_t i = range.begin; i < range.end; i++) {
-        Int4 bin = bin_of(refs[i].box);
-        for (int axis = 0; axis < 3; axis++) {
-            box[axis][bin[axis]].grow(refs[i].box);
-            count[axis][bin[axis]]++;
-        }
-    }
-
+Split find_split(const Bins& binned, uint32_t size) {
     // Sweep from the right, then from the left.
     auto tests = [&](uint32_t n) {
-        return static_cast<float>(range.size() <= lanes ? n : (n + lanes - 1) / lanes);
+        return static_cast<float>(size <= lanes ? n : (n + lanes - 1) / lanes);
     };
     Split best;
     for (int axis = 0; axis < 3; axis++) {
@@ -136,17 +149,17 @@ Split find_split(const Refs& refs, const Range& range, const Binning& bin_of) {
         Box part;
         uint32_t n = 0;
         for (int bin = bins - 1; bin > 0; bin--) {
-            part.grow(box[axis][bin]);
-            n += count[axis][bin];
+            part.grow(binned.box[axis][bin]);
+            n += binned.count[axis][bin];
             right_cost[bin] = part.area() * tests(n);
         }
         part = {};
         n = 0;
         for (int bin = 1; bin < bins; bin++) {
-            part.grow(box[axis][bin - 1]);
-            n += count[axis][bin - 1];
+            part.grow(binned.box[axis][bin - 1]);
+            n += binned.count[axis][bin - 1];
             float cost = part.area() * tests(n) + right_cost[bin];
-            if (cost < best.cost && n > 0 && n < range.size()) best = {cost, axis, bin};
+            if (cost < best.cost && n > 0 && n < size) best = {cost, axis, bin};
         }
     }
     return best;
@@ -280,30 +293,52 @@ private:
         node.axis = split(range, level < cost_levels, left, right);
         node.children = new_pair();
         Costs left_cost, right_cost;
-        auto build_left = [&] { left_cost = build(node.children[0], left, level + 1); };
-        auto build_right = [&] { right_cost = build(node.children[1], right, level + 1); };
-        if (range.size() >= worth_a_thread && idle_threads_-- > 0) {
+        both(
+            range.size(), [&] { left_cost = build(node.children[0], left, level + 1); },
+            [&] { right_cost = build(node.children[1], right, level + 1); });
+        return share_places(node, left_cost, right_cost);
+    }
+
+    /// Does both, on two threads when it is worth it and one is idle.
+    template <typename A, typename B>
+    void both(uint32_t references, const A& a, const B& b) {
+        if (references < worth_a_thread) {
+            a();
+            b();
+        } else if (idle_threads_-- > 0) {
             std::jthread other([&] {
-                build_left();
+                a();
                 idle_threads_++;
             });
-            build_right();
+            b();
             idle_threads_++;
             other.join();
             idle_threads_--;
         } else {
-            if (range.size() >= worth_a_thread) idle_threads_++;
-            build_left();
-            build_right();
+            idle_threads_++;
+            a();
+            b();
         }
-        return share_places(node, left_cost, right_cost);
     }
 
     /// Parts a range in two, by cost or else by number, and returns the axis.
     uint8_t split(const Range& range, bool by_cost, Range& left, Range& right) {
         Binning bin_of(range.centers);
         Split best;
-        if (by_cost) best = find_split(refs_, range, bin_of);
+        if (by_cost) {
+            Bins binned;
+            if (range.size() < worth_a_thread) {
+                binned.add(refs_, range.begin, range.end, bin_of);
+            } else {
+                Bins others;
+                uint32_t half = range.begin + range.size() / 2;
+                both(
+                    range.size(), [&] { binned.add(refs_, range.begin, half, bin_of); },
+                    [&] { others.add(refs_, half, range.end, bin_of); });
+                binned.add(others);
+            }
+            best = find_split(binned, range.size());
+        }
         // Swap what goes left to the front. Which side that is nobody can predict, so no branch.
         uint32_t middle = range.begin + range.size() / 2, front = range.begin;
         Box box[2], centers[2];
