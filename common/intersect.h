@@ -52,6 +52,12 @@ inline void finish_disk(const Disk& disk, Vec3 p, Hit& x, uint32_t& shape) {
     shape = disk.shape;
 }
 
+/// Turns the normal of what is met edge-on towards the ray, so that no cosine is 0.
+[[gnu::noinline]] inline float tilt(const Ray& ray, Vec3& n) {
+    n = normalize(n - 0x1p-20f * normalize(ray.d));
+    return dot(ray.d, n);
+}
+
 }  // namespace hit_details
 
 /// The point where the ray meets the primitive that was found, ready for shading.
@@ -70,9 +76,12 @@ inline Hit make_hit(const Scene& scene, const Ray& ray, const PrimHit& found) {
     }
 
     // Turn the normals to the side that the ray came from.
-    x.front = dot(ray.d, x.ng) < 0;
+    float away = dot(ray.d, x.ng);
+    if (away == 0) [[unlikely]]
+        away = hit_details::tilt(ray, x.ng);
+    x.front = away < 0;
     if (scene.shapes[shape].reverse) x.front = !x.front;
-    if (dot(ray.d, x.ng) > 0) x.ng = -x.ng;
+    if (away > 0) x.ng = -x.ng;
     if (dot(x.n, x.ng) < 0) x.n = -x.n;
     if (dot(ray.d, x.n) >= 0) x.n = x.ng;  // a smoothed normal that looks away cannot be used
 
