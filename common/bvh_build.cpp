@@ -172,6 +172,7 @@ struct Node {
     Node* children = nullptr;  // two, side by side
     uint32_t begin, end;       // its references
     uint8_t axis = 0;          // of the split: the left child is on the lower side
+    uint8_t lane = 0;          // its place in the wide node
     // [k - 2]: of k places, so many go to the left child; 0: k - 1 places do as well.
     uint8_t share[lanes - 1] = {};
 
@@ -213,10 +214,10 @@ Costs share_places(Node& node, const Costs& left, const Costs& right) {
 
 /// The nodes that fill `places` of a wide node, those far along the octant's directions first.
 struct Gathered {
-    std::array<const Node*, lanes> node;
+    std::array<Node*, lanes> node;
     uint32_t size = 0;
 
-    void add(const Node& root, size_t places, uint32_t octant) {
+    void add(Node& root, size_t places, uint32_t octant) {
         while (places > 1 && root.share[places - 2] == 0) places--;
         if (places == 1) {
             node[size++] = &root;
@@ -266,16 +267,20 @@ private:
             Range part{0, 0};
             for (size_t i = begin; i < end; i++) {
                 refs_[i] = make_ref(g_, static_cast<uint32_t>(i));
-                if (refs_[i].prim() != PrimHit::none) part.grow(refs_[i].box);
+                if (refs_[i].prim() == PrimHit::none) continue;
+                part.grow(refs_[i].box);
+                part.end++;
             }
             parts[static_cast<size_t>(chunk)] = part;
         });
-        std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
-        Range all{0, static_cast<uint32_t>(refs_.size())};
+        Range all;
         for (const Range& part : parts) {
             all.box.grow(part.box);
             all.centers.grow(part.centers);
+            all.end += part.size();
         }
+        if (all.size() < refs_.size())
+            std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
         return all;
     }
 
@@ -364,7 +369,7 @@ private:
     }
 
     /// Writes a wide node, or takes down a leaf, and what is below. Returns its BvhNode::child.
-    uint32_t emit(const Node& root) {
+    uint32_t emit(Node& root) {
         if (root.fits_a_block()) return emit_leaf(root);
         auto index = static_cast<uint32_t>(bvh_.nodes.size());
         bvh_.nodes.emplace_back();
@@ -379,18 +384,15 @@ private:
                 node.plane[2 * axis + 1][i] = box.hi[axis];
             }
             node.child[i] = used ? emit(*children.node[i]) : BvhNode::nothing;
+            if (used) children.node[i]->lane = static_cast<uint8_t>(i);
         }
         for (uint32_t octant = 0; octant < 8; octant++) {
             Gathered sorted;
             sorted.add(root, lanes, octant);
             node.far_first[octant] = 0;
             for (uint32_t i = 0; i < lanes; i++) {
-                auto end = children.node.begin() + children.size;
-                auto lane = i < children.size
-                                ? std::find(children.node.begin(), end, sorted.node[i]) -
-                                      children.node.begin()
-                                : i;
-                node.far_first[octant] |= static_cast<LaneOrder>(lane) << (4 * i);
+                uint32_t lane = i < children.size ? sorted.node[i]->lane : i;
+                node.far_first[octant] |= LaneOrder{lane} << (4 * i);
             }
         }
         bvh_.nodes[index] = node;

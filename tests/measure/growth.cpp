@@ -153,7 +153,7 @@ std::vector<LinePanel> over_samples_pixels_threads(const Growth& growth) {
         panel_of(growth, "threads (wall clock)", "threads", "-1", 1, o.threads, 2, threads)};
     panels[2].x_axis =
         "set xtics (1,2,4,8,16,32,64)\nset xrange [0.9:" + digits(1.1 * std::max(2, o.threads)) +
-        "]";
+        "]\nset format x '%g'";
     return panels;
 }
 

@@ -50,7 +50,7 @@ void draw_panels(const std::string& path, const std::string& title,
         quoted_for_gnuplot(title) + " margins " + digits(100.0 / width) + "," + digits(plots) +
         "," + digits(70.0 / height) + "," + digits(1 - 90.0 / height) + " spacing " +
         digits(120.0 / width) + "," + digits(120.0 / height) +
-        "\nset logscale xy\nset format xy '1e%T'\n"
+        "\nset logscale xy\nset format y '1e%T'\n"
         "set grid lt 1 lc rgb '#dddddd'\nset key at screen " +
         digits(plots + 0.015) + ",0.85 left top Left reverse samplen 1.5 spacing 1.25\n";
     std::string legend;

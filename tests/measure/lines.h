@@ -16,7 +16,8 @@ struct Line {
 struct LinePanel {
     std::string title, x_label, y_label;
     std::vector<Line> lines;
-    std::string x_axis = "set xtics autofreq\nset xrange [*:*]";  // for gnuplot
+    std::string x_axis =
+        "set xtics autofreq\nset xrange [*:*]\nset format x '1e%T'";  // for gnuplot
 };
 
 /// Draws panels side by side, `columns` in a row, to PATH.svg and PATH.png, with one legend on the
