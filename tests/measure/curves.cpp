@@ -104,7 +104,7 @@ void draw_curves(const std::string& path, const std::string& title,
     std::string theory = digits(rmse) + "*sqrt(" + digits(first) + "/x)";
     std::string theory_squared = digits(rel_mse) + "*" + digits(first) + "/x";
     script += "set multiplot layout 1,2 title " + quoted_for_gnuplot(title) +
-              " margins 0.075,0.72,0.13,0.88 spacing 0.085\n"
+              " margins 0.075,0.68,0.13,0.88 spacing 0.085\n"
               "set logscale xy\nset format xy '1e%T'\nset grid lt 1 lc rgb '#dddddd'\n"
               "set xrange [" +
               digits(first / 1.5) + ":" + digits(last * 1.5) +
@@ -114,10 +114,10 @@ void draw_curves(const std::string& path, const std::string& title,
               plot_commands(curves, "rmse", false) + theory +
               " with lines dt 2 lc rgb '#444444' notitle\n"
               "set ylabel 'relMSE' offset 1\n"
-              "set key at screen 0.735,0.87 left top Left reverse samplen 1.5 spacing 1.25 title "
+              "set key at screen 0.695,0.87 left top Left reverse samplen 1.5 spacing 1.25 title "
               "'slope of the RMSE over samples' left\n" +
               plot_commands(curves, "relmse", true) + theory_squared +
               " with lines dt 2 lc rgb '#444444' title 'theory  -0.50'\nunset multiplot";
     (void)runs;
-    draw_chart(path, script, 1400, 560);
+    draw_chart(path, script, 1500, 560);
 }

@@ -94,6 +94,7 @@ void make_reference(const Method& method, const Scene& scene, const MeasureOptio
     Image image = merged_image(parts);
     double rel_mse = spread.rel_mse(image) / o.runs, rmse = std::sqrt(spread.mse() / o.runs);
     std::string path = reference_path(scene_name(scene.file), method.name);
+    if (!(rmse < INFINITY)) throw InputError(path + ".pfm: error: samples were not finite");
     std::string stats = merged_stats(parts, image);
     stats.insert(stats.rfind("\n}"),
                  ",\n  \"rmse\": " + digits(rmse) + ",\n  \"rel_mse\": " + digits(rel_mse));
