@@ -37,7 +37,7 @@ test-slow: $(BUILD)/tests programs
 	$(BUILD)/tests --test-suite='*slow*'
 
 #: make 06           build and run one chapter
-$(numbers): %: $$(filter $(BUILD)/$$*_%,$(chapters:%=$(BUILD)/%)) $(made)
+$(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $(made)
 	$<
 #: make diff CH=07   what a chapter changes of the one before
 diff:

@@ -110,6 +110,7 @@ struct Results {
                   "Embree high", "high bytes"},
                  {}};
     std::map<std::string, std::vector<double>> ratios = {};  // by the kind of ray
+    std::map<std::string, std::vector<double>> gains = {};   // of a step over the one before
     double differ = 0;  // largest share of rays in a cell for which Embree finds something else
 };
 
@@ -200,6 +201,9 @@ private:
         std::vector<std::string> row = {mesh_.name, set.name};
         if (all[0].name != "linear") row.push_back("-");
         for (double s : seconds) row.push_back(short_number(1e-6 / s));
+        for (size_t i = 1; i < all.size() && all[i].name.rfind("Embree", 0) != 0; i++) {
+            results.gains[all[i].name].push_back(seconds[i - 1] / seconds[i]);
+        }
         if (have_embree) {
             size_t n = seconds.size();
             double ratio = std::min(seconds[n - 2], seconds[n - 1]) / seconds[n - 3];
@@ -241,11 +245,16 @@ double geometric_mean(const std::vector<double>& values) {
 }
 
 std::string summary(const Results& results) {
-    if (!have_embree) return "Embree is not installed (libembree-dev): no ratios\n";
-    std::vector<double> all;
     std::string text =
         "bytes: of the hierarchy, for each triangle; by threads: how many times faster with all\n"
-        "wide / the better Embree, geometric means:";
+        "each step over the one before, geometric means:";
+    for (const char* step : {"sah", "ordered", "wide"}) {
+        text +=
+            std::string(" ") + step + " " + short_number(geometric_mean(results.gains.at(step)));
+    }
+    if (!have_embree) return text + "\nEmbree is not installed (libembree-dev): no ratios\n";
+    std::vector<double> all;
+    text += "\nwide / the better Embree, geometric means:";
     for (const auto& [name, ratios] : results.ratios) {
         text += " " + name + " " + short_number(geometric_mean(ratios)) + ",";
         all.insert(all.end(), ratios.begin(), ratios.end());

@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
             add_summary(name, curves, summary);
             std::string file = file_name(name);
             write_table(o.out, "chart-" + file, points);
-            draw_curves(o.out + "/chart-" + file, name, curves, o.runs);
+            draw_curves(o.out + "/chart-" + file, name, curves);
             Scene scene = load_scene_for(path, o);
             draw_equal_time(
                 o.out + "/equal-time-" + file, name, curves, path,

@@ -86,7 +86,7 @@ std::string plot_commands(const std::vector<Curve>& curves, const std::string& k
 }  // namespace
 
 void draw_curves(const std::string& path, const std::string& title,
-                 const std::vector<Curve>& curves, int runs) {
+                 const std::vector<Curve>& curves) {
     std::string script;
     double first = INFINITY, last = 0, rmse = 0, rel_mse = 0;
     for (size_t i = 0; i < curves.size(); i++) {
@@ -118,6 +118,5 @@ void draw_curves(const std::string& path, const std::string& title,
               "'slope of the RMSE over samples' left\n" +
               plot_commands(curves, "relmse", true) + theory_squared +
               " with lines dt 2 lc rgb '#444444' title 'theory  -0.50'\nunset multiplot";
-    (void)runs;
     draw_chart(path, script, 1500, 560);
 }

@@ -35,7 +35,7 @@ Curve measure_curve(const Method& method, Scene& scene, const Reference& referen
 
 /// Draws RMSE and relMSE over seconds, with bands from the least to the largest of the runs.
 void draw_curves(const std::string& path, const std::string& title,
-                 const std::vector<Curve>& curves, int runs);
+                 const std::vector<Curve>& curves);
 
 /// The pictures that all methods make in the same time, and their errors on one scale.
 void draw_equal_time(const std::string& path, const std::string& title,

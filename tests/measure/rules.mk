@@ -34,7 +34,8 @@ references: $(BUILD)/references $(made)
 	$< $(SCENE)
 #: make bench        rays per second of each step of chapter 05, beside Embree (2 minutes)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
-	$<
+	@$<
+readmes: $(BUILD)/efficiency $(BUILD)/bench
 #: make teeth        plant ten mistakes, one at a time, and show the test that sees each
 teeth: $(BUILD)/tests
 	tests/teeth $(BUILD)
