@@ -114,13 +114,25 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     PrimHit best;
     float scale = max_component(abs(ray.d));
     if (!(scale > 0 && scale < infinity && ray.t_max > 0)) return {};
+    Shear shear = shear_to_ray(ray.d);
+    best.t = next_below(ray.t_max);
+    auto test_block = [&](const BvhBlock& block, bool mixed) {
+        if (counting) count->blocks++;
+        bool found = test_triangles<any>(block, ray, shear, best);
+        if (mixed && !(any && found)) found |= test_others(block, g, ray, best);
+        return any && found;
+    };
+    if (bvh.root & BvhNode::leaf) {
+        for (const BvhBlock& block : bvh.blocks)
+            if (test_block(block, bvh.root & BvhNode::mixed)) return {0};
+        return best.prim == PrimHit::none ? PrimHit{} : best;
+    }
+
     // Where d is 0, put one so small that the ray stays within the padding.
     auto not_zero = [&](float d) { return std::copysign(std::max(std::abs(d), tiny * scale), d); };
     Float4 inv = scale / Float4{not_zero(ray.d.x), not_zero(ray.d.y), not_zero(ray.d.z), 1};
     const AxisRay x(ray, 0, inv[0]), y(ray, 1, inv[1]), z(ray, 2, inv[2]);
     uint32_t octant = x.negative | y.negative << 1 | z.negative << 2;
-    Shear shear = shear_to_ray(ray.d);
-    best.t = next_below(ray.t_max);
     float reach = best.t * scale * slack;
     // A hit may lie outside of its primitive's box by what rounding did to it, and the distances
     // are rounded too. The former is padded for when a box is built; for the latter the far planes
@@ -171,11 +183,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         }
         if (current == BvhNode::nothing) break;
 
-        const BvhBlock& block = bvh.blocks[current & BvhNode::index];
-        if (counting) count->blocks++;
-        bool found = test_triangles<any>(block, ray, shear, best);
-        if (current & BvhNode::mixed && !(any && found)) found |= test_others(block, g, ray, best);
-        if (any && found) return {0};
+        if (test_block(bvh.blocks[current & BvhNode::index], current & BvhNode::mixed)) return {0};
         reach = best.t * scale * slack;
         current = pop();
     }

@@ -27,7 +27,7 @@ struct alignas(64) BvhBlock {
 
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.
 struct Bvh {
-    uint32_t root = 0;  // as BvhNode::child
+    uint32_t root = 0;  // as BvhNode::child; a leaf: all blocks belong to it
     std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
 };

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int bins = 16;
 constexpr uint32_t small = lanes / 2;      // references that are not split any further
+constexpr uint32_t few = 2 * lanes;         // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 16384;  // references
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
@@ -242,19 +243,28 @@ public:
 
     Bvh build() {
         Range all = make_refs();
-        pairs_.resize(all.size());  // more than there can be
-        Node root;
-        build(root, all, 0);
-        bvh_.root = emit(root);
+        if (all.size() <= few) {
+            bvh_.root = emit_few(all.size());
+        } else {
+            pairs_.resize(all.size());  // more than there can be
+            Node root;
+            build(root, all, 0);
+            bvh_.root = emit(root);
+        }
         bvh_.blocks.resize(leaves_.size());
         in_chunks(leaves_.size(), [&](size_t begin, size_t end, int) {
-            for (size_t i = begin; i < end; i++) fill_block(*leaves_[i], bvh_.blocks[i]);
+            for (size_t i = begin; i < end; i++) fill_block(leaves_[i], bvh_.blocks[i]);
         });
         return std::move(bvh_);
     }
 
 private:
     static constexpr int chunks = 64;
+
+    /// The references of one block.
+    struct Leaf {
+        uint32_t begin, end;
+    };
 
     /// Calls work(begin, end, chunk) for the parts of 0 .. size-1, on all threads.
     template <typename Work>
@@ -370,7 +380,7 @@ private:
 
     /// Writes a wide node, or takes down a leaf, and what is below. Returns its BvhNode::child.
     uint32_t emit(Node& root) {
-        if (root.fits_a_block()) return emit_leaf(root);
+        if (root.fits_a_block()) return emit_leaf({root.begin, root.end});
         auto index = static_cast<uint32_t>(bvh_.nodes.size());
         bvh_.nodes.emplace_back();
         BvhNode node;
@@ -402,15 +412,25 @@ private:
         return index;
     }
 
-    uint32_t emit_leaf(const Node& leaf) {
+    uint32_t emit_leaf(Leaf leaf) {
         uint32_t child = BvhNode::leaf | static_cast<uint32_t>(leaves_.size());
-        leaves_.push_back(&leaf);
+        leaves_.push_back(leaf);
         for (uint32_t i = leaf.begin; i < leaf.end; i++)
             if (refs_[i].prim() >= g_.triangles.size()) child |= BvhNode::mixed;
         return child;
     }
 
-    void fill_block(const Node& leaf, BvhBlock& block) {
+    /// One or two blocks and no node. The large primitives come first: most rays hit something in
+    /// the first block and nothing in the second, so that the processor can foresee it.
+    uint32_t emit_few(uint32_t size) {
+        std::sort(refs_.begin(), refs_.begin() + size,
+                  [](const Ref& a, const Ref& b) { return a.box.area() > b.box.area(); });
+        uint32_t root = emit_leaf({0, std::min(uint32_t{lanes}, size)});
+        if (size > lanes) root |= emit_leaf({lanes, size}) & BvhNode::mixed;
+        return root;
+    }
+
+    void fill_block(Leaf leaf, BvhBlock& block) {
         std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
         std::fill_n(block.prim, lanes, PrimHit::none);
         for (uint32_t i = 0; i < leaf.end - leaf.begin; i++) {
@@ -430,7 +450,7 @@ private:
     Refs refs_;
     Pairs pairs_;
     std::atomic<uint32_t> next_pair_ = 0;
-    std::vector<const Node*> leaves_;  // in the order of their blocks
+    std::vector<Leaf> leaves_;  // in the order of their blocks
     Bvh bvh_;
 };
 

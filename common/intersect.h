@@ -60,11 +60,11 @@ inline void finish_disk(const Disk& disk, Vec3 p, Hit& x, uint32_t& shape) {
 
 }  // namespace hit_details
 
-/// The point where the ray meets the primitive that was found, ready for shading.
-inline Hit make_hit(const Scene& scene, const Ray& ray, const PrimHit& found) {
+/// Fills in x, the point where the ray meets the primitive that was found. In its place: a copy
+/// would have to wait until all parts are in memory.
+inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
     const Geometry& g = scene.geometry;
     // Work out the point and its normals on the shape that was hit.
-    Hit x;
     uint32_t shape;
     size_t i = found.prim;
     if (i < g.triangles.size()) {
@@ -89,15 +89,15 @@ inline Hit make_hit(const Scene& scene, const Ray& ray, const PrimHit& found) {
     x.material = &scene.materials[scene.shapes[shape].material];
     x.light = scene.shapes[shape].light;
     x.prim = found.prim;
-    return x;
 }
 
 /// The nearest surface along the ray, if there is one.
 inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
     rays_traced++;
     PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
-    if (found.prim == PrimHit::none) return {};
-    return make_hit(scene, ray, found);
+    std::optional<Hit> x;
+    if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
+    return x;
 }
 
 /// Whether anything lies on the ray before t_max.

@@ -109,7 +109,7 @@ LightPoint sample_two(const Emitter& e, const Seen& first, const Seen& second, V
 }
 
 bool is_near(const LightShape& shape, Vec3 x) {
-    return length_squared(x - shape.centre) < 9 * shape.radius * shape.radius;
+    return length_squared(x - shape.centre) < 4 * shape.radius * shape.radius;
 }
 
 /// How x can draw from the light by solid angle; `area` where it cannot, or need not.

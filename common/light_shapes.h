@@ -24,7 +24,7 @@ float pdf_area(const Scene& scene, size_t light);
 ///   more           a triangle chosen by area, then its spherical triangle
 ///   disk           its bounding square; no point where that misses the disk
 ///
-/// Where x is farther away than three radii, and inside a sphere: by area, which is then as good.
+/// Where x is farther away than two radii, and inside a sphere: by area, which is then as good.
 /// source  cone: Shirley, Wang 1991; triangle: Arvo 1995
 /// tested by  "consistency: a light's samples agree with its density"
 LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);

@@ -9,6 +9,6 @@
 /// Taken from the largest channel, no channel's beta / q can grow from vertex to vertex. Below 1,
 /// so that a path that loses nothing (mirrors, total reflection) ends as well.
 inline float survival_probability(Rgb beta, int depth) {
-    if (depth < 4) return 1;
+    if (depth < 3) return 1;
     return std::clamp(max_component(beta), 0.05f, 0.95f);
 }

@@ -39,11 +39,14 @@ inline float triangle_solid_angle(Vec3 a, Vec3 b, Vec3 c) {
 /// source  Arvo 1995; c' from the spherical excess of two sides and the angle between them
 /// tested by  "density: spherical triangle"
 inline Vec3 sample_spherical_triangle(Vec3 a, Vec3 b, Vec3 c, float omega, Vec2 u) {
-    // The corner c' on the edge from a to c that leaves the wanted solid angle.
-    Vec3 n_ab = normalize(cross(a, b - a)), n_ac = normalize(cross(a, c - a));
-    float alpha = std::atan2(length(cross(n_ab, n_ac)), dot(n_ab, n_ac)), s = u.x * omega;
-    float tan_ab = length(b - a) / length(b + a);
-    float t = std::sin(s / 2) / (tan_ab * std::sin(alpha - s / 2));  // tan(|ac'| / 2)
+    // The corner c' on the edge from a to c that leaves the wanted solid angle. The normals of ab
+    // and ac have alpha between them, and a cross product as long as the volume of a, b, c.
+    Vec3 n_ab = cross(a, b - a), n_ac = cross(a, c - a);
+    float volume = std::abs(dot(a, cross(b - a, c - a))), s = u.x * omega;
+    float sin_s = std::sin(s / 2), cos_s = std::cos(s / 2);
+    float both = std::sqrt(length_squared(n_ab) * length_squared(n_ac));
+    float tan_ab = std::sqrt(length_squared(b - a) / length_squared(b + a));  // tan(|ab| / 2)
+    float t = sin_s * both / (tan_ab * (volume * cos_s - dot(n_ab, n_ac) * sin_s));
     Vec3 towards_c = normalize(c - dot(c, a) * a);
     Vec3 c_cut = ((1 - t * t) * a + 2 * t * towards_c) / (1 + t * t);
 

@@ -482,7 +482,7 @@ TEST_SUITE("ch08 pictures") {
             const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            CHECK(check_classes(scene, ch07::trace, scene, ch08::trace, 60000) >= least);
+            CHECK(check_classes(scene, ch07::trace, scene, ch08::trace, 80000) >= least);
         }
         Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 8);
         check_agreement(hold_against(film_of(scene, ch08::trace, 64).film,

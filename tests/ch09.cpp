@@ -272,8 +272,8 @@ TEST_SUITE("ch09 cosine sampling") {
             CHECK(check_classes(scene, ch08::trace, scene, ch09::trace, 40000) >= least);
         }
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 8);
-        check_agreement(hold_against(film_of(scene, ch08::trace, 160).film,
-                                     film_of(scene, ch09::trace, 160, 2).film),
+        check_agreement(hold_against(film_of(scene, ch08::trace, 192).film,
+                                     film_of(scene, ch09::trace, 192, 2).film),
                         0.01);
     }
 

@@ -270,7 +270,8 @@ inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, PathL
     rays_traced++;
     PrimHit found = linear_scan(scene.geometry, ray);
     if (found.prim == PrimHit::none) return log.emitted(beta * scene.sky);
-    Hit x = make_hit(scene, ray, found);
+    Hit x;
+    make_hit(scene, ray, found, x);
     log.vertex(x);
 
     Rgb L = log.emitted(beta * emission(scene, x));
