@@ -113,7 +113,7 @@ public:
 
     float u1() {
         if (type_ == SamplerType::independent) return to_unit_float(random_bits());
-        return type_ == SamplerType::sobol ? sobol_1d() : u2().x;
+        return u2().x;
     }
     Vec2 u2() {
         if (type_ == SamplerType::sobol) return sobol();
@@ -132,25 +132,34 @@ private:
         uint32_t set = hash32(pixel_, dimension_++ + (sample_ / spp_ << 16));
         return jitter_in_stratum(permute(sample_ % spp_, spp_, set), spp_, independent());
     }
-    // The points of owen_scramble(index) in both coordinates, where index is owen_scramble(sample):
-    // written without turning bits round that would be turned back.
-    float sobol_1d() {
-        uint32_t set = hash32(pixel_ + 0x632be5abu * dimension_++);
-        uint32_t reversed_index = scramble_reversed(reversed_sample_, set);
-        return sobol_first(reverse_bits(reversed_index), set);
-    }
+    /// The next dimension's point; its first coordinate alone for u1().
     Vec2 sobol() {
-        uint32_t set = hash32(pixel_ + 0x632be5abu * dimension_++);
-        uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, set));
-        uint32_t y = owen_scramble(sobol_second(index), set * 0x85ebca77u + 2);
-        return {sobol_first(index, set), to_unit_float(y)};
+        size_t i = dimension_ % at_once;
+        if (i == 0) draw_sobol();
+        dimension_++;
+        return {sobol_x_[i], sobol_y_[i]};
     }
-    static float sobol_first(uint32_t index, uint32_t set) {
-        return to_unit_float(reverse_bits(scramble_reversed(index, set * 0x9e3779b1u + 1)));
+    /// The points of the next dimensions, all at once: the compiler makes vector instructions of
+    /// the loop. They are those of owen_scramble(index) in both coordinates, index being
+    /// owen_scramble(sample), without turning bits round that would be turned back.
+    void draw_sobol() {
+        for (uint32_t i = 0; i < at_once; i++) {
+            uint32_t set = hash32(pixel_ + 0x632be5abu * (dimension_ + i));
+            uint32_t reversed = scramble_reversed(reversed_sample_, set);
+            uint32_t index = reverse_bits(reversed);
+            uint32_t x = scramble_reversed(index, set * 0x9e3779b1u + 1);
+            uint32_t y = reverse_bits(sobol_second(index));
+            y = scramble_reversed(y, set * 0x85ebca77u + 2);
+            sobol_x_[i] = to_unit_float(reverse_bits(x));
+            sobol_y_[i] = to_unit_float(reverse_bits(y));
+        }
     }
+
+    static constexpr uint32_t at_once = 8;
 
     SamplerType type_;
     uint32_t seed_, spp_;
     uint32_t pixel_ = 0, sample_ = 0, reversed_sample_ = 0, dimension_ = 0;
     uint64_t state_ = 0;
+    float sobol_x_[at_once], sobol_y_[at_once];
 };
