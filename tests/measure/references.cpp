@@ -49,34 +49,28 @@ int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int
         1, static_cast<int>(std::bit_floor(static_cast<unsigned>(o.seconds / o.runs / seconds))));
 }
 
-/// The method that is quickest to a small error, and the quickest of the other chapters; where one
-/// chapter alone can render the scene, another of its variants.
+/// The two chapters that are quickest to a small error; where one chapter alone can render the
+/// scene, two of its variants.
 std::vector<std::string> two_best(const Scene& scene, const MeasureOptions& o) {
-    struct Candidate {
-        double cost;
-        std::string name;
-        bool operator<(const Candidate& b) const { return cost < b.cost; }
-    };
-    std::vector<Candidate> candidates;
-    for (const Method& method : all_methods()) {
-        auto prepared = prepared_for(method, scene);
-        if (!prepared || method.biased) continue;
-        Spread spread;
-        double seconds = 0;
-        for (uint32_t seed = 0; seed < 4; seed++) {
-            Rendering r = render_once(method, *prepared, o, 16, seed);
-            spread.add(r.film.image());
-            seconds += r.stats.seconds;
+    std::vector<std::pair<double, std::string>> costs;
+    auto measure = [&](bool variants) {
+        for (const Method& method : all_methods()) {
+            auto prepared = prepared_for(method, scene);
+            if (!prepared || method.biased || is_variant(method) != variants) continue;
+            Spread spread;
+            double seconds = 0;
+            for (uint32_t seed = 0; seed < 4; seed++) {
+                Rendering r = render_once(method, *prepared, o, 64, seed);
+                spread.add(r.film.image());
+                seconds += r.stats.seconds;
+            }
+            costs.push_back({spread.rel_mse(spread.mean()) * seconds, method.name});
         }
-        candidates.push_back({spread.rel_mse(spread.mean()) * seconds, method.name});
-    }
-    std::sort(candidates.begin(), candidates.end());
-    auto of_other_chapter = [&](const Candidate& c) {
-        return c.name.substr(0, 2) != candidates[0].name.substr(0, 2);
     };
-    auto second = std::find_if(candidates.begin(), candidates.end(), of_other_chapter);
-    if (second == candidates.end()) second = candidates.begin() + 1;
-    return {candidates[0].name, second->name};
+    measure(false);
+    if (costs.size() < 2) measure(true);
+    std::sort(costs.begin(), costs.end());
+    return {costs[0].second, costs[1].second};
 }
 
 /// Merges the parts; how far they lie apart says how sure the whole is.
