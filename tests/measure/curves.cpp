@@ -22,12 +22,25 @@ double Curve::cost() const {
     return points.empty() ? NAN : mean_of(points.back().rel_mse) * points.back().seconds;
 }
 
+/// Of log RMSE over log samples, from the last three points; NaN for one.
+static double last_slope(const std::vector<CurvePoint>& points) {
+    std::vector<double> spp, rmse;
+    for (size_t i = points.size() - std::min<size_t>(3, points.size()); i < points.size(); i++) {
+        spp.push_back(points[i].spp);
+        rmse.push_back(root_mean_square(points[i].rmse));
+    }
+    return fitted_slope(spp, rmse);
+}
+
 Curve measure_curve(const Method& method, Scene& scene, const Reference& reference,
                     const MeasureOptions& o, double seconds) {
     Curve curve{&method, {}, NAN};
-    if (method.biased) seconds *= 16;  // until chance is small beside the bias
     double spent = 0, next = 0;
-    for (int spp = 1; spp <= 1 << 20 && (spp <= 16 || spent + next < seconds); spp *= 4) {
+    // What is biased gets longer, until chance is small beside its bias.
+    auto time_left = [&] {
+        return spent + next < (method.biased && !curve.flat() ? 16 * seconds : seconds);
+    };
+    for (int spp = 1; spp <= 1 << 20 && (spp <= 16 || time_left()); spp *= 4) {
         CurvePoint point{spp, 0, {}, {}};
         for (int run = 0; run < o.runs; run++) {
             uint32_t seed = 0x10000u * static_cast<uint32_t>(run + 1) + static_cast<uint32_t>(spp);
@@ -42,14 +55,8 @@ Curve measure_curve(const Method& method, Scene& scene, const Reference& referen
         next = 4 * cost;
         if (!method.biased && root_mean_square(point.rmse) < 10 * reference.rmse) break;
         curve.points.push_back(point);
+        curve.slope = last_slope(curve.points);
     }
-    std::vector<double> spp, rmse;
-    for (size_t i = curve.points.size() - std::min<size_t>(3, curve.points.size());
-         i < curve.points.size(); i++) {
-        spp.push_back(curve.points[i].spp);
-        rmse.push_back(root_mean_square(curve.points[i].rmse));
-    }
-    curve.slope = fitted_slope(spp, rmse);
     return curve;
 }
 
