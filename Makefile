@@ -2,12 +2,12 @@
 SHELL     := /bin/bash
 MAKEFLAGS += --no-builtin-rules -j$(shell nproc)
 BUILD     := build
-OPT       := -O3 -march=native
+OPT       := -O3 -march=native -fno-math-errno
 ifdef SAN
 OPT       := -O1 -g -march=native -fsanitize=address,undefined -fno-sanitize-recover=all
 BUILD     := build/san
 endif
-CXXFLAGS  := -std=c++20 $(OPT) -ffp-contract=off -fno-math-errno -pthread -I. -Wall -Wextra -Wshadow -Wconversion
+CXXFLAGS  := -std=c++20 $(OPT) -ffp-contract=off -pthread -I. -Wall -Wextra -Wshadow -Wconversion
 
 chapters  := $(notdir $(wildcard chapters/[0-9]*))
 numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))

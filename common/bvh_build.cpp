@@ -10,8 +10,9 @@ namespace {
 
 constexpr int bins = 16;
 constexpr uint32_t small = lanes / 2;      // references that are not split any further
-constexpr uint32_t few = 2 * lanes;         // references for which boxes cost more than they save
-constexpr uint32_t worth_a_thread = 16384;  // references
+constexpr uint32_t few = 2 * lanes;        // references for which boxes cost more than they save
+constexpr uint32_t worth_a_thread = 4096;  // references of a subtree
+constexpr uint32_t worth_halving = 65536;  // references that two threads sort into slices
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
 Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
@@ -347,7 +348,7 @@ private:
         Split best;
         if (by_cost) {
             Bins binned;
-            if (range.size() < worth_a_thread) {
+            if (range.size() < worth_halving) {
                 binned.add(refs_, range.begin, range.end, bin_of);
             } else {
                 Bins others;
