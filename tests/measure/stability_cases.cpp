@@ -278,10 +278,11 @@ StabilityCase red_sphere() {
              {{"12", "12-bsdf"}}}};
 }
 
+/// Cut before roulette can end a path.
 StabilityCase cut_sphere() {
-    Prediction lost{Metric::mean, 1 - std::pow(0.8, 5), true};
-    return {"closed sphere, albedo 0.8, cut after 4",
-            closed_sphere("0.8 0.8 0.8", 4),
+    Prediction lost{Metric::mean, 1 - std::pow(0.8, 4), true};
+    return {"closed sphere, albedo 0.8, cut after 3",
+            closed_sphere("0.8 0.8 0.8", 3),
             5,
             N,
             {{{"06", "07", "08", "09", "10", "11", "12"},
@@ -303,7 +304,7 @@ StabilityCase glass_cube() {
         2.25 * (1 - kept_in),
         N,
         {{{"06"}, {{Metric::cut, kept_in, true}}},
-         {{"07", "08", "09", "10", "11", "12"}, {{Metric::cut, kept_in * std::pow(0.95, 96)}}}}};
+         {{"07", "08", "09", "10", "11", "12"}, {{Metric::cut, kept_in * std::pow(0.95, 97)}}}}};
 }
 
 /// Where floats are a millimetre apart: a ball in a white sky; ground one centimetre before a wall
