@@ -122,7 +122,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         if (mixed && !(any && found)) found |= test_others(block, g, ray, best);
         return any && found;
     };
-    if (bvh.root & BvhNode::leaf) {
+    if (bvh.root & BvhNode::leaf) {  // no boxes
         for (const BvhBlock& block : bvh.blocks)
             if (test_block(block, bvh.root & BvhNode::mixed)) return {0};
         return best.prim == PrimHit::none ? PrimHit{} : best;

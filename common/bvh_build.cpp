@@ -1,7 +1,6 @@
 // Builds the hierarchy of bounding boxes (chapter 05): a tree of two children per node where the
 // surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
 #include <bit>
-#include <memory>
 
 #include "common/bvh.h"
 #include "common/parallel.h"

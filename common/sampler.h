@@ -140,18 +140,15 @@ private:
         return {sobol_x_[i], sobol_y_[i]};
     }
     /// The points of the next dimensions, all at once: the compiler makes vector instructions of
-    /// the loop. They are those of owen_scramble(index) in both coordinates, index being
-    /// owen_scramble(sample), without turning bits round that would be turned back.
+    /// the loop. index is owen_scramble(sample), x owen_scramble(reverse_bits(index)).
     void draw_sobol() {
         for (uint32_t i = 0; i < at_once; i++) {
             uint32_t set = hash32(pixel_ + 0x632be5abu * (dimension_ + i));
-            uint32_t reversed = scramble_reversed(reversed_sample_, set);
-            uint32_t index = reverse_bits(reversed);
-            uint32_t x = scramble_reversed(index, set * 0x9e3779b1u + 1);
-            uint32_t y = reverse_bits(sobol_second(index));
-            y = scramble_reversed(y, set * 0x85ebca77u + 2);
-            sobol_x_[i] = to_unit_float(reverse_bits(x));
-            sobol_y_[i] = to_unit_float(reverse_bits(y));
+            uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, set));
+            uint32_t x = reverse_bits(scramble_reversed(index, set * 0x9e3779b1u + 1));
+            sobol_x_[i] = to_unit_float(x);
+            uint32_t y = owen_scramble(sobol_second(index), set * 0x85ebca77u + 2);
+            sobol_y_[i] = to_unit_float(y);
         }
     }
 

@@ -301,8 +301,13 @@ TEST_SUITE("ch05 bvh hits") {
 
     TEST_CASE("brute: no primitive, one, and one less or more than fit side by side") {
         check_same_hits({}, 0);
-        for (uint32_t n : {1u, 7u, 8u, 9u, 15u, 16u, 17u, 33u}) {
+        for (uint32_t n : {1u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 32u, 33u}) {
             check_same_hits(random_triangles(n, 1), 0.05, 300);
+        }
+        for (size_t n : {2u, 4u, 8u, 10u}) {  // 6, 12, 24 and 30 primitives
+            Geometry g = mixed(40);
+            g.triangles.resize(n), g.spheres.resize(n), g.disks.resize(n);
+            check_same_hits(g, 0.05, 300);
         }
         Geometry sphere, disk;
         sphere.spheres = {{{1, 2, 3}, 2, 0}};
