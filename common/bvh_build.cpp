@@ -10,8 +10,8 @@ namespace {
 constexpr int bins = 16;
 constexpr uint32_t small = lanes / 2;      // references that are not split any further
 constexpr uint32_t few = 2 * lanes;        // references for which boxes cost more than they save
-constexpr uint32_t worth_a_thread = 4096;  // references of a subtree
-constexpr uint32_t worth_halving = 65536;  // references that two threads sort into slices
+constexpr uint32_t worth_a_thread = 1024;  // references of a subtree
+constexpr uint32_t worth_halving = 32768;  // references that two threads sort into slices
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
 Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
@@ -51,6 +51,11 @@ struct Range {
     void grow(const Box& b) {
         box.grow(b);
         centers.grow({-b.center(), b.center()});
+    }
+    void grow(const Range& other) {
+        box.grow(other.box);
+        centers.grow(other.centers);
+        end += other.size();
     }
 };
 
@@ -172,6 +177,7 @@ struct Node {
     uint32_t begin, end;       // its references
     uint8_t axis = 0;          // of the split: the left child is on the lower side
     uint8_t lane = 0;          // its place in the wide node
+    uint32_t number = 0;       // its BvhNode::child there
     // [k - 2]: of k places, so many go to the left child; 0: k - 1 places do as well.
     uint8_t share[lanes - 1] = {};
 
@@ -243,14 +249,18 @@ public:
 
     Bvh build() {
         Range all = make_refs();
+        Node root;
         if (all.size() <= few) {
-            bvh_.root = emit_few(all.size());
+            bvh_.root = add_few(all.size());
         } else {
             pairs_.resize(all.size());  // more than there can be
-            Node root;
             build(root, all, 0);
-            bvh_.root = emit(root);
+            bvh_.root = number(root);
         }
+        bvh_.nodes.resize(wide_.size());
+        in_chunks(wide_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) fill_node(*wide_[i], bvh_.nodes[i]);
+        });
         bvh_.blocks.resize(leaves_.size());
         in_chunks(leaves_.size(), [&](size_t begin, size_t end, int) {
             for (size_t i = begin; i < end; i++) fill_block(leaves_[i], bvh_.blocks[i]);
@@ -289,11 +299,7 @@ private:
             parts[static_cast<size_t>(chunk)] = part;
         });
         Range all;
-        for (const Range& part : parts) {
-            all.box.grow(part.box);
-            all.centers.grow(part.centers);
-            all.end += part.size();
-        }
+        for (const Range& part : parts) all.grow(part);
         if (all.size() < refs_.size())
             std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
         return all;
@@ -314,7 +320,8 @@ private:
         node.children = new (&pairs_[next_pair_++]) Node[2];
         Costs left_cost, right_cost;
         both(
-            range.size(), [&] { left_cost = build(node.children[0], left, level + 1); },
+            std::min(left.size(), right.size()),
+            [&] { left_cost = build(node.children[0], left, level + 1); },
             [&] { right_cost = build(node.children[1], right, level + 1); });
         return share_places(node, left_cost, right_cost);
     }
@@ -343,58 +350,91 @@ private:
 
     /// Parts a range in two, by cost or else by number, and returns the axis.
     uint8_t split(const Range& range, bool by_cost, Range& left, Range& right) {
+        uint32_t half = range.size() / 2, middle = range.begin + half;
+        bool halve = range.size() >= worth_halving;
         Binning bin_of(range.centers);
         Split best;
         if (by_cost) {
             Bins binned;
-            if (range.size() < worth_halving) {
-                binned.add(refs_, range.begin, range.end, bin_of);
-            } else {
+            if (halve) {
                 Bins others;
-                uint32_t half = range.begin + range.size() / 2;
                 both(
-                    range.size(), [&] { binned.add(refs_, range.begin, half, bin_of); },
-                    [&] { others.add(refs_, half, range.end, bin_of); });
+                    half, [&] { binned.add(refs_, range.begin, middle, bin_of); },
+                    [&] { others.add(refs_, middle, range.end, bin_of); });
                 binned.add(others);
+            } else {
+                binned.add(refs_, range.begin, range.end, bin_of);
             }
             best = find_split(binned, range.size());
         }
-        // Swap what goes left to the front. Which side that is nobody can predict, so no branch.
-        uint32_t middle = range.begin + range.size() / 2, front = range.begin;
-        Box box[2], centers[2];
-        for (uint32_t i = range.begin; i < range.end; i++) {
-            Ref ref = refs_[i];
-            bool goes_left =
-                best.cost < infinity ? bin_of(ref.box)[best.axis] < best.bin : i < middle;
-            box[goes_left].grow(ref.box);
-            centers[goes_left].grow({-ref.box.center(), ref.box.center()});
-            uint32_t to = goes_left ? front : i;
-            refs_[i] = refs_[to];
-            refs_[to] = ref;
-            front += goes_left;
+        auto goes_left = [=](const Ref& ref, uint32_t i) {
+            return best.cost < infinity ? bin_of(ref.box)[best.axis] < best.bin : i < middle;
+        };
+        if (halve) {
+            Range more_left, more_right;
+            both(
+                half, [&] { partition(range.begin, middle, goes_left, left, right); },
+                [&] { partition(middle, range.end, goes_left, more_left, more_right); });
+            // left right more_left more_right: the inner two change places.
+            uint32_t n = std::min(right.size(), more_left.size());
+            Ref* inner = &refs_[right.begin];
+            std::swap_ranges(inner, inner + n, &refs_[0] + more_left.end - n);
+            left.grow(more_left);
+            right.grow(more_right);
+            right.begin = left.end;
+            right.end = range.end;
+        } else {
+            partition(range.begin, range.end, goes_left, left, right);
         }
-        left = {range.begin, front, box[1], centers[1]};
-        right = {front, range.end, box[0], centers[0]};
         return static_cast<uint8_t>(best.axis);
     }
 
-    /// Writes a wide node, or takes down a leaf, and what is below. Returns its BvhNode::child.
-    uint32_t emit(Node& root) {
-        if (root.fits_a_block()) return emit_leaf({root.begin, root.end});
-        auto index = static_cast<uint32_t>(bvh_.nodes.size());
-        bvh_.nodes.emplace_back();
-        BvhNode node;
+    /// Swaps what goes left to the front. Which side that is nobody can predict, so no branch.
+    template <typename GoesLeft>
+    void partition(uint32_t begin, uint32_t end, GoesLeft goes_left, Range& left, Range& right) {
+        uint32_t front = begin;
+        Box box[2], centers[2];
+        for (uint32_t i = begin; i < end; i++) {
+            Ref ref = refs_[i];
+            bool to_left = goes_left(ref, i);
+            box[to_left].grow(ref.box);
+            centers[to_left].grow({-ref.box.center(), ref.box.center()});
+            uint32_t to = to_left ? front : i;
+            refs_[i] = refs_[to];
+            refs_[to] = ref;
+            front += to_left;
+        }
+        left = {begin, front, box[1], centers[1]};
+        right = {front, end, box[0], centers[0]};
+    }
+
+    /// Numbers the wide nodes and the leaves below a node, depth first: all that one thread has to
+    /// do alone before many can write them. Returns the BvhNode::child of the node.
+    uint32_t number(Node& root) {
+        if (root.fits_a_block()) return add_leaf({root.begin, root.end});
+        auto index = static_cast<uint32_t>(wide_.size());
+        wide_.push_back(&root);
+        Gathered children;
+        children.add(root, lanes, 7);
+        for (uint32_t i = 0; i < children.size; i++) {
+            children.node[i]->lane = static_cast<uint8_t>(i);
+            children.node[i]->number = number(*children.node[i]);
+        }
+        return index;
+    }
+
+    void fill_node(Node& root, BvhNode& node) {
         Gathered children;
         children.add(root, lanes, 7);
         for (uint32_t i = 0; i < lanes; i++) {
-            bool used = i < children.size;
-            Box box = used ? children.node[i]->box : Box{};
+            const Node* child = i < children.size ? children.node[i] : nullptr;
+            Box box = child ? child->box : Box{};
             for (int axis = 0; axis < 3; axis++) {
                 node.plane[2 * axis][i] = -box.neg_lo[axis];
                 node.plane[2 * axis + 1][i] = box.hi[axis];
             }
-            node.child[i] = used ? emit(*children.node[i]) : BvhNode::nothing;
-            if (used) children.node[i]->lane = static_cast<uint8_t>(i);
+            node.child[i] = child ? child->number : BvhNode::nothing;
+            if (child && child->fits_a_block()) node.child[i] |= mixed({child->begin, child->end});
         }
         // What comes first for an octant comes last for the opposite one.
         for (uint32_t octant = 0; octant < 4; octant++) {
@@ -408,26 +448,28 @@ private:
             node.far_first[octant] = order;
             node.far_first[7 - octant] = opposite;
         }
-        bvh_.nodes[index] = node;
-        return index;
     }
 
-    uint32_t emit_leaf(Leaf leaf) {
-        uint32_t child = BvhNode::leaf | static_cast<uint32_t>(leaves_.size());
+    uint32_t add_leaf(Leaf leaf) {
         leaves_.push_back(leaf);
+        return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
+    }
+
+    /// BvhNode::mixed when there are spheres or disks among the references.
+    uint32_t mixed(Leaf leaf) const {
         for (uint32_t i = leaf.begin; i < leaf.end; i++)
-            if (refs_[i].prim() >= g_.triangles.size()) child |= BvhNode::mixed;
-        return child;
+            if (refs_[i].prim() >= g_.triangles.size()) return BvhNode::mixed;
+        return 0;
     }
 
     /// One or two blocks and no node. The large primitives come first: most rays hit something in
     /// the first block and nothing in the second, so that the processor can foresee it.
-    uint32_t emit_few(uint32_t size) {
+    uint32_t add_few(uint32_t size) {
         std::sort(refs_.begin(), refs_.begin() + size,
                   [](const Ref& a, const Ref& b) { return a.box.area() > b.box.area(); });
-        uint32_t root = emit_leaf({0, std::min(uint32_t{lanes}, size)});
-        if (size > lanes) root |= emit_leaf({lanes, size}) & BvhNode::mixed;
-        return root;
+        uint32_t root = add_leaf({0, std::min(uint32_t{lanes}, size)});
+        if (size > lanes) add_leaf({lanes, size});
+        return root | mixed({0, size});
     }
 
     void fill_block(Leaf leaf, BvhBlock& block) {
@@ -450,6 +492,7 @@ private:
     Refs refs_;
     Pairs pairs_;
     std::atomic<uint32_t> next_pair_ = 0;
+    std::vector<Node*> wide_;   // the roots of wide nodes, in their order
     std::vector<Leaf> leaves_;  // in the order of their blocks
     Bvh bvh_;
 };
