@@ -10,7 +10,7 @@ namespace {
 constexpr int bins = 16;
 constexpr uint32_t small = lanes / 2;      // references that are not split any further
 constexpr uint32_t few = 2 * lanes;        // references for which boxes cost more than they save
-constexpr uint32_t worth_a_thread = 1024;  // references of a subtree
+constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr uint32_t worth_halving = 32768;  // references that two threads sort into slices
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 

@@ -82,22 +82,31 @@ std::vector<double> seconds_per_ray(const std::vector<Contender>& contenders, co
 struct BuildTime {
     double processor, wall;
 };
-/// Over so many runs, or as many as fit into ten seconds.
-BuildTime build_time(int runs, const std::function<void()>& prepare,
-                     const std::function<void()>& build) {
-    std::vector<double> processor, wall;
+/// What is to be done before a build, and the build.
+struct Build {
+    std::function<void()> prepare, build;
+};
+/// Over runs in which all take turns: as many as asked for, fewer when they take twenty seconds, up
+/// to ten times as many when they are short.
+std::vector<BuildTime> build_times(const std::vector<Build>& builds, int runs) {
+    std::vector<std::vector<double>> processor(builds.size()), wall(builds.size());
     double sum = 0;
-    for (int run = 0; run < runs && sum < 10; run++) {
-        prepare();
-        Stopwatch watch;
-        auto begin = std::chrono::steady_clock::now();
-        build();
-        std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-        processor.push_back(watch.seconds());
-        wall.push_back(taken.count());
-        sum += taken.count();
+    for (int run = 0; sum < (run < runs ? 20 : 1) && run < 10 * runs; run++) {
+        for (size_t i = 0; i < builds.size(); i++) {
+            builds[i].prepare();
+            Stopwatch watch;
+            auto begin = std::chrono::steady_clock::now();
+            builds[i].build();
+            std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+            processor[i].push_back(watch.seconds());
+            wall[i].push_back(taken.count());
+            sum += taken.count();
+        }
     }
-    return {median(processor), median(wall)};
+    std::vector<BuildTime> medians;
+    for (size_t i = 0; i < builds.size(); i++)
+        medians.push_back({median(processor[i]), median(wall[i])});
+    return medians;
 }
 
 /// All that is measured: a table of rays, one of builds, and the ratios to Embree's better one.
@@ -133,24 +142,25 @@ private:
         const Geometry& g = scene_.geometry;
         double n = static_cast<double>(g.size()), millions = n / 1e6;
         auto step = [&](ch05::Finder& finder, ch05::Step which) {
-            return build_time(
-                1, [] {}, [&] { finder = make_finder(scene_, which); });
+            Build build{[] {}, [&finder, which, this] { finder = make_finder(scene_, which); }};
+            return build_times({build}, 1)[0];
         };
         BuildTime by_median = step(median_, ch05::Step::median);
         BuildTime by_sah = step(sah_, ch05::Step::sah);
         auto own = [&](int threads) {
-            return build_time(
-                o_.runs, [&] { wide_ = {}; }, [&] { wide_ = build_bvh(g, threads); });
+            return Build{[&] { wide_ = {}; }, [&, threads] { wide_ = build_bvh(g, threads); }};
         };
-        BuildTime wide = own(1), wide_parallel = own(o_.threads);
-        auto embree = [&](bool high, int threads) {
-            auto& built = high ? high_ : medium_;
-            return build_time(
-                high ? 1 : o_.runs, [&] { built = std::make_unique<Embree>(g, high, threads); },
-                [&] { built->commit(); });
+        auto embree = [&](std::unique_ptr<Embree>& built, bool high, int threads) {
+            return Build{[&, high, threads] { built = std::make_unique<Embree>(g, high, threads); },
+                         [&built] { built->commit(); }};
         };
-        BuildTime medium_parallel = embree(false, o_.threads), medium = embree(false, 1);
-        BuildTime high = embree(true, 1);
+        std::vector<BuildTime> times =
+            build_times({own(1), own(o_.threads), embree(medium_, false, o_.threads),
+                         embree(medium_, false, 1)},
+                        o_.runs);
+        BuildTime wide = times[0], wide_parallel = times[1];
+        BuildTime medium_parallel = times[2], medium = times[3];
+        BuildTime high = build_times({embree(high_, true, 1)}, 1)[0];
         double bytes = static_cast<double>(wide_.nodes.size() * sizeof(BvhNode) +
                                            wide_.blocks.size() * sizeof(BvhBlock));
         table.rows.push_back({mesh_.name, std::to_string(g.size())});
