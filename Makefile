@@ -2,7 +2,7 @@
 SHELL     := /bin/bash
 MAKEFLAGS += --no-builtin-rules -j$(shell nproc)
 BUILD     := build
-OPT       := -O3 -march=native -fno-math-errno
+OPT       := -O3 -march=native -mtune=generic -fno-math-errno -fno-trapping-math
 ifdef SAN
 OPT       := -O1 -g -march=native -fsanitize=address,undefined -fno-sanitize-recover=all
 BUILD     := build/san

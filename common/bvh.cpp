@@ -119,7 +119,11 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     auto test_block = [&](const BvhBlock& block, bool mixed) {
         if (counting) count->blocks++;
         bool found = test_triangles<any>(block, ray, shear, best);
-        if (mixed && !(any && found)) found |= test_others(block, g, ray, best);
+        if (mixed && !(any && found)) {
+            PrimHit other = best;  // a copy, so that `best` can stay in registers
+            found |= test_others(block, g, ray, other);
+            best = other;
+        }
         return any && found;
     };
     if (bvh.root & BvhNode::leaf) {  // no boxes

@@ -57,9 +57,9 @@ inline Vec3 from_cylindrical(float r, float u, float z) {
     float s =
         x * (1 + q * (-1.0f / 6 + q * (1.0f / 120 + q * (-1.0f / 5040 + q * (1.0f / 362880)))));
     float c = 1 + q * (-1.0f / 2 + q * (1.0f / 24 + q * (-1.0f / 720 + q * (1.0f / 40320))));
-    constexpr float sign[] = {1, 1, -1, -1, 1, 1};
-    bool odd = quarter & 1;
-    return {r * sign[quarter + 1] * (odd ? s : c), r * sign[quarter] * (odd ? c : s), z};
+    static constexpr float sines[] = {0, 1, 0, -1, 0, 1};
+    float sine = sines[quarter], cosine = sines[quarter + 1];
+    return {r * (cosine * c - sine * s), r * (sine * c + cosine * s), z};
 }
 
 /// Radiance, reflectance or throughput in linear sRGB primaries.

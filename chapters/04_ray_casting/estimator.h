@@ -54,11 +54,11 @@ struct Shear {
     float sx, sy, sz;
 };
 
-inline Shear shear_to_ray(Vec3 d) {
+inline Shear shear_to_ray(const Vec3& d) {
+    static constexpr int longest[] = {0, 1, 2, 2}, after[] = {1, 2, 0, 1};
     Vec3 a = abs(d);
-    constexpr int longest[] = {0, 1, 2, 2}, after[] = {1, 2, 0};
     int kz = longest[(a.y >= a.x) + 2 * (a.z >= std::max(a.x, a.y))];
-    int kx = after[kz], ky = after[kx];
+    int kx = after[kz], ky = after[kz + 1];
     return {kx, ky, kz, d[kx] / d[kz], d[ky] / d[kz], 1 / d[kz]};
 }
 
