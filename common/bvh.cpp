@@ -107,8 +107,37 @@ void prefetch(const Bvh& bvh, uint32_t child) {
         __builtin_prefetch(static_cast<const char*>(p) + 64 * line);
 }
 
+/// What ray and block have in common becomes the best hit. Returns whether any was asked for, and
+/// is found.
+template <bool any, bool counting>
+[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, bool mixed, const Geometry& g,
+                                              const Ray& ray, const Shear& shear, PrimHit& best,
+                                              BvhCount* count) {
+    if (counting) count->blocks++;
+    bool found = test_triangles<any>(block, ray, shear, best);
+    if (mixed && !(any && found)) {
+        PrimHit other = best;  // a copy, so that `best` can stay in registers
+        found |= test_others(block, g, ray, other);
+        best = other;
+    }
+    return any && found;
+}
+
+/// All blocks, one after the other: no boxes.
+template <bool any, bool counting>
+PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count) {
+    Shear shear = shear_to_ray(ray.d);
+    PrimHit best;
+    best.t = next_below(ray.t_max);
+    bool mixed = bvh.root & BvhNode::mixed;
+    for (const BvhBlock& block : bvh.blocks)
+        if (test_block<any, counting>(block, mixed, g, ray, shear, best, count)) return {0};
+    return best.prim == PrimHit::none ? PrimHit{} : best;
+}
+
 template <bool any, bool counting>
 PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count) {
+    if (bvh.root & BvhNode::leaf) return scan<any, counting>(bvh, g, ray, count);
     // A rounded t may come before its box; and boxes at the same t must be looked at.
     constexpr float slack = 1 + 0x1p-12f, tiny = 0x1p-60f;
     PrimHit best;
@@ -116,21 +145,6 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     if (!(scale > 0 && scale < infinity && ray.t_max > 0)) return {};
     Shear shear = shear_to_ray(ray.d);
     best.t = next_below(ray.t_max);
-    auto test_block = [&](const BvhBlock& block, bool mixed) {
-        if (counting) count->blocks++;
-        bool found = test_triangles<any>(block, ray, shear, best);
-        if (mixed && !(any && found)) {
-            PrimHit other = best;  // a copy, so that `best` can stay in registers
-            found |= test_others(block, g, ray, other);
-            best = other;
-        }
-        return any && found;
-    };
-    if (bvh.root & BvhNode::leaf) {  // no boxes
-        for (const BvhBlock& block : bvh.blocks)
-            if (test_block(block, bvh.root & BvhNode::mixed)) return {0};
-        return best.prim == PrimHit::none ? PrimHit{} : best;
-    }
 
     // Where d is 0, put one so small that the ray stays within the padding.
     auto not_zero = [&](float d) { return std::copysign(std::max(std::abs(d), tiny * scale), d); };
@@ -187,7 +201,9 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         }
         if (current == BvhNode::nothing) break;
 
-        if (test_block(bvh.blocks[current & BvhNode::index], current & BvhNode::mixed)) return {0};
+        const BvhBlock& block = bvh.blocks[current & BvhNode::index];
+        bool mixed = current & BvhNode::mixed;
+        if (test_block<any, counting>(block, mixed, g, ray, shear, best, count)) return {0};
         reach = best.t * scale * slack;
         current = pop();
     }

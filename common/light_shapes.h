@@ -34,7 +34,7 @@ float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y);
 
 /// The same density per solid angle at x:  pdf_w = pdf_A d^2 / cos_y.      0 where y is edge-on.
 inline float area_to_solid_angle(float pdf_A, Vec3 x, Vec3 y, Vec3 n_y) {
-    Vec3 d = y - x;
-    float d2 = dot(d, d), cos_y = std::abs(dot(d, n_y)) / std::sqrt(d2);
-    return cos_y > 0 ? pdf_A * d2 / cos_y : 0;
+    Vec3 to_y = y - x;
+    float d2 = dot(to_y, to_y), d_cos = std::abs(dot(to_y, n_y));
+    return d_cos > 0 ? pdf_A * d2 * std::sqrt(d2) / d_cos : 0;
 }
