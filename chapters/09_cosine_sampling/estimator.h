@@ -96,12 +96,11 @@ struct LightSample {
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);
     Vec3 to_y = y.p - x.p;
+    float d_cos_y = -dot(to_y, y.n);
+    if (scene.lights[light].two_sided) d_cos_y = std::abs(d_cos_y);
+    if (!(d_cos_y > 0)) return {};
     float d = length(to_y);
-    Vec3 wi = to_y / d;
-    float cos_y = -dot(wi, y.n);
-    if (scene.lights[light].two_sided) cos_y = std::abs(cos_y);
-    if (!(cos_y > 0)) return {};
-    return {wi, scene.lights[light].L, d - (x.eps + y.eps) / cos_y, y.pdf};
+    return {to_y / d, scene.lights[light].L, d - (x.eps + y.eps) * d / d_cos_y, y.pdf};
 }
 
 /// One light: its point or direction as seen from x. The sky is drawn from the hemisphere around n.
