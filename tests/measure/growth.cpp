@@ -146,7 +146,9 @@ std::vector<LinePanel> over_samples_pixels_threads(const Growth& growth) {
     auto threads = [&](double x) {
         MeasureOptions with = o;
         with.threads = static_cast<int>(x);
-        return [&, with](const Method& m) { return seconds_of(m, scene, with, 64, true); };
+        Scene sized = scene;
+        sized.width = sized.height = 128;  // tiles enough to share them out evenly
+        return [&, with, sized](const Method& m) { return seconds_of(m, sized, with, 32, true); };
     };
     std::vector<LinePanel> panels = {
         panel_of(growth, "samples", "samples per pixel", "1", 1, 1024 * growth.largest, 4, spp),
