@@ -69,6 +69,7 @@ RunningStats red_furnace(const Survival& survival, int paths) {
     }
     return stats;
 }
+
 /// The same, exactly: what survives bounce k is always worth b_k, so that what follows is
 /// R_k = B_k (b_k + R_k+1), B_k = 1 with probability q_k.  E[R_k^n] = q_k E[(b_k + R_k+1)^n]
 Moments red_moments() {
