@@ -11,7 +11,7 @@ constexpr int bins = 16;
 constexpr uint32_t small = lanes / 2;      // references that are not split any further
 constexpr uint32_t few = 2 * lanes;        // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
-constexpr uint32_t worth_halving = 32768;  // references that two threads sort into slices
+constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
 Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
@@ -423,6 +423,7 @@ private:
         return index;
     }
 
+    /// Writes the boxes of the children, their numbers, and for each octant their order.
     void fill_node(Node& root, BvhNode& node) {
         Gathered children;
         children.add(root, lanes, 7);

@@ -36,5 +36,5 @@ float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y);
 inline float area_to_solid_angle(float pdf_A, Vec3 x, Vec3 y, Vec3 n_y) {
     Vec3 to_y = y - x;
     float d2 = dot(to_y, to_y), d_cos = std::abs(dot(to_y, n_y));
-    return d_cos > 0 ? pdf_A * d2 * std::sqrt(d2) / d_cos : 0;
+    return d_cos > 0 ? pdf_A * d2 * (std::sqrt(d2) / d_cos) : 0;
 }
