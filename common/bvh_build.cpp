@@ -257,13 +257,17 @@ public:
             build(root, all, 0);
             bvh_.root = number(root);
         }
-        bvh_.nodes.resize(wide_.size());
-        in_chunks(wide_.size(), [&](size_t begin, size_t end, int) {
-            for (size_t i = begin; i < end; i++) fill_node(*wide_[i], bvh_.nodes[i]);
-        });
+        size_t nodes = wide_.size();
+        bvh_.nodes.resize(nodes);
         bvh_.blocks.resize(leaves_.size());
-        in_chunks(leaves_.size(), [&](size_t begin, size_t end, int) {
-            for (size_t i = begin; i < end; i++) fill_block(leaves_[i], bvh_.blocks[i]);
+        in_chunks(nodes + leaves_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) {
+                if (i < nodes) {
+                    fill_node(*wide_[i], bvh_.nodes[i]);
+                } else {
+                    fill_block(leaves_[i - nodes], bvh_.blocks[i - nodes]);
+                }
+            }
         });
         return std::move(bvh_);
     }
