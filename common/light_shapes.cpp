@@ -2,6 +2,8 @@
 
 #include "common/solid_angle.h"
 
+using light_shape_details::is_near;
+
 namespace {
 
 Emitter emitter_of(const Scene& scene, uint32_t prim) {
@@ -108,10 +110,6 @@ LightPoint sample_two(const Emitter& e, const Seen& first, const Seen& second, V
     return {sample_seen(e, chosen, x, u), e.n, e.eps, 1 / omega};
 }
 
-bool is_near(const LightShape& shape, Vec3 x) {
-    return length_squared(x - shape.centre) < 4 * shape.radius * shape.radius;
-}
-
 /// How x can draw from the light by solid angle; `area` where it cannot, or need not.
 enum class Way : uint8_t { area, cone, two, square, one };
 
@@ -192,7 +190,8 @@ void prepare_light_shapes(Scene& scene) {
         shape.centre = 0.5f * (low + high);
         shape.radius = length(high - low) / 2;
         bool triangles = light.first_prim + light.prims <= scene.geometry.triangles.size();
-        if (light.prims == 2 && triangles) find_parallelogram(scene.geometry, light, shape);
+        if (light.prims == 2 && triangles && area > 0)
+            find_parallelogram(scene.geometry, light, shape);
         bool one = light.prims == 1 && shape.first.kind != Emitter::sphere;
         shape.flat = one || shape.parallelogram;
     }
@@ -200,35 +199,23 @@ void prepare_light_shapes(Scene& scene) {
 
 float pdf_area(const Scene& scene, size_t light) { return 1 / scene.light_shapes[light].area; }
 
-LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
+LightPoint light_shape_details::sample_pieces(const Scene& scene, size_t light, Vec2 u) {
     const LightShape& shape = scene.light_shapes[light];
     if (!(shape.area > 0)) return {};
-    LightPoint y;
-    if (shape.parallelogram) {
-        const Emitter& e = shape.first;
-        y = {shape.corner + u.x * shape.e1 + u.y * shape.e2, e.n, e.eps, 1};
-    } else {
-        uint32_t i = choose_by_area(shape, u.x);
-        y = sample_emitter_area(emitter_of(scene, light, i), u);
-    }
+    uint32_t i = choose_by_area(shape, u.x);
+    LightPoint y = sample_emitter_area(emitter_of(scene, light, i), u);
     y.pdf = 1 / shape.area;
     return y;
 }
 
-LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
+LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
     const LightShape& shape = scene.light_shapes[light];
     if (!(shape.area > 0)) return {};
-    auto by_area = [&] {
-        LightPoint y = sample_area(scene, light, u);
-        y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
-        return y;
-    };
-    if (shape.first.kind != Emitter::sphere && !is_near(shape, x)) return by_area();
     Vec2 v = u;
     uint32_t index = shape.parallelogram ? 0 : choose_by_area(shape, v.x);
     Plan way = plan(scene, light, x, index);
     switch (way.way) {
-        case Way::area: return by_area();
+        case Way::area: return sample_far(scene, light, x, u);
         case Way::cone: {
             Vec3 to_centre = way.e.p0 - x;
             Vec3 w = sample_cone(way.sin2, u);

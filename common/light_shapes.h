@@ -14,7 +14,7 @@ struct LightPoint {
 void prepare_light_shapes(Scene& scene);
 
 /// A point of the light's surface, all equally likely.      pdf_A = 1 / area
-LightPoint sample_area(const Scene& scene, size_t light, Vec2 u);
+inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u);
 float pdf_area(const Scene& scene, size_t light);
 
 /// A point of the light, its directions from x (nearly) all equally likely. pdf in sr^-1.
@@ -27,7 +27,7 @@ float pdf_area(const Scene& scene, size_t light);
 /// Where x is farther away than two radii, and inside a sphere: by area, which is then as good.
 /// source  cone: Shirley, Wang 1991; triangle: Arvo 1995
 /// tested by  "consistency: a light's samples agree with its density"
-LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);
+inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);
 
 /// The density, in sr^-1, with which sample_solid_angle finds the point y that a ray from x met.
 float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y);
@@ -37,4 +37,37 @@ inline float area_to_solid_angle(float pdf_A, Vec3 x, Vec3 y, Vec3 n_y) {
     Vec3 to_y = y - x;
     float d2 = dot(to_y, to_y), d_cos = std::abs(dot(to_y, n_y));
     return d_cos > 0 ? pdf_A * d2 * (std::sqrt(d2) / d_cos) : 0;
+}
+
+namespace light_shape_details {
+
+inline bool is_near(const LightShape& shape, Vec3 x) {
+    return length_squared(x - shape.centre) < 4 * shape.radius * shape.radius;
+}
+/// By area, from any light but a parallelogram.
+LightPoint sample_pieces(const Scene& scene, size_t light, Vec2 u);
+/// By area, with the density that this has at x.
+inline LightPoint sample_far(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
+    LightPoint y = sample_area(scene, light, u);
+    y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
+    return y;
+}
+/// By solid angle, from a light that is near or a sphere.
+LightPoint sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u);
+
+}  // namespace light_shape_details
+
+inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
+    const LightShape& shape = scene.light_shapes[light];
+    if (!shape.parallelogram) return light_shape_details::sample_pieces(scene, light, u);
+    Vec3 p = shape.corner + u.x * shape.e1 + u.y * shape.e2;
+    return {p, shape.first.n, shape.first.eps, 1 / shape.area};
+}
+
+inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
+    using namespace light_shape_details;
+    const LightShape& shape = scene.light_shapes[light];
+    if (shape.first.kind == Emitter::sphere || is_near(shape, x))
+        return sample_near(scene, light, x, u);
+    return sample_far(scene, light, x, u);
 }

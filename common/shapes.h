@@ -1,5 +1,6 @@
 // The tests of a ray against each kind of primitive, and against all of them in turn (chapter 04).
 #pragma once
+#include <bit>
 #include <optional>
 
 #include "common/geometry.h"
@@ -17,9 +18,12 @@ struct Shear {
 };
 
 inline Shear shear_to_ray(const Vec3& d) {
-    static constexpr int longest[] = {0, 1, 2, 2}, after[] = {1, 2, 0, 1};
-    Vec3 a = abs(d);
-    int kz = longest[(a.y >= a.x) + 2 * (a.z >= std::max(a.x, a.y))];
+    // Without the sign, the bits of floats are in their order, and integers compare faster.
+    auto size = [&](int axis) { return std::bit_cast<uint32_t>(d[axis]) << 1; };
+    uint32_t x = size(0), y = size(1), z = size(2);
+    int is_z = z >= std::max(x, y), is_y = !is_z & (y >= x);
+    int kz = is_y + 2 * is_z;
+    static constexpr int after[] = {1, 2, 0, 1};
     int kx = after[kz], ky = after[kz + 1];
     return {kx, ky, kz, d[kx] / d[kz], d[ky] / d[kz], 1 / d[kz]};
 }

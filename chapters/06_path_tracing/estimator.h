@@ -95,7 +95,7 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
 /// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
 /// only when it happens to hit some.
 /// source  Kajiya 1986      tested by  "ch06 path tracing"
-inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
         // Find the next vertex. A path that leaves the scene ends in the sky.

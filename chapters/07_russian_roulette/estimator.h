@@ -82,7 +82,7 @@ inline float survival_probability(Rgb beta, int depth) {
 /// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
 /// only when it happens to hit some.
 /// source  Kajiya 1986; roulette: Arvo, Kirk 1990      tested by  "ch07 russian roulette"
-inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
         // Find the next vertex. A path that leaves the scene ends in the sky.

@@ -167,7 +167,7 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& samp
 /// glass. Anywhere else it was Ld of the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Talbot et al. 2005      tested by  "ch11 ris"
-inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
@@ -183,13 +183,13 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
             return L;
         }
 
-        // Aim at a light.
+        // Choose a direction, then aim at a light: so the processor works on both rays at once.
         Vec3 wo = -ray.d;
-        L += direct_light(scene, *x, wo, sampler, beta, log);
-
-        // Go on in one direction, and count it for all those that were not taken.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        L += direct_light(scene, *x, wo, sampler, beta, log);
+
+        // Go on in that direction, and count it for all those that were not taken.
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);

@@ -248,7 +248,7 @@ inline float mis_emission(const Scene& scene, const Hit& x, const BsdfSample& s,
 ///
 /// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the better strategy.
 /// source  Veach, Guibas 1995      tested by  "ch12 mis"
-inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     Hit last;
     BsdfSample s{{}, {}, 0, true};  // as if the camera were a mirror: it has aimed at no light
@@ -274,14 +274,14 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
             return L;
         }
 
-        // Aim at a light.
+        // Choose a direction, then aim at a light: so the processor works on both rays at once.
         Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        s = sample_bsdf(*x, wo, u1, sampler.u2());
         chances = draw_chances(sampler);
         L += direct_light(scene, *x, wo, sampler, beta * chances.light, log);
 
-        // Go on in one direction, and count it for all those that were not taken.
-        float u1 = sampler.u1();
-        s = sample_bsdf(*x, wo, u1, sampler.u2());
+        // Go on in that direction, and count it for all those that were not taken.
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
