@@ -7,7 +7,7 @@
 
 namespace {
 
-/// All curves of a scene, each against references that another chapter has made.
+/// All curves of a scene, each against references made by other methods.
 std::vector<Curve> measure_scene(const std::string& path, const std::vector<Method>& methods,
                                  const MeasureOptions& o, double seconds) {
     Scene scene = load_scene_for(path, o);

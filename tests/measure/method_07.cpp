@@ -5,6 +5,7 @@
     add_method({.name = "07",
                 .label = "07 Russian roulette",
                 .color = "#8c564b",
+                .finds_light = "by chance",
                 .scenes = {"cornell", "closed-sphere"},
                 .refuse = {refuse_glossy, refuse_delta_lights},
                 .render = by_trace(ch07::trace)});

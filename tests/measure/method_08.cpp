@@ -7,6 +7,7 @@ static bool add(const char* name, const char* label, const char* color, LightMea
     return add_method({.name = name,
                        .label = label,
                        .color = color,
+                       .finds_light = "by aim",
                        .scenes = {"cornell", "near-light", "near-disk"},
                        .refuse = {refuse_glossy},
                        .render = by_trace(ch08::trace, [=] { light_measure = measure; })});

@@ -4,6 +4,7 @@
 [[maybe_unused]] static const bool added = add_method({.name = "09",
                                                        .label = "09 cosine sampling",
                                                        .color = "#17becf",
+                                                       .finds_light = "by aim",
                                                        .scenes = {"cornell", "horizon-sky"},
                                                        .refuse = {refuse_glossy},
                                                        .render = by_trace(ch09::trace)});

@@ -5,6 +5,7 @@
     add_method({.name = "10",
                 .label = "10 light importance",
                 .color = "#2ca02c",
+                .finds_light = "by aim",
                 .scenes = {"thousand-lights", "two-lights", "far-and-near"},
                 .refuse = {refuse_glossy},
                 .prepare = ch10::prepare,

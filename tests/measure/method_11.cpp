@@ -5,6 +5,7 @@ static bool add(const char* name, const char* label, const char* color, int M) {
     return add_method({.name = name,
                        .label = label,
                        .color = color,
+                       .finds_light = "by aim",
                        .scenes = {"thousand-lights", "hidden-light"},
                        .refuse = {refuse_glossy},
                        .prepare = ch11::prepare,

@@ -8,6 +8,7 @@ static Method method(const char* name, const char* label, const char* color,
     return {.name = name,
             .label = label,
             .color = color,
+            .finds_light = "both ways",
             .scenes = {"veach-mis", "cornell", "thousand-lights"},
             .prepare = ch12::prepare,
             .render = by_trace(trace, [=] { ch12::settings = settings; })};
@@ -17,6 +18,7 @@ static Method method(const char* name, const char* label, const char* color,
 static Method bsdf_alone() {
     Method m = method("12-bsdf", "12 BSDF sampling alone", "#e377c2", {.strategy = Strategy::bsdf});
     m.refuse = {refuse_delta_lights};
+    m.finds_light = "by chance";
     return m;
 }
 

@@ -19,6 +19,7 @@ struct Method {
     std::string name;                      // "08"; with an option of the chapter, "08-area"
     std::string label = {};                // in legends
     std::string color = {};                // "#rrggbb"
+    std::string finds_light = {};          // how, in two words: those that do it alike err alike
     std::vector<std::string> scenes = {};  // what its chapter is about, for make efficiency
     std::vector<void (*)(const Scene&)> refuse = {};  // throw InputError for what it cannot render
     std::function<void(Scene&)> prepare = {};         // of the chapter; may be empty

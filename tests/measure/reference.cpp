@@ -15,18 +15,20 @@ Reference reference_for(const std::string& scene, const Method& under_test, int 
                         int max_depth) {
     Reference reference;
     reference.image = Image(width, height);
+    // Take those that find light another way; else of other chapters; else of other options.
     auto made = [&](const Method& method) {
-        return method.name != under_test.name &&
-               std::filesystem::exists(reference_path(scene, method.name) + ".pfm");
+        return std::filesystem::exists(reference_path(scene, method.name) + ".pfm");
     };
-    auto other_chapter = [&](const Method& method) {
-        return made(method) && method.name.substr(0, 2) != under_test.name.substr(0, 2);
+    auto difference = [&](const Method& method) {
+        if (!made(method) || method.name == under_test.name) return 0;
+        if (method.name.substr(0, 2) == under_test.name.substr(0, 2)) return 1;
+        return method.finds_light == under_test.finds_light ? 2 : 3;
     };
-    // Where one chapter alone can render the scene, another way of that chapter must do.
-    bool others = std::any_of(all_methods().begin(), all_methods().end(), other_chapter);
+    int most = 1;
+    for (const Method& method : all_methods()) most = std::max(most, difference(method));
     double weights = 0, rel_weights = 0;
     for (const Method& method : all_methods()) {
-        if (others ? !other_chapter(method) : !made(method)) continue;
+        if (difference(method) < most) continue;
         std::string path = reference_path(scene, method.name);
         Image image = read_image(path + ".pfm");
         std::optional<StatsFile> stats = StatsFile::beside(path + ".pfm");

@@ -17,7 +17,8 @@ inline constexpr const char* reference_folder = "tests/measure/references";
 /// The file of the reference of `scene` that a method made, without its ending.
 std::string reference_path(const std::string& scene, const std::string& method);
 
-/// The references of a scene (by scene_name) that chapters other than the one under test made,
-/// weighed by their errors. Throws InputError when there is none of this size and depth.
+/// The references of a scene (by scene_name) that were made by methods as different as can be from
+/// the one under test, weighed by their errors. Throws InputError when there is none of this size
+/// and depth.
 Reference reference_for(const std::string& scene, const Method& under_test, int width, int height,
                         int max_depth);

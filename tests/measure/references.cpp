@@ -49,10 +49,10 @@ int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int
         1, static_cast<int>(std::bit_floor(static_cast<unsigned>(o.seconds / o.runs / seconds))));
 }
 
-/// The two chapters that are quickest to a small error; where one chapter alone can render the
-/// scene, two of its variants.
+/// The chapter that is quickest to a small error, and the quickest that finds light another way;
+/// where one chapter alone can render the scene, the two quickest of its variants.
 std::vector<std::string> two_best(const Scene& scene, const MeasureOptions& o) {
-    std::vector<std::pair<double, std::string>> costs;
+    std::vector<std::pair<double, const Method*>> costs;
     auto measure = [&](bool variants) {
         for (const Method& method : all_methods()) {
             auto prepared = prepared_for(method, scene);
@@ -64,13 +64,18 @@ std::vector<std::string> two_best(const Scene& scene, const MeasureOptions& o) {
                 spread.add(r.film.image());
                 seconds += r.stats.seconds;
             }
-            costs.push_back({spread.rel_mse(spread.mean()) * seconds, method.name});
+            costs.push_back({spread.rel_mse(spread.mean()) * seconds, &method});
         }
     };
     measure(false);
-    if (costs.size() < 2) measure(true);
+    bool one_chapter = costs.size() < 2;
+    if (one_chapter) measure(true);
     std::sort(costs.begin(), costs.end());
-    return {costs[0].second, costs[1].second};
+    const Method *best = costs[0].second, *other = costs[1].second;
+    for (size_t i = costs.size(); i-- > 1 && !one_chapter;) {
+        if (costs[i].second->finds_light != best->finds_light) other = costs[i].second;
+    }
+    return {best->name, other->name};
 }
 
 /// Merges the parts; how far they lie apart says how sure the whole is.
