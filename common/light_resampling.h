@@ -27,7 +27,7 @@ inline float potential(const Scene& scene, size_t i, const Hit& x) {
         cos_y = -dot(to_y, shape.first.n) * inv_d;
         cos_y = std::min(1.0f, (light.two_sided ? std::abs(cos_y) : cos_y) + more);
     }
-    return cos_y > 0 ? L * shape.area * cos_x * cos_y / d2 : 0;
+    return cos_y > 0 ? L * shape.area * cos_x * cos_y * inv_d * inv_d : 0;
 }
 
 /// The light kept among the candidates so far.
@@ -43,12 +43,10 @@ struct Reservoir {
         if (!(weight > 0)) return;
         weight_sum += weight;
         float share = weight / weight_sum;
-        if (u < share) {
-            light = candidate, p_hat = p_hat_candidate;
-            u /= share;
-        } else {
-            u = (u - share) / (1 - share);
-        }
+        bool taken = u < share;
+        light = taken ? candidate : light;
+        p_hat = taken ? p_hat_candidate : p_hat;
+        u = (taken ? u : u - share) / (taken ? share : 1 - share);
     }
     /// W: what the kept light counts for all others, in place of 1 / probability.
     float W(int candidates) const {

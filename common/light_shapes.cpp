@@ -111,26 +111,19 @@ LightPoint sample_two(const Emitter& e, const Seen& first, const Seen& second, V
 }
 
 /// How x can draw from the light by solid angle; `area` where it cannot, or need not.
-enum class Way : uint8_t { area, cone, two, square, one };
+enum class Way : uint8_t { area, two, square, one };
 
 struct Plan {
     Way way = Way::area;
     Emitter e;  // the primitive, or the first of two
     Seen seen[2];
-    float sin2 = 0;  // of the cone
 };
 
 /// Chooses the way for the light as a whole, or for one primitive (`index`) of a larger mesh.
 Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
     const Light& l = scene.lights[light];
     const LightShape& shape = scene.light_shapes[light];
-    Plan plan{Way::area, emitter_of(scene, light, index), {}, 0};
-    if (plan.e.kind == Emitter::sphere && l.prims == 1) {
-        float d2 = length_squared(x - plan.e.p0), r2 = plan.e.r * plan.e.r;
-        plan.sin2 = r2 / d2;
-        if (plan.sin2 < 0.9999f && !plan.e.inward) plan.way = Way::cone;
-        return plan;
-    }
+    Plan plan{Way::area, emitter_of(scene, light, index), {}};
     float off_plane = std::abs(dot(plan.e.n, plan.e.p0 - x));
     float eps = plan.e.eps + rounding_error(max_component(abs(x)));
     if (!is_near(shape, x) || off_plane <= eps) return plan;  // far away, or edge-on
@@ -208,6 +201,14 @@ LightPoint light_shape_details::sample_pieces(const Scene& scene, size_t light, 
     return y;
 }
 
+LightPoint light_shape_details::sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u) {
+    Vec3 to_centre = e.p0 - x, w = sample_cone(sin2, u);
+    float d = length(to_centre), sin2_w = std::max(0.0f, 1 - w.z * w.z);
+    float t = d * w.z - std::sqrt(std::max(0.0f, e.r * e.r - d * d * sin2_w));
+    Vec3 n = normalize(x + t * Frame(to_centre / d).to_world(w) - e.p0);
+    return {e.p0 + e.r * n, n, e.eps, pdf_cone(sin2)};
+}
+
 LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
     const LightShape& shape = scene.light_shapes[light];
     if (!(shape.area > 0)) return {};
@@ -216,14 +217,6 @@ LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Ve
     Plan way = plan(scene, light, x, index);
     switch (way.way) {
         case Way::area: return sample_far(scene, light, x, u);
-        case Way::cone: {
-            Vec3 to_centre = way.e.p0 - x;
-            Vec3 w = sample_cone(way.sin2, u);
-            float d = length(to_centre), sin2 = std::max(0.0f, 1 - w.z * w.z);
-            float t = d * w.z - std::sqrt(std::max(0.0f, way.e.r * way.e.r - d * d * sin2));
-            Vec3 n = normalize(x + t * Frame(to_centre / d).to_world(w) - way.e.p0);
-            return {way.e.p0 + way.e.r * n, n, way.e.eps, pdf_cone(way.sin2)};
-        }
         case Way::two: return sample_two(way.e, way.seen[0], way.seen[1], x, u);
         case Way::square: {
             LightPoint y = sample_two(way.e, way.seen[0], way.seen[1], x, u);
@@ -241,11 +234,11 @@ LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Ve
 
 float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y) {
     const LightShape& shape = scene.light_shapes[light];
+    if (float sin2 = light_shape_details::sin2_of_cone(shape, x); sin2 < 1) return pdf_cone(sin2);
     uint32_t index = shape.parallelogram ? 0 : y.prim - scene.lights[light].first_prim;
     Plan way = plan(scene, light, x, index);
     switch (way.way) {
         case Way::area: return area_to_solid_angle(1 / shape.area, x, y.p, y.ng);
-        case Way::cone: return pdf_cone(way.sin2);
         case Way::two:
         case Way::square: return 1 / (way.seen[0].omega + way.seen[1].omega);
         case Way::one: return area_of(way.e) / shape.area / way.seen[0].omega;

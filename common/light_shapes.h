@@ -52,7 +52,16 @@ inline LightPoint sample_far(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
     y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
     return y;
 }
-/// By solid angle, from a light that is near or a sphere.
+/// sin^2 of the half angle under which x sees a sphere; 1 for all that cannot be drawn so.
+inline float sin2_of_cone(const LightShape& shape, Vec3 x) {
+    const Emitter& e = shape.first;
+    bool one_sphere = e.kind == Emitter::sphere && !e.inward && shape.area_up_to.empty();
+    float sin2 = one_sphere ? e.r * e.r / length_squared(x - e.p0) : 1;
+    return sin2 < 0.9999f ? sin2 : 1;
+}
+/// The point of the sphere that x sees in a direction of its cone.
+LightPoint sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u);
+/// By solid angle, from any other light that is near.
 LightPoint sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u);
 
 }  // namespace light_shape_details
@@ -67,7 +76,8 @@ inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
 inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
     using namespace light_shape_details;
     const LightShape& shape = scene.light_shapes[light];
-    if (shape.first.kind == Emitter::sphere || is_near(shape, x))
-        return sample_near(scene, light, x, u);
+    float sin2 = sin2_of_cone(shape, x);
+    if (sin2 < 1) return sample_sphere(shape.first, x, sin2, u);
+    if (is_near(shape, x)) return sample_near(scene, light, x, u);
     return sample_far(scene, light, x, u);
 }

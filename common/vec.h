@@ -80,7 +80,7 @@ inline Rgb& operator/=(Rgb& a, float s) { return a = a / s; }
 inline bool operator==(Rgb a, Rgb b) { return a.r == b.r && a.g == b.g && a.b == b.b; }
 
 inline float max_component(Rgb a) { return std::max({a.r, a.g, a.b}); }
-inline float average(Rgb a) { return (a.r + a.g + a.b) / 3; }
+inline float average(Rgb a) { return (a.r + a.g + a.b) * (1.0f / 3); }
 inline bool is_black(Rgb a) { return a.r == 0 && a.g == 0 && a.b == 0; }
 inline bool is_finite(Rgb a) {
     return std::isfinite(a.r) && std::isfinite(a.g) && std::isfinite(a.b);
