@@ -41,9 +41,7 @@ $(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $(made)
 	$<
 #: make diff CH=07   what a chapter changes of the one before
 diff:
-	@new=$$(ls -d chapters/$(CH)_*) || { echo 'usage: make diff CH=07' >&2; exit 2; }; \
-	 old=$$(ls -d chapters/[0-9]* | grep -B1 -x "$$new" | head -1); \
-	 git --no-pager diff --no-index --color=auto $$old/estimator.h $$new/estimator.h; true
+	@common/tools/chapter_diff '$(CH)' --color=auto
 
 #: make programs     build the programs, and run nothing
 programs: $(chapters:%=$(BUILD)/%) $(tools:%=$(BUILD)/%) $(made)
