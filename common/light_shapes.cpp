@@ -183,7 +183,7 @@ void prepare_light_shapes(Scene& scene) {
         shape.centre = 0.5f * (low + high);
         shape.radius = length(high - low) / 2;
         bool triangles = light.first_prim + light.prims <= scene.geometry.triangles.size();
-        if (light.prims == 2 && triangles && area > 0)
+        if (light.prims == 2 && triangles && shape.area > 0)
             find_parallelogram(scene.geometry, light, shape);
         bool one = light.prims == 1 && shape.first.kind != Emitter::sphere;
         shape.flat = one || shape.parallelogram;
