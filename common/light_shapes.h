@@ -74,10 +74,10 @@ inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
 }
 
 inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
-    using namespace light_shape_details;
+    namespace details = light_shape_details;
     const LightShape& shape = scene.light_shapes[light];
-    float sin2 = sin2_of_cone(shape, x);
-    if (sin2 < 1) return sample_sphere(shape.first, x, sin2, u);
-    if (is_near(shape, x)) return sample_near(scene, light, x, u);
-    return sample_far(scene, light, x, u);
+    float sin2 = details::sin2_of_cone(shape, x);
+    if (sin2 < 1) return details::sample_sphere(shape.first, x, sin2, u);
+    if (details::is_near(shape, x)) return details::sample_near(scene, light, x, u);
+    return details::sample_far(scene, light, x, u);
 }
