@@ -1,55 +1,33 @@
-// Choosing among candidate lights by what they could give (chapter 11).
+// Choosing among candidate lights by what they could give: chapter 11, with all candidates at once.
 #pragma once
 #include "common/light_table.h"
 
-/// p_hat: what light i could send by way of x if nothing were in between, from its centre alone.
-///
-///   area:  p_hat = L A cos_x cos_y / d^2,  with each cosine as large as any point of the light may
-///          have it (it lies within `spread` radians of the centre), and d at least its radius
-///
-/// 0 only where the light surely gives nothing.      [W m^-2]
-inline float potential(const Scene& scene, size_t i, const Hit& x) {
-    const Light& light = scene.lights[i];
-    float L = average(light.L);
-    if (light.type == LightType::infinite) return pi * L;
-    if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
-    const LightShape& shape = scene.light_shapes[i];
-    bool area = light.type == LightType::area;
-    Vec3 to_y = (area ? shape.centre : light.p) - x.p;
-    float d2 = std::max(dot(to_y, to_y), 1e-30f), inv_d = 1 / std::sqrt(d2);
-    float spread = area ? shape.radius * inv_d : 0, more = spread + spread * spread;
-    if (spread > 0.5f) return L * shape.area / std::max(d2, shape.radius * shape.radius);
-    float cos_x = std::min(1.0f, dot(to_y, x.n) * inv_d + more);
-    if (!(cos_x > 0)) return 0;
-    if (!area) return L * cos_x / d2;
-    float cos_y = 1;  // of a light that is flat
-    if (shape.flat) {
-        cos_y = -dot(to_y, shape.first.n) * inv_d;
-        cos_y = std::min(1.0f, (light.two_sided ? std::abs(cos_y) : cos_y) + more);
-    }
-    return cos_y > 0 ? L * shape.area * cos_x * cos_y * inv_d * inv_d : 0;
-}
-
-/// The light kept among the candidates so far.
-struct Reservoir {
-    size_t light = 0;
-    float p_hat = 0;       // of that light
-    float weight_sum = 0;  // of all candidates
-
-    /// Takes the candidate with probability weight / weight_sum.
-    ///
-    /// u in [0,1) decides, and is made uniform again for the next candidate.
-    void offer(size_t candidate, float p_hat_candidate, float weight, float& u) {
-        if (!(weight > 0)) return;
-        weight_sum += weight;
-        float share = weight / weight_sum;
-        bool taken = u < share;
-        light = taken ? candidate : light;
-        p_hat = taken ? p_hat_candidate : p_hat;
-        u = (taken ? u : u - share) / (taken ? share : 1 - share);
-    }
-    /// W: what the kept light counts for all others, in place of 1 / probability.
-    float W(int candidates) const {
-        return p_hat > 0 ? weight_sum / (static_cast<float>(candidates) * p_hat) : 0;
-    }
+/// Candidates for one shadow ray, each with its potential at a point.
+struct Candidates {
+    static constexpr int most = 1024;
+    int M;
+    std::array<int, most> light;
+    std::array<float, most> p_hat;   // W m^-2: the potential, as in chapter 11
+    std::array<float, most> weight;  // p_hat / pmf
 };
+
+/// The light that was kept among M candidates.
+struct Kept {
+    size_t light = 0;
+    float W = 0;  // what it counts for all others, in place of 1 / probability; 0: none gives light
+};
+
+/// Fills scene.light_bounds, from the lights and their table.
+void prepare_light_bounds(Scene& scene);
+
+/// Draws one candidate from each of M slices of the table; u in [0,1) is the place in each slice.
+///
+/// The same lights and potentials as chapter 11's, one after the other, but for rounding.
+/// tested by  "identity: candidates all at once are those of chapter 11"
+Candidates draw_candidates(const Scene& scene, const Hit& x, int M, float u);
+
+/// Keeps each candidate with probability weight / weight_sum.      W = weight_sum / (M p_hat)
+///
+/// u in [0,1) decides. The same chances as a reservoir's, but no candidate waits for another.
+/// tested by  "identity: each candidate is kept for its share of u"
+Kept keep_one(const Candidates& candidates, float u);

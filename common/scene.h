@@ -69,6 +69,18 @@ struct AliasColumn {
     float pmf;       // of the light of the same number, over the whole table
 };
 
+/// A light of any type as its potential sees it, in one form (light_resampling.h fills this in).
+struct LightBounds {
+    Vec3 centre;          // m, of a sphere around it; unit, towards a light without a place
+    float has_place = 1;  // 0: distant and infinite lights
+    Vec3 n;               // unit, of a flat light; else 0
+    float back = 1;       // -1: a flat light that shines to both sides
+    float radius = 0;     // m
+    float least_cos = 1;  // of cos_y: 0 for a flat light
+    float power = 0;      // L A or what corresponds to it
+    float inv_pmf = 0;    // 1 / its probability in the alias table
+};
+
 /// What one Shape directive gives all its primitives.
 struct Shape {
     uint32_t material = 0;  // into Scene::materials
@@ -90,11 +102,12 @@ struct Scene {
     std::vector<Shape> shapes;
     std::vector<Material> materials;
     std::vector<Light> lights;
-    std::vector<LightShape> light_shapes;  // one for each light
-    std::vector<AliasColumn> light_table;  // one for each light; from chapter 10 on
-    float radius = 0;                      // m, of a sphere around all primitives
-    int sky_light = -1;                    // the infinite light among them; -1: none
-    Rgb sky;                               // what all infinite lights send from any direction
+    std::vector<LightShape> light_shapes;   // one for each light
+    std::vector<AliasColumn> light_table;   // one for each light; from chapter 10 on
+    std::vector<LightBounds> light_bounds;  // one for each light; from chapter 12 on
+    float radius = 0;                       // m, of a sphere around all primitives
+    int sky_light = -1;                     // the infinite light among them; -1: none
+    Rgb sky;                                // what all infinite lights send from any direction
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel

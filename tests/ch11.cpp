@@ -6,6 +6,7 @@
 
 #include "chapters/10_light_importance/estimator.h"
 #include "chapters/11_ris/estimator.h"
+#include "common/light_resampling.h"
 #include "common/parallel.h"
 #include "tests/estimators.h"
 
@@ -105,9 +106,9 @@ RunningStats resampled_square(int M, int samples) {
 }
 
 /// Draws M candidates while it lives.
-struct Candidates {
-    explicit Candidates(int M) { ch11::M = M; }
-    ~Candidates() { ch11::M = 16; }
+struct With {
+    explicit With(int M) { ch11::M = M; }
+    ~With() { ch11::M = 16; }
 };
 
 Scene prepared(Scene scene) {
@@ -167,11 +168,81 @@ struct Ring {
 }  // namespace
 
 TEST_SUITE("ch11 reservoir") {
-    TEST_CASE("identity: what common/ keeps of the chapter is what it teaches") {
-        for (const char* first : {"inline float potential", "struct Reservoir"}) {
-            CHECK(definition("chapters/11_ris/estimator.h", first) ==
-                  definition("common/light_resampling.h", first));
+    TEST_CASE("identity: candidates all at once are those of chapter 11") {
+        const std::string all_kinds =
+            square(0, false) + "LightSource \"point\" \"point3 from\" [1 2 0]" +
+            "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
+            "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
+            "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
+            "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
+            square(0, false);
+        for (Scene scene :
+             {world_of(all_kinds), scene_from("scenes/thousand-lights.pbrt", 16, 1)}) {
+            ch11::prepare(scene);
+            prepare_light_bounds(scene);
+            Sampler random = random_numbers(1);
+            int gave = 0;
+            for (int k = 0; k < 2000; k++) {
+                Hit x{};
+                x.p = scene.radius * random.u1() * uniform_direction(random.u2());
+                x.n = x.ng = uniform_direction(random.u2());
+                int M = 1 + k % 70;
+                float u = random.u1();
+                Candidates c = draw_candidates(scene, x, M, u);
+                REQUIRE(c.M == M);
+                for (int i = 0; i < M; i++) {
+                    size_t light = static_cast<size_t>(c.light[i]);
+                    float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
+                    REQUIRE(light == pick_light(scene, slice));
+                    float p_hat = ch11::potential(scene, light, x);
+                    REQUIRE(std::abs(c.p_hat[i] - p_hat) <= 1e-5f * p_hat);
+                    float weight = p_hat / pmf_light(scene, light);
+                    REQUIRE(std::abs(c.weight[i] - weight) <= 1e-5f * weight);
+                    if (p_hat > 0) gave++;
+                }
+            }
+            CHECK(gave > 20000);
         }
+    }
+
+    TEST_CASE("identity: each candidate is kept for its share of u") {
+        Sampler random = random_numbers(1);
+        for (int M : {1, 2, 7, 16, 100, Candidates::most}) {
+            CAPTURE(M);
+            Candidates c{};
+            c.M = M;
+            double sum = 0;
+            for (int i = 0; i < M; i++) {
+                c.light[i] = 3 * i;
+                c.p_hat[i] = i % 3 == 1 ? 0 : random.u1() + 0.1f;
+                c.weight[i] = c.p_hat[i] * (1 + 9 * random.u1());
+                sum += static_cast<double>(c.weight[i]);
+            }
+            constexpr int steps = 1 << 16;
+            std::vector<int> count(static_cast<size_t>(M));
+            for (int k = 0; k < steps; k++) {
+                Kept kept = keep_one(c, (static_cast<float>(k) + 0.5f) / steps);
+                int i = static_cast<int>(kept.light) / 3;
+                REQUIRE(kept.W ==
+                        doctest::Approx(sum / M / double{c.p_hat[i]}).epsilon(1e-5).scale(0));
+                count[static_cast<size_t>(i)]++;
+            }
+            for (int i = 0; i < M; i++) {
+                double share = static_cast<double>(c.weight[i]) / sum * steps;
+                CHECK(std::abs(count[static_cast<size_t>(i)] - share) < (share > 0 ? 2 : 0.5));
+            }
+        }
+    }
+
+    TEST_CASE("failure: no candidate gives light, or too little for float: none is kept") {
+        Candidates c{};
+        c.M = 16;
+        CHECK(keep_one(c, 0.5f).W == 0);
+        c.weight[7] = c.p_hat[7] = 1e-42f;
+        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) CHECK(keep_one(c, u).W == 0);
+        c.weight[7] = c.p_hat[7] = 1e-37f;
+        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f})
+            CHECK(keep_one(c, u).W == doctest::Approx(1 / 16.0).epsilon(1e-5).scale(0));
     }
 
     TEST_CASE("truth: RIS on four lights, all tuples") {
@@ -288,7 +359,7 @@ TEST_SUITE("ch11 ris") {
         CHECK(std::count(ring.given.begin(), ring.given.end(), 0.0) >= 1);
         for (int M : {1, 2, 3, 8, 16, 100}) {
             CAPTURE(M);
-            Candidates draw(M);
+            With candidates(M);
             check_bounded(irradiance(ring.scene, ch11::trace, 40000), ring.E, 0.015);
         }
     }
@@ -304,14 +375,14 @@ TEST_SUITE("ch11 ris") {
         double fourth = ring.moment(ring.pmf, 4) - 4 * ring.E * ring.moment(ring.pmf, 3) +
                         6 * E2 * ring.moment(ring.pmf, 2) - 3 * E2 * E2;
         {
-            Candidates draw(1);
+            With candidates(1);
             check_variance(irradiance(ring.scene, ch11::trace, 60000), Var_p,
                            fourth / (Var_p * Var_p));
         }
         // The candidates of the chapter come from M slices of the table: that is only better.
         for (int M : {2, 4, 16}) {
             CAPTURE(M);
-            Candidates draw(M);
+            With candidates(M);
             double variance = irradiance(ring.scene, ch11::trace, 60000).variance();
             CHECK(variance < 1.03 * (Var_p / M + (1 - 1.0 / M) * Var_q));
             CHECK(variance > 0.5 * Var_q);

@@ -13,7 +13,7 @@ namespace {
 
 /// Renders with these settings while it lives.
 struct With {
-    explicit With(Strategy strategy, Heuristic heuristic = Heuristic::power, int M = 16) {
+    explicit With(Strategy strategy, Heuristic heuristic = Heuristic::power, int M = 64) {
         ch12::settings = {strategy, heuristic, M};
     }
     ~With() { ch12::settings = {}; }

@@ -48,7 +48,7 @@ inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
 /// f and density of a rough conductor on wo's side, both in sr^-1; wi turns by twice h's angle:
 ///
 ///   f = D(h) F(wo.h) G(wo, wi) / (4 cos_o cos_i),  h = (wo + wi) / |wo + wi|;  pdf(h) / (4 wo.h)
-[[gnu::noinline]] inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
+inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), i = frame.to_local(wi), h = normalize(o + i);
     float alpha = x.material->alpha;
@@ -56,7 +56,7 @@ inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
     Rgb F = fresnel_conductor(dot(o, h), x.material->eta, x.material->k);
     return F * (ggx_D(h, alpha) * G / (4 * o.z * i.z));
 }
-[[gnu::noinline]] inline float pdf_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
+inline float pdf_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), h = normalize(o + frame.to_local(wi));
     float cos_oh = dot(o, h);
@@ -124,11 +124,14 @@ enum class Heuristic : uint8_t { balance, power };
 struct Settings {
     Strategy strategy = Strategy::mis;
     Heuristic heuristic = Heuristic::power;
-    int M = 16;  // light candidates for one shadow ray, but no more than there are lights
+    int M = 64;  // light candidates for one shadow ray, but no more than there are lights
 };
 inline Settings settings;
 
-inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0)); }
+inline void prepare(Scene& scene) {
+    scene.light_table = build_alias_table(light_pmf(scene, 0));
+    prepare_light_bounds(scene);
+}
 
 /// The ways of looking for light, each with its number of samples times its density, in sr^-1.
 struct Densities {
@@ -187,19 +190,16 @@ inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo)
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
 /// inside: candidates of which the BSDF takes care are not chosen.
-inline Reservoir resample_lights(const Scene& scene, const Hit& x, Vec3 wo, int M,
-                                 Sampler& sampler) {
-    Reservoir kept;
-    bool rough = x.material->type == MaterialType::conductor;
-    float u = sampler.u1(), u1 = sampler.u1();
-    for (int i = 0; i < M; i++) {
-        float slice = (static_cast<float>(i) + u1) / static_cast<float>(M);
-        size_t light = pick_light(scene, slice);
-        float p_hat = potential(scene, light, x);
-        if (rough && p_hat > 0) p_hat *= lobe_share(scene, light, x, wo);
-        kept.offer(light, p_hat, p_hat / pmf_light(scene, light), u);
+inline Kept resample_lights(const Scene& scene, const Hit& x, Vec3 wo, int M, Sampler& sampler) {
+    Candidates c = draw_candidates(scene, x, M, sampler.u1());
+    if (x.material->type == MaterialType::conductor) {
+        for (int i = 0; i < M; i++) {
+            if (c.p_hat[i] == 0) continue;
+            float share = lobe_share(scene, static_cast<size_t>(c.light[i]), x, wo);
+            c.p_hat[i] *= share, c.weight[i] *= share;
+        }
     }
-    return kept;
+    return keep_one(c, sampler.u1());
 }
 
 /// What either side counts at a vertex: in one-sample MIS a coin lets one look, which counts twice.
@@ -224,9 +224,9 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& samp
         return light_from(scene, x, wo, 0, sampler.u2(), 1, &Densities::resampled, beta, log);
     }
     int M = std::min(settings.M, static_cast<int>(N));
-    Reservoir kept = resample_lights(scene, x, wo, M, sampler);
-    Rgb L = light_from(scene, x, wo, kept.light, sampler.u2(), kept.W(M), &Densities::resampled,
-                       beta, log);
+    Kept kept = resample_lights(scene, x, wo, M, sampler);
+    Rgb L = light_from(scene, x, wo, kept.light, sampler.u2(), kept.W, &Densities::resampled, beta,
+                       log);
     float count = static_cast<float>(N);
     size_t any = std::min(static_cast<size_t>(sampler.u1() * count), N - 1);
     return L + light_from(scene, x, wo, any, sampler.u2(), count, &Densities::uniform, beta, log);

@@ -16,9 +16,9 @@ int main(int argc, char** argv) {
                  settings.heuristic =
                      static_cast<Heuristic>(parse_choice("heuristic", text, {"balance", "power"}));
              }},
-            {"m", "M", "light candidates, at most one per light (default 16)",
+            {"m", "M", "light candidates, at most one per light (default 64)",
              [](const std::string& text) {
-                 settings.M = static_cast<int>(parse_integer("m", text, 1, 1024));
+                 settings.M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
              }},
         };
         RenderOptions options =

@@ -38,15 +38,23 @@ void run(std::vector<Contender>& contenders, const MeasureOptions& o) {
         }
     }
 
-    // Hold all of them against the mean of the quietest.
-    Image best;
+    // Hold all of them against the mean of the quiet ones together: a pixel that is bright in few
+    // renders may be dark in all those of the quietest.
     double least = INFINITY;
     for (Contender& c : contenders) {
-        Image mean = c.spread.mean();
-        double own = c.spread.rel_mse(mean);
-        if (own < least) least = own, best = mean;
+        c.rel_mse = c.spread.rel_mse(c.spread.mean());
+        least = std::min(least, c.rel_mse);
     }
-    for (Contender& c : contenders) c.rel_mse = c.spread.rel_mse(best);
+    Image mean(contenders[0].scene.width, contenders[0].scene.height);
+    float quiet = 0;
+    for (const Contender& c : contenders) {
+        if (c.rel_mse > 10 * least) continue;
+        Image own = c.spread.mean();
+        for (size_t i = 0; i < mean.pixels.size(); i++) mean.pixels[i] += own.pixels[i];
+        quiet++;
+    }
+    for (Rgb& p : mean.pixels) p /= quiet;
+    for (Contender& c : contenders) c.rel_mse = c.spread.rel_mse(mean);
 }
 
 /// Gives each as many samples as it makes in the time of the first.

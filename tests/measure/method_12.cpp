@@ -62,7 +62,7 @@ static Method depth_cap() {
     add_method(bsdf_alone()),
     add_method(
         method("12-light", "12 light sampling alone", "#9467bd", {.strategy = Strategy::light})),
-    add_method(method("12-m8", "12 MIS in RIS, M = 8", "#7f0000", {.M = 8})),
+    add_method(method("12-m16", "12 MIS, M = 16", "#7f0000", {.M = 16})),
     add_method(with_sobol()),
     add_method(clamp()),
     add_method(depth_cap()),

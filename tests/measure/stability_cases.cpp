@@ -184,7 +184,7 @@ StabilityCase two_points(bool hidden) {
              {{"11-m2"}, {variance_of(ris(2), hidden)}},
              {{"11"}, {variance_of(ris(16), hidden)}},
              {{"11-m32"}, {variance_of(ris(32), hidden)}},
-             {{"12", "12-m8"}, {variance_of(two_opinions(other, near, 2))}}},
+             {{"12", "12-m16"}, {variance_of(two_opinions(other, near, 2))}}},
             {"06", "07", "12-bsdf"}};
 }
 
