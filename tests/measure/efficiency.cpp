@@ -38,23 +38,16 @@ void run(std::vector<Contender>& contenders, const MeasureOptions& o) {
         }
     }
 
-    // Hold all of them against the mean of the quiet ones together: a pixel that is bright in few
-    // renders may be dark in all those of the quietest.
-    double least = INFINITY;
-    for (Contender& c : contenders) {
-        c.rel_mse = c.spread.rel_mse(c.spread.mean());
-        least = std::min(least, c.rel_mse);
-    }
-    Image mean(contenders[0].scene.width, contenders[0].scene.height);
-    float quiet = 0;
-    for (const Contender& c : contenders) {
-        if (c.rel_mse > 10 * least) continue;
-        Image own = c.spread.mean();
-        for (size_t i = 0; i < mean.pixels.size(); i++) mean.pixels[i] += own.pixels[i];
-        quiet++;
-    }
-    for (Rgb& p : mean.pixels) p /= quiet;
-    for (Contender& c : contenders) c.rel_mse = c.spread.rel_mse(mean);
+    // Hold all of them against one long render of the quietest: the means of so few renders as
+    // these miss pixels that are bright in one of them only.
+    auto noise = [](const Contender& c) { return c.spread.rel_mse(c.spread.mean()); };
+    Contender& best =
+        *std::min_element(contenders.begin(), contenders.end(),
+                          [&](const auto& a, const auto& b) { return noise(a) < noise(b); });
+    Image truth =
+        render_once(*best.method, best.scene, o, 8 * best.spp, static_cast<uint32_t>(o.runs))
+            .film.image();
+    for (Contender& c : contenders) c.rel_mse = c.spread.rel_mse(truth);
 }
 
 /// Gives each as many samples as it makes in the time of the first.
