@@ -70,7 +70,7 @@ Candidates draw_candidates(const Scene& scene, const Hit& x, int M, float u) {
 }
 
 Kept keep_one(const Candidates& c, float u) {
-    std::array<float, Candidates::most> up_to;
+    float up_to[Candidates::most];
     float weight_sum = 0;
     for (int i = 0; i < c.M; i++) up_to[i] = weight_sum += c.weight[i];
     if (!(weight_sum >= std::numeric_limits<float>::min())) return {};

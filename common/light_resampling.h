@@ -6,9 +6,9 @@
 struct Candidates {
     static constexpr int most = 1024;
     int M;
-    std::array<int, most> light;
-    std::array<float, most> p_hat;   // W m^-2: the potential, as in chapter 11
-    std::array<float, most> weight;  // p_hat / pmf
+    int light[most];
+    float p_hat[most];   // W m^-2: the potential, as in chapter 11
+    float weight[most];  // p_hat / pmf
 };
 
 /// The light that was kept among M candidates.
