@@ -31,7 +31,8 @@ inline float potential(const LightBounds& y, const Hit& x) {
     float d2 = std::max(dot(to_y, to_y), 1e-30f), inv_d = 1 / std::sqrt(d2);
     float spread = y.radius * inv_d, more = spread + spread * spread;
     more = spread > 0.5f ? 2 : more;  // so near that its points may lie anywhere
-    float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d, least = y.least_cos;
+    float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d;
+    float least = y.least_cos;  // a copy: std::max of y's own number would be a branch
     cos_x = std::min(std::max(cos_x + more, 0.0f), 1.0f);
     cos_y = std::min(std::max(std::max(cos_y, y.back * cos_y) + more, least), 1.0f);
     return y.power * cos_x * cos_y / std::max(d2, y.radius * y.radius);
