@@ -51,15 +51,9 @@ void prepare_light_bounds(Scene& scene) {
 Candidates draw_candidates(const Scene& scene, const Hit& x, int M, float u) {
     Candidates c;
     c.M = M;
-    const AliasColumn* table = scene.light_table.data();
-    int N = static_cast<int>(scene.light_table.size());
     for (int i = 0; i < M; i++) {
         float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
-        float at = slice * static_cast<float>(N);
-        int column = std::min(static_cast<int>(at), N - 1);
-        int other = static_cast<int>(table[column].other);
-        bool own = at - static_cast<float>(column) < table[column].own;
-        c.light[i] = own ? column : other;
+        c.light[i] = static_cast<int>(pick_light(scene, slice));
     }
     const LightBounds* bounds = scene.light_bounds.data();
     for (int i = 0; i < M; i++) {
@@ -78,6 +72,7 @@ Kept keep_one(const Candidates& c, float u) {
     float target = u * weight_sum;  // below weight_sum, as that is no subnormal
     int kept = 0;
     for (int i = 0; i < c.M; i++) kept += up_to[i] <= target ? 1 : 0;
+    kept = std::min(kept, c.M - 1);  // where weight_sum is infinite, and so is the sample
     return {static_cast<size_t>(c.light[kept]),
             weight_sum / (static_cast<float>(c.M) * c.p_hat[kept])};
 }

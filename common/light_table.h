@@ -62,10 +62,12 @@ inline std::vector<AliasColumn> build_alias_table(const std::vector<double>& pmf
 /// Chooses a light in O(1): a column, and one of the two lights in it.
 inline size_t pick_light(const Scene& scene, float u) {
     const auto& table = scene.light_table;
-    float at = u * static_cast<float>(table.size());
-    size_t column = std::min(static_cast<size_t>(at), table.size() - 1);
-    bool own = at - static_cast<float>(column) < table[column].own;
-    return own ? column : table[column].other;
+    int N = static_cast<int>(table.size());
+    float at = u * static_cast<float>(N);
+    int column = std::min(static_cast<int>(at), N - 1);
+    auto [own, other, pmf] = table[static_cast<size_t>(column)];
+    bool is_own = at - static_cast<float>(column) < own;
+    return is_own ? static_cast<size_t>(column) : other;
 }
 inline float pmf_light(const Scene& scene, size_t light) { return scene.light_table[light].pmf; }
 

@@ -245,6 +245,17 @@ TEST_SUITE("ch11 reservoir") {
             CHECK(keep_one(c, u).W == doctest::Approx(1 / 16.0).epsilon(1e-5).scale(0));
     }
 
+    TEST_CASE("failure: weights beyond float: one of the candidates, and a sample that is seen") {
+        Candidates c{};
+        c.M = Candidates::most;
+        for (int i = 0; i < c.M; i++) c.light[i] = i, c.p_hat[i] = c.weight[i] = 1e38f;
+        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
+            Kept kept = keep_one(c, u);
+            CHECK(kept.light < Candidates::most);
+            CHECK(!std::isfinite(kept.W));
+        }
+    }
+
     TEST_CASE("truth: RIS on four lights, all tuples") {
         for (auto [M, variance] : {std::pair{size_t{1}, 553.5},
                                    {2, 289.75},
