@@ -14,8 +14,8 @@ CXXFLAGS  := -std=c++20 $(OPT) -ffp-contract=off -pthread -I. -Wall -Wextra -Wsh
 chapters  := $(notdir $(wildcard chapters/[0-9]*))
 numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
-common    := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard common/*.cpp))
-tests     := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/*.cpp))
+common    := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out common/tools/%,$(wildcard common/*/*.cpp)))
+tests     := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out tests/measure/% tests/fuzz/%,$(wildcard tests/*/*.cpp)))
 made      := scenes/knot.ply scenes/thousand-lights.pbrt
 
 .PHONY: all programs test test-slow pictures readmes book diff help clean always $(numbers)

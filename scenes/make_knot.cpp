@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <string>
 
-#include "common/error.h"
-#include "common/files.h"
-#include "common/options.h"
-#include "common/vec.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/vec.h"
+#include "common/program/options.h"
 
 namespace {
 

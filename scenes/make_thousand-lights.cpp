@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <string>
 
-#include "common/error.h"
-#include "common/files.h"
-#include "common/options.h"
-#include "common/sampler.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/path/sampler.h"
+#include "common/program/options.h"
 
 namespace {
 

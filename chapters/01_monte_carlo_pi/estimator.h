@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "common/plot.h"
-#include "common/sampler.h"
-#include "common/table.h"
+#include "common/path/sampler.h"
+#include "common/picture/plot.h"
+#include "common/program/table.h"
 
 namespace ch01 {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "common/plot.h"
-#include "common/sampler.h"
-#include "common/stats.h"
-#include "common/table.h"
+#include "common/base/stats.h"
+#include "common/path/sampler.h"
+#include "common/picture/plot.h"
+#include "common/program/table.h"
 
 namespace ch02 {
 

@@ -6,9 +6,9 @@
 #include <bit>
 #include <optional>
 
-#include "common/metal.h"
-#include "common/path_log.h"
-#include "common/sampler.h"
+#include "common/material/metal.h"
+#include "common/path/path_log.h"
+#include "common/path/sampler.h"
 
 namespace ch04 {
 

@@ -1,6 +1,6 @@
 // Chapter 04 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/04_ray_casting/estimator.h"
-#include "common/render.h"
+#include "common/program/render.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

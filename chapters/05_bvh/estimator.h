@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "common/scene.h"
-#include "common/shapes.h"
+#include "common/geometry/shapes.h"
+#include "common/scene/scene.h"
 
 namespace ch05 {
 

@@ -1,7 +1,7 @@
 #include "chapters/05_bvh/estimator.h"
-#include "common/heat_map.h"
-#include "common/render.h"
-#include "common/table.h"
+#include "common/picture/heat_map.h"
+#include "common/program/render.h"
+#include "common/program/table.h"
 
 static std::vector<std::string> measure(const Scene& scene, const std::string& name, size_t step) {
     Stopwatch watch;

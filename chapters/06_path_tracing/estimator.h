@@ -3,10 +3,10 @@
 //   Lo(x, wo) = Le(x, wo) + integral f(x, wo, wi) Li(x, wi) cos(wi) dwi
 //             ~ Le(x, wo) + f(x, wo, wi) Li(x, wi) cos(wi) / pdf_w(wi)      one wi, drawn by pdf_w
 #pragma once
-#include "common/metal.h"
-#include "common/optics.h"
-#include "common/path_log.h"
-#include "common/sampler.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/sampler.h"
 
 namespace ch06 {
 

@@ -3,11 +3,11 @@
 //   E[q (X / q) + (1 - q) 0] = E[X]      for any survival probability q in (0,1]
 //   its variance:  Var[X] / q + E[X]^2 (1 - q) / q
 #pragma once
-#include "common/bsdf.h"
-#include "common/metal.h"
-#include "common/optics.h"
-#include "common/path_log.h"
-#include "common/sampler.h"
+#include "common/material/bsdf.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/sampler.h"
 
 namespace ch07 {
 

@@ -3,13 +3,13 @@
 //   Ld = f Le V cos_x cos_y / d^2 / (pmf pdf_A)      one light out of N, and a point y on it
 //      = f Le V cos_x / pdf_w,    pdf_w = pmf pdf_A d^2 / cos_y
 #pragma once
-#include "common/bsdf.h"
-#include "common/light_shapes.h"
-#include "common/metal.h"
-#include "common/optics.h"
-#include "common/path_log.h"
-#include "common/roulette.h"
-#include "common/sampler.h"
+#include "common/light/light_shapes.h"
+#include "common/material/bsdf.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
 
 namespace ch08 {
 

@@ -2,13 +2,13 @@
 //
 //   f cos / pdf_w = (albedo / pi) cos / (cos / pi) = albedo
 #pragma once
-#include "common/bsdf.h"
-#include "common/light_shapes.h"
-#include "common/metal.h"
-#include "common/optics.h"
-#include "common/path_log.h"
-#include "common/roulette.h"
-#include "common/sampler.h"
+#include "common/light/light_shapes.h"
+#include "common/material/bsdf.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
 
 namespace ch09 {
 

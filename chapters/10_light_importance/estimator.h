@@ -3,13 +3,13 @@
 //
 //   pmf_i = (1 - d) power_i / sum power + d / N      a share d for all alike: no light has pmf 0
 #pragma once
-#include "common/bsdf.h"
-#include "common/lights.h"
-#include "common/metal.h"
-#include "common/optics.h"
-#include "common/path_log.h"
-#include "common/roulette.h"
-#include "common/sampler.h"
+#include "common/light/lights.h"
+#include "common/material/bsdf.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
 
 namespace ch10 {
 

@@ -3,13 +3,13 @@
 //   w_i = p_hat(y_i) / p(y_i);   keep y = y_i with probability w_i / weight_sum;
 //   Ld = f Le V cos W,   W = weight_sum / (M p_hat(y))
 #pragma once
-#include "common/bsdf.h"
-#include "common/light_table.h"
-#include "common/metal.h"
-#include "common/optics.h"
-#include "common/path_log.h"
-#include "common/roulette.h"
-#include "common/sampler.h"
+#include "common/light/light_table.h"
+#include "common/material/bsdf.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
 
 namespace ch11 {
 

@@ -3,13 +3,13 @@
 //
 //   L = mis_l f Le V cos / pdf_l + mis_b f Le cos / pdf_b,    mis_l + mis_b = 1 for every direction
 #pragma once
-#include "common/bsdf.h"
-#include "common/light_resampling.h"
-#include "common/metal.h"
-#include "common/optics.h"
-#include "common/path_log.h"
-#include "common/roulette.h"
-#include "common/sampler.h"
+#include "common/light/light_resampling.h"
+#include "common/material/bsdf.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
 
 namespace ch12 {
 

@@ -1,6 +1,6 @@
 // Chapter 12 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/12_mis/estimator.h"
-#include "common/render.h"
+#include "common/program/render.h"
 
 int main(int argc, char** argv) {
     using ch12::Heuristic, ch12::Strategy, ch12::settings;

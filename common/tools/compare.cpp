@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "common/command_line.h"
-#include "common/comparison.h"
-#include "common/error.h"
-#include "common/files.h"
-#include "common/stats_file.h"
-#include "common/table.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/picture/comparison.h"
+#include "common/picture/stats_file.h"
+#include "common/program/command_line.h"
+#include "common/program/table.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
 // merge OUT IN...: averages renders of one scene with different seeds by their sample counts.
 #include <cstdio>
 
-#include "common/command_line.h"
-#include "common/error.h"
-#include "common/files.h"
-#include "common/merging.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/picture/merging.h"
+#include "common/program/command_line.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "common/error.h"
-#include "common/files.h"
-#include "common/pbrt_reader.h"
-#include "common/ply.h"
-#include "common/sampler.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/path/sampler.h"
+#include "common/scene_file/ply.h"
+#include "common/scene_file/reader.h"
 
 /// Draws whole numbers; the same ones for the same seed.
 class Dice {
@@ -133,7 +133,7 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
         corpus.emplace_back(folder + name, read_file(folder + name));
     }
     for (const char* name : {"furnace", "veach-mis", "tiny-close-light"}) {
-        std::string path = "tests/references/" + std::string(name) + ".pbrt";
+        std::string path = "tests/pictures/references/" + std::string(name) + ".pbrt";
         corpus.emplace_back(path, read_file(path));
     }
 

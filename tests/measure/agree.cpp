@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <map>
 
-#include "common/error.h"
+#include "common/base/error.h"
 #include "tests/measure/agreement.h"
 #include "tests/measure/gnuplot.h"
 #include "tests/measure/measure.h"

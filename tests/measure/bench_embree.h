@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "common/geometry.h"
+#include "common/geometry/geometry.h"
 
 #if __has_include(<embree3/rtcore.h>)
 #include <embree3/rtcore.h>

@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "common/bvh.h"
-#include "tests/meshes.h"
+#include "common/geometry/bvh.h"
+#include "tests/support/meshes.h"
 
 /// A mesh, where it is seen from, and the middle of a cube of lights.
 struct BenchMesh {

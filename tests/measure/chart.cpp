@@ -1,7 +1,7 @@
 // Error against time for every method and scene: charts, pictures in equal time, and a table.
 #include <cstdio>
 
-#include "common/error.h"
+#include "common/base/error.h"
 #include "tests/measure/curves.h"
 #include "tests/measure/points.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/comparison.h"
+#include "common/picture/comparison.h"
 #include "tests/measure/gnuplot.h"
 
 double root_mean_square(const std::vector<double>& values) {

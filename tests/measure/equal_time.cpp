@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "common/comparison.h"
+#include "common/picture/comparison.h"
 #include "tests/measure/curves.h"
 #include "tests/measure/gnuplot.h"
 

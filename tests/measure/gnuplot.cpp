@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/error.h"
-#include "common/files.h"
-#include "common/table.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/program/table.h"
 
 namespace {
 

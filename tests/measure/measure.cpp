@@ -6,9 +6,9 @@
 #include <sstream>
 #include <thread>
 
-#include "common/error.h"
-#include "common/files.h"
-#include "common/pbrt_reader.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/scene_file/reader.h"
 
 namespace {
 

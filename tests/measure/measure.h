@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
-#include "common/table.h"
+#include "common/program/command_line.h"
+#include "common/program/table.h"
 #include "tests/measure/methods.h"
 #include "tests/measure/spread.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "common/error.h"
-#include "common/nearest.h"
+#include "common/base/error.h"
+#include "common/base/nearest.h"
 
 namespace {
 
@@ -73,7 +73,7 @@ std::optional<Scene> prepared_for(const Method& method, const Scene& scene) {
 std::vector<std::string> own_scenes() { return scenes_in("scenes"); }
 
 std::vector<std::string> all_scenes() {
-    std::vector<std::string> scenes = own_scenes(), others = scenes_in("tests/references");
+    std::vector<std::string> scenes = own_scenes(), others = scenes_in("tests/pictures/references");
     scenes.insert(scenes.end(), others.begin(), others.end());
     return scenes;
 }

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "common/render.h"
+#include "common/program/render.h"
 
 struct Method {
     std::string name;                      // "08"; with an option of the chapter, "08-area"
@@ -47,7 +47,7 @@ std::vector<Method> methods_named(const std::vector<std::string>& names);
 /// A scene made ready for a method; nothing when the method cannot render it.
 std::optional<Scene> prepared_for(const Method& method, const Scene& scene);
 
-/// The scenes of scenes/, as paths; and those with the ones of tests/references/.
+/// The scenes of scenes/, as paths; and those with the ones of tests/pictures/references/.
 std::vector<std::string> own_scenes();
 std::vector<std::string> all_scenes();
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/error.h"
-#include "common/stats_file.h"
+#include "common/base/error.h"
+#include "common/picture/stats_file.h"
 
 std::string reference_path(const std::string& scene, const std::string& method) {
     return std::string(reference_folder) + "/" + file_name(scene) + "." + method;

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "common/image.h"
+#include "common/picture/image.h"
 #include "tests/measure/methods.h"
 
 /// The mean of a scene's references, of how little it is sure, and by which methods it was made.

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "common/error.h"
-#include "common/files.h"
-#include "common/merging.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/picture/merging.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/reference.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "common/image.h"
-#include "common/stats.h"
+#include "common/base/stats.h"
+#include "common/picture/image.h"
 
 inline double median(std::vector<double> values) {
     if (values.empty()) return std::nan("");

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <map>
 
-#include "common/error.h"
-#include "common/parallel.h"
-#include "common/pbrt_reader.h"
+#include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/scene_file/reader.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/stability_cases.h"
 

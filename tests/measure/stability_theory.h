@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "common/roulette.h"
+#include "common/path/roulette.h"
 
 /// A small part of what a surface sees: the cosine there, what one of its samples is worth (f cos
 /// Le, up to a factor), and its solid angle in sr.

@@ -1,0 +1,64 @@
+// Where something stands in an input file, and the error that says so.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/base/nearest.h"
+#include "common/base/utf8.h"
+
+/// A place in a text file; lines and columns count from 1, columns in characters.
+struct Position {
+    std::string file;
+    int line = 0, column = 0;
+};
+
+/// `text` made fit for one line of a terminal: what is no character to print becomes '?'.
+inline std::string printable(std::string text) {
+    for (size_t i = 0; i < text.size();) {
+        size_t length = utf8_length(text, i);
+        bool control = static_cast<unsigned char>(text[i]) < 0x20 || text[i] == 0x7f;
+        if (control || length == 0) text[i] = '?';
+        i += std::max(length, size_t{1});
+    }
+    return text;
+}
+
+/// A word of the input in quotes, cut off where it is too long to print.
+inline std::string quote(std::string_view word) {
+    constexpr size_t longest = 60;
+    if (word.size() <= longest) return '"' + std::string(word) + '"';
+    // Cut before a character, not inside one.
+    size_t end = longest;
+    while (end > 0 && (word[end] & 0xc0) == 0x80) end--;
+    return '"' + std::string(word.substr(0, end)) + "...\"";
+}
+
+/// "file:line:column: kind: text", the form in which compilers and editors know it.
+inline std::string message_at(const Position& at, const std::string& kind,
+                              const std::string& text) {
+    return printable(at.file + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) +
+                     ": " + kind + ": " + text);
+}
+
+/// Throws the InputError for something wrong at a place in a file.
+[[noreturn]] inline void fail(const Position& at, const std::string& text) {
+    throw InputError(message_at(at, "error", text));
+}
+
+/// Throws `unknown KIND "word"` with the nearest of the known words, or with all of a few.
+[[noreturn]] inline void fail_unknown(const Position& at, const std::string& kind,
+                                      const std::string& word,
+                                      const std::vector<std::string>& known) {
+    constexpr size_t few = 12;
+    std::string text = "unknown " + kind + ' ' + quote(word), nearest = nearest_word(word, known);
+    for (const std::string& name : known) {
+        if (nearest.empty() && name.starts_with(word) && !word.empty()) nearest = name;
+    }
+    if (!nearest.empty()) fail(at, text + ": did you mean " + quote(nearest) + '?');
+    if (known.empty() || known.size() > few) fail(at, text);
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    fail(at, text + " (known: " + list + ')');
+}

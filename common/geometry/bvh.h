@@ -1,0 +1,49 @@
+// The hierarchy of bounding boxes that finds what a ray hits (chapter 05).
+//
+// scene.h includes this header, and chapter 04 has intersect_triangle() and its like as its own
+// lesson: so this header must not include shapes.h; what needs it belongs into bvh.cpp.
+#pragma once
+#include "common/geometry/geometry.h"
+#include "common/geometry/pages.h"
+#include "common/geometry/simd.h"
+
+/// One node of the hierarchy: boxes side by side, and what is in each.
+struct alignas(64) BvhNode {
+    float plane[6][lanes];   // row 2 axis: lower ends, row 2 axis + 1: upper; lower > upper: unused
+    uint32_t child[lanes];   // index into Bvh::nodes, or leaf | index into Bvh::blocks
+    LaneOrder far_first[8];  // for each octant of directions: the children from far to near
+
+    static constexpr uint32_t leaf = 1u << 31;
+    static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
+    static constexpr uint32_t index = mixed - 1;
+    static constexpr uint32_t nothing = ~0u;  // an unused child
+};
+
+/// One leaf: primitives side by side. Lanes that hold no triangle have NaN for vertices.
+struct alignas(64) BvhBlock {
+    float vertex[9][lanes];  // row 3 k + axis: vertex k
+    uint32_t prim[lanes];    // PrimHit::none: unused
+};
+
+/// Nodes with as many children as one instruction tests, leaves of as many triangles.
+struct Bvh {
+    uint32_t root = 0;  // as BvhNode::child; a leaf: all blocks belong to it
+    std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
+    std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
+};
+
+/// What traversals looked at: nodes, and blocks of primitives.
+struct BvhCount {
+    uint64_t nodes = 0, blocks = 0;
+};
+
+/// The same hierarchy for any number of threads.
+Bvh build_bvh(const Geometry& geometry, int threads);
+
+/// The first primitive that the ray hits, as linear_scan() finds it, bit for bit: of two at the
+/// same t the one with the lower number.
+PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
+/// The same, and adds to `count`.
+PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);
+/// Whether the ray hits anything.
+bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);

@@ -1,0 +1,507 @@
+// Builds the hierarchy of bounding boxes (chapter 05): a tree of two children per node where the
+// surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
+#include <bit>
+
+#include "common/base/parallel.h"
+#include "common/geometry/bvh.h"
+
+namespace {
+
+constexpr int bins = 16;
+constexpr uint32_t small = lanes / 2;      // references that are not split any further
+constexpr uint32_t few = 2 * lanes;        // references for which boxes cost more than they save
+constexpr uint32_t worth_a_thread = 512;   // references of a subtree
+constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
+constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
+
+Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
+
+/// A box with its lower ends negated, so that both ends grow by a maximum.
+struct Box {
+    Float4 neg_lo = {-infinity, -infinity, -infinity};
+    Float4 hi = {-infinity, -infinity, -infinity};
+
+    void grow(const Box& b) {
+        neg_lo = max(neg_lo, b.neg_lo);
+        hi = max(hi, b.hi);
+    }
+    /// Half of its surface; 0 when it is empty.
+    float area() const {
+        Float4 e = neg_lo + hi;
+        return e[0] < 0 ? 0 : e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
+    }
+    /// Twice its centre.
+    Float4 center() const { return hi - neg_lo; }
+};
+
+/// The box of a primitive, with its number in the place of neg_lo[3].
+struct Ref {
+    Box box;
+
+    uint32_t prim() const { return std::bit_cast<uint32_t>(box.neg_lo[3]); }
+};
+using Refs = std::vector<Ref, PageAllocator<Ref>>;
+
+/// References begin .. end-1, the box around them, and the box around twice their centres.
+struct Range {
+    uint32_t begin = 0, end = 0;
+    Box box = {}, centers = {};
+
+    uint32_t size() const { return end - begin; }
+    void grow(const Box& b) {
+        box.grow(b);
+        centers.grow({-b.center(), b.center()});
+    }
+    void grow(const Range& other) {
+        box.grow(other.box);
+        centers.grow(other.centers);
+        end += other.size();
+    }
+};
+
+/// The box of a primitive, padded: a rounded hit may lie outside of the exact one. Nothing for a
+/// primitive with NaN or infinity in it, which no ray can hit.
+Ref make_ref(const Geometry& g, uint32_t prim) {
+    Vec3 lo, hi;
+    size_t i = prim;
+    if (i < g.triangles.size()) {
+        const Triangle& tri = g.triangles[i];
+        Vec3 a = g.positions[tri.v[0]], b = g.positions[tri.v[1]], c = g.positions[tri.v[2]];
+        bool finite = is_finite(a) && is_finite(b) && is_finite(c);
+        lo = finite ? min(min(a, b), c) : Vec3{infinity, infinity, infinity};
+        hi = max(max(a, b), c);
+    } else if ((i -= g.triangles.size()) < g.spheres.size()) {
+        float r = std::abs(g.spheres[i].r);
+        lo = g.spheres[i].c - Vec3{r, r, r};
+        hi = g.spheres[i].c + Vec3{r, r, r};
+    } else {
+        const Disk& disk = g.disks[i - g.spheres.size()];
+        Vec3 n = disk.n / length(disk.n);
+        Vec3 r = std::abs(disk.r) *
+                 Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
+        lo = disk.c - r;
+        hi = disk.c + r;
+    }
+    if (!is_finite(lo) || !is_finite(hi)) prim = PrimHit::none;
+    float pad = 0x1p-20f * max_component(max(abs(lo), abs(hi)));
+    Ref ref;
+    ref.box.neg_lo = Float4{pad - lo.x, pad - lo.y, pad - lo.z, std::bit_cast<float>(prim)};
+    ref.box.hi = Float4{pad + hi.x, pad + hi.y, pad + hi.z};
+    return ref;
+}
+
+/// Cuts the box around the centres into slices, on each axis.
+struct Binning {
+    Float4 neg_first, per_length;
+
+    explicit Binning(const Box& centers)
+        : neg_first(centers.neg_lo),
+          per_length(bins * (1 - 0x1p-20f) / (centers.neg_lo + centers.hi)) {}
+
+    /// The slice on each axis. Where all centres are the same, 0 * infinity is NaN: slice 0.
+    Int4 operator()(const Box& box) const {
+        Float4 x = max((box.center() + neg_first) * per_length, Float4{});
+        constexpr float last = bins - 1;
+        return __builtin_convertvector(x < last ? x : Float4{} + last, Int4);
+    }
+};
+
+struct Split {
+    float cost = infinity;
+    int axis = 0, bin = 0;  // what is in a lower bin goes to the left
+};
+
+/// What is in the slices: the box around it, and how much it is.
+struct Bins {
+    Box box[3][bins];
+    uint32_t count[3][bins] = {};
+
+    void add(const Refs& refs, uint32_t begin, uint32_t end, const Binning& bin_of) {
+        for (uint32_t i = begin; i < end; i++) {
+            Int4 bin = bin_of(refs[i].box);
+            for (int axis = 0; axis < 3; axis++) {
+                box[axis][bin[axis]].grow(refs[i].box);
+                count[axis][bin[axis]]++;
+            }
+        }
+    }
+    void add(const Bins& other) {
+        for (int axis = 0; axis < 3; axis++) {
+            for (int bin = 0; bin < bins; bin++) {
+                box[axis][bin].grow(other.box[axis][bin]);
+                count[axis][bin] += other.count[axis][bin];
+            }
+        }
+    }
+};
+
+/// The split between two bins that is cheapest by the surface area heuristic:
+///
+///   cost = area(left) n(left) + area(right) n(right)
+///
+/// A ray that meets the whole box meets a part with probability area(part) / area(whole). n counts
+/// blocks, as each takes one test, however full; primitives where all fit into one block.
+/// source  MacDonald, Booth 1990; in bins: Wald 2007
+Split find_split(const Bins& binned, uint32_t size) {
+    // Sweep from the right, then from the left.
+    auto tests = [&](uint32_t n) {
+        return static_cast<float>(size <= lanes ? n : (n + lanes - 1) / lanes);
+    };
+    Split best;
+    for (int axis = 0; axis < 3; axis++) {
+        float right_cost[bins];
+        Box part;
+        uint32_t n = 0;
+        for (int bin = bins - 1; bin > 0; bin--) {
+            part.grow(binned.box[axis][bin]);
+            n += binned.count[axis][bin];
+            right_cost[bin] = part.area() * tests(n);
+        }
+        part = {};
+        n = 0;
+        for (int bin = 1; bin < bins; bin++) {
+            part.grow(binned.box[axis][bin - 1]);
+            n += binned.count[axis][bin - 1];
+            float cost = part.area() * tests(n) + right_cost[bin];
+            if (cost < best.cost && n > 0 && n < size) best = {cost, axis, bin};
+        }
+    }
+    return best;
+}
+
+/// A node with two children, or none. A wide node is made of some of those below it: given a
+/// number of its places, `share` says how to fill them.
+struct Node {
+    Box box;
+    Node* children = nullptr;  // two, side by side
+    uint32_t begin, end;       // its references
+    uint8_t axis = 0;          // of the split: the left child is on the lower side
+    uint8_t lane = 0;          // its place in the wide node
+    uint32_t number = 0;       // its BvhNode::child there
+    // [k - 2]: of k places, so many go to the left child; 0: k - 1 places do as well.
+    uint8_t share[lanes - 1] = {};
+
+    bool fits_a_block() const { return end - begin <= lanes; }
+};
+
+/// [k]: the cost of all below a node that may take up to k places of the wide node above.
+using Costs = std::array<float, lanes + 1>;
+
+/// The cheapest way to make wide nodes of a binary tree.
+///
+///   cost(node, 1) = area + (0 if it fits a block, else split(node, lanes))
+///   cost(node, k) = min(cost(node, k - 1), split(node, k))
+///   split(node, k) = min over j of cost(left, j) + cost(right, k - j)
+///
+/// Areas are probabilities, as above; to visit a node costs as much as to test a block.
+/// source  Ylitie, Karras, Laine 2017, section 3.1
+Costs share_places(Node& node, const Costs& left, const Costs& right) {
+    Costs split, cost;
+    uint8_t share[lanes + 1];
+    for (size_t k = 2; k <= lanes; k++) {
+        split[k] = infinity;
+        share[k] = 1;
+        for (size_t j = 1; j < k; j++) {
+            if (left[j] + right[k - j] < split[k]) {
+                split[k] = left[j] + right[k - j];
+                share[k] = static_cast<uint8_t>(j);
+            }
+        }
+    }
+    cost[1] = node.box.area() + (node.fits_a_block() ? 0 : split[lanes]);
+    for (size_t k = 2; k <= lanes; k++) {
+        bool better = split[k] < cost[k - 1];
+        cost[k] = better ? split[k] : cost[k - 1];
+        node.share[k - 2] = better || k == lanes ? share[k] : 0;
+    }
+    return cost;
+}
+
+/// The nodes that fill `places` of a wide node, those far along the octant's directions first.
+struct Gathered {
+    std::array<Node*, lanes> node;
+    uint32_t size = 0;
+
+    void add(Node& root, size_t places, uint32_t octant) {
+        while (places > 1 && root.share[places - 2] == 0) places--;
+        if (places == 1) {
+            node[size++] = &root;
+            return;
+        }
+        size_t left = root.share[places - 2];
+        bool negative = octant >> root.axis & 1;
+        if (negative) add(root.children[0], left, octant);
+        add(root.children[1], places - left, octant);
+        if (!negative) add(root.children[0], left, octant);
+    }
+};
+
+/// Pairs of children, in memory that is not touched before it is used.
+struct Pair {
+    alignas(Node) std::byte bytes[2 * sizeof(Node)];
+};
+using Pairs = std::vector<Pair, PageAllocator<Pair>>;
+
+class Builder {
+public:
+    Builder(const Geometry& geometry, int threads)
+        : g_(geometry), threads_(threads), idle_threads_(threads - 1) {}
+
+    Bvh build() {
+        Range all = make_refs();
+        Node root;
+        if (all.size() <= few) {
+            bvh_.root = add_few(all.size());
+        } else {
+            pairs_.resize(all.size());  // more than there can be
+            build(root, all, 0);
+            bvh_.root = number(root);
+        }
+        size_t nodes = wide_.size();
+        bvh_.nodes.resize(nodes);
+        bvh_.blocks.resize(leaves_.size());
+        in_chunks(nodes + leaves_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) {
+                if (i < nodes) {
+                    fill_node(*wide_[i], bvh_.nodes[i]);
+                } else {
+                    fill_block(leaves_[i - nodes], bvh_.blocks[i - nodes]);
+                }
+            }
+        });
+        return std::move(bvh_);
+    }
+
+private:
+    static constexpr int chunks = 64;
+
+    /// The references of one block.
+    struct Leaf {
+        uint32_t begin, end;
+    };
+
+    /// Calls work(begin, end, chunk) for the parts of 0 .. size-1, on all threads.
+    template <typename Work>
+    void in_chunks(size_t size, const Work& work) {
+        parallel_for(chunks, size < worth_a_thread ? 1 : threads_, [&](int i) {
+            auto part = static_cast<size_t>(i);
+            work(size * part / chunks, size * (part + 1) / chunks, i);
+        });
+    }
+
+    Range make_refs() {
+        refs_.resize(g_.size());
+        std::array<Range, chunks> parts;
+        in_chunks(refs_.size(), [&](size_t begin, size_t end, int chunk) {
+            Range part{0, 0};
+            for (size_t i = begin; i < end; i++) {
+                refs_[i] = make_ref(g_, static_cast<uint32_t>(i));
+                if (refs_[i].prim() == PrimHit::none) continue;
+                part.grow(refs_[i].box);
+                part.end++;
+            }
+            parts[static_cast<size_t>(chunk)] = part;
+        });
+        Range all;
+        for (const Range& part : parts) all.grow(part);
+        if (all.size() < refs_.size())
+            std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
+        return all;
+    }
+
+    /// Builds the tree over a range, on another thread for one half when one is idle.
+    Costs build(Node& node, const Range& range, int level) {
+        node.box = range.box;
+        node.begin = range.begin;
+        node.end = range.end;
+        if (range.size() <= small) {
+            Costs cost;
+            cost.fill(range.box.area());
+            return cost;
+        }
+        Range left, right;
+        node.axis = split(range, level < cost_levels, left, right);
+        node.children = new (&pairs_[next_pair_++]) Node[2];
+        Costs left_cost, right_cost;
+        both(
+            std::min(left.size(), right.size()),
+            [&] { left_cost = build(node.children[0], left, level + 1); },
+            [&] { right_cost = build(node.children[1], right, level + 1); });
+        return share_places(node, left_cost, right_cost);
+    }
+
+    /// Does both, on two threads when it is worth it and one is idle.
+    template <typename A, typename B>
+    void both(uint32_t references, const A& a, const B& b) {
+        if (references < worth_a_thread) {
+            a();
+            b();
+        } else if (idle_threads_-- > 0) {
+            std::jthread other([&] {
+                a();
+                idle_threads_++;
+            });
+            b();
+            idle_threads_++;
+            other.join();
+            idle_threads_--;
+        } else {
+            idle_threads_++;
+            a();
+            b();
+        }
+    }
+
+    /// Parts a range in two, by cost or else by number, and returns the axis.
+    uint8_t split(const Range& range, bool by_cost, Range& left, Range& right) {
+        uint32_t half = range.size() / 2, middle = range.begin + half;
+        bool halve = range.size() >= worth_halving;
+        Binning bin_of(range.centers);
+        Split best;
+        if (by_cost) {
+            Bins binned;
+            if (halve) {
+                Bins others;
+                both(
+                    half, [&] { binned.add(refs_, range.begin, middle, bin_of); },
+                    [&] { others.add(refs_, middle, range.end, bin_of); });
+                binned.add(others);
+            } else {
+                binned.add(refs_, range.begin, range.end, bin_of);
+            }
+            best = find_split(binned, range.size());
+        }
+        auto goes_left = [=](const Ref& ref, uint32_t i) {
+            return best.cost < infinity ? bin_of(ref.box)[best.axis] < best.bin : i < middle;
+        };
+        if (halve) {
+            Range more_left, more_right;
+            both(
+                half, [&] { partition(range.begin, middle, goes_left, left, right); },
+                [&] { partition(middle, range.end, goes_left, more_left, more_right); });
+            // left right more_left more_right: the inner two change places.
+            uint32_t n = std::min(right.size(), more_left.size());
+            Ref* inner = &refs_[right.begin];
+            std::swap_ranges(inner, inner + n, &refs_[0] + more_left.end - n);
+            left.grow(more_left);
+            right.grow(more_right);
+            right.begin = left.end;
+            right.end = range.end;
+        } else {
+            partition(range.begin, range.end, goes_left, left, right);
+        }
+        return static_cast<uint8_t>(best.axis);
+    }
+
+    /// Swaps what goes left to the front. Which side that is nobody can predict, so no branch.
+    template <typename GoesLeft>
+    void partition(uint32_t begin, uint32_t end, GoesLeft goes_left, Range& left, Range& right) {
+        uint32_t front = begin;
+        Box box[2], centers[2];
+        for (uint32_t i = begin; i < end; i++) {
+            Ref ref = refs_[i];
+            bool to_left = goes_left(ref, i);
+            box[to_left].grow(ref.box);
+            centers[to_left].grow({-ref.box.center(), ref.box.center()});
+            uint32_t to = to_left ? front : i;
+            refs_[i] = refs_[to];
+            refs_[to] = ref;
+            front += to_left;
+        }
+        left = {begin, front, box[1], centers[1]};
+        right = {front, end, box[0], centers[0]};
+    }
+
+    /// Numbers the wide nodes and the leaves below a node, depth first: all that one thread has to
+    /// do alone before many can write them. Returns the BvhNode::child of the node.
+    uint32_t number(Node& root) {
+        if (root.fits_a_block()) return add_leaf({root.begin, root.end});
+        auto index = static_cast<uint32_t>(wide_.size());
+        wide_.push_back(&root);
+        Gathered children;
+        children.add(root, lanes, 7);
+        for (uint32_t i = 0; i < children.size; i++) {
+            children.node[i]->lane = static_cast<uint8_t>(i);
+            children.node[i]->number = number(*children.node[i]);
+        }
+        return index;
+    }
+
+    /// Writes the boxes of the children, their numbers, and for each octant their order.
+    void fill_node(Node& root, BvhNode& node) {
+        Gathered children;
+        children.add(root, lanes, 7);
+        for (uint32_t i = 0; i < lanes; i++) {
+            const Node* child = i < children.size ? children.node[i] : nullptr;
+            Box box = child ? child->box : Box{};
+            for (int axis = 0; axis < 3; axis++) {
+                node.plane[2 * axis][i] = -box.neg_lo[axis];
+                node.plane[2 * axis + 1][i] = box.hi[axis];
+            }
+            node.child[i] = child ? child->number : BvhNode::nothing;
+            if (child && child->fits_a_block()) node.child[i] |= mixed({child->begin, child->end});
+        }
+        // What comes first for an octant comes last for the opposite one.
+        for (uint32_t octant = 0; octant < 4; octant++) {
+            Gathered sorted;
+            sorted.add(root, lanes, octant);
+            LaneOrder order = 0, opposite = 0;
+            for (uint32_t i = 0, n = children.size; i < lanes; i++) {
+                order |= LaneOrder{i < n ? sorted.node[i]->lane : i} << (4 * i);
+                opposite |= LaneOrder{i < n ? sorted.node[n - 1 - i]->lane : i} << (4 * i);
+            }
+            node.far_first[octant] = order;
+            node.far_first[7 - octant] = opposite;
+        }
+    }
+
+    uint32_t add_leaf(Leaf leaf) {
+        leaves_.push_back(leaf);
+        return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
+    }
+
+    /// BvhNode::mixed when there are spheres or disks among the references.
+    uint32_t mixed(Leaf leaf) const {
+        for (uint32_t i = leaf.begin; i < leaf.end; i++)
+            if (refs_[i].prim() >= g_.triangles.size()) return BvhNode::mixed;
+        return 0;
+    }
+
+    /// One or two blocks and no node. The large primitives come first: most rays hit something in
+    /// the first block and nothing in the second, so that the processor can foresee it.
+    uint32_t add_few(uint32_t size) {
+        std::sort(refs_.begin(), refs_.begin() + size,
+                  [](const Ref& a, const Ref& b) { return a.box.area() > b.box.area(); });
+        uint32_t root = add_leaf({0, std::min(uint32_t{lanes}, size)});
+        if (size > lanes) add_leaf({lanes, size});
+        return root | mixed({0, size});
+    }
+
+    void fill_block(Leaf leaf, BvhBlock& block) {
+        std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
+        std::fill_n(block.prim, lanes, PrimHit::none);
+        for (uint32_t i = 0; i < leaf.end - leaf.begin; i++) {
+            uint32_t prim = block.prim[i] = refs_[leaf.begin + i].prim();
+            if (prim >= g_.triangles.size()) continue;
+            for (size_t k = 0; k < 3; k++) {
+                Vec3 p = g_.positions[g_.triangles[prim].v[k]];
+                for (int axis = 0; axis < 3; axis++)
+                    block.vertex[3 * k + static_cast<size_t>(axis)][i] = p[axis];
+            }
+        }
+    }
+
+    const Geometry& g_;
+    int threads_;
+    std::atomic<int> idle_threads_;
+    Refs refs_;
+    Pairs pairs_;
+    std::atomic<uint32_t> next_pair_ = 0;
+    std::vector<Node*> wide_;   // the roots of wide nodes, in their order
+    std::vector<Leaf> leaves_;  // in the order of their blocks
+    Bvh bvh_;
+};
+
+}  // namespace
+
+Bvh build_bvh(const Geometry& geometry, int threads) { return Builder(geometry, threads).build(); }

@@ -1,0 +1,50 @@
+// Rays, and the primitives that a scene is made of.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "common/base/vec.h"
+
+/// The points o + t d with 0 < t < t_max. d need not be a unit vector: t counts lengths of d.
+struct Ray {
+    Vec3 o;
+    Vec3 d;
+    float t_max = infinity;
+};
+
+// `shape` is the index into Scene::shapes of the directive that made the primitive.
+struct Triangle {
+    uint32_t v[3];  // into Geometry::positions, counter-clockwise seen from the side of its normal
+    uint32_t shape;
+};
+struct Sphere {
+    Vec3 c;
+    float r;
+    uint32_t shape;
+};
+struct Disk {
+    Vec3 c, n;  // n: unit
+    float r;
+    uint32_t shape;
+};
+
+/// All primitives of a scene in world space, numbered through: triangles, then spheres, then disks.
+struct Geometry {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;  // of the vertices; empty, or one for each position (0: flat there)
+    std::vector<Triangle> triangles;
+    std::vector<Vec3> facet_normals;  // unit, of the triangles; prepare() works them out
+    std::vector<Sphere> spheres;
+    std::vector<Disk> disks;
+
+    uint32_t size() const {
+        return static_cast<uint32_t>(triangles.size() + spheres.size() + disks.size());
+    }
+};
+
+/// The nearest primitive a ray meets. b1, b2: weights of a triangle's second and third vertex.
+struct PrimHit {
+    static constexpr uint32_t none = ~0u;
+    uint32_t prim = none;
+    float t = infinity, b1 = 0, b2 = 0;
+};

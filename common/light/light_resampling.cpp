@@ -1,0 +1,78 @@
+#include "common/light/light_resampling.h"
+
+#include <limits>
+
+namespace {
+
+LightBounds bounds_of(const Scene& scene, size_t i) {
+    const Light& light = scene.lights[i];
+    LightBounds b;
+    b.power = average(light.L);
+    b.centre = light.p;
+    if (light.type == LightType::area) {
+        const LightShape& shape = scene.light_shapes[i];
+        b.centre = shape.centre, b.radius = shape.radius;
+        b.power *= shape.area;
+        if (shape.flat) b.n = shape.first.n, b.back = light.two_sided ? -1.0f : 1, b.least_cos = 0;
+    } else if (light.type == LightType::distant) {
+        b.has_place = 0;
+    } else if (light.type == LightType::infinite) {  // all around
+        b.centre = {0, 0, 1}, b.has_place = 0, b.radius = 1;
+        b.power *= pi;
+    }
+    float pmf = scene.light_table[i].pmf;
+    b.inv_pmf = pmf > 1e-30f ? 1 / pmf : 0;  // never drawn, but for rounding
+    return b;
+}
+
+/// Chapter 11's potential, as one formula for all lights, for the sake of vector instructions.
+inline float potential(const LightBounds& y, const Hit& x) {
+    Vec3 to_y = y.centre - y.has_place * x.p;
+    float d2 = std::max(dot(to_y, to_y), 1e-30f), inv_d = 1 / std::sqrt(d2);
+    float spread = y.radius * inv_d, more = spread + spread * spread;
+    more = spread > 0.5f ? 2 : more;  // so near that its points may lie anywhere
+    float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d;
+    float least = y.least_cos;  // a copy: std::max of y's own number would be a branch
+    cos_x = std::min(std::max(cos_x + more, 0.0f), 1.0f);
+    cos_y = std::min(std::max(std::max(cos_y, y.back * cos_y) + more, least), 1.0f);
+    return y.power * cos_x * cos_y / std::max(d2, y.radius * y.radius);
+}
+
+}  // namespace
+
+void prepare_light_bounds(Scene& scene) {
+    scene.light_bounds.clear();
+    for (size_t i = 0; i < scene.lights.size(); i++)
+        scene.light_bounds.push_back(bounds_of(scene, i));
+}
+
+// The compiler turns each of these loops into vector instructions: no branches, no calls.
+
+Candidates draw_candidates(const Scene& scene, const Hit& x, int M, float u) {
+    Candidates c;
+    c.M = M;
+    for (int i = 0; i < M; i++) {
+        float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
+        c.light[i] = static_cast<int>(pick_light(scene, slice));
+    }
+    const LightBounds* bounds = scene.light_bounds.data();
+    for (int i = 0; i < M; i++) {
+        const LightBounds& y = bounds[c.light[i]];
+        c.p_hat[i] = potential(y, x);
+        c.weight[i] = c.p_hat[i] * y.inv_pmf;
+    }
+    return c;
+}
+
+Kept keep_one(const Candidates& c, float u) {
+    float up_to[Candidates::most];
+    float weight_sum = 0;
+    for (int i = 0; i < c.M; i++) up_to[i] = weight_sum += c.weight[i];
+    if (!(weight_sum >= std::numeric_limits<float>::min())) return {};
+    float target = u * weight_sum;  // below weight_sum, as that is no subnormal
+    int kept = 0;
+    for (int i = 0; i < c.M; i++) kept += up_to[i] <= target ? 1 : 0;
+    kept = std::min(kept, c.M - 1);  // where weight_sum is infinite, and so is the sample
+    return {static_cast<size_t>(c.light[kept]),
+            weight_sum / (static_cast<float>(c.M) * c.p_hat[kept])};
+}

@@ -1,0 +1,83 @@
+// Points on the surface of a light, drawn by area or by the solid angle under which x sees it.
+#pragma once
+#include "common/scene/intersect.h"
+#include "common/scene/scene.h"
+
+/// A point of a light.
+struct LightPoint {
+    Vec3 p, n;      // m; n: unit, on the side that shines
+    float eps = 0;  // m: how far p may be off the surface
+    float pdf = 0;  // m^-2 by area, sr^-1 by solid angle; 0: no point
+};
+
+/// Fills scene.light_shapes: areas, centres, and whether two triangles make one parallelogram.
+void prepare_light_shapes(Scene& scene);
+
+/// A point of the light's surface, all equally likely.      pdf_A = 1 / area
+inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u);
+float pdf_area(const Scene& scene, size_t light);
+
+/// A point of the light, its directions from x (nearly) all equally likely. pdf in sr^-1.
+///
+///   sphere         the cone that it fills
+///   two triangles  the two spherical triangles, one chosen by its solid angle
+///   more           a triangle chosen by area, then its spherical triangle
+///   disk           its bounding square; no point where that misses the disk
+///
+/// Where x is farther away than two radii, and inside a sphere: by area, which is then as good.
+/// source  cone: Shirley, Wang 1991; triangle: Arvo 1995
+/// tested by  "consistency: a light's samples agree with its density"
+inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);
+
+/// The density, in sr^-1, with which sample_solid_angle finds the point y that a ray from x met.
+float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y);
+
+/// The same density per solid angle at x:  pdf_w = pdf_A d^2 / cos_y.      0 where y is edge-on.
+inline float area_to_solid_angle(float pdf_A, Vec3 x, Vec3 y, Vec3 n_y) {
+    Vec3 to_y = y - x;
+    float d2 = dot(to_y, to_y), d_cos = std::abs(dot(to_y, n_y));
+    return d_cos > 0 ? pdf_A * d2 * (std::sqrt(d2) / d_cos) : 0;
+}
+
+namespace light_shape_details {
+
+inline bool is_near(const LightShape& shape, Vec3 x) {
+    return length_squared(x - shape.centre) < 4 * shape.radius * shape.radius;
+}
+/// By area, from any light but a parallelogram.
+LightPoint sample_pieces(const Scene& scene, size_t light, Vec2 u);
+/// By area, with the density that this has at x.
+inline LightPoint sample_far(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
+    LightPoint y = sample_area(scene, light, u);
+    y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
+    return y;
+}
+/// sin^2 of the half angle under which x sees a sphere; 1 for all that cannot be drawn so.
+inline float sin2_of_cone(const LightShape& shape, Vec3 x) {
+    const Emitter& e = shape.first;
+    bool one_sphere = e.kind == Emitter::sphere && !e.inward && shape.area_up_to.empty();
+    float sin2 = one_sphere ? e.r * e.r / length_squared(x - e.p0) : 1;
+    return sin2 < 0.9999f ? sin2 : 1;
+}
+/// The point of the sphere that x sees in a direction of its cone.
+LightPoint sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u);
+/// By solid angle, from any other light that is near.
+LightPoint sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u);
+
+}  // namespace light_shape_details
+
+inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
+    const LightShape& shape = scene.light_shapes[light];
+    if (!shape.parallelogram) return light_shape_details::sample_pieces(scene, light, u);
+    Vec3 p = shape.corner + u.x * shape.e1 + u.y * shape.e2;
+    return {p, shape.first.n, shape.first.eps, 1 / shape.area};
+}
+
+inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
+    namespace details = light_shape_details;
+    const LightShape& shape = scene.light_shapes[light];
+    float sin2 = details::sin2_of_cone(shape, x);
+    if (sin2 < 1) return details::sample_sphere(shape.first, x, sin2, u);
+    if (details::is_near(shape, x)) return details::sample_near(scene, light, x, u);
+    return details::sample_far(scene, light, x, u);
+}

@@ -1,0 +1,81 @@
+// Choosing lights by power, in O(1) (chapter 10).
+#pragma once
+#include "common/light/lights.h"
+
+/// The power of a light, in W: radiance times area times pi, and what corresponds to it.
+///
+///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  R: radius of the scene
+inline float light_power(const Scene& scene, size_t i) {
+    const Light& light = scene.lights[i];
+    float L = average(light.L), R = scene.radius;
+    switch (light.type) {
+        case LightType::area:
+            return pi * scene.light_shapes[i].area * L * (light.two_sided ? 2 : 1);
+        case LightType::point: return 4 * pi * L;
+        case LightType::distant: return pi * R * R * L;
+        case LightType::infinite: return 4 * pi * pi * R * R * L;
+    }
+    return 0;
+}
+
+/// The probability of each light: in proportion to its power, but for the share d.
+inline std::vector<double> light_pmf(const Scene& scene, double d) {
+    std::vector<double> pmf;
+    double sum = 0, N = static_cast<double>(scene.lights.size());
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        pmf.push_back(static_cast<double>(light_power(scene, i)));
+        sum += pmf.back();
+    }
+    for (double& p : pmf) p = sum > 0 ? (1 - d) * p / sum + d / N : 1 / N;
+    return pmf;
+}
+
+/// Cuts N probabilities into N columns of equal width, with at most two lights in each.
+///
+///   a column that is too low is filled up from one that is too high, which so gets lower
+///
+/// source  Walker 1974; Vose 1991      tested by  "identity: the alias table keeps every pmf"
+inline std::vector<AliasColumn> build_alias_table(const std::vector<double>& pmf) {
+    size_t N = pmf.size();
+    std::vector<AliasColumn> table(N);
+    std::vector<double> height(N);
+    std::vector<uint32_t> low, high;
+    for (uint32_t i = 0; i < N; i++) {
+        height[i] = pmf[i] * static_cast<double>(N);
+        table[i] = {1, i, static_cast<float>(pmf[i])};
+        (height[i] < 1 ? low : high).push_back(i);
+    }
+    while (!low.empty() && !high.empty()) {
+        uint32_t l = low.back(), h = high.back();
+        low.pop_back();
+        table[l].own = static_cast<float>(height[l]);
+        table[l].other = h;
+        height[h] -= 1 - height[l];
+        if (height[h] < 1) {
+            high.pop_back();
+            low.push_back(h);
+        }
+    }
+    return table;
+}
+
+/// Chooses a light in O(1): a column, and one of the two lights in it.
+inline size_t pick_light(const Scene& scene, float u) {
+    const auto& table = scene.light_table;
+    int N = static_cast<int>(table.size());
+    float at = u * static_cast<float>(N);
+    int column = std::min(static_cast<int>(at), N - 1);
+    auto [own, other, pmf] = table[static_cast<size_t>(column)];
+    bool is_own = at - static_cast<float>(column) < own;
+    return is_own ? static_cast<size_t>(column) : other;
+}
+inline float pmf_light(const Scene& scene, size_t light) { return scene.light_table[light].pmf; }
+
+/// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
+inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
+    if (scene.lights.empty()) return {};
+    size_t light = pick_light(scene, u1);
+    LightSample y = sample_one_light(scene, light, x, u2);
+    y.pdf_w *= pmf_light(scene, light);
+    return y;
+}

@@ -1,0 +1,93 @@
+// What one path did, for those who ask: --explain, --paths, --split, and the measuring programs.
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/scene/intersect.h"
+
+/// Part of a path's estimate: its class in Heckbert's notation, from light to eye, and how much.
+/// S: a vertex with one possible direction (mirror, glass); D: any other.
+struct Contribution {
+    std::string path_class;  // such as "LDSE"
+    Rgb L;
+};
+
+/// Where the path went, and the vertex that it came from (-1: the eye).
+struct PathVertex {
+    Vec3 p;
+    int from;
+};
+
+struct ClassFilter;
+
+/// trace() tells a PathLog what it does. Unless someone listens, that costs one untaken branch.
+class PathLog {
+public:
+    PathLog() = default;
+    /// A log that listens. class_filter: a regular expression that the whole class of a path must
+    /// match to count; empty: all count. keep_steps: also writes each step down as text.
+    /// Throws std::regex_error.
+    explicit PathLog(const std::string& class_filter, bool keep_steps = false);
+
+    /// Forgets the path before.
+    void start() {
+        if (listening_) forget();
+    }
+    /// The path met x.
+    void vertex(const Hit& x) {
+        if (listening_) note_vertex(x);
+    }
+    /// The path leaves its last vertex along wi with throughput beta.
+    void scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta) {
+        if (listening_) note_scatter(wi, f, pdf_w, specular, beta);
+    }
+    /// The path was allowed to go on with probability q, and beta divided by it.
+    void roulette(float q, Rgb beta) {
+        if (listening_) note_roulette(q, beta);
+    }
+    /// Goes back to the vertex before, whose other branch comes next (chapter 04 walks a tree).
+    void step_back() {
+        if (listening_) note_step_back();
+    }
+    /// The depth limit ended a path that could have gone on.
+    void cut() { paths_cut_++; }
+
+    /// Emission found by following the path: returns what of it counts.
+    Rgb emitted(Rgb contribution, float mis_b = 1) {
+        return listening_ ? note_emitted(contribution, mis_b) : contribution;
+    }
+    /// A light sampled from the last vertex, with the density of either strategy (sr^-1): returns
+    /// what of it counts.
+    Rgb direct(Rgb contribution, Vec3 wi, float pdf_l, float pdf_b, float mis_l = 1) {
+        return listening_ ? note_direct(contribution, wi, pdf_l, pdf_b, mis_l) : contribution;
+    }
+
+    bool listening() const { return listening_; }
+    const std::vector<Contribution>& contributions() const { return contributions_; }
+    const std::vector<PathVertex>& vertices() const { return vertices_; }
+    const std::string& steps() const { return steps_; }
+    uint64_t paths_cut() const { return paths_cut_; }
+
+private:
+    void forget();
+    void note_vertex(const Hit&);
+    void note_scatter(Vec3, Rgb, float, bool, Rgb);
+    void note_roulette(float, Rgb);
+    void note_step_back();
+    Rgb note_emitted(Rgb, float);
+    Rgb note_direct(Rgb, Vec3, float, float, float);
+    Rgb keep(const std::string& path_class, Rgb contribution);
+    bool counts(const std::string& path_class);
+
+    bool listening_ = false, keep_steps_ = false;
+    uint64_t paths_cut_ = 0;
+    std::string scattered_;  // D and S of the vertices left so far, the first one last
+    std::string steps_;
+    std::vector<PathVertex> vertices_;
+    std::vector<int> latest_;  // vertex for each number of scatterings before it
+    std::vector<Contribution> contributions_;
+    std::shared_ptr<const ClassFilter> filter_;
+    std::vector<std::pair<std::string, bool>> known_classes_;  // what the filter said of them
+};

@@ -1,0 +1,162 @@
+// Random numbers as a pure function of (seed, pixel, sample, dimension).
+#pragma once
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "common/base/vec.h"
+
+/// Scrambles the bits of x; a bijection.      source  Wellons 2018, "lowbias32"
+inline uint32_t hash32(uint32_t x) {
+    x = (x ^ (x >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+inline uint32_t hash32(uint32_t a, uint32_t b) { return hash32(a ^ hash32(b + 0x9e3779b9u)); }
+
+/// The top 24 bits as a number in [0,1). Rounding all 32 would give 1 for the largest.
+inline float to_unit_float(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
+inline uint32_t reverse_bits(uint32_t x) {
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    return __builtin_bswap32(x);
+}
+
+/// The second coordinate of the 2-D Sobol sequence as 32 bits; the first is reverse_bits(index).
+///
+///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
+///
+/// Pascal's triangle mod 2 is its own quarter repeated, so that five steps multiply by all of it.
+/// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points"
+inline uint32_t sobol_second(uint32_t index) {
+    uint32_t x = reverse_bits(index);
+    x ^= (x << 16) & 0xffff0000u;
+    x ^= (x << 8) & 0xff00ff00u;
+    x ^= (x << 4) & 0xf0f0f0f0u;
+    x ^= (x << 2) & 0xccccccccu;
+    x ^= (x << 1) & 0xaaaaaaaau;
+    return x;
+}
+
+/// Owen's scrambling of a 32-bit fraction: each bit is flipped or not by a random function of the
+/// bits above it. The points stay as evenly spread as they were, and each becomes uniform.
+/// source  Laine, Karras 2011; constants: Vegdahl 2021
+inline uint32_t scramble_reversed(uint32_t x, uint32_t seed) {  // x: bits reversed
+    x ^= x * 0x3d20adeau;
+    x = (x + seed) * ((seed >> 16) | 1u);
+    x ^= x * 0x05526c56u;
+    return x ^ x * 0x53a22864u;
+}
+inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
+    return reverse_bits(scramble_reversed(reverse_bits(x), seed));
+}
+
+/// Point u jittered inside stratum i of n: strata of equal area 1/n for any n.
+///
+///   the square is cut into about sqrt(n) columns, as wide as the number of cells in each, so that
+///   n = k^2 gives the k x k grid, and no other n has to drop or repeat a sample
+inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
+    uint32_t columns = static_cast<uint32_t>(std::lround(std::sqrt(static_cast<double>(n))));
+    uint64_t c = (uint64_t{i + 1} * columns - 1) / n;
+    uint32_t first = static_cast<uint32_t>(c * n / columns);
+    uint32_t last = static_cast<uint32_t>((c + 1) * n / columns);
+    float rows = static_cast<float>(last - first), count = static_cast<float>(n);
+    float x = (static_cast<float>(first) + rows * u.x) / count;
+    float y = (static_cast<float>(i - first) + u.y) / rows;
+    return {std::min(x, 0x1.fffffep-1f), std::min(y, 0x1.fffffep-1f)};
+}
+
+/// The place of i in a random order of 0 .. n-1, without a table.
+///
+///   a bijection of the 2^k >= n numbers, in rounds of  i = odd i + any mod 2^k,  i ^= i >> k/2;
+///   repeated until the place is below n, and turned so that each place is equally likely
+///
+/// source  cycle walking: Black, Rogaway 2002; for sampling: Kensler 2013
+/// tested by  "truth: permute is a permutation for every n, and each place equally likely"
+inline uint32_t permute(uint32_t i, uint32_t n, uint32_t seed) {
+    uint32_t mask = std::bit_ceil(n) - 1;
+    int half = (std::bit_width(mask) + 1) / 2;
+    do {
+        for (uint32_t round = 1; round <= 4; round++) {
+            uint32_t key = hash32(seed + round);
+            i = (i * (key | 1) + (key >> 16)) & mask;
+            i ^= i >> half;
+        }
+    } while (i >= n);
+    return (i + seed % n) % n;
+}
+
+enum class SamplerType : uint8_t { independent, stratified, sobol };
+
+/// The numbers in [0,1) that one path is made of, in the order in which it asks for them.
+///
+/// independent  every number on its own
+/// stratified   dimension pairs: the samples of a pixel fill `spp` strata, in an order of their own
+/// sobol        dimension pairs: Owen-scrambled 2-D Sobol points, in an order of their own
+///
+/// The same (seed, pixel, sample) gives the same numbers on any machine, thread and tile order.
+/// source  PCG: O'Neill 2014; shuffled, scrambled Sobol pairs: Burley 2020
+class Sampler {
+public:
+    Sampler(SamplerType type, uint32_t seed, uint32_t spp) : type_(type), seed_(seed), spp_(spp) {}
+
+    /// Starts sample `sample` of pixel number `pixel`.
+    void start(uint32_t pixel, uint32_t sample) {
+        pixel_ = hash32(pixel, seed_);
+        sample_ = sample;
+        reversed_sample_ = reverse_bits(sample);
+        dimension_ = 0;
+        state_ = uint64_t{hash32(pixel_, sample)} << 32 | hash32(sample, pixel_ + 1);
+    }
+
+    float u1() {
+        if (type_ == SamplerType::independent) return to_unit_float(random_bits());
+        return u2().x;
+    }
+    Vec2 u2() {
+        if (type_ == SamplerType::sobol) return sobol();
+        if (type_ == SamplerType::stratified) return stratified();
+        return independent();
+    }
+
+private:
+    uint32_t random_bits() {
+        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+        uint32_t bits = static_cast<uint32_t>(((state_ >> 18) ^ state_) >> 27);
+        return std::rotr(bits, static_cast<int>(state_ >> 59));
+    }
+    Vec2 independent() { return Vec2{to_unit_float(random_bits()), to_unit_float(random_bits())}; }
+    Vec2 stratified() {
+        uint32_t set = hash32(pixel_, dimension_++ + (sample_ / spp_ << 16));
+        return jitter_in_stratum(permute(sample_ % spp_, spp_, set), spp_, independent());
+    }
+    /// The next dimension's point; its first coordinate alone for u1().
+    Vec2 sobol() {
+        size_t i = dimension_ % at_once;
+        if (i == 0) draw_sobol();
+        dimension_++;
+        return {sobol_x_[i], sobol_y_[i]};
+    }
+    /// The points of the next dimensions, all at once: the compiler makes vector instructions of
+    /// the loop. index is owen_scramble(sample), x owen_scramble(reverse_bits(index)).
+    void draw_sobol() {
+        for (uint32_t i = 0; i < at_once; i++) {
+            uint32_t set = hash32(pixel_ + 0x632be5abu * (dimension_ + i));
+            uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, set));
+            uint32_t x = reverse_bits(scramble_reversed(index, set * 0x9e3779b1u + 1));
+            sobol_x_[i] = to_unit_float(x);
+            uint32_t y = owen_scramble(sobol_second(index), set * 0x85ebca77u + 2);
+            sobol_y_[i] = to_unit_float(y);
+        }
+    }
+
+    static constexpr uint32_t at_once = 8;
+
+    SamplerType type_;
+    uint32_t seed_, spp_;
+    uint32_t pixel_ = 0, sample_ = 0, reversed_sample_ = 0, dimension_ = 0;
+    uint64_t state_ = 0;
+    float sobol_x_[at_once], sobol_y_[at_once];
+};

@@ -1,0 +1,171 @@
+#include "common/picture/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/stats.h"
+
+namespace {
+
+double brightness(Rgb c) { return (double{c.r} + double{c.g} + double{c.b}) / 3; }
+
+/// The squared error of a pixel, averaged over its channels: plain, and relative.
+struct PixelError {
+    double squared, relative;
+};
+
+PixelError error_of(Rgb a, Rgb b) {
+    PixelError sum{0, 0};
+    auto add = [&](float x, float y) {
+        double d = double{x} - double{y};
+        sum.squared += d * d / 3;
+        sum.relative += d * d / (double{y} * double{y} + 0.01) / 3;
+    };
+    add(a.r, b.r);
+    add(a.g, b.g);
+    add(a.b, b.b);
+    return sum;
+}
+
+std::vector<PixelError> errors_of(const Image& a, const Image& b) {
+    std::vector<PixelError> errors;
+    for (size_t i = 0; i < a.pixels.size(); i++) {
+        errors.push_back(error_of(a.pixels[i], b.pixels[i]));
+    }
+    return errors;
+}
+
+void sum_errors(std::vector<PixelError> errors, double trim, Comparison& result) {
+    // Leave out the worst.
+    auto smaller = [](PixelError x, PixelError y) { return x.relative < y.relative; };
+    std::sort(errors.begin(), errors.end(), smaller);
+    size_t left_out = static_cast<size_t>(trim / 100 * static_cast<double>(errors.size()));
+    errors.resize(errors.size() - left_out);
+
+    // Average the rest.
+    std::vector<double> squared;
+    double sum = 0;
+    for (PixelError e : errors) {
+        squared.push_back(e.squared);
+        sum += e.squared;
+        result.rel_mse += e.relative / static_cast<double>(errors.size());
+    }
+    result.mse = sum / static_cast<double>(errors.size());
+    result.rmse = std::sqrt(result.mse);
+
+    // See how much of it is in the worst thousandth.
+    std::sort(squared.rbegin(), squared.rend());
+    double worst = 0;
+    size_t few = std::max<size_t>(1, squared.size() / 1000);
+    for (size_t i = 0; i < few; i++) worst += squared[i];
+    result.worst_share = sum > 0 ? worst / sum : 0;
+}
+
+double median_ratio(const Image& a, const Image& b) {
+    std::vector<double> ratios;
+    for (size_t i = 0; i < a.pixels.size(); i++) {
+        double y = brightness(b.pixels[i]);
+        if (y > 0) ratios.push_back(brightness(a.pixels[i]) / y);
+    }
+    if (ratios.empty()) return NAN;
+    std::sort(ratios.begin(), ratios.end());
+    size_t middle = ratios.size() / 2;
+    return ratios.size() % 2 ? ratios[middle] : (ratios[middle - 1] + ratios[middle]) / 2;
+}
+
+void compare_blocks(const Image& a, const Image& b, Comparison& result) {
+    double variance = 0, pixels = 0;  // of the sum of the differences
+    for (int y0 = 0; y0 < a.height; y0 += comparison_block) {
+        for (int x0 = 0; x0 < a.width; x0 += comparison_block) {
+            RunningStats difference, level;
+            for (int y = y0; y < std::min(a.height, y0 + comparison_block); y++) {
+                for (int x = x0; x < std::min(a.width, x0 + comparison_block); x++) {
+                    difference.add(brightness(a.at(x, y)) - brightness(b.at(x, y)));
+                    level.add(std::abs(brightness(b.at(x, y))));
+                }
+            }
+            if (difference.count() < 16) continue;  // a rim too thin to know its spread
+            double n = static_cast<double>(difference.count());
+            variance += n * difference.variance();
+            pixels += n;
+            result.blocks++;
+            double d = std::abs(difference.mean());
+            if (d <= 1e-6 * level.mean()) continue;  // rounding
+            double z = d / difference.standard_error();
+            result.beyond_5 += z > 5;
+            if (z <= result.worst_z) continue;
+            result.worst_z = z, result.worst_x = x0, result.worst_y = y0;
+        }
+    }
+    result.standard_error = pixels > 0 ? std::sqrt(variance) / pixels : NAN;
+}
+
+}  // namespace
+
+Comparison compare(const Image& a, const Image& b, double trim) {
+    Comparison result;
+    RunningStats mean_a, mean_b;
+    for (Rgb p : a.pixels) mean_a.add(brightness(p));
+    for (Rgb p : b.pixels) mean_b.add(brightness(p));
+    result.mean_a = mean_a.mean();
+    result.mean_b = mean_b.mean();
+    sum_errors(errors_of(a, b), trim, result);
+    result.median_ratio = median_ratio(a, b);
+    compare_blocks(a, b, result);
+    return result;
+}
+
+void check_comparable(const Image& a, const std::string& name_a, const Image& b,
+                      const std::string& name_b) {
+    auto size = [](const Image& image) {
+        return std::to_string(image.width) + "x" + std::to_string(image.height);
+    };
+    if (a.width != b.width || a.height != b.height) {
+        throw InputError(name_b + ": error: has " + size(b) + " pixels, but " + name_a + " has " +
+                         size(a));
+    }
+    auto check = [](const Image& image, const std::string& name) {
+        for (size_t i = 0; i < image.pixels.size(); i++) {
+            if (is_finite(image.pixels[i])) continue;
+            int x = static_cast<int>(i) % image.width, y = static_cast<int>(i) / image.width;
+            throw InputError(name + ": error: pixel " + std::to_string(x) + "," +
+                             std::to_string(y) + " is not finite");
+        }
+    };
+    check(a, name_a);
+    check(b, name_b);
+}
+
+Rgb false_colour(double x) {
+    constexpr Rgb stops[] = {{0, 0, 0},
+                             {0.02f, 0.01f, 0.15f},
+                             {0.2f, 0.01f, 0.25f},
+                             {0.6f, 0.06f, 0.1f},
+                             {0.95f, 0.3f, 0.01f},
+                             {1, 0.75f, 0.1f},
+                             {1, 1, 1}};
+    constexpr double last = 6;
+    double at = std::clamp(x, 0.0, 1.0) * last;
+    size_t i = std::min(static_cast<size_t>(at), static_cast<size_t>(last) - 1);
+    float t = static_cast<float>(at - static_cast<double>(i));
+    return (1 - t) * stops[i] + t * stops[i + 1];
+}
+
+Image error_image(const Image& a, const Image& b, double range) {
+    Image picture(a.width, a.height);
+    std::vector<PixelError> errors = errors_of(a, b);
+    for (size_t i = 0; i < errors.size(); i++) {
+        picture.pixels[i] = false_colour(range > 0 ? std::sqrt(errors[i].relative) / range : 0);
+    }
+    return picture;
+}
+
+double error_range(const Image& a, const Image& b) {
+    std::vector<PixelError> errors = errors_of(a, b);
+    auto smaller = [](PixelError x, PixelError y) { return x.relative < y.relative; };
+    auto place =
+        errors.begin() + static_cast<std::ptrdiff_t>(errors.size() - 1 - errors.size() / 100);
+    std::nth_element(errors.begin(), place, errors.end(), smaller);
+    return std::sqrt(place->relative);
+}

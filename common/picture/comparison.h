@@ -1,0 +1,45 @@
+// How far one picture is from another.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "common/picture/image.h"
+
+/// What compare() finds out. Errors are means over pixels and channels of a - b, b the reference.
+struct Comparison {
+    double mean_a = 0, mean_b = 0;  // over pixels and channels
+    double mse = 0, rmse = 0;
+    double rel_mse = 0;       // of (a-b)^2 / (b^2 + 0.01)
+    double worst_share = 0;   // of the squared error, in the worst 0.1 % of the pixels
+    double median_ratio = 0;  // of a / b over the pixels where b > 0, brightness by brightness
+
+    // Brightness in blocks of 8 x 8 pixels, in standard errors from the spread of a - b within the
+    // block: that needs pixels whose noise is independent, and no second picture of the noise.
+    double standard_error = 0;  // of mean_a - mean_b; NaN where there is no block
+    int blocks = 0, beyond_5 = 0;
+    double worst_z = 0;
+    int worst_x = 0, worst_y = 0;  // top left pixel of that block
+};
+
+inline constexpr int comparison_block = 8;
+
+/// Compares a with the reference b, pictures of the same size.
+///
+/// trim  percent of the pixels, those with the largest relative error, that mse, rmse, rel_mse and
+///       worst_share leave out; means, ratio and blocks take all
+/// tested by  "truth: the numbers of a comparison, worked out by hand"
+Comparison compare(const Image& a, const Image& b, double trim = 0);
+
+/// Throws InputError when the sizes differ, or a pixel is not finite.
+void check_comparable(const Image& a, const std::string& name_a, const Image& b,
+                      const std::string& name_b);
+
+/// The error of a pixel, sqrt of the mean over its channels of (a-b)^2 / (b^2 + 0.01), as a colour:
+/// black for 0, over blue, purple, orange and yellow to white for `range` and more.
+Image error_image(const Image& a, const Image& b, double range);
+
+/// A range that leaves 1 % of the pixels white.
+double error_range(const Image& a, const Image& b);
+
+/// The colour of share x of the range, linear.
+Rgb false_colour(double x);

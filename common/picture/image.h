@@ -1,0 +1,37 @@
+// Pictures in memory and on disk: .ppm, .pfm, .png.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common/base/vec.h"
+
+/// Linear radiance, row by row from the top left.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<Rgb> pixels;
+
+    Image() = default;
+    Image(int w, int h)
+        : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
+    Rgb& at(int x, int y) {
+        return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    }
+    Rgb at(int x, int y) const {
+        return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    }
+};
+
+/// One channel as an 8-bit sRGB code; what lies outside [0,1] (or is NaN) is cut off.
+unsigned char to_srgb8(float linear);
+
+/// Writes by extension: .ppm (P6, 8-bit sRGB), .pfm (linear float, little endian, bottom row
+/// first), .png (8-bit sRGB, `comment` in a text chunk). A pixel that is not finite stays so in a
+/// .pfm and is magenta in the others. Throws InputError; see files.h.
+void write_image(const std::string& path, const Image& image, const std::string& comment);
+
+/// Whether write_image knows the extension of `path`.
+bool is_image_path(const std::string& path);
+
+/// Reads a .ppm (P6, maxval 255; back to linear) or a .pfm (one or three channels, either byte
+/// order). Throws InputError for anything else, and for a file that is damaged.
+Image read_image(const std::string& path);

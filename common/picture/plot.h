@@ -1,0 +1,62 @@
+// Points and curves drawn into a part of a picture.
+#pragma once
+#include <cmath>
+
+#include "common/picture/image.h"
+
+/// A rectangle of an image with coordinates of its own: x to the right, y up.
+struct Panel {
+    Image& image;
+    int left, top, width, height;      // pixels
+    Vec2 low = {0, 0}, high = {1, 1};  // the coordinates of two corners
+
+    /// A disc of `radius` pixels around p, cut off at the rim of the panel.
+    void dot(Vec2 p, float radius, Rgb color) const {
+        Vec2 centre = {(p.x - low.x) / (high.x - low.x) * static_cast<float>(width),
+                       (high.y - p.y) / (high.y - low.y) * static_cast<float>(height)};
+        if (!(std::abs(centre.x) < 1e6f && std::abs(centre.y) < 1e6f)) return;
+        int x0 = static_cast<int>(std::floor(centre.x - radius));
+        int y0 = static_cast<int>(std::floor(centre.y - radius));
+        int size = static_cast<int>(2 * radius) + 2;
+        for (int y = std::max(0, y0); y <= std::min(height - 1, y0 + size); y++)
+            for (int x = std::max(0, x0); x <= std::min(width - 1, x0 + size); x++) {
+                float dx = static_cast<float>(x) + 0.5f - centre.x;
+                float dy = static_cast<float>(y) + 0.5f - centre.y;
+                if (dx * dx + dy * dy <= std::max(0.25f, radius * radius))
+                    image.at(left + x, top + y) = color;
+            }
+    }
+
+    /// color(p) for every pixel, p the coordinates of its centre.
+    template <class Color>
+    void fill(Color color) const {
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < width; x++) {
+                float s = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
+                float t = (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
+                image.at(left + x, top + y) =
+                    color(Vec2{low.x + s * (high.x - low.x), high.y + t * (low.y - high.y)});
+            }
+    }
+
+    /// A thin line from a to b.
+    void line(Vec2 a, Vec2 b, Rgb color) const {
+        float across = std::abs(b.x - a.x) / (high.x - low.x) * static_cast<float>(width);
+        float along = std::abs(b.y - a.y) / (high.y - low.y) * static_cast<float>(height);
+        int steps = 1 + static_cast<int>(std::min(2 * std::max(across, along), 1e4f));
+        for (int i = 0; i <= steps; i++) {
+            float t = static_cast<float>(i) / static_cast<float>(steps);
+            dot({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}, 0.5f, color);
+        }
+    }
+
+    /// The graph of y = f(x).
+    template <class Function>
+    void curve(Function f, Rgb color) const {
+        float step = (high.x - low.x) / static_cast<float>(width);
+        for (int i = 0; i < width; i++) {
+            float x = low.x + (static_cast<float>(i) + 0.5f) * step;
+            line({x, static_cast<float>(f(x))}, {x + step, static_cast<float>(f(x + step))}, color);
+        }
+    }
+};

@@ -1,0 +1,57 @@
+#include "common/picture/stats_file.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/base/files.h"
+
+std::string StatsFile::path_beside(const std::string& picture) {
+    return std::filesystem::path(picture).replace_extension(".json").string();
+}
+
+std::optional<StatsFile> StatsFile::beside(const std::string& picture) {
+    std::string path = path_beside(picture);
+    if (!std::filesystem::exists(path)) return {};
+    return StatsFile(read_file(path));
+}
+
+const char* StatsFile::value(const std::string& name) const {
+    size_t at = json_.find("\"" + name + "\":");
+    if (at == std::string::npos) return nullptr;
+    at = json_.find_first_not_of(" \t\r\n", at + name.size() + 3);
+    return at == std::string::npos ? nullptr : json_.c_str() + at;
+}
+
+std::vector<double> StatsFile::numbers(const std::string& name) const {
+    std::vector<double> list;
+    const char* at = value(name);
+    if (at == nullptr) return list;
+    bool is_list = *at == '[';
+    if (is_list) at++;
+    do {
+        char* end = nullptr;
+        double x = std::strtod(at, &end);
+        if (end == at) break;
+        list.push_back(x);
+        at = end;
+        while (*at == ' ') at++;
+    } while (is_list && *at++ == ',');
+    return list;
+}
+
+std::optional<double> StatsFile::number(const std::string& name) const {
+    std::vector<double> list = numbers(name);
+    if (list.empty()) return {};
+    return list[0];
+}
+
+std::string StatsFile::text(const std::string& name) const {
+    const char* at = value(name);
+    if (at == nullptr || *at != '"') return "";
+    std::string text;
+    for (at++; *at != '"' && *at != '\0'; at++) {
+        text += *at;
+        if (*at == '\\' && at[1] != '\0') text += *++at;
+    }
+    return text;
+}

@@ -1,0 +1,140 @@
+#include "common/program/options.h"
+
+#include <algorithm>
+#include <regex>
+#include <thread>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/nearest.h"
+#include "common/path/path_log.h"
+#include "common/picture/image.h"
+
+namespace {
+
+void add_output(std::vector<std::string>& out, const std::string& path, bool table) {
+    bool tsv = table && path.ends_with(".tsv");
+    if (!tsv && !is_image_path(path)) {
+        fail_value("out", path,
+                   table ? "a .ppm, .pfm, .png or .tsv file" : "a .ppm, .pfm or .png file");
+    }
+    out.push_back(path);
+}
+
+void parse_size(const std::string& text, RenderOptions& options) {
+    std::smatch match;
+    if (!std::regex_match(text, match, std::regex("(\\d{1,5})x(\\d{1,5})"))) {
+        fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
+    }
+    options.width = static_cast<int>(parse_integer("size", match[1], 1, 65536));
+    options.height = static_cast<int>(parse_integer("size", match[2], 1, 65536));
+    if (int64_t{options.width} * options.height > 1 << 28) {
+        fail_value("size", text, "at most 2^28 pixels");
+    }
+}
+
+void parse_explain(const std::string& text, RenderOptions& options) {
+    std::smatch match;
+    if (!std::regex_match(text, match, std::regex("(\\d{1,9}),(\\d{1,9})(?:,(\\d{1,9}))?"))) {
+        fail_value("explain", text, "X,Y or X,Y,SAMPLE");
+    }
+    options.explain = true;
+    options.explain_x = std::stoi(match[1]);
+    options.explain_y = std::stoi(match[2]);
+    options.explain_sample = match[3].matched ? std::stoi(match[3]) : 0;
+}
+
+SamplerType parse_sampler(const std::string& text) {
+    return static_cast<SamplerType>(
+        parse_choice("sampler", text, {"independent", "stratified", "sobol"}));
+}
+
+std::string parse_class_filter(const std::string& text) {
+    try {
+        PathLog check(text);
+    } catch (const std::regex_error&) {
+        fail_value("paths", text, "a regular expression, such as 'LD(S|D)*E'");
+    }
+    return text;
+}
+
+}  // namespace
+
+RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
+                                   const std::string& scene, std::vector<Option> extra) {
+    RenderOptions o;
+    o.name = name;
+    o.command = command_line(argc, argv);
+    auto integer = [](const char* option, auto& value, int64_t low, int64_t high) {
+        return [=, &value](const std::string& text) {
+            value =
+                static_cast<std::decay_t<decltype(value)>>(parse_integer(option, text, low, high));
+        };
+    };
+    std::vector<Option> options = {
+        {"spp", "N", "samples per pixel (default: as the scene says)",
+         integer("spp", o.spp, 1, 1 << 30)},
+        {"time", "SECONDS", "render whole passes until the time is up",
+         [&](const std::string& text) { o.time = parse_positive("time", text); }},
+        {"size", "WxH", "pixels", [&](const std::string& text) { parse_size(text, o); }},
+        {"seed", "S", "of the random numbers (default 0)", integer("seed", o.seed, 0, 0xffffffff)},
+        {"threads", "T", "default: one for each processor", integer("threads", o.threads, 1, 1024)},
+        {"max-depth", "D", "scattering events: 0 emitters only, 1 direct light",
+         integer("max-depth", o.max_depth, 0, 1 << 30)},
+        {"sampler", "KIND", "independent (default), stratified or sobol",
+         [&](const std::string& text) { o.sampler = parse_sampler(text); }},
+        {"out", "FILE", ".ppm, .pfm or .png; may be repeated (default out/" + name + ".ppm)",
+         [&](const std::string& text) { add_output(o.out, text, false); }},
+        {"stats", "FILE.json", "write time, rays, mean and standard error",
+         [&](const std::string& text) { o.stats = text; }},
+        {"explain", "X,Y[,SAMPLE]", "print one path step by step, and draw it",
+         [&](const std::string& text) { parse_explain(text, o); }},
+        {"paths", "REGEX", "keep only these classes of path, such as 'LD(S|D)*E'",
+         [&](const std::string& text) { o.paths = parse_class_filter(text); }},
+        {"split", "DIR", "write one picture for each class of path",
+         [&](const std::string& text) { o.split = text; }},
+        {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
+    };
+    options.insert(options.begin(), extra.begin(), extra.end());
+    parse_options(
+        argc, argv, "[SCENE]", "Chapter " + name + " on a pbrt-v4 scene (default " + scene + ").",
+        options, [&](const std::string& word) {
+            if (word.empty()) throw UsageError("error: the name of the scene is empty");
+            if (!o.scene.empty()) {
+                throw UsageError("error: two scenes: '" + o.scene + "' and '" + word + "'");
+            }
+            o.scene = word;
+        });
+    if (o.scene.empty()) o.scene = scene;
+    if (o.out.empty()) o.out = {"out/" + name + ".ppm"};
+    if (o.threads == 0)
+        o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return o;
+}
+
+TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n) {
+    TableOptions o;
+    o.name = name;
+    o.command = command_line(argc, argv);
+    o.n = n;
+    std::vector<Option> options = {
+        {"n", "N", "samples (default " + std::to_string(n) + ")",
+         [&](const std::string& text) {
+             o.n = static_cast<uint64_t>(parse_integer("n", text, 1, int64_t{1} << 40));
+         }},
+        {"seed", "S", "of the random numbers (default 0)",
+         [&](const std::string& text) {
+             o.seed = static_cast<uint32_t>(parse_integer("seed", text, 0, 0xffffffff));
+         }},
+        {"out", "FILE", ".ppm, .pfm or .png for the picture, .tsv for the table; may be repeated",
+         [&](const std::string& text) { add_output(o.out, text, true); }},
+        {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
+    };
+    parse_options(argc, argv, "", "Chapter " + name + ": prints a table and draws a picture.",
+                  options, [](const std::string& word) {
+                      throw UsageError("error: '" + word + "' is not an option; --help lists them");
+                  });
+    if (o.out.empty()) o.out = {"out/" + name + ".ppm", "out/" + name + ".tsv"};
+    check_outputs(o.out);
+    return o;
+}

@@ -1,0 +1,46 @@
+// What the programs of all chapters understand on their command lines.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/path/sampler.h"
+#include "common/program/command_line.h"
+
+/// What every chapter that renders a scene understands.
+struct RenderOptions {
+    std::string name;     // of the chapter, such as "06_path_tracing"
+    std::string command;  // as typed
+    std::string scene;
+    int spp = 0;                // 0: as the scene says
+    double time = 0;            // s; 0: no limit
+    int width = 0, height = 0;  // 0: as the scene says
+    int max_depth = -1;         // -1: as the scene says
+    uint32_t seed = 0;
+    int threads = 0;  // 0: one for each processor
+    SamplerType sampler = SamplerType::independent;
+    std::vector<std::string> out;
+    std::string stats;  // JSON file; empty: none
+    bool explain = false;
+    int explain_x = 0, explain_y = 0, explain_sample = 0;
+    std::string paths;  // regular expression; empty: all
+    std::string split;  // folder; empty: none
+    bool quiet = false;
+};
+
+/// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.
+RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
+                                   const std::string& scene, std::vector<Option> extra = {});
+
+/// What the chapters without a scene (01 to 03) understand.
+struct TableOptions {
+    std::string name, command;
+    uint64_t n = 0;
+    uint32_t seed = 0;
+    std::vector<std::string> out;  // pictures, and .tsv for the table
+    bool quiet = false;
+};
+
+/// The options of a chapter that prints a table; n is its default number of samples. Throws
+/// InputError when an output cannot be written.
+TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n);

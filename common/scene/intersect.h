@@ -1,0 +1,120 @@
+// What a ray meets, ready for shading, and how to leave a surface without meeting it again.
+#pragma once
+#include "common/scene/scene.h"
+
+/// A point of a surface, as seen by the ray that found it: n and ng face where it came from.
+struct Hit {
+    Vec3 p;      // m
+    Vec3 n;      // shading normal, unit
+    Vec3 ng;     // geometric normal, unit
+    float eps;   // m: how far p may be off the surface
+    float t;     // in lengths of the ray's d
+    bool front;  // came from the side of the normal: where it shines, outside of glass
+    const Material* material;
+    int light;      // into Scene::lights; -1: does not shine
+    uint32_t prim;  // into Scene::geometry
+};
+
+/// Rays traced by this thread, for rays per second.
+inline constinit thread_local uint64_t rays_traced = 0;
+
+/// How far off a point computed from numbers of this size may lie: some units in the last place.
+inline float rounding_error(float size) { return size * 8 * 0x1p-24f; }
+
+namespace hit_details {
+
+inline void finish_triangle(const Geometry& g, const PrimHit& found, Hit& x, uint32_t& shape) {
+    const Triangle& tri = g.triangles[found.prim];
+    Vec3 p0 = g.positions[tri.v[0]], p1 = g.positions[tri.v[1]], p2 = g.positions[tri.v[2]];
+    float b0 = 1 - found.b1 - found.b2;
+    x.p = b0 * p0 + found.b1 * p1 + found.b2 * p2;
+    x.eps = rounding_error(max_component(b0 * abs(p0) + found.b1 * abs(p1) + found.b2 * abs(p2)));
+    x.n = x.ng = g.facet_normals[found.prim];
+    if (!g.normals.empty()) {
+        Vec3 n = b0 * g.normals[tri.v[0]] + found.b1 * g.normals[tri.v[1]] +
+                 found.b2 * g.normals[tri.v[2]];
+        if (dot(n, n) > 0) x.n = normalize(n);
+    }
+    shape = tri.shape;
+}
+
+inline void finish_sphere(const Sphere& sphere, Vec3 p, Hit& x, uint32_t& shape) {
+    x.n = x.ng = normalize(p - sphere.c);
+    x.p = sphere.c + sphere.r * x.ng;
+    x.eps = rounding_error(max_component(abs(sphere.c)) + sphere.r);
+    shape = sphere.shape;
+}
+
+inline void finish_disk(const Disk& disk, Vec3 p, Hit& x, uint32_t& shape) {
+    x.n = x.ng = disk.n;
+    x.p = p - dot(p - disk.c, disk.n) * disk.n;
+    x.eps = rounding_error(max_component(abs(disk.c)) + disk.r);
+    shape = disk.shape;
+}
+
+/// Turns the normal of what is met edge-on towards the ray, so that no cosine is 0.
+[[gnu::noinline]] inline float tilt(const Ray& ray, Vec3& n) {
+    n = normalize(n - 0x1p-20f * normalize(ray.d));
+    return dot(ray.d, n);
+}
+
+}  // namespace hit_details
+
+/// Fills in x, the point where the ray meets the primitive that was found. In its place: a copy
+/// would have to wait until all parts are in memory.
+inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
+    const Geometry& g = scene.geometry;
+    // Work out the point and its normals on the shape that was hit.
+    uint32_t shape;
+    size_t i = found.prim;
+    if (i < g.triangles.size()) {
+        hit_details::finish_triangle(g, found, x, shape);
+    } else if ((i -= g.triangles.size()) < g.spheres.size()) {
+        hit_details::finish_sphere(g.spheres[i], ray.o + found.t * ray.d, x, shape);
+    } else {
+        hit_details::finish_disk(g.disks[i - g.spheres.size()], ray.o + found.t * ray.d, x, shape);
+    }
+
+    // Turn the normals to the side that the ray came from.
+    float away = dot(ray.d, x.ng);
+    if (away == 0) [[unlikely]]
+        away = hit_details::tilt(ray, x.ng);
+    x.front = away < 0;
+    if (scene.shapes[shape].reverse) x.front = !x.front;
+    if (away > 0) x.ng = -x.ng;
+    if (dot(x.n, x.ng) < 0) x.n = -x.n;
+    if (dot(ray.d, x.n) >= 0) x.n = x.ng;  // a smoothed normal that looks away cannot be used
+
+    x.t = found.t;
+    x.material = &scene.materials[scene.shapes[shape].material];
+    x.light = scene.shapes[shape].light;
+    x.prim = found.prim;
+}
+
+/// The nearest surface along the ray, if there is one.
+inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
+    rays_traced++;
+    PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
+    std::optional<Hit> x;
+    if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
+    return x;
+}
+
+/// Whether anything lies on the ray before t_max.
+inline bool occluded(const Scene& scene, const Ray& ray) {
+    rays_traced++;
+    return any_hit(scene.bvh, scene.geometry, ray);
+}
+
+/// A ray from x in direction wi that starts just off the surface, on the side it leaves to.
+inline Ray spawn_ray(const Hit& x, Vec3 wi, float t_max = infinity) {
+    float side = dot(wi, x.ng) < 0 ? -x.eps : x.eps;
+    return {x.p + side * x.ng, wi, t_max};
+}
+
+/// Le at x towards where the ray came from.
+inline Rgb emission(const Scene& scene, const Hit& x) {
+    if (x.light < 0) return {};
+    const Light& light = scene.lights[static_cast<size_t>(x.light)];
+    return x.front || light.two_sided ? light.L : Rgb{};
+}

@@ -1,0 +1,163 @@
+#include "common/scene_file/scene_reader.h"
+#include "common/scene_file/transforms.h"
+
+Token expect_string(Lexer& lexer, const Token& word, const std::string& what) {
+    Token token = lexer.next();
+    if (token.type == Token::string) return token;
+    fail(lexer.at(token),
+         std::string(word.text) + " needs " + what + " in quotes, not " + Lexer::describe(token));
+}
+
+void SceneReader::move(Lexer& lexer, const Token& word) {
+    Position at = lexer.at(word);
+    TransformStep step = read_transform(lexer, word);
+    if (state_.set_start) state_.start = apply(step, state_.start, at);
+    if (state_.set_end) state_.end = apply(step, state_.end, at);
+}
+
+void SceneReader::active_transform(Lexer& lexer, const Token&) {
+    Token which = lexer.next();
+    bool all = which.text == "All", start = which.text == "StartTime";
+    if (which.type != Token::word || !(all || start || which.text == "EndTime")) {
+        fail(lexer.at(which),
+             "ActiveTransform needs All, StartTime or EndTime, not " + Lexer::describe(which));
+    }
+    state_.set_start = all || start;
+    state_.set_end = all || !start;
+}
+
+void SceneReader::color_space(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    if (token.text == "srgb") return;
+    for (const char* name : {"aces2065-1", "dci-p3", "rec2020"}) {
+        if (token.text != name) continue;
+        notes_.push_back(message_at(lexer.at(word), "note",
+                                    "ColorSpace " + quote(name) + " is read as \"srgb\""));
+        return;
+    }
+    fail_unknown(lexer.at(token), "ColorSpace", std::string(token.text),
+                 {"aces2065-1", "dci-p3", "rec2020", "srgb"});
+}
+
+void SceneReader::accelerator(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_accelerator(params, notes_);
+}
+
+void SceneReader::camera(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_camera(params, still_transform(params.at()), scene_.camera, exposure_);
+    has_camera_ = true;
+}
+
+void SceneReader::film(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_film(params, scene_, exposure_, notes_);
+}
+
+void SceneReader::integrator(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_integrator(params, scene_, notes_);
+}
+
+void SceneReader::option(Lexer& lexer, const Token& word) {
+    Token name = expect_string(lexer, word, "a name");
+    Token value = lexer.next();
+    if (value.type != Token::word && value.type != Token::string) {
+        fail(lexer.at(value), "Option needs a value, not " + Lexer::describe(value));
+    }
+    read_option(lexer.at(name), lexer.unescape(name), notes_);
+}
+
+void SceneReader::pixel_filter(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_pixel_filter(params, notes_);
+    has_filter_ = true;
+}
+
+void SceneReader::sampler(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    read_sampler(params, scene_, notes_);
+}
+
+void SceneReader::world_begin(Lexer&, const Token&) {
+    in_world_ = true;
+    state_ = {};
+}
+
+void SceneReader::area_light_source(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    state_.emission = read_area_light(params);
+}
+
+void SceneReader::begin(Lexer& lexer, const Token& word) {
+    saved_.push_back({state_, lexer.at(word), std::string(word.text)});
+}
+
+void SceneReader::end(Lexer& lexer, const Token& word) {
+    std::string name(word.text);
+    if (saved_.empty()) fail(lexer.at(word), name + " without a beginning");
+    const SavedState& saved = saved_.back();
+    if (saved.begin.front() != name.front()) {
+        fail(lexer.at(word), name + " cannot close the " + saved.begin + " of line " +
+                                 std::to_string(saved.at.line));
+    }
+    state_ = saved.state;
+    saved_.pop_back();
+}
+
+void SceneReader::light_source(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    Light light = read_light(params, still_transform(params.at()));
+    if (!is_black(light.L)) scene_.lights.push_back(light);
+}
+
+void SceneReader::make_named_material(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    std::string name = lexer.unescape(token);
+    Params params(lexer, word, false);
+    params.read_type();
+    uint32_t index = find_material(name, lexer.at(token));
+    NamedMaterial& named = named_materials_[name];
+    if (named.defined) fail(lexer.at(token), "a second material " + quote(name));
+    named.defined = true;
+    scene_.materials[index] = read_material(params);
+}
+
+void SceneReader::material(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    state_.material = static_cast<uint32_t>(scene_.materials.size());
+    scene_.materials.push_back(read_material(params));
+}
+
+void SceneReader::named_material(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    state_.material = find_material(lexer.unescape(token), lexer.at(token));
+}
+
+void SceneReader::reverse_orientation(Lexer&, const Token&) {
+    state_.reverse_orientation = !state_.reverse_orientation;
+}
+
+void SceneReader::shape(Lexer& lexer, const Token& word) {
+    Params params(lexer, word);
+    ShapeState state = {still_transform(params.at()), state_.material, state_.emission,
+                        state_.reverse_orientation};
+    read_shape(params, state, scene_, notes_);
+}
+
+// The number of the named material, which may be defined after its use.
+uint32_t SceneReader::find_material(const std::string& name, const Position& at) {
+    auto [place, is_new] = named_materials_.try_emplace(name);
+    if (is_new) {
+        place->second = {static_cast<uint32_t>(scene_.materials.size()), false, at};
+        scene_.materials.emplace_back();
+    }
+    return place->second.index;
+}
+
+// The current transform; throws where it moves while the shutter is open.
+const Transform& SceneReader::still_transform(const Position& at) const {
+    if (state_.start != state_.end) fail(at, "motion is not supported yet");
+    return state_.start;
+}

@@ -1,0 +1,174 @@
+#include "common/scene_file/lexer.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "common/base/utf8.h"
+
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool ends_word(char c) { return is_blank(c) || c == '[' || c == ']' || c == '"'; }
+
+}  // namespace
+
+Lexer::Lexer(std::string file, std::string bytes)
+    : file_(std::move(file)), bytes_(std::move(bytes)) {
+    check_encoding();
+    if (bytes_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
+    ahead_ = read();
+}
+
+void Lexer::check_encoding() const {
+    auto refuse = [&](const std::string& text) {
+        throw InputError(printable(file_) + ": error: " + text);
+    };
+    if (bytes_.starts_with("\x1f\x8b")) refuse("compressed by gzip: unpack it first");
+    if (bytes_.starts_with("\xff\xfe") || bytes_.starts_with("\xfe\xff")) {
+        refuse("UTF-16 text: save it as UTF-8");
+    }
+    int line = 1, column = 1;
+    for (size_t i = 0; i < bytes_.size(); column++) {
+        size_t length = utf8_length(bytes_, i);
+        if (length == 0) fail({file_, line, column}, "not UTF-8 text");
+        if (bytes_[i] == '\n') {
+            line++;
+            column = 0;
+        }
+        i += length;
+    }
+}
+
+Token Lexer::next() {
+    Token token = ahead_;
+    if (token.type != Token::end) ahead_ = read();
+    return token;
+}
+
+// Steps over one byte and counts lines and characters.
+void Lexer::advance() {
+    char c = bytes_[position_++];
+    if (c == '\n') {
+        line_++;
+        column_ = 1;
+    } else if (position_ == bytes_.size() || (bytes_[position_] & 0xc0) != 0x80) {
+        column_++;
+    }
+}
+
+void Lexer::skip_blanks_and_comments() {
+    while (position_ < bytes_.size()) {
+        if (is_blank(bytes_[position_])) {
+            advance();
+        } else if (bytes_[position_] == '#') {
+            while (position_ < bytes_.size() && bytes_[position_] != '\n' &&
+                   bytes_[position_] != '\r') {
+                advance();
+            }
+        } else {
+            return;
+        }
+    }
+}
+
+void Lexer::read_string() {
+    Position start = {file_, line_, column_};
+    advance();
+    while (position_ < bytes_.size() && bytes_[position_] != '"') {
+        if (bytes_[position_] == '\n') fail(start, "the string does not end on its line");
+        bool escape = bytes_[position_] == '\\';
+        advance();
+        if (escape && position_ < bytes_.size() && bytes_[position_] != '\n') advance();
+    }
+    if (position_ == bytes_.size()) fail(start, "the file ends inside a string");
+    advance();
+}
+
+Token Lexer::read() {
+    skip_blanks_and_comments();
+    Token token;
+    token.line = line_;
+    token.column = column_;
+    size_t start = position_;
+    if (start == bytes_.size()) return token;
+    switch (bytes_[start]) {
+        case '[':
+            token.type = Token::open;
+            advance();
+            break;
+        case ']':
+            token.type = Token::close;
+            advance();
+            break;
+        case '"':
+            token.type = Token::string;
+            read_string();
+            token.text = std::string_view(bytes_).substr(start + 1, position_ - start - 2);
+            return token;
+        default:
+            token.type = Token::word;
+            while (position_ < bytes_.size() && !ends_word(bytes_[position_])) advance();
+    }
+    token.text = std::string_view(bytes_).substr(start, position_ - start);
+    return token;
+}
+
+double Lexer::number(const Token& token, const std::string& what) const {
+    std::optional<double> value;
+    if (token.type == Token::word) value = to_number(token.text);
+    if (!value) fail(at(token), what + " needs a number, not " + describe(token));
+    if (std::abs(*value) > std::numeric_limits<float>::max()) {
+        fail(at(token), "number too large: " + quote(token.text));
+    }
+    return *value;
+}
+
+std::string Lexer::unescape(const Token& token) const {
+    constexpr std::string_view letters = "bfnrt\\'\"", meanings = "\b\f\n\r\t\\'\"";
+    std::string text;
+    for (size_t i = 0; i < token.text.size(); i++) {
+        if (token.text[i] != '\\') {
+            text += token.text[i];
+            continue;
+        }
+        size_t letter = letters.find(token.text[++i]);
+        if (letter == std::string_view::npos) {
+            fail(at(token), "unknown escape " + quote(token.text.substr(i - 1, 2)) +
+                                ": in a string \\ must be written as \\\\");
+        }
+        text += meanings[letter];
+    }
+    return text;
+}
+
+std::string Lexer::describe(const Token& token) {
+    switch (token.type) {
+        case Token::end: return "the end of the file";
+        case Token::string: return "the string " + quote(token.text);
+        default: return quote(token.text);
+    }
+}
+
+std::optional<double> to_number(std::string_view text) {
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    bool negative = text.starts_with('-');
+    std::string_view digits = text.substr(negative ? 1 : 0);
+    if (digits.empty() || !(digits[0] == '.' || (digits[0] >= '0' && digits[0] <= '9'))) return {};
+    double value = 0;
+    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size()) return {};
+    if (error == std::errc::result_out_of_range)
+        return std::strtod(std::string(text).c_str(), nullptr);
+    if (error != std::errc()) return {};
+    return value;
+}
+
+std::optional<int> to_integer(std::string_view text) {
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    int value = 0;
+    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size() || error != std::errc()) return {};
+    return value;
+}

@@ -1,0 +1,54 @@
+// Splits a pbrt-v4 scene file into tokens that know where they stand.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/base/position.h"
+
+struct Token {
+    enum Type : uint8_t { word, string, open, close, end };
+    Type type = end;
+    std::string_view text;  // as written; of a string, what stands between the quotes
+    int line = 1, column = 1;
+};
+
+/// The tokens of one file, with one token to look ahead. A token of type `end` closes the file.
+///
+/// Blanks separate tokens; brackets and quotes also end one; # starts a comment where a token could
+/// start. Throws InputError for a file that is not UTF-8 text and for a string without its end.
+class Lexer {
+public:
+    Lexer(std::string file, std::string bytes);
+    Lexer(const Lexer&) = delete;  // tokens point into bytes_
+    Lexer& operator=(const Lexer&) = delete;
+
+    const Token& peek() const { return ahead_; }
+    Token next();
+    Position at(const Token& token) const { return {file_, token.line, token.column}; }
+
+    /// The number that the token is; throws `WHAT needs a number, not ...` when it is none.
+    double number(const Token& token, const std::string& what) const;
+    /// What the quoted string means: its escapes \b \f \n \r \t \\ \' \" resolved.
+    std::string unescape(const Token& token) const;
+    /// The token as messages name it: `"P"`, `the string "P"`, `the end of the file`.
+    static std::string describe(const Token& token);
+
+private:
+    void check_encoding() const;
+    void advance();
+    void skip_blanks_and_comments();
+    void read_string();
+    Token read();
+
+    std::string file_, bytes_;
+    size_t position_ = 0;
+    int line_ = 1, column_ = 1;
+    Token ahead_;
+};
+
+/// The number that `text` writes, as pbrt reads it: no inf, no nan; empty when it is none.
+/// Numbers too large for a double are infinite, those too small are 0.
+std::optional<double> to_number(std::string_view text);
+/// The same for a whole number without point or exponent that fits an int.
+std::optional<int> to_integer(std::string_view text);

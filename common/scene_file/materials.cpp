@@ -1,0 +1,204 @@
+#include "common/scene_file/materials.h"
+
+#include <array>
+
+#include "common/scene_file/spectra.h"
+
+namespace {
+
+constexpr float smooth_below = 1e-3f;  // the alpha under which pbrt takes a surface for smooth
+
+Rgb read_rgb(const Param& param) {
+    return {static_cast<float>(param.numbers[0]), static_cast<float>(param.numbers[1]),
+            static_cast<float>(param.numbers[2])};
+}
+
+// A reflectance in [0,1], or nothing when it is not given.
+std::optional<Rgb> read_reflectance(Params& params) {
+    const Param* param = params.find_exactly("rgb", "reflectance", 3);
+    if (!param) return {};
+    Rgb r = read_rgb(*param);
+    if (std::min({r.r, r.g, r.b}) < 0 || max_component(r) > 1) {
+        fail(param->at, "\"reflectance\" must be from 0 to 1");
+    }
+    return r;
+}
+
+/// The roughness as GGX's alpha; sqrt(roughness) unless remaproughness is false.
+float read_alpha(Params& params) {
+    float roughness = params.number("roughness", 0);
+    float u = params.number("uroughness", roughness), v = params.number("vroughness", roughness);
+    bool remap = params.boolean("remaproughness", true);
+    constexpr float roughest = 100;
+    if (!(std::min(u, v) >= 0 && std::max(u, v) <= roughest)) {
+        fail(params.at(), "roughness must be from 0 to 100");
+    }
+    if (u != v) fail(params.at(), "uroughness and vroughness that differ are not supported");
+    return remap ? std::sqrt(u) : u;
+}
+
+// "eta" or "k" of a metal: an rgb, or the name of a measured spectrum such as "metal-Cu-eta".
+std::optional<Rgb> read_metal(Params& params, const std::string& name) {
+    if (const Param* rgb = params.find_exactly("rgb", name, 3)) {
+        Rgb value = read_rgb(*rgb);
+        constexpr float largest = 1e4f;  // so that its fourth power is a float
+        if (std::min({value.r, value.g, value.b}) < 0 || max_component(value) > largest) {
+            fail(rgb->at, quote(name) + " must be from 0 to 1e4");
+        }
+        return value;
+    }
+    const Param* spectrum = params.find("spectrum", name);
+    if (!spectrum) return {};
+    if (spectrum->strings.size() != 1) {
+        fail(spectrum->at, quote(name) + " must be an rgb or the name of a metal");
+    }
+    std::vector<std::string> known;
+    for (const std::string& symbol : metal_symbols()) {
+        MetalIor ior = *metal_ior(symbol);
+        if (spectrum->strings[0] == "metal-" + symbol + "-eta") return ior.eta;
+        if (spectrum->strings[0] == "metal-" + symbol + "-k") return ior.k;
+        known.push_back("metal-" + symbol + '-' + name);
+    }
+    fail_unknown(spectrum->at, "spectrum", spectrum->strings[0], known);
+}
+
+Material read_conductor(Params& params) {
+    Material material;
+    material.type = MaterialType::conductor;
+    std::optional<Rgb> reflectance = read_reflectance(params);
+    std::optional<Rgb> eta = read_metal(params, "eta"), k = read_metal(params, "k");
+    if (reflectance && (eta || k)) {
+        fail(params.at(), "a conductor has either reflectance or eta and k");
+    }
+    MetalIor copper = *metal_ior("Cu");
+    material.eta = eta.value_or(copper.eta);
+    material.k = k.value_or(copper.k);
+    if (reflectance) {
+        // Find the metal of eta = 1 that reflects so much at normal incidence, as pbrt does.
+        auto to_k = [](float r) {
+            r = std::min(r, 0.9999f);
+            return 2 * std::sqrt(r) / std::sqrt(1 - r);
+        };
+        material.eta = {1, 1, 1};
+        material.k = {to_k(reflectance->r), to_k(reflectance->g), to_k(reflectance->b)};
+    }
+    float alpha = read_alpha(params);
+    material.alpha = alpha >= smooth_below ? alpha : 0;
+    return material;
+}
+
+Material read_dielectric(Params& params) {
+    Material material;
+    material.type = MaterialType::dielectric;
+    if (const Param* glass = params.find("spectrum", "eta")) {
+        fail(glass->at, "glass with a spectrum for eta (dispersion) is not supported yet");
+    }
+    material.ior = params.number("eta", 1.5f);
+    if (!(material.ior >= 1e-4f && material.ior <= 1e4f)) {
+        fail(params.at("eta"), "\"eta\" must be from 1e-4 to 1e4");
+    }
+    if (read_alpha(params) >= smooth_below) {
+        fail(params.at(), "a rough dielectric is not supported");
+    }
+    return material;
+}
+
+// Multiplies L by a parameter that must not be negative.
+float read_factor(Params& params, const std::string& name, float fallback) {
+    float value = params.number(name, fallback);
+    if (value < 0) fail(params.at(name), quote(name) + " must not be negative");
+    return value;
+}
+
+Double3 read_point(Params& params, const std::string& name, Vec3 fallback) {
+    Vec3 p = params.point(name, fallback);
+    return {p.x, p.y, p.z};
+}
+
+// Where a point light stands.
+Vec3 read_position(Params& params, const Transform& world_from_light) {
+    Double3 from = read_point(params, "from", {0, 0, 0});
+    Vec3 p = to_vec3(transform_point(world_from_light, from));
+    if (!(max_component(abs(p)) <= 1e9f)) fail(params.at("from"), "the light is farther than 1e9");
+    return p;
+}
+
+// The unit vector towards a distant light.
+Vec3 read_direction(Params& params, const Transform& world_from_light) {
+    Double3 from = read_point(params, "from", {0, 0, 0}), to = read_point(params, "to", {0, 0, 1});
+    if (from == to) fail(params.at("to"), "\"from\" and \"to\" are the same point");
+    return to_vec3(normalize(transform_vector(world_from_light, subtract(from, to))));
+}
+
+void check_finite(const Params& params, Rgb L) {
+    if (!is_finite(L)) fail(params.at(), params.owner() + " is too bright for a float");
+}
+
+}  // namespace
+
+Material read_material(Params& params) {
+    Material material;
+    if (params.type() == "diffuse") {
+        material.reflectance = read_reflectance(params).value_or(material.reflectance);
+    } else if (params.type() == "conductor") {
+        material = read_conductor(params);
+    } else if (params.type() == "dielectric") {
+        material = read_dielectric(params);
+    } else {
+        params.fail_type({"conductor", "dielectric", "diffuse"});
+    }
+    material.line = params.at().line;
+    material.column = params.at().column;
+    params.finish();
+    return material;
+}
+
+AreaEmission read_area_light(Params& params) {
+    if (params.type() != "diffuse") params.fail_type({"diffuse"});
+    if (params.find("string", "filename")) {
+        fail(params.at("filename"), "an image on an area light is not supported");
+    }
+    AreaEmission emission;
+    emission.L = params.illuminant("L", {1, 1, 1}) * read_factor(params, "scale", 1);
+    emission.two_sided = params.boolean("twosided", false);
+    if (const Param* power = params.find_exactly("float", "power", 1)) {
+        emission.power = static_cast<float>(power->numbers[0]);
+        if (!(emission.power > 0)) fail(power->at, "\"power\" must be greater than 0");
+    }
+    check_finite(params, emission.L);
+    params.finish();
+    return emission;
+}
+
+Light read_light(Params& params, const Transform& world_from_light) {
+    Light light;
+    light.line = params.at().line;
+    light.column = params.at().column;
+    float scale = read_factor(params, "scale", 1);
+    if (params.type() == "point") {
+        light.type = LightType::point;
+        light.p = read_position(params, world_from_light);
+        light.L = params.illuminant("I", {1, 1, 1}) * scale;
+        if (params.find("float", "power")) {
+            light.L *= read_factor(params, "power", 0) / (4 * pi);
+        }
+    } else if (params.type() == "distant") {
+        light.type = LightType::distant;
+        light.p = read_direction(params, world_from_light);
+        light.L = params.illuminant("L", {1, 1, 1}) * scale * read_factor(params, "illuminance", 1);
+    } else if (params.type() == "infinite") {
+        light.type = LightType::infinite;
+        if (params.find("string", "filename")) {
+            fail(params.at("filename"), "an image for the sky is not supported yet");
+        }
+        light.L = params.illuminant("L", {1, 1, 1}) * scale;
+        if (params.find("float", "illuminance")) {
+            light.L *= read_factor(params, "illuminance", 0) / pi;
+        }
+    } else {
+        params.fail_type({"distant", "infinite", "point"});
+    }
+    check_finite(params, light.L);
+    params.finish();
+    return light;
+}

@@ -1,0 +1,19 @@
+// Materials and lights of a pbrt-v4 scene file.
+#pragma once
+#include <optional>
+
+#include "common/geometry/transform.h"
+#include "common/scene/scene.h"
+#include "common/scene_file/params.h"
+
+Material read_material(Params& params);
+
+/// What AreaLightSource says about the shapes after it.
+struct AreaEmission {
+    Rgb L;
+    float power = 0;  // W of each primitive, by which L is multiplied; 0: L is the radiance
+    bool two_sided = false;
+};
+AreaEmission read_area_light(Params& params);
+
+Light read_light(Params& params, const Transform& world_from_light);

@@ -1,0 +1,120 @@
+#include "common/scene_file/mesh.h"
+
+#include <limits>
+
+namespace {
+
+std::vector<Vec3> group_by_three(const std::vector<double>& numbers) {
+    std::vector<Vec3> groups(numbers.size() / 3);
+    for (size_t i = 0; i < numbers.size(); i++) {
+        groups[i / 3][static_cast<int>(i % 3)] = static_cast<float>(numbers[i]);
+    }
+    return groups;
+}
+
+std::vector<uint32_t> read_indices(Params& params, size_t vertices) {
+    const Param* param = params.find("integer", "indices");
+    if (!param) {
+        if (vertices == 3) return {0, 1, 2};
+        fail(params.at(), params.owner() + " needs \"integer indices\"");
+    }
+    if (param->numbers.size() % 3 != 0) {
+        fail(param->at, "\"indices\" has " + std::to_string(param->numbers.size()) +
+                            " numbers, not a multiple of 3");
+    }
+    std::vector<uint32_t> indices;
+    for (double index : param->numbers) {
+        if (index < 0 || index >= static_cast<double>(vertices)) {
+            fail(param->at, "index " + std::to_string(static_cast<int>(index)) +
+                                " is out of range: there are " + std::to_string(vertices) +
+                                " vertices");
+        }
+        indices.push_back(static_cast<uint32_t>(index));
+    }
+    return indices;
+}
+
+// Adds positions and normals in world space; returns the number of the first.
+uint32_t add_vertices(const Params& params, const TriangleMesh& mesh,
+                      const Transform& world_from_object, bool reverse, Geometry& geometry) {
+    size_t first = geometry.positions.size();
+    constexpr size_t most = std::numeric_limits<uint32_t>::max() / 2;
+    if (first + mesh.positions.size() > most) fail(params.at(), "too many vertices");
+    for (Vec3 p : mesh.positions) {
+        Vec3 world = to_vec3(transform_point(world_from_object, {p.x, p.y, p.z}));
+        check_extent(params, world);
+        geometry.positions.push_back(world);
+    }
+    if (mesh.normals.empty() && geometry.normals.empty()) return static_cast<uint32_t>(first);
+
+    geometry.normals.resize(first);
+    for (Vec3 n : mesh.normals) {
+        Double3 world = transform_normal(world_from_object, {n.x, n.y, n.z});
+        // Keep lengths, by which pbrt weighs them, but not those whose square leaves float.
+        double size = length(world);
+        if (size > 0 && !(size > 1e-6 && size < 1e6)) world = normalize(world);
+        geometry.normals.push_back(reverse ? -to_vec3(world) : to_vec3(world));
+    }
+    geometry.normals.resize(geometry.positions.size());
+    return static_cast<uint32_t>(first);
+}
+
+}  // namespace
+
+void check_extent(const Params& params, Vec3 p) {
+    constexpr float farthest = 1e9f;
+    if (is_finite(p) && max_component(abs(p)) <= farthest) return;
+    fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
+}
+
+TriangleMesh read_triangle_mesh(Params& params) {
+    TriangleMesh mesh;
+    const Param* P = params.find("point3", "P");
+    if (!P) fail(params.at(), params.owner() + " needs \"point3 P\"");
+    mesh.positions = group_by_three(P->numbers);
+
+    // Check that what belongs to vertices is given for each.
+    const Param *N = params.find("normal", "N"), *S = params.find("vector3", "S");
+    const Param* uv = params.find("point2", "uv");
+    for (const Param* param : {N, S, uv}) {
+        if (!param) continue;
+        size_t count = param->numbers.size() / (param == uv ? 2 : 3);
+        if (count == mesh.positions.size()) continue;
+        fail(param->at, quote(param->name) + " is given for " + std::to_string(count) + " of " +
+                            std::to_string(mesh.positions.size()) + " vertices");
+    }
+    if (N) mesh.normals = group_by_three(N->numbers);
+    mesh.indices = read_indices(params, mesh.positions.size());
+    const Param* faces = params.find("integer", "faceIndices");
+    if (faces && faces->numbers.size() != mesh.indices.size() / 3) {
+        fail(faces->at, "\"faceIndices\" needs one number for each triangle");
+    }
+    return mesh;
+}
+
+void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& world_from_object,
+              bool reverse, uint32_t shape, Geometry& g, Notes& notes) {
+    uint32_t first = add_vertices(params, mesh, world_from_object, reverse, g);
+    bool mirrored = determinant(world_from_object) < 0;
+    size_t left_out = 0;
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+        uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
+                 c = first + mesh.indices[i + 2];
+        Vec3 normal = cross(g.positions[b] - g.positions[a], g.positions[c] - g.positions[a]);
+        if (!(length_squared(normal) >= std::numeric_limits<float>::min())) {
+            left_out++;
+            continue;
+        }
+        bool turn = mirrored != reverse;
+        if (!mesh.normals.empty()) {
+            float side = dot(normal, g.normals[a] + g.normals[b] + g.normals[c]);
+            if (side != 0) turn = side < 0;
+        }
+        if (turn) std::swap(b, c);
+        g.triangles.push_back({{a, b, c}, shape});
+    }
+    if (left_out > 0) {
+        notes.push_back(message_at(params.at(), "note",
+                                   "left out triangles without area: " + std::to_string(left_out)));
+    }
+}

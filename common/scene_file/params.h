@@ -1,0 +1,53 @@
+// The parameters that follow a directive of a pbrt-v4 scene file: `"float fov" 45`.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common/base/vec.h"
+#include "common/scene_file/param.h"
+
+/// The parameters of one directive. A directive asks for each that it knows; finish() then refuses
+/// those that nobody asked for. Of a parameter given twice the last one counts, as in pbrt.
+///
+/// Everything here throws InputError at the parameter for what cannot be used.
+class Params {
+public:
+    /// Reads what follows `directive`: its type, such as "perspective" (where it has one), and the
+    /// parameters up to a token that is none.
+    Params(Lexer& lexer, const Token& directive, bool has_type = true);
+
+    const std::string& type() const { return type_; }
+    /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
+    void read_type();
+    /// Throws for a type that is none of the known ones.
+    [[noreturn]] void fail_type(const std::vector<std::string>& known) const;
+
+    /// Where the directive stands, and where a parameter does (the directive if it is not given).
+    const Position& at() const { return at_; }
+    const Position& at(const std::string& name) const;
+    /// The directive and its type, for messages.
+    std::string owner() const;
+
+    /// The one value of a parameter; `fallback` where it is not given.
+    float number(const std::string& name, float fallback);
+    int integer(const std::string& name, int fallback, int low, int high);
+    bool boolean(const std::string& name, bool fallback);
+    std::string string(const std::string& name, const std::string& fallback);
+    Vec3 point(const std::string& name, Vec3 fallback);
+    /// A color of components >= 0: `rgb`, or `blackbody` (luminance 1).
+    Rgb illuminant(const std::string& name, Rgb fallback);
+    /// The parameter of this type and name; null if not given.
+    const Param* find(const std::string& type, const std::string& name);
+    /// The same with exactly `count` values.
+    const Param* find_exactly(const std::string& type, const std::string& name, size_t count);
+    /// Accepts parameters that have no effect on what we render.
+    void ignore(const std::string& type, const std::vector<std::string>& names);
+    /// Throws for a parameter that has not been asked for.
+    void finish() const;
+
+private:
+    Position at_, type_at_;
+    std::string directive_, type_;
+    std::vector<Param> params_;
+    std::vector<std::string> known_names_, known_types_;  // what was asked for
+};

@@ -1,0 +1,241 @@
+#include "common/scene_file/ply.h"
+
+#include "common/scene_file/ply_bytes.h"
+
+namespace {
+
+struct Property {
+    std::string name;
+    const PlyScalar* type = nullptr;
+    const PlyScalar* count_type = nullptr;  // of a list; null for a single value
+};
+
+struct Element {
+    std::string name;
+    uint64_t count = 0;
+    Position at;
+    std::vector<Property> properties;
+
+    const Property* find(const std::string& property) const {
+        for (const Property& p : properties) {
+            if (p.name == property) return &p;
+        }
+        return nullptr;
+    }
+};
+
+const PlyScalar* find_scalar(std::string_view name) {
+    for (const PlyScalar& type : ply_scalars) {
+        if (name == type.name || name == type.other_name) return &type;
+    }
+    return nullptr;
+}
+
+const PlyScalar* read_scalar(PlyBytes& reader) {
+    std::string_view name = reader.word();
+    if (const PlyScalar* type = find_scalar(name)) return type;
+    std::vector<std::string> known;
+    for (const PlyScalar& type : ply_scalars) known.push_back(type.name);
+    std::string nearest = nearest_word(name, known);
+    reader.fail_here("unknown property type " + quote(name) +
+                     (nearest.empty() ? "" : ": did you mean " + quote(nearest) + '?'));
+}
+
+Property read_property(PlyBytes& reader) {
+    Property property;
+    PlyBytes look_ahead = reader;
+    if (look_ahead.word() == "list") {
+        reader.word();
+        property.count_type = read_scalar(reader);
+        if (property.count_type->is_float) reader.fail_here("a list cannot have a float for count");
+    }
+    property.type = read_scalar(reader);
+    property.name = reader.word();
+    if (property.name.empty()) reader.fail_here("a property without a name");
+    return property;
+}
+
+Element read_element(PlyBytes& reader) {
+    Element element;
+    element.name = reader.word();
+    element.at = reader.at();
+    std::string_view count = reader.word();
+    auto number = to_number(count);
+    if (!number || !(*number >= 0) || *number != std::floor(*number) || *number > 1e15) {
+        reader.fail_here("expected how many elements there are, not " + quote(count));
+    }
+    element.count = static_cast<uint64_t>(*number);
+    return element;
+}
+
+PlyFormat read_format(PlyBytes& reader) {
+    std::string_view name = reader.word();
+    std::optional<PlyFormat> format;
+    if (name == "ascii") format = PlyFormat::ascii;
+    if (name == "binary_little_endian") format = PlyFormat::little;
+    if (name == "binary_big_endian") format = PlyFormat::big;
+    if (!format) reader.fail_here("unknown format " + quote(name));
+    if (std::string_view version = reader.word(); version != "1.0") {
+        reader.fail_here("unknown version " + quote(version));
+    }
+    return *format;
+}
+
+// Reads the header and returns what follows it; the body starts where the reader stands.
+std::vector<Element> read_header(PlyBytes& reader) {
+    if (reader.word() != "ply") reader.fail_here("not a PLY file: it does not start with ply");
+    reader.end_line();
+    std::vector<Element> elements;
+    std::optional<PlyFormat> format;
+    while (true) {
+        std::string_view keyword = reader.word();
+        if (keyword == "end_header") break;
+        if (keyword == "format") {
+            format = read_format(reader);
+        } else if (keyword == "element") {
+            elements.push_back(read_element(reader));
+        } else if (keyword == "property") {
+            if (elements.empty()) reader.fail_here("a property before the first element");
+            elements.back().properties.push_back(read_property(reader));
+        } else if (keyword.empty() && reader.left() == 0) {
+            reader.fail_here("the file ends inside the header");
+        } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+            reader.fail_here("unknown word " + quote(keyword) + " in the header");
+        }
+        reader.end_line();
+    }
+    if (!format) reader.fail_here("the header names no format");
+    reader.end_line();
+    reader.format = *format;
+    return elements;
+}
+
+// Refuses a count that the rest of the file cannot hold, before anything is allocated for it.
+void check_count(const PlyBytes& reader, const Element& element) {
+    uint64_t bytes = 0;  // of the smallest element
+    for (const Property& property : element.properties) {
+        const PlyScalar& first = property.count_type ? *property.count_type : *property.type;
+        bytes += reader.format == PlyFormat::ascii ? 2 : first.size;
+    }
+    if (bytes > 0 && element.count > (reader.left() + 1) / bytes) {
+        fail(element.at, "the file is too short for " + std::to_string(element.count) + ' ' +
+                             printable(element.name) + " elements");
+    }
+}
+
+// How many values the list has; 1 for a single value.
+uint64_t read_length(PlyBytes& reader, const Property& property) {
+    if (!property.count_type) return 1;
+    double length = reader.value(*property.count_type);
+    if (length < 0) reader.fail_here("a list of negative length");
+    if (length > static_cast<double>(reader.left())) {
+        reader.fail_here("the file is too short for a list of this length");
+    }
+    return static_cast<uint64_t>(length);
+}
+
+void skip(PlyBytes& reader, const Property& property) {
+    for (uint64_t n = read_length(reader, property); n > 0; n--) reader.value(*property.type);
+}
+
+void read_vertices(PlyBytes& reader, const Element& element, TriangleMesh& mesh) {
+    // Find where in a vertex its coordinates and its normal stand.
+    constexpr std::array<const char*, 6> names = {"x", "y", "z", "nx", "ny", "nz"};
+    std::array<const Property*, 6> wanted;
+    for (size_t i = 0; i < 6; i++) {
+        wanted[i] = element.find(names[i]);
+        if (i < 3 && !wanted[i]) fail(element.at, "vertex has no property " + quote(names[i]));
+        if (wanted[i] && wanted[i]->count_type) {
+            fail(element.at, "property " + quote(names[i]) + " must not be a list");
+        }
+    }
+    bool has_normals = wanted[3] && wanted[4] && wanted[5];
+
+    mesh.positions.reserve(element.count);
+    for (uint64_t n = 0; n < element.count; n++) {
+        std::array<float, 6> v = {};
+        for (const Property& property : element.properties) {
+            size_t slot = 0;
+            while (slot < 6 && wanted[slot] != &property) slot++;
+            if (slot == 6) {
+                skip(reader, property);
+                continue;
+            }
+            v[slot] = static_cast<float>(reader.value(*property.type));
+            if (!std::isfinite(v[slot])) reader.fail_here("a vertex is not finite");
+        }
+        mesh.positions.push_back({v[0], v[1], v[2]});
+        if (has_normals) mesh.normals.push_back({v[3], v[4], v[5]});
+    }
+}
+
+void read_faces(PlyBytes& reader, const Element& element, size_t vertices, TriangleMesh& mesh) {
+    const Property* corners = element.find("vertex_indices");
+    if (!corners) corners = element.find("vertex_index");
+    if (!corners || !corners->count_type || corners->type->is_float) {
+        fail(element.at, "face has no list of whole numbers \"vertex_indices\"");
+    }
+    for (uint64_t n = 0; n < element.count; n++) {
+        for (const Property& property : element.properties) {
+            if (&property != corners) {
+                skip(reader, property);
+                continue;
+            }
+            uint64_t length = read_length(reader, property);
+            if (length != 3 && length != 4) {
+                reader.fail_here("a face of " + std::to_string(length) +
+                                 " corners: only triangles and quads are supported");
+            }
+            std::array<uint32_t, 4> v = {};
+            for (uint64_t i = 0; i < length; i++) {
+                double index = reader.value(*property.type);
+                if (!(index >= 0 && index < static_cast<double>(vertices))) {
+                    reader.fail_here("vertex " + std::to_string(static_cast<int64_t>(index)) +
+                                     " of a face does not exist: there are " +
+                                     std::to_string(vertices));
+                }
+                v[i] = static_cast<uint32_t>(index);
+            }
+            mesh.indices.insert(mesh.indices.end(), {v[0], v[1], v[2]});
+            if (length == 4) mesh.indices.insert(mesh.indices.end(), {v[0], v[2], v[3]});
+        }
+    }
+}
+
+}  // namespace
+
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
+    if (bytes.starts_with("\x1f\x8b")) {
+        throw InputError(printable(file) + ": error: compressed by gzip: unpack it first");
+    }
+    PlyBytes reader(file, bytes);
+    std::vector<Element> elements = read_header(reader);
+
+    // Know how many vertices there will be, since faces may come before them.
+    const Element *vertex = nullptr, *face = nullptr;
+    for (const Element& element : elements) {
+        const Element** known = element.name == "vertex" ? &vertex : &face;
+        if (element.name != "vertex" && element.name != "face") continue;
+        if (*known) fail(element.at, "a second element " + quote(element.name));
+        *known = &element;
+    }
+    if (!vertex || !face) {
+        throw InputError(printable(file) + ": error: no element " +
+                         quote(vertex ? "face" : "vertex"));
+    }
+
+    TriangleMesh mesh;
+    for (const Element& element : elements) {
+        check_count(reader, element);
+        if (&element == vertex) {
+            read_vertices(reader, element, mesh);
+        } else if (&element == face) {
+            read_faces(reader, element, vertex->count, mesh);
+        } else if (!element.properties.empty()) {
+            for (uint64_t n = 0; n < element.count; n++) {
+                for (const Property& property : element.properties) skip(reader, property);
+            }
+        }
+    }
+    return mesh;
+}

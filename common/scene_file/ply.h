@@ -1,0 +1,23 @@
+// Triangle meshes in PLY files, ASCII and binary.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/vec.h"
+
+/// A mesh in its own space.
+struct TriangleMesh {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;      // of the vertices, as in the file; empty or one for each
+    std::vector<uint32_t> indices;  // three for each triangle, all < positions.size()
+};
+
+/// Reads the mesh from the bytes of a PLY file. A quad 0 1 2 3 becomes triangles 0 1 2 and 0 2 3;
+/// elements and properties other than x y z, nx ny nz and the faces are read over.
+///
+/// file    its name, for messages
+/// errors  InputError "file:line:column: error: ..." for the header and an ASCII body,
+///         "file: error: ... at byte N" for a binary one
+/// source  Turk 1994, "The PLY Polygon File Format"      tested by  "input: PLY ..."
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes);

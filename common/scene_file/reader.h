@@ -1,0 +1,18 @@
+// Reads a scene from a file in our subset of pbrt-v4's scene language.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+/// Reads the scene file and all that it includes. Everything is in world space afterwards, powers
+/// are radiances, and metals have eta and k; the BVH is left to be built.
+///
+/// notes   gets a line `file:line:column: note: text` for each thing that is not done as the file
+///         says; may be null
+/// errors  InputError `file:line:column: error: text` for anything that is wrong or not supported
+/// source  pbrt.org/fileformat-v4, and pbrt-v4 itself      tested by  tests/common/reader.cpp
+Scene load_scene(const std::string& path, std::vector<std::string>* notes);
+
+/// The same for a scene file that is already in memory; `path` says where it belongs.
+Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes);

@@ -1,0 +1,164 @@
+#include "common/scene_file/shapes.h"
+
+#include <limits>
+
+#include "common/scene_file/mesh.h"
+#include "common/scene_file/named_files.h"
+
+namespace {
+
+// Refuses a radius of which the square is no float, or that reaches too far.
+void check_radius(const Params& params, Vec3 c, float r) {
+    if (!(r * r >= std::numeric_limits<float>::min())) {
+        fail(params.at("radius"), params.owner() + " is smaller than 1e-18: choose a smaller unit");
+    }
+    check_extent(params, abs(c) + Vec3{r, r, r});
+}
+
+// The one factor by which the transform scales these axes; throws where there is none.
+double uniform_scale(const Params& params, const std::vector<Double3>& axes,
+                     const std::string& otherwise) {
+    constexpr double tolerance = 1e-3;  // for numbers written with few digits
+    double scale = length(axes[0]);
+    for (size_t i = 0; i < axes.size(); i++) {
+        const Double3& next = axes[(i + 1) % axes.size()];
+        bool same = std::abs(length(next) - scale) <= tolerance * scale;
+        bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
+        if (!same || !right_angle) fail(params.at(), otherwise);
+    }
+    return scale;
+}
+
+float read_radius(Params& params) {
+    float radius = params.number("radius", 1);
+    if (!(radius > 0)) fail(params.at("radius"), "\"radius\" must be greater than 0");
+    return radius;
+}
+
+// Refuses a parameter that has not the value at which the shape is whole.
+void require(Params& params, const std::string& name, float value, const std::string& otherwise) {
+    if (params.number(name, value) != value) fail(params.at(name), otherwise);
+}
+
+void add_sphere(Params& params, const ShapeState& state, Scene& scene) {
+    float radius = read_radius(params);
+    require(params, "zmin", -radius, "only whole spheres are supported");
+    require(params, "zmax", radius, "only whole spheres are supported");
+    require(params, "phimax", 360, "only whole spheres are supported");
+    const Transform& t = state.world_from_object;
+    double scale = uniform_scale(params, {t.x, t.y, t.z},
+                                 "a sphere scaled differently along its axes is not supported");
+    Sphere sphere = {to_vec3(t.o), static_cast<float>(radius * scale),
+                     static_cast<uint32_t>(scene.shapes.size())};
+    check_radius(params, sphere.c, sphere.r);
+    scene.geometry.spheres.push_back(sphere);
+}
+
+void add_disk(Params& params, const ShapeState& state, Scene& scene) {
+    float radius = read_radius(params);
+    require(params, "innerradius", 0, "only whole disks are supported");
+    require(params, "phimax", 360, "only whole disks are supported");
+    const Transform& t = state.world_from_object;
+    double scale = uniform_scale(params, {t.x, t.y},
+                                 "a disk scaled differently along its axes is not supported");
+    Double3 normal = transform_normal(t, {0, 0, state.reverse_orientation ? -1.0 : 1.0});
+    Disk disk = {to_vec3(transform_point(t, {0, 0, params.number("height", 0)})),
+                 to_vec3(normalize(normal)), static_cast<float>(radius * scale),
+                 static_cast<uint32_t>(scene.shapes.size())};
+    check_radius(params, disk.c, disk.r);
+    scene.geometry.disks.push_back(disk);
+}
+
+float area(const Geometry& g, const Triangle& tri) {
+    Vec3 p0 = g.positions[tri.v[0]];
+    return length(cross(g.positions[tri.v[1]] - p0, g.positions[tri.v[2]] - p0)) / 2;
+}
+float area(const Geometry&, const Sphere& sphere) { return 4 * pi * sphere.r * sphere.r; }
+float area(const Geometry&, const Disk& disk) { return pi * disk.r * disk.r; }
+
+// Adds a light and returns its number.
+int add_light(const Params& params, Rgb L, bool two_sided, Scene& scene) {
+    if (!is_finite(L)) fail(params.at(), "the light of " + params.owner() + " is too bright");
+    Light light;
+    light.L = L;
+    light.two_sided = two_sided;
+    light.line = params.at().line;
+    light.column = params.at().column;
+    scene.lights.push_back(light);
+    return static_cast<int>(scene.lights.size()) - 1;
+}
+
+// Adds the Shape of the primitives from `first` on, and what light they send.
+template <class Primitive>
+void add_shape(const Params& params, const ShapeState& state, std::vector<Primitive>& primitives,
+               size_t first, bool reverse, Scene& scene) {
+    if (first == primitives.size()) return;
+    Shape shape = {state.material, -1, reverse};
+    bool shines = state.emission && !is_black(state.emission->L);
+    if (!shines || state.emission->power == 0) {
+        if (shines) {
+            shape.light = add_light(params, state.emission->L, state.emission->two_sided, scene);
+        }
+        scene.shapes.push_back(shape);
+        return;
+    }
+    // Make each primitive a light of its own that sends the whole power, as pbrt does.
+    float sides = state.emission->two_sided ? 2 : 1;
+    for (size_t i = first; i < primitives.size(); i++) {
+        float radiance = state.emission->power /
+                         (pi * area(scene.geometry, primitives[i]) * sides);  // for L = 1
+        shape.light =
+            add_light(params, radiance * state.emission->L, state.emission->two_sided, scene);
+        primitives[i].shape = static_cast<uint32_t>(scene.shapes.size());
+        scene.shapes.push_back(shape);
+    }
+}
+
+}  // namespace
+
+void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& notes) {
+    Geometry& g = scene.geometry;
+    size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
+    auto add = [&](const TriangleMesh& mesh) {
+        uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
+        add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
+    };
+    if (params.type() == "trianglemesh") {
+        TriangleMesh mesh = read_triangle_mesh(params);
+        params.finish();
+        add(mesh);
+    } else if (params.type() == "plymesh") {
+        const Param* name = params.find_exactly("string", "filename", 1);
+        params.finish();
+        if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
+        std::string path = find_named_file(scene.file, name->at, name->strings[0]);
+        add(parse_ply(path, read_named_file(path, name->at)));
+    } else if (params.type() == "sphere") {
+        add_sphere(params, state, scene);
+    } else if (params.type() == "disk") {
+        add_disk(params, state, scene);
+    } else {
+        params.fail_type({"disk", "plymesh", "sphere", "trianglemesh"});
+    }
+    params.finish();
+    add_shape(params, state, g.triangles, triangles, false, scene);
+    add_shape(params, state, g.spheres, spheres, state.reverse_orientation, scene);
+    add_shape(params, state, g.disks, disks, false, scene);
+}
+
+void number_light_primitives(Scene& scene) {
+    uint32_t prim = 0;
+    auto number = [&](const auto& primitives) {
+        for (const auto& primitive : primitives) {
+            int index = scene.shapes[primitive.shape].light;
+            if (index >= 0) {
+                Light& light = scene.lights[static_cast<size_t>(index)];
+                if (light.prims++ == 0) light.first_prim = prim;
+            }
+            prim++;
+        }
+    };
+    number(scene.geometry.triangles);
+    number(scene.geometry.spheres);
+    number(scene.geometry.disks);
+}

@@ -1,0 +1,24 @@
+// Shapes of a pbrt-v4 scene file, put into the scene in world space.
+#pragma once
+#include "common/scene_file/materials.h"
+#include "common/scene_file/options.h"
+
+/// What is in force where a Shape directive stands.
+struct ShapeState {
+    Transform world_from_object;
+    uint32_t material = 0;  // into Scene::materials
+    std::optional<AreaEmission> emission;
+    bool reverse_orientation = false;
+};
+
+/// Adds the primitives of one Shape directive, and their lights, to the scene.
+///
+/// The side of a surface, which decides where it shines:
+///   triangle  (p1-p0) x (p2-p0), whatever the transform mirrors; where there are vertex normals,
+///             theirs; the order of the corners in the scene says the same
+///   sphere    outwards;   disk  object space's +z, carried along as a normal
+/// and ReverseOrientation turns each to the other side.
+void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& notes);
+
+/// Gives each area light its range of primitives, once all are read.
+void number_light_primitives(Scene& scene);

@@ -1,0 +1,30 @@
+// Light and metals whose colors are known as spectra, as linear sRGB.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/vec.h"
+
+/// The color of a black body, as linear sRGB with luminance 1.
+///
+///   B(lambda) = 1 / (lambda^5 (exp(c2 / (lambda T)) - 1)),  weighted with the CIE 1931 observer
+///
+/// kelvin  T, from 500 to 1e6; what lies outside of sRGB (below about 1900 K) is cut off at 0
+/// source  Planck 1901; CIE 015
+/// tested by  "truth: black bodies have the chromaticities that the CIE gives"
+Rgb blackbody_rgb(double kelvin);
+
+/// The relative luminance of a linear sRGB color.
+inline float luminance(Rgb a) { return 0.2126f * a.r + 0.7152f * a.g + 0.0722f * a.b; }
+
+/// The complex index of refraction eta + i k of a metal.
+struct MetalIor {
+    Rgb eta, k;
+};
+
+/// By chemical symbol: Ag, Al, Au, Cu.
+///
+/// source  measured spectra (Palik 1985), averaged over the sRGB primaries' color matching curves
+std::optional<MetalIor> metal_ior(const std::string& symbol);
+std::vector<std::string> metal_symbols();

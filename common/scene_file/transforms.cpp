@@ -1,0 +1,73 @@
+#include "common/scene_file/transforms.h"
+
+namespace {
+
+Double3 read_three(Lexer& lexer, const std::string& name) {
+    Double3 v;
+    for (double& x : v) x = lexer.number(lexer.next(), name);
+    return v;
+}
+
+// Reads [ 16 numbers ], column by column.
+Transform read_matrix(Lexer& lexer, const Token& directive) {
+    std::string name(directive.text);
+    auto expect = [&](Token::Type type, const std::string& what) {
+        Token token = lexer.next();
+        if (token.type == type) return;
+        fail(lexer.at(token), name + " needs " + what + ", not " + Lexer::describe(token));
+    };
+    expect(Token::open, "[ and 16 numbers");
+    std::array<double, 16> m;
+    for (double& x : m) x = lexer.number(lexer.next(), name);
+    expect(Token::close, "] after 16 numbers");
+
+    constexpr double tolerance = 1e-6;
+    double bottom = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
+    if (bottom > tolerance) {
+        fail(lexer.at(directive), name + " must not project: numbers 4, 8, 12, 16 must be 0 0 0 1");
+    }
+    return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+}
+
+bool is_usable(const Transform& t) {
+    constexpr double largest = 1e30;
+    for (const Double3& v : {t.x, t.y, t.z, t.o}) {
+        for (double x : v) {
+            if (!(std::abs(x) <= largest)) return false;
+        }
+    }
+    return std::abs(determinant(t)) > 1 / (largest * largest);
+}
+
+}  // namespace
+
+TransformStep read_transform(Lexer& lexer, const Token& directive) {
+    std::string name(directive.text);
+    if (name == "Identity") return {{}, true};
+    if (name == "Transform") return {read_matrix(lexer, directive), true};
+    if (name == "ConcatTransform") return {read_matrix(lexer, directive)};
+    if (name == "Translate") return {translation(read_three(lexer, name))};
+    if (name == "Scale") return {scaling(read_three(lexer, name))};
+    if (name == "Rotate") {
+        double degrees = lexer.number(lexer.next(), name);
+        Double3 axis = read_three(lexer, name);
+        if (length(axis) == 0) fail(lexer.at(directive), "Rotate needs an axis other than 0 0 0");
+        return {rotation(degrees, axis)};
+    }
+    Double3 eye = read_three(lexer, name), look = read_three(lexer, name);
+    Double3 up = read_three(lexer, name);
+    if (eye == look) fail(lexer.at(directive), "LookAt needs two different points");
+    Transform world_from_camera = look_at(eye, look, up);
+    if (!is_usable(world_from_camera)) {
+        fail(lexer.at(directive), "LookAt needs an up that is not along the view");
+    }
+    return {inverse(world_from_camera)};
+}
+
+Transform apply(const TransformStep& step, const Transform& current, const Position& at) {
+    Transform t = step.replaces ? step.transform : current * step.transform;
+    if (!is_usable(t)) {
+        fail(at, "the transform has no inverse, or its numbers are too large or too small");
+    }
+    return t;
+}

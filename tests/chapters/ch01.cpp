@@ -1,0 +1,234 @@
+// Chapter 01: darts, their standard error, the dart board, and sums in float.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <utility>
+
+#include "chapters/01_monte_carlo_pi/estimator.h"
+#include "tests/support/gates.h"
+
+namespace {
+
+constexpr double pi_exact = std::numbers::pi;
+constexpr double dart_variance = pi_exact * (4 - pi_exact);
+constexpr double dart_kurtosis = 2.933031911061;
+
+double score_hit(Vec2 u) { return ch01::score_board(ch01::sample_hit(u)); }
+
+/// The gates are written for the RunningStats of common/, which are these.
+RunningStats throw_darts(double (*score)(Vec2), uint64_t n, uint32_t seed) {
+    RunningStats stats;
+    ch01::throw_darts(
+        [&](Vec2 u) {
+            stats.add(score(u));
+            return 0;
+        },
+        0, n, seed);
+    return stats;
+}
+
+/// chi^2 of hits in 8 x 8 cells on [-1.5, 1.5]^2 and the rest of the plane against pdf_hit.
+template <class Sample>
+double chi_square_of_hits(Sample sample) {
+    constexpr int cells = 8, fine = 32, n = 200000;
+    auto cell = [](Vec2 x) {
+        double i = std::floor((double{x.x} + 1.5) / 3 * cells);
+        double j = std::floor((double{x.y} + 1.5) / 3 * cells);
+        bool inside = i >= 0 && i < cells && j >= 0 && j < cells;
+        return static_cast<size_t>(inside ? i * cells + j : cells * cells);
+    };
+    std::array<double, cells * cells + 1> counts{}, expected{};
+    constexpr double step = 3.0 / (cells * fine);
+    for (int i = 0; i < cells * fine; i++)
+        for (int j = 0; j < cells * fine; j++) {
+            Vec2 x{static_cast<float>(-1.5 + (i + 0.5) * step),
+                   static_cast<float>(-1.5 + (j + 0.5) * step)};
+            expected[cell(x)] += n * step * step * ch01::pdf_hit(x);
+        }
+    expected.back() = n;
+    for (int c = 0; c < cells * cells; c++) expected.back() -= expected[static_cast<size_t>(c)];
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < n; i++) {
+        sampler.start(0, i);
+        counts[cell(sample(sampler.u2()))]++;
+    }
+    return chi_square(counts, expected);
+}
+
+}  // namespace
+
+TEST_SUITE("ch01 monte carlo pi") {
+    TEST_CASE("identity: a dart scores 4 up to the quarter circle, and 0 beyond") {
+        CHECK(ch01::score_dart({0, 0}) == 4);
+        CHECK(ch01::score_dart({0.6f, 0.79f}) == 4);
+        CHECK(ch01::score_dart({0.6f, 0.81f}) == 0);
+        CHECK(ch01::score_dart({0x1.fffffep-1f, 0}) == 4);
+        CHECK(ch01::score_dart({0x1.fffffep-1f, 0x1p-11f}) == 0);
+    }
+
+    TEST_CASE("truth: mean and variance of a dart") {
+        RunningStats s = throw_darts(ch01::score_dart, 1000000, 1);
+        check_mean(s, pi_exact, dart_variance, 0.015);
+        check_variance(s, dart_variance, dart_kurtosis);
+        CHECK(s.standard_error() == doctest::Approx(0.00164218).epsilon(0.01).scale(0));
+    }
+
+    TEST_CASE("truth: the fourth moment of a dart, on which the gate of its variance rests") {
+        // X is 4 with probability p = pi/4: kurtosis (1 - 3p(1-p)) / (p(1-p)).
+        double p = pi_exact / 4, q = 1 - p;
+        CHECK((1 - 3 * p * q) / (p * q) == doctest::Approx(dart_kurtosis).epsilon(1e-12).scale(0));
+        RunningStats fourth;
+        Sampler sampler(SamplerType::independent, 1, 1);
+        for (uint32_t i = 0; i < 100000; i++) {
+            sampler.start(0, i);
+            fourth.add(std::pow(ch01::score_dart(sampler.u2()) - pi_exact, 4));
+        }
+        double high = std::pow(4 - pi_exact, 4), low = std::pow(pi_exact, 4);
+        double truth = dart_kurtosis * dart_variance * dart_variance;
+        check_mean(fourth, truth, p * q * (high - low) * (high - low), 1.5);
+    }
+
+    TEST_CASE("teeth: darts that miss the corner by a hundredth fail the gate of the mean") {
+        RunningStats s = throw_darts(
+            [](Vec2 u) {
+                return ch01::score_dart({0.99f * u.x, 0.99f * u.y});
+            },
+            1000000, 1);
+        CHECK(std::abs(s.mean() - pi_exact) > 5 * std::sqrt(dart_variance / 1e6));
+    }
+
+    TEST_CASE("variance: four times the darts, half the standard error") {
+        double last = 0;
+        for (uint64_t n : {64u, 256u, 1024u}) {
+            double measured = ch01::measured_standard_error(ch01::score_dart, n, 4096, 1);
+            double theory = std::sqrt(dart_variance / static_cast<double>(n));
+            constexpr double gate = 5 / 90.5;  // relative error of s from 4096 runs: 1/sqrt(2 runs)
+            CHECK(std::abs(measured / theory - 1) < gate);
+            if (last > 0) CHECK(std::abs(last / measured - 2) < 2 * gate);
+            last = measured;
+        }
+    }
+
+    TEST_CASE("failure: s quoted as the error of the estimate is sqrt N times too large") {
+        ch01::RunningStats s = ch01::throw_darts(ch01::score_dart, 0, 100, 1);
+        CHECK(std::sqrt(s.variance()) / s.standard_error() ==
+              doctest::Approx(10).epsilon(1e-12).scale(0));
+        CHECK(std::sqrt(s.variance()) > 1);  // "3.1 +- 1.6" for an error of 0.16
+    }
+
+    TEST_CASE("failure: darts that all score the same claim an error of 0, which is unknown") {
+        ch01::RunningStats one = ch01::throw_darts(ch01::score_dart, 0, 1, 0);
+        CHECK(one.standard_error() == 0);
+        CHECK(std::abs(one.mean() - pi_exact) > 0.8);
+        CHECK(ch01::darts_table(1, 0).rows[0][2] == "unknown");
+    }
+
+    TEST_CASE("identity: ranges of darts thrown apart and merged are the whole") {
+        ch01::RunningStats whole = ch01::throw_darts(ch01::score_dart, 0, 1000, 3);
+        ch01::RunningStats a = ch01::throw_darts(ch01::score_dart, 0, 300, 3);
+        a.merge(ch01::throw_darts(ch01::score_dart, 300, 1000, 3));
+        CHECK(a.count() == 1000);
+        CHECK(a.mean() == doctest::Approx(whole.mean()).epsilon(1e-14).scale(0));
+        CHECK(a.variance() == doctest::Approx(whole.variance()).epsilon(1e-12).scale(0));
+    }
+
+    TEST_CASE("identity: darts beyond number 2^32 are new ones") {
+        uint64_t far = uint64_t{1} << 32;
+        auto place = [](Vec2 u) { return double{u.x}; };
+        CHECK(ch01::throw_darts(place, far, far + 1, 1).mean() !=
+              ch01::throw_darts(place, 0, 1, 1).mean());
+    }
+
+    TEST_CASE("identity: the running statistics of common/ are the ones taught here") {
+        CHECK(definition("chapters/01_monte_carlo_pi/estimator.h", "class RunningStats") ==
+              definition("common/base/stats.h", "class RunningStats"));
+    }
+}
+
+TEST_SUITE("ch01 dart board") {
+    TEST_CASE("density: hits of the dart board") {
+        CHECK(chi_square_tail(chi_square_of_hits(ch01::sample_hit), 64) > 1e-6);
+    }
+
+    TEST_CASE("teeth: hits without the square root are rejected") {
+        double chi2 = chi_square_of_hits([](Vec2 u) {
+            float r = 0.5f * u.x * 2.5f, angle = 2 * pi * u.y;
+            return Vec2{r * std::cos(angle), r * std::sin(angle)};
+        });
+        CHECK(chi_square_tail(chi2, 64) < 1e-6);
+    }
+
+    TEST_CASE("consistency: invert_hit finds the numbers that sample_hit used") {
+        Sampler sampler(SamplerType::independent, 1, 1);
+        for (uint32_t i = 0; i < 1000; i++) {
+            sampler.start(0, i);
+            Vec2 u = sampler.u2(), again = ch01::invert_hit(ch01::sample_hit(u));
+            CHECK(std::abs(again.x - u.x) < 1e-6f);
+            CHECK(std::abs(again.y - u.y) < 1e-6f);
+        }
+    }
+
+    TEST_CASE("identity: the extreme random numbers give finite hits") {
+        for (float u : {0.0f, 0x1.fffffep-1f})
+            for (float v : {0.0f, 0x1.fffffep-1f}) {
+                Vec2 x = ch01::sample_hit({u, v});
+                CHECK(std::isfinite(x.x));
+                CHECK(std::isfinite(x.y));
+                CHECK(std::hypot(x.x, x.y) < 3.0f);
+            }
+    }
+
+    TEST_CASE("truth: the average score of the board") {
+        // integral of f(x) p(x) over the plane, ring by ring, by the midpoint rule
+        double integral = 0, square = 0, previous = 0;
+        for (ch01::Ring ring : ch01::board) {
+            constexpr int steps = 10000;
+            for (int i = 0; i < steps; i++) {
+                double width = (ring.radius - previous) / steps, r = previous + (i + 0.5) * width;
+                double mass = 2 * pi_exact * r * width * ch01::pdf_hit({static_cast<float>(r), 0});
+                integral += ring.score * mass;
+                square += ring.score * ring.score * mass;
+            }
+            previous = ring.radius;
+        }
+        CHECK(ch01::expected_score() == doctest::Approx(integral).epsilon(1e-7).scale(0));
+        RunningStats s = throw_darts(score_hit, 1000000, 1);
+        check_mean(s, ch01::expected_score(), square - integral * integral, 0.02);
+    }
+
+    TEST_CASE("failure: the average of the places is 0, whatever the rings pay") {
+        RunningStats s = throw_darts(
+            [](Vec2 u) { return static_cast<double>(ch01::sample_hit(u).x); }, 1000000, 1);
+        check_mean(s, 0, ch01::aim * ch01::aim, 0.01);
+        CHECK(ch01::expected_score() > 1.9);
+    }
+}
+
+TEST_SUITE("ch01 sums in float") {
+    TEST_CASE("failure: a float counter stops at 2^24") {
+        CHECK(ch01::sum_in_float(1, (1 << 24) - 1) == 16777215);
+        CHECK(ch01::sum_in_float(1, 1 << 24) == 16777216);
+        CHECK(ch01::sum_in_float(1, 20000000) == 16777216);
+    }
+
+    TEST_CASE("failure: sums of equal floats stop at a power of two") {
+        for (auto [x, stop, adds] : {std::tuple{0.1f, 2097152.0f, 18073720u},
+                                     {0.5f, 8388608.0f, 16777216u},
+                                     {0.3f, 8388608.0f, 24368414u},
+                                     {0.159154937f, 4194304.0f, 22920523u}}) {
+            CHECK(ch01::sum_in_float(x, adds - 1) < stop);
+            CHECK(ch01::sum_in_float(x, adds + 1000) == stop);
+        }
+    }
+
+    TEST_CASE("failure: the mean of 0.1 is 0.101 after a million, and 0.109 after ten million") {
+        CHECK(ch01::sum_in_float(0.1f, 1000000) / 1e6f == 0.100958347f);
+        CHECK(ch01::sum_in_float(0.1f, 10000000) / 1e7f == 0.108793698f);
+    }
+
+    TEST_CASE("truth: running statistics in double keep the mean of 0.1 and of ten million darts") {
+        ch01::RunningStats s;
+        for (int i = 0; i < 20000000; i++) s.add(0.1f);
+        CHECK(std::abs(s.mean() - 0.1) < 1e-6);
+    }
+}

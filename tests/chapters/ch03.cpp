@@ -1,0 +1,360 @@
+// Chapter 03: exact means and variances of sums and integrals, and densities that fail.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <utility>
+
+#include "chapters/03_importance/estimator.h"
+#include "tests/support/gates.h"
+
+namespace {
+
+using ch03::Density;
+using ch03::Experiment;
+
+constexpr double lowest_u = 0x1p-49, highest_u = 1 - 0x1p-49;  // of open_unit
+constexpr Density all_densities[] = {ch03::uniform,      ch03::linear,  ch03::quadratic,
+                                     ch03::inverse_root, ch03::falling, ch03::rising,
+                                     ch03::left_half,    ch03::distance};
+
+double relative(double value, double truth) { return std::abs(value / truth - 1); }
+
+Experiment find(const std::vector<Experiment>& list, const std::string& what,
+                const std::string& density) {
+    for (const Experiment& e : list)
+        if (e.what == what && e.density == density) return e;
+    FAIL("no experiment ", what, " with ", density);
+    return {};
+}
+
+/// Moments of X(u) over u in (0,1) by the midpoint rule.
+struct Moments {
+    double mean = 0, variance = 0, kurtosis = 0;
+};
+Moments moments(const Experiment& e, int n) {
+    std::vector<double> X;
+    Moments m;
+    for (int i = 0; i < n; i++) X.push_back(e.X((i + 0.5) / n));
+    for (double x : X) m.mean += x / n;
+    for (double x : X) m.variance += std::pow(x - m.mean, 2) / n;
+    for (double x : X) m.kurtosis += std::pow(x - m.mean, 4) / n;
+    m.kurtosis /= m.variance * m.variance;
+    return m;
+}
+
+}  // namespace
+
+TEST_SUITE("ch03 sums") {
+    TEST_CASE("density: choices by chance") {
+        std::vector<double> pmf = {0.1, 0, 0.4, 0.2, 0.3};
+        std::array<double, 4> counts{}, expected = {10000, 40000, 20000, 30000};
+        Sampler sampler(SamplerType::independent, 1, 1);
+        for (uint32_t i = 0; i < 100000; i++) {
+            sampler.start(0, i);
+            size_t choice = ch03::sample_pmf(pmf, double{sampler.u1()});
+            REQUIRE(choice != 1);
+            counts[choice == 0 ? 0 : choice - 1]++;
+        }
+        CHECK(chi_square_tail(chi_square(counts, expected), 3) > 1e-6);
+    }
+
+    TEST_CASE("failure: a choice of probability 0 is never made, also not by rounding") {
+        CHECK(ch03::sample_pmf({0, 1}, 0) == 1);
+        CHECK(ch03::sample_pmf({0, 0.5, 0, 0.5, 0}, 0.5) == 3);
+        CHECK(ch03::sample_pmf({0.5, 0.4999999, 0}, 0.99999999) == 1);  // sums to less than 1
+        CHECK(std::isfinite(ch03::estimate_sum({5, 1}, {0, 1}, 0)));
+    }
+
+    TEST_CASE("truth: mean and variance of two dice under eight densities") {
+        auto dice = [](const char* density, double mean, double variance) {
+            CAPTURE(density);
+            Experiment e = find(ch03::sums(), "dice 6a+b", density);
+            CHECK(relative(e.truth, 24.5) < 1e-12);
+            CHECK(relative(e.mean, mean) < 1e-12);
+            CHECK(std::abs(e.variance - variance) < 1e-10);
+        };
+        dice("fair", 24.5, 1295.0 / 12);
+        dice("~ 6a+b, the best", 24.5, 0);
+        dice("~ a", 24.5, 13573.0 / 1440);
+        dice("~ mean over b", 24.5, 64872482143.0 / 17695367052.0);
+        dice("~ root mean square over b", 24.5, 3.6576811462594);
+        dice("~ 7-a, backwards", 24.5, 1285417.0 / 1440);
+        dice("~ b, the wrong die", 24.5, 13573.0 / 40);
+        dice("0 for a = 1: biased", 275.0 / 12, 22475.0 / 432);
+    }
+
+    TEST_CASE("truth: mean and variance of two lights") {
+        auto lights = [](const char* what, const char* density, double mean, double variance) {
+            Experiment e = find(ch03::sums(), what, density);
+            CHECK(relative(e.mean, mean) < 1e-14);
+            CHECK(std::abs(e.variance - variance) <= 1e-12 * variance);
+        };
+        lights("lights 1, 1", "1/4, 3/4", 2, 4.0 / 3);
+        lights("lights 1, 1", "1/2, 1/2", 2, 0);
+        lights("lights 1, 3", "1/2, 1/2", 4, 4);
+        lights("lights 1, 3", "1/4, 3/4", 4, 0);
+        lights("lights 1, 999", "1/2, 1/2", 1000, 996004);
+        lights("lights 1, 999", "0.999, 0.001", 1000, 996004000000.0 / 999);
+        lights("lights 1, 999", "0, 1: biased", 999, 0);
+    }
+
+    TEST_CASE("truth: a thousand choices of 25 % and 75 % sum to 2000, with 4/3 and not 1.3333") {
+        Experiment e = find(ch03::sums(), "lights 1, 1", "1/4, 3/4");
+        CHECK(e.X(0.1) == 4);
+        CHECK(e.X(0.9) == 4.0 / 3);
+        CHECK(250 * e.X(0.1) + 750 * e.X(0.9) == doctest::Approx(2000).epsilon(1e-15).scale(0));
+        CHECK(250 * 4 + 750 * 1.3333 == doctest::Approx(1999.975).epsilon(1e-15).scale(0));
+    }
+
+    TEST_CASE("teeth: without the 1/p two equal lights give half the light") {
+        double undivided = 0;
+        for (double p : {0.25, 0.75}) undivided += p * 1;  // E[f[i]]
+        CHECK(undivided == 1);
+        CHECK(find(ch03::sums(), "lights 1, 1", "1/4, 3/4").mean == 2);
+    }
+
+    TEST_CASE("identity: the best density makes every single roll 24.5") {
+        Experiment e = find(ch03::sums(), "dice 6a+b", "~ 6a+b, the best");
+        for (double u = 0; u < 1; u += 0.001) CHECK(relative(e.X(u), 24.5) < 1e-14);
+    }
+
+    TEST_CASE("variance: a million rolls and choices have the exact mean and variance") {
+        for (const Experiment& e : ch03::sums()) {
+            CAPTURE(e.what);
+            CAPTURE(e.density);
+            RunningStats s = ch03::run(e, 1000000, 1).stats;
+            if (e.variance < 1e-20) {
+                CHECK(relative(s.mean(), e.mean) < 1e-12);
+                CHECK(s.variance() < 1e-20);
+            } else {
+                check_mean(s, e.mean, e.variance, 0.3 * e.mean);
+                double kurtosis = moments(e, 100000).kurtosis;
+                // A fair coin has kurtosis 1: its s^2 differs from Var X by z^2 / N only.
+                if (kurtosis < 1.0001)
+                    CHECK(relative(s.variance(), e.variance) < 30 / 1e6);
+                else
+                    check_variance(s, e.variance, kurtosis);
+            }
+        }
+    }
+
+    TEST_CASE("failure: a density of 0 where f is not converges, to the wrong sum") {
+        for (auto [what, density] :
+             {std::pair{"dice 6a+b", "0 for a = 1: biased"}, {"lights 1, 999", "0, 1: biased"}}) {
+            Experiment e = find(ch03::sums(), what, density);
+            RunningStats s = ch03::run(e, 100000, 1).stats;
+            CHECK(std::abs(s.mean() - e.truth) > 20 * s.standard_error());
+            CHECK(std::abs(s.mean() - e.truth) > 0.9);
+            CHECK(std::isfinite(s.mean()));
+        }
+    }
+}
+
+TEST_SUITE("ch03 densities") {
+    TEST_CASE("consistency: invert finds the u of a sample") {
+        for (const Density& density : all_densities) {
+            CAPTURE(density.name);
+            for (double u : {lowest_u, 1e-6, 0.05, 0.1, 0.3, 0.5, 0.9, 0.999999, highest_u}) {
+                double x = density.sample(u);
+                CHECK(x >= 0);
+                CHECK(x <= 1);
+                CHECK(std::abs(density.invert(x) - u) < 1e-12);
+            }
+        }
+    }
+
+    TEST_CASE("jacobian: the density is the slope of the inverse") {
+        for (const Density& density : all_densities) {
+            CAPTURE(density.name);
+            for (double x : {0.01, 0.1, 0.24, 0.26, 0.4, 0.49}) {
+                constexpr double h = 1e-5;
+                double slope = (density.invert(x + h) - density.invert(x - h)) / (2 * h);
+                CHECK(relative(slope, density.pdf(x)) < 1e-5);
+            }
+        }
+    }
+
+    TEST_CASE("density: samples fall into 64 cells as the density says") {
+        for (const Density& density : all_densities) {
+            CAPTURE(density.name);
+            constexpr int cells = 64, n = 200000;
+            bool half = density.pdf(0.75) == 0;
+            double width = (half ? 0.5 : 1.0) / cells;
+            std::vector<double> counts(cells, 0), expected;
+            for (int c = 0; c < cells; c++)
+                expected.push_back(n *
+                                   (density.invert((c + 1) * width) - density.invert(c * width)));
+            Sampler sampler(SamplerType::independent, 1, 1);
+            for (uint32_t i = 0; i < n; i++) {
+                sampler.start(0, i);
+                double x = density.sample(ch03::open_unit(sampler.u2()));
+                counts[static_cast<size_t>(std::min(x / width, cells - 1.0))]++;
+            }
+            CHECK(chi_square_tail(chi_square(counts, expected), cells - 1) > 1e-6);
+        }
+    }
+
+    TEST_CASE("identity: random numbers stay off 0 and 1, and every sample is finite") {
+        constexpr float largest = 0x1.fffffep-1f;
+        CHECK(ch03::open_unit({0, 0}) == lowest_u);
+        CHECK(ch03::open_unit({largest, largest}) == highest_u);
+        CHECK(ch03::open_unit({0.5f, 0}) > 0.5);
+        for (const Experiment& e : ch03::integrals())
+            for (double u : {lowest_u, highest_u}) CHECK(std::isfinite(e.X(u)));
+        // and where there is nothing to divide by, nothing is divided
+        auto root = [](double x) { return 1 / std::sqrt(x); };
+        CHECK(ch03::estimate_integral(root, ch03::inverse_root, 0) == 0);
+        CHECK(ch03::estimate_integral(root, ch03::linear, 0) == 0);
+    }
+}
+
+TEST_SUITE("ch03 integrals") {
+    TEST_CASE("truth: mean and variance of each integrand and density, against quadrature") {
+        for (const Experiment& e : ch03::integrals()) {
+            CAPTURE(e.what);
+            CAPTURE(e.density);
+            if (std::isinf(e.variance)) continue;
+            Moments m = moments(e, 1000000);
+            // Midpoints see a step to 1e-6; x^-1/2, the square of x^-1/4, only to 1/sqrt(n).
+            double tolerance = e.what == "x^-1/4" ? 5e-3 : 1e-5;
+            CHECK(relative(m.mean, e.mean) < tolerance);
+            if (e.variance == 0)
+                CHECK(m.variance < 1e-20);
+            else
+                CHECK(relative(m.variance, e.variance) < tolerance);
+        }
+    }
+
+    TEST_CASE("truth: the values of the integrals and of the variances") {
+        auto row = [](const char* what, const char* density, double truth, double variance) {
+            Experiment e = find(ch03::integrals(), what, density);
+            CHECK(relative(e.truth, truth) < 1e-12);
+            CHECK((e.variance == variance || relative(e.variance, variance) < 1e-12));
+        };
+        row("x^2", "1", 1.0 / 3, 4.0 / 45);
+        row("x^2", "2x", 1.0 / 3, 1.0 / 72);
+        row("x^2", "3x^2", 1.0 / 3, 0);
+        row("x^2", "1/(2 sqrt x)", 1.0 / 3, 25.0 / 99);
+        row("x^2", "2(1-x)", 1.0 / 3, INFINITY);
+        row("e^x", "1", 1.718281828459045, 0.24203560745276);
+        row("e^x", "(2/3)(1+x)", 1.718281828459045, 0.0269084281835);
+        row("x^-1/2", "1", 2, INFINITY);
+        row("x^-1/2", "1/(2 sqrt x)", 2, 0);
+        row("x^-1/4", "1", 4.0 / 3, 2.0 / 9);
+        row("[x < 1/pi]", "1", 0.318309886183791, 0.216988702541518);
+        row("x - 1/4", "1", 0.25, 1.0 / 12);
+        row("x - 1/4", "(16/5)|x-1/4|", 0.25, 0.03515625);
+        CHECK(find(ch03::integrals(), "x^2", "2 on [0,1/2]").mean ==
+              doctest::Approx(1.0 / 24).scale(0));
+    }
+
+    TEST_CASE("variance: a million samples have the exact mean and variance") {
+        for (const Experiment& e : ch03::integrals()) {
+            CAPTURE(e.what);
+            CAPTURE(e.density);
+            RunningStats s = ch03::run(e, 1000000, 1).stats;
+            CHECK(std::isfinite(s.mean()));
+            if (std::isinf(e.variance)) continue;  // no gate knows such a mean
+            if (e.variance == 0) {
+                CHECK(relative(s.mean(), e.mean) < 1e-13);
+                CHECK(s.variance() < 1e-28);
+            } else {
+                check_mean(s, e.mean, e.variance, 0.02 * e.mean);
+                // x^-1/4: its fourth moment is infinite, and its s^2 knows no gate
+                if (e.what != "x^-1/4") check_variance(s, e.variance, moments(e, 100000).kurtosis);
+            }
+        }
+    }
+
+    TEST_CASE("identity: a density proportional to f >= 0 makes every sample the integral") {
+        for (double u : {lowest_u, 0.001, 0.37, 0.999, highest_u}) {
+            CHECK(find(ch03::integrals(), "x^-1/2", "1/(2 sqrt x)").X(u) == 2);
+            CHECK(relative(find(ch03::integrals(), "x^2", "3x^2").X(u), 1.0 / 3) < 1e-15);
+        }
+    }
+
+    TEST_CASE("truth: for a signed f the least variance is not 0 but (int |f|)^2 - (int f)^2") {
+        Experiment e = find(ch03::integrals(), "x - 1/4", "(16/5)|x-1/4|");
+        CHECK(e.variance == 5.0 / 16 * 5.0 / 16 - 1.0 / 16);
+        for (double u : {0.05, 0.09}) CHECK(relative(e.X(u), -5.0 / 16) < 1e-12);
+        for (double u : {0.11, 0.9}) CHECK(relative(e.X(u), 5.0 / 16) < 1e-12);
+    }
+
+    TEST_CASE("variance: e^x by antithetic pairs, u and 1 - u, 0.0039") {
+        auto f = [](double x) { return std::exp(x); };
+        RunningStats s;
+        Sampler sampler(SamplerType::independent, 1, 1);
+        for (uint32_t i = 0; i < 100000; i++) {
+            sampler.start(0, i);
+            double u = ch03::open_unit(sampler.u2());
+            s.add((ch03::estimate_integral(f, ch03::uniform, u) +
+                   ch03::estimate_integral(f, ch03::uniform, 1 - u)) /
+                  2);
+        }
+        double e = std::numbers::e, truth = (e * e - 1) / 4 + e / 2 - (e - 1) * (e - 1);
+        CHECK(relative(truth, 0.003912496949625) < 1e-12);
+        check_mean(s, e - 1, truth, 0.01);
+        check_variance(s, truth, 3);  // bounded and flat: its kurtosis is below 3
+    }
+
+    TEST_CASE("failure: without the division x^2 under 2x comes out as 1/2") {
+        Experiment e = find(ch03::integrals(), "x^2, not divided", "2x");
+        CHECK(e.mean == 0.5);
+        RunningStats s = ch03::run(e, 100000, 1).stats;
+        CHECK(std::abs(s.mean() - 1.0 / 3) > 100 * s.standard_error());
+    }
+
+    TEST_CASE("failure: a density on the left half only finds 1/24 of 1/3") {
+        Experiment e = find(ch03::integrals(), "x^2", "2 on [0,1/2]");
+        RunningStats s = ch03::run(e, 100000, 1).stats;
+        CHECK(std::abs(s.mean() - 1.0 / 24) < 5 * std::sqrt(e.variance / 1e5));
+        CHECK(std::abs(s.mean() - e.truth) > 1000 * s.standard_error());  // and looks converged
+    }
+
+    TEST_CASE("failure: the second moment of x^2 under 2(1-x) grows by ln(10)/2 per decade") {
+        // integral of x^4 / pdf from 0 to 1 - e, with 1 - x = exp(-t): no end to it as e -> 0
+        auto second_moment = [](double e) {
+            constexpr int n = 100000;
+            double end = -std::log(e), sum = 0;
+            for (int i = 0; i < n; i++) {
+                double t = (i + 0.5) / n * end, x = -std::expm1(-t);
+                sum += std::pow(x, 4) / ch03::falling.pdf(x) * std::exp(-t) * end / n;
+            }
+            return sum;
+        };
+        for (double e : {1e-4, 1e-6, 1e-8})
+            CHECK(std::abs(second_moment(e / 10) - second_moment(e) - std::log(10.0) / 2) < 1e-3);
+    }
+
+    TEST_CASE("failure: infinite variance shows in the largest sample, not in the standard error") {
+        for (const char* what : {"x^-1/2", "x^2"}) {
+            bool root = std::string(what) == "x^-1/2";
+            Experiment bad = find(ch03::integrals(), what, root ? "1" : "2(1-x)");
+            Experiment good = find(ch03::integrals(), "x^2", "1/(2 sqrt x)");
+            RunningStats bad_share, good_share;
+            for (uint32_t seed = 0; seed < 50; seed++) {
+                bad_share.add(ch03::run(bad, 10000, seed).largest_share);
+                good_share.add(ch03::run(good, 10000, seed).largest_share);
+            }
+            CHECK(bad_share.mean() > 0.08);
+            CHECK(good_share.mean() < 0.002);
+        }
+    }
+
+    TEST_CASE("identity: of N equal samples each has the share 1/N of the squares") {
+        Experiment e = find(ch03::integrals(), "x^-1/2", "1/(2 sqrt x)");
+        CHECK(ch03::run(e, 1000, 1).largest_share == 0.001);
+        CHECK(ch03::run(e, 1, 1).largest_share == 1);
+    }
+
+    TEST_CASE("teeth: a density that does not integrate to 1 is seen at once") {
+        Density wrong = ch03::linear;
+        wrong.pdf = [](double x) { return 1.02 * 2 * x; };
+        auto f = [](double x) { return x * x; };
+        Experiment e{"",       "",
+                     1.0 / 3,  1.0 / 3,
+                     1.0 / 72, [=](double u) { return ch03::estimate_integral(f, wrong, u); }};
+        RunningStats s = ch03::run(e, 1000000, 1).stats;
+        CHECK(std::abs(s.mean() - e.mean) > 5 * std::sqrt(e.variance / 1e6));
+    }
+}

@@ -1,0 +1,272 @@
+// Chapter 04: Whitted's ray tracing: exact where it sees, and blind to the rest.
+#include <doctest/doctest.h>
+
+#include <regex>
+
+#include "chapters/04_ray_casting/estimator.h"  // first: it has functions that common/ has too
+#include "chapters/06_path_tracing/estimator.h"
+#include "tests/support/gates.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+constexpr double pi_exact = std::numbers::pi;
+
+/// What chapter 04 sees along the ray, and by which classes.
+struct Seen {
+    Rgb L;
+    std::map<std::string, double> classes;
+    uint64_t cut = 0;
+};
+
+Seen look(const Scene& scene, Vec3 from, Vec3 to, uint32_t seed = 1) {
+    Sampler sampler = random_numbers(seed);
+    PathLog log("");
+    log.start();
+    Seen seen;
+    seen.L = ch04::trace(scene, {from, normalize(to - from)}, sampler, log);
+    for (const auto& [name, L] : log.contributions()) {
+        seen.classes[name] += static_cast<double>(average(L));
+    }
+    seen.cut = log.paths_cut();
+    return seen;
+}
+
+/// A white floor at y = 0 below this light.
+Scene floor_under(const std::string& light) {
+    return world_of(
+        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 50 1 50 " +
+        square(0, true) + "AttributeEnd\n" + light);
+}
+const std::string shining =
+    "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+
+/// The irradiance that chapter 04 finds at the floor point (x, 0, 0).
+double irradiance(const Scene& scene, float x) {
+    return static_cast<double>(look(scene, {x - 3, 0.4f, 0}, {x, 0, 0}).L.g) * pi_exact;
+}
+
+bool is_close(double value, double truth) { return std::abs(value - truth) < 2e-6 * truth; }
+
+}  // namespace
+
+TEST_SUITE("ch04 lamps") {
+    TEST_CASE("truth: a point light gives I cos / r^2") {
+        Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
+        CHECK(is_close(irradiance(scene, 1), 0.1788854382));
+        CHECK(is_close(irradiance(scene, 0), 0.25));
+        scene = floor_under("LightSource \"point\" \"point3 from\" [0 0.001 0] \"rgb I\" [1 1 1]");
+        CHECK(std::abs(irradiance(scene, 0) / 1e6 - 1) < 0.01);  // large, but right
+    }
+
+    TEST_CASE("truth: a distant light gives E cos, and its shadows are parallel") {
+        Scene scene = floor_under(
+            "LightSource \"distant\" \"point3 from\" [3 4 0] \"point3 to\" [0 0 0] \"rgb L\" [5 5 "
+            "5]\n"
+            "Translate 3 4 0 Shape \"sphere\" \"float radius\" 0.5");
+        CHECK(is_close(irradiance(scene, 2), 4));
+        CHECK(is_close(irradiance(scene, -30), 4));
+        CHECK(irradiance(scene, 0.3f) == 0);
+    }
+
+    TEST_CASE("truth: a ball of light gives pi (R / D)^2 cos, as if it were a point") {
+        Scene scene = floor_under(shining + "Translate 0 2 0 Shape \"sphere\"");
+        CHECK(is_close(irradiance(scene, 0), 0.7853981633974));
+        double D2 = 4 + 4.0 / 3;  // 30 degrees from the normal
+        CHECK(is_close(irradiance(scene, 2 / std::sqrt(3.0f)),
+                       pi_exact / D2 * std::cos(pi_exact / 6)));
+    }
+
+    TEST_CASE("truth: a square is two lamps, each in the middle of its triangle") {
+        for (float h : {10.0f, 1.0f}) {
+            Scene scene = floor_under(shining + "Scale 0.5 1 0.5 " + square(h, false));
+            double r2 = static_cast<double>(h) * h + 1.0 / 18;  // the middles are 1/6, 1/6 aside
+            CHECK(is_close(irradiance(scene, 0), static_cast<double>(h) * h / (r2 * r2)));
+        }
+    }
+
+    TEST_CASE("failure: lamps as points are right far away, and wrong close by") {
+        for (auto [h, E, wrong] : {std::tuple{10.0f, 0.009966782906402, 0.003},
+                                   {1.0f, 0.7522746884541, 0.2},
+                                   {0.1f, 3.04212843837, 0.3}}) {
+            Scene scene = floor_under(shining + "Scale 0.5 1 0.5 " + square(h, false));
+            double error = std::abs(irradiance(scene, 0) / E - 1);
+            CHECK(error < wrong);
+            CHECK(error > wrong / 2);
+        }
+    }
+
+    TEST_CASE("truth: two lamps give the sum of what each gives") {
+        std::string one = "LightSource \"point\" \"point3 from\" [0 2 0] \"rgb I\" [1 1 1]\n";
+        std::string two = "LightSource \"point\" \"point3 from\" [1 3 0] \"rgb I\" [4 4 4]\n";
+        double both = irradiance(floor_under(one + two), 1);
+        CHECK(is_close(both, 0.1788854382 + 4.0 / 9));
+    }
+
+    TEST_CASE("identity: nothing from the back of a lamp, from below, or through a wall") {
+        CHECK(irradiance(floor_under(shining + square(2, true)), 0) == 0);
+        CHECK(irradiance(floor_under("LightSource \"point\" \"point3 from\" [0 -2 0]"), 0) == 0);
+        std::string lamp = "LightSource \"point\" \"point3 from\" [0 2 0]\n";
+        CHECK(irradiance(floor_under(lamp + square(1, true)), 0.5f) == 0);
+        CHECK(irradiance(floor_under(lamp + square(1, true)), 5) > 0);
+        std::string two_sided = "AreaLightSource \"diffuse\" \"bool twosided\" true\n";
+        CHECK(irradiance(floor_under(two_sided + square(2, true)), 0) ==
+              irradiance(floor_under(shining + square(2, false)), 0));
+    }
+
+    TEST_CASE("teeth: a lamp without one of its factors is rejected") {
+        Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
+        Hit x = *intersect(scene, {{1, 1, 0}, {0, -1, 0}});
+        double E = 0.1788854382, r2 = 5, cos = 2 / std::sqrt(5.0);
+        ch04::Lamp lamp{scene.lights[0].p, {}, {1, 1, 1}, 0, true};
+        double right = static_cast<double>(ch04::shade(scene, x, lamp).g) * pi_exact;
+        CHECK(is_close(right, E));
+        CHECK_FALSE(is_close(right / cos, E));
+        CHECK_FALSE(is_close(right * r2, E));
+        CHECK_FALSE(is_close(right * std::sqrt(r2), E));
+        CHECK_FALSE(is_close(right * pi_exact, E));
+    }
+}
+
+TEST_SUITE("ch04 mirrors and glass") {
+    const std::string lamp_behind_camera =
+        shining + "Translate 0 0 -10 Rotate 90 1 0 0 Scale 9 1 9 " + square(0, true);
+
+    TEST_CASE("truth: a mirror shows the lamp times its reflectance") {
+        Scene scene =
+            world_of("Material \"conductor\" \"rgb reflectance\" [0.9 0.5 0.2] Rotate 90 1 0 0 " +
+                     square(0, false) + "Rotate -90 1 0 0 " + lamp_behind_camera);
+        Seen seen = look(scene, {0, 0, -4}, {0.01f, 0, 0});
+        CHECK(std::abs(seen.L.r - 0.9f) < 1e-5f);
+        CHECK(std::abs(seen.L.g - 0.5f) < 1e-5f);
+        CHECK(std::abs(seen.L.b - 0.2f) < 1e-5f);
+        CHECK(seen.classes.size() == 1);
+        CHECK(seen.classes.count("LSE") == 1);
+    }
+
+    TEST_CASE("truth: a pane of glass, up to the branches that are too faint") {
+        // T = (1 - R)^2 (1 + R^2 + ...), R = 0.04: the second term is dropped; so are those of
+        // R_slab = R + (1 - R)^2 R (1 + R^2 + ...)
+        std::string pane = "AttributeBegin Material \"dielectric\" Rotate 90 1 0 0 Scale 9 1 9 " +
+                           square(0, false) + square(0.1f, true) + "AttributeEnd\n";
+        Seen through = look(world_of(pane + "LightSource \"infinite\""), {0, 0, -4}, {0, 0, 0});
+        CHECK(std::abs(through.classes["LSSE"] - 0.9216) < 1e-6);
+        CHECK(std::abs(through.classes["LSE"] - 0.04) < 1e-6);
+        CHECK(std::abs(through.classes["LSSSE"] - 0.036864) < 1e-6);
+        CHECK(through.classes.size() == 3);
+        CHECK(through.L.g > 0.998f);
+    }
+
+    TEST_CASE("furnace: a glass ball is invisible, up to the branches that are too faint") {
+        Scene scene = world_of("LightSource \"infinite\" Material \"dielectric\" Shape \"sphere\"");
+        Rendering r = film_of(scene, ch04::trace, 4);
+        CHECK(r.film.mean() < 1.000001);
+        CHECK(r.film.mean() > 0.998);
+        for (const PixelSum& p : r.film.pixels()) CHECK(p.mean > 0.99);
+    }
+
+    TEST_CASE("failure: a ray that glass reflects for ever ends at the depth limit, and says so") {
+        Scene scene = world_of(
+            "LightSource \"infinite\" Material \"dielectric\"\n"
+            "Shape \"trianglemesh\" \"integer indices\" [0 3 1 0 2 3 4 7 6 4 5 7 0 5 4 0 1 5"
+            " 2 7 3 2 6 7 0 6 2 0 4 6 1 7 5 1 3 7]\n \"point3 P\" [-1 -1 -1  1 -1 -1"
+            "  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1]");
+        Seen seen = look(scene, {0.1f, 0.2f, 0.3f}, {1.1f, 1.2f, 1.3f});
+        CHECK(seen.cut == 1);
+        CHECK(is_black(seen.L));
+        seen = look(scene, {0.1f, 0.2f, 0.3f}, {0.1f, 0.2f, 5});
+        CHECK(seen.cut == 0);
+        CHECK(std::abs(seen.L.g - 2.25f) < 0.01f);  // inside glass light is n^2 as bright
+    }
+}
+
+TEST_SUITE("ch04 classes of paths") {
+    TEST_CASE("identity: only LE, LDE, LS+E and LDS+E, and together they are the whole") {
+        for (const char* file : {"cornell-spheres", "cornell", "caustic"}) {
+            Scene scene = scene_from("scenes/" + std::string(file) + ".pbrt", 32, 100);
+            PathCensus census = census_of(scene, ch04::trace, 4000, 1);
+            CHECK(census.worst_sum < 1e-5);
+            for (const auto& [name, sum] : census.by_class) {
+                const std::string& path_class = name;
+                CAPTURE(path_class);
+                CHECK(std::regex_match(path_class, std::regex("LD?S*E")));
+            }
+            CHECK(census.by_class.count("LDE") == 1);
+            if (std::string(file) != "cornell") CHECK(census.by_class.count("LDSE") == 1);
+        }
+    }
+
+    TEST_CASE("agreement: what is seen directly, in mirrors and through glass, with chapter 06") {
+        // A ball of metal and one of glass between two walls that shine at each other.
+        Scene scene = world_of(
+            "AttributeBegin Material \"conductor\" Translate 1 0 0 Shape \"sphere\" AttributeEnd\n"
+            "AttributeBegin Material \"dielectric\" Translate -1 0 0 Shape \"sphere\""
+            " AttributeEnd\n" +
+            shining + "Rotate 90 1 0 0 Scale 9 1 9 " + square(-9, true) + square(5, false));
+        PathCensus a = census_of(scene, ch04::trace, 40000, 1);
+        PathCensus b = census_of(scene, ch06::trace, 40000, 2);
+        for (std::string name : {"LE", "LSE", "LSSE"}) {
+            CAPTURE(name);
+            Measured of_a = a.by_class[name].measured(a.paths);
+            Measured of_b = b.by_class[name].measured(b.paths);
+            CHECK(z_between(of_a, of_b) < 5);
+            CHECK(of_a.mean > 0);
+            CHECK(std::hypot(of_a.se, of_b.se) < 0.02 * of_a.mean);
+        }
+    }
+
+    TEST_CASE("failure: no colour bleeds: the floor between coloured walls stays grey") {
+        Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 100);
+        Vec3 eye = scene.camera.o, near_red = {1.8f, 0, 1};
+        Seen seen = look(scene, eye, near_red);
+        CHECK(seen.L.r > 0);
+        CHECK(seen.L.r == seen.L.b);
+        Sampler sampler = random_numbers(1);
+        PathLog log;
+        double red = 0, blue = 0;
+        for (int i = 0; i < 20000; i++) {
+            Rgb L = ch06::trace(scene, {eye, normalize(near_red - eye)}, sampler, log);
+            red += static_cast<double>(L.r), blue += static_cast<double>(L.b);
+        }
+        CHECK(red > 1.1 * blue);
+    }
+
+    TEST_CASE("failure: no caustic: glass casts the shadow of a stone") {
+        Scene scene = floor_under(
+            "LightSource \"point\" \"point3 from\" [0 4 0]\n"
+            "Material \"dielectric\" Translate 0 1.5 0 Shape \"sphere\"");
+        CHECK(irradiance(scene, 0) == 0);
+        CHECK(irradiance(scene, 5) > 0);
+    }
+
+    TEST_CASE("identity: --max-depth 0 shows lamps only, 1 direct light, 2 the first mirror") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 0);
+        PathCensus census = census_of(scene, ch04::trace, 4000, 1);
+        CHECK(census.by_class.size() == 1);
+        CHECK(census.by_class.count("LE") == 1);
+        for (int depth : {1, 2}) {
+            scene.max_depth = depth;
+            census = census_of(scene, ch04::trace, 4000, 1);
+            CHECK(census.by_length.rbegin()->first == static_cast<size_t>(depth));
+        }
+    }
+
+    TEST_CASE("identity: there is no chance in it") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 100);
+        Seen a = look(scene, {278, 273, -800}, {200, 100, 200}, 1);
+        Seen b = look(scene, {278, 273, -800}, {200, 100, 200}, 2);
+        CHECK(a.L == b.L);
+        CHECK_FALSE(is_black(a.L));
+    }
+
+    TEST_CASE("truth: an empty scene is black, or all sky") {
+        Scene scene;
+        prepare(scene, 1);
+        CHECK(is_black(look(scene, {0, 0, 0}, {0, 0, 1}).L));
+        scene.lights.emplace_back();
+        scene.lights[0].type = LightType::infinite;
+        scene.lights[0].L = {0.5f, 1, 2};
+        prepare(scene, 1);
+        CHECK(look(scene, {0, 0, 0}, {1, 2, 3}).L == Rgb{0.5f, 1, 2});
+    }
+}

@@ -1,0 +1,381 @@
+// Chapter 07: Russian roulette: the mean of chapter 06, its price, and what a wrong one does.
+#include <doctest/doctest.h>
+
+#include "chapters/06_path_tracing/estimator.h"
+#include "chapters/07_russian_roulette/estimator.h"
+#include "tests/support/gates.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+/// A path in a closed sphere that emits 1 and reflects a, drawn in proportion to the cosine (every
+/// bounce is worth a): X = sum (a / q)^k over the bounces k that roulette lets live.
+double furnace_path(double a, double q, Sampler& random, bool divide = true) {
+    double L = 1, beta = 1;
+    while (static_cast<double>(random.u1()) < q) {
+        beta *= divide ? a / q : a;
+        L += beta;
+    }
+    return L;
+}
+
+RunningStats furnace(double a, double q, int paths, bool divide = true) {
+    RunningStats stats;
+    Sampler random = random_numbers(1);
+    for (int i = 0; i < paths; i++) stats.add(furnace_path(a, q, random, divide));
+    return stats;
+}
+
+struct Moments {
+    double mean, variance, kurtosis;
+};
+constexpr double choose[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
+
+/// m[n] = E[X^n] for n = 0 .. 4
+Moments central(const double* m) {
+    double variance = m[2] - m[1] * m[1];
+    double fourth = m[4] - 4 * m[1] * m[3] + 6 * m[1] * m[1] * m[2] - 3 * std::pow(m[1], 4);
+    return {m[1], variance, fourth / (variance * variance)};
+}
+
+/// From X = 1 + B X' a/q:  m_n = 1 + sum (n choose k) q (a/q)^k m_k
+Moments furnace_moments(double a, double q) {
+    double m[5] = {1, 0, 0, 0, 0};
+    for (int n = 1; n <= 4; n++) {
+        double known = 1;
+        for (int k = 1; k < n; k++) known += choose[n][k] * q * std::pow(a / q, k) * m[k];
+        m[n] = known / (1 - q * std::pow(a / q, n));
+    }
+    return central(m);
+}
+
+/// The red channel of such a path where red, green and blue are reflected by (0.9, 0.1, 0.1), and
+/// `survival` is asked as chapter 07 asks it.
+template <class Survival>
+RunningStats red_furnace(const Survival& survival, int paths) {
+    RunningStats stats;
+    Sampler random = random_numbers(1);
+    for (int i = 0; i < paths; i++) {
+        Rgb beta = {1, 1, 1};
+        double red = 1;
+        for (int depth = 0;; depth++) {
+            beta *= Rgb{0.9f, 0.1f, 0.1f};
+            float q = survival(beta, depth);
+            if (random.u1() >= q) break;
+            beta /= q;
+            red += static_cast<double>(beta.r);
+        }
+        stats.add(red);
+    }
+    return stats;
+}
+
+/// The same, exactly: what survives bounce k is always worth b_k, so that what follows is
+/// R_k = B_k (b_k + R_k+1), B_k = 1 with probability q_k.  E[R_k^n] = q_k E[(b_k + R_k+1)^n]
+Moments red_moments() {
+    std::vector<std::pair<double, double>> bounces;  // b_k, q_k
+    double b = 1;
+    for (int k = 0; k < 1000; k++) {
+        double q = k < 3 ? 1 : std::clamp(2.5 * 0.9 * b, 0.05, 0.95);
+        bounces.emplace_back(b *= 0.9 / q, q);
+    }
+    auto add = [](double x, const double* m, int n) {  // E[(x + R)^n]
+        double sum = 0;
+        for (int k = 0; k <= n; k++) sum += choose[n][k] * std::pow(x, n - k) * m[k];
+        return sum;
+    };
+    double m[5] = {1, 0, 0, 0, 0};
+    for (auto k = bounces.rbegin(); k != bounces.rend(); ++k)
+        for (int n = 4; n >= 1; n--) m[n] = k->second * add(k->first, m, n);
+    double X[5];
+    for (int n = 0; n <= 4; n++) X[n] = add(1, m, n);
+    return central(X);
+}
+
+/// Chapter 07's trace() with a mistake planted in its roulette.
+enum class Flaw { none, no_division, before_emission, inverse };
+
+template <Flaw flaw>
+Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog&) {
+    Rgb L, beta = {1, 1, 1};
+    for (int depth = 0;; depth++) {
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return L + beta * scene.sky;
+        L += beta * emission(scene, *x);
+        if (depth == scene.max_depth) return L;
+        float u1 = sampler.u1();
+        BsdfSample s = ch07::sample_bsdf(*x, -ray.d, u1, sampler.u2());
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        float q = ch07::survival_probability(beta, depth);
+        if (sampler.u1() >= q) return flaw == Flaw::before_emission ? Rgb{} : L;
+        if (flaw != Flaw::no_division) beta /= flaw == Flaw::inverse ? 1 / q : q;
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+Scene closed_sphere(double a, int max_depth) {
+    std::string albedo = std::to_string(a) + " ";
+    Scene scene = world_of(
+        "ReverseOrientation AreaLightSource \"diffuse\"\n"
+        "Material \"diffuse\" \"rgb reflectance\" [" +
+        albedo + albedo + albedo + "] Shape \"sphere\"");
+    scene.camera.o = {0, 0, 0};
+    scene.max_depth = max_depth;
+    return scene;
+}
+
+/// 07 brings what 06 brings: in all, by length of path, and by class (those seen 100 times).
+int check_classes(const Scene& scene, int paths) {
+    PathCensus a = census_of(scene, ch06::trace, paths, 1);
+    PathCensus b = census_of(scene, ch07::trace, paths, 2);
+    CHECK(b.worst_sum < 1e-5);
+    CHECK(z_between(a.all.measured(a.paths), b.all.measured(b.paths)) < 5);
+    int compared = 0;
+    auto compare = [&](const auto& parts_a, auto& parts_b) {
+        for (const auto& part : parts_a) {
+            const PathSum &of_a = part.second, &of_b = parts_b[part.first];
+            if (of_a.not_zero < 100 || of_b.not_zero < 100) continue;
+            CAPTURE(part.first);
+            CHECK(z_between(of_a.measured(a.paths), of_b.measured(b.paths)) < 5);
+            compared++;
+        }
+    };
+    compare(a.by_length, b.by_length);
+    compare(a.by_class, b.by_class);
+    return compared;
+}
+
+}  // namespace
+
+TEST_SUITE("ch07 roulette") {
+    TEST_CASE("truth: any q has the same mean in the furnace, and the variance of the formula") {
+        struct Row {
+            double a, q, variance;
+        };
+        for (auto [a, q, variance] : {Row{0.5, 0.5, 2},
+                                      {0.5, 0.9, 0.1538461538462},
+                                      {0.8, 0.8, 20},
+                                      {0.8, 0.95, 2.58064516129},
+                                      {0.9, 0.9, 90}}) {
+            // (1 + a) / (1 - a) q / (q - a^2) - 1 / (1 - a)^2
+            double formula = (1 + a) / (1 - a) * q / (q - a * a) - 1 / ((1 - a) * (1 - a));
+            Moments exact = furnace_moments(a, q);
+            CHECK(formula == doctest::Approx(variance).epsilon(1e-9).scale(0));
+            CHECK(exact.mean == doctest::Approx(1 / (1 - a)).epsilon(1e-9).scale(0));
+            CHECK(exact.variance == doctest::Approx(variance).epsilon(1e-9).scale(0));
+            RunningStats s = furnace(a, q, 200000);
+            check_mean(s, 1 / (1 - a), variance, 0.02 / (1 - a));
+            check_variance(s, variance, exact.kurtosis);
+        }
+    }
+
+    TEST_CASE("truth: the variance explodes as q goes to a^2") {
+        for (auto [a, q, variance] : {std::tuple{0.5, 0.3, 14.0},
+                                      {0.5, 0.26, 74.0},
+                                      {0.8, 0.65, 560.0},
+                                      {0.9, 0.82, 1458.0}}) {
+            CHECK(furnace_moments(a, q).variance ==
+                  doctest::Approx(variance).epsilon(1e-9).scale(0));
+        }
+        // The mean is still right, with the known variance; the sample's own would claim less.
+        RunningStats s = furnace(0.8, 0.65, 1000000);
+        check_mean(s, 5, 560, 0.2);
+    }
+
+    TEST_CASE("truth: one decision adds E^2 (1 - q) / q") {
+        for (auto [q, variance] : {std::pair{0.2, 4.0}, {0.1, 9.0}, {0.01, 99.0}}) {
+            RunningStats s;
+            Sampler random = random_numbers(1);
+            for (int i = 0; i < 1000000; i++) {
+                s.add(static_cast<double>(random.u1()) < q ? 1 / q : 0);
+            }
+            check_mean(s, 1, variance, 0.1);
+            check_variance(s, variance, (1 - 3 * q * (1 - q)) / (q * (1 - q)));
+        }
+    }
+
+    TEST_CASE("failure: without the division by q the furnace shows 1 / (1 - a q)") {
+        // 2.78 instead of 5: a smooth, converged, wrong picture.
+        double p = 0.64, truth = 1 / (1 - p);
+        RunningStats s = furnace(0.8, 0.8, 200000, false);
+        CHECK(std::abs(s.mean() - 2.777777777778) < 5 * s.standard_error());
+        CHECK(s.standard_error() < 0.01);
+        CHECK(truth == doctest::Approx(2.777777777778).epsilon(1e-9).scale(0));
+        CHECK(std::abs(s.mean() - 5) > 100 * s.standard_error());
+    }
+
+    TEST_CASE("failure: a survival of 0.001 leaves a thousand paths dark one time in three") {
+        Sampler random = random_numbers(1);
+        RunningStats dark;
+        for (int run = 0; run < 10000; run++) {
+            bool any = false;
+            for (int i = 0; i < 1000; i++) any |= random.u1() < 0.001f;
+            dark.add(any ? 0 : 1);
+        }
+        double p = 0.367695424771;
+        check_mean(dark, p, p * (1 - p), 0.05);
+    }
+
+    TEST_CASE("identity: q is a probability, at least 0.05, at most 0.95, and 1 for short paths") {
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < 10000; i++) {
+            float size = std::pow(10.0f, 4 * random.u1() - 3);
+            Rgb beta = {size * random.u1(), size * random.u1(), size * random.u1()};
+            for (int depth : {0, 1, 2}) CHECK(ch07::survival_probability(beta, depth) == 1);
+            float q = ch07::survival_probability(beta, 3 + i % 50);
+            CHECK(q >= 0.05f);
+            CHECK(q <= 0.95f);
+            // No channel grows, but for the little that the limit of 0.95 lets it.
+            float most = std::max(1.0f, max_component(beta) / 0.95f);
+            CHECK(max_component(beta / q) <= most * 1.000001f);
+        }
+        CHECK(ch07::survival_probability({0, 0, 0}, 10) == 0.05f);
+    }
+
+    TEST_CASE("truth: with colours, q from the largest channel keeps the variance of red finite") {
+        Moments red = red_moments();
+        CHECK(red.mean == doctest::Approx(10).epsilon(1e-9).scale(0));
+        CHECK(red.variance == doctest::Approx(20.9071301566).epsilon(1e-9).scale(0));
+        RunningStats s = red_furnace(ch07::survival_probability, 200000);
+        check_mean(s, red.mean, red.variance, 0.2);
+        check_variance(s, red.variance, red.kurtosis);
+    }
+
+    TEST_CASE("teeth: q from the mean of the channels multiplies red by 2.45 at every bounce") {
+        auto from_mean = [](Rgb beta, int depth) {
+            return depth < 3 ? 1 : std::clamp(2.5f * average(beta), 0.05f, 0.95f);
+        };
+        CHECK(0.9 / (1.1 / 3) == doctest::Approx(2.454545454545).epsilon(1e-9).scale(0));
+        // A fixed q of 1.1 / 3 < 0.81 has no variance at all; in the chapter's rule, where beta has
+        // become nearly pure red, q is a third of it and red grows threefold.
+        Rgb beta = {0.3f, 1e-4f, 1e-4f};
+        CHECK((beta / from_mean(beta, 5)).r > 2.9f * 0.4f);
+        CHECK((beta / ch07::survival_probability(beta, 5)).r ==
+              doctest::Approx(0.4).epsilon(1e-6).scale(0));
+        RunningStats s = red_furnace(from_mean, 200000);
+        Moments red = red_moments();
+        CHECK(std::abs(s.variance() / red.variance - 1) > 5 * std::sqrt(red.kurtosis / 200000));
+        CHECK(s.variance() > 2 * red.variance);
+    }
+}
+
+TEST_SUITE("ch07 russian roulette") {
+    TEST_CASE("truth: inside a closed sphere: Le / (1 - a)") {
+        for (double a : {0.5, 0.8}) {
+            Rendering r = film_of(closed_sphere(a, 100000), ch07::trace, 100);
+            CHECK(r.stats.paths_cut == 0);
+            CHECK(std::abs(r.film.mean() * (1 - a) - 1) < 5 * r.film.standard_error() * (1 - a));
+            CHECK(r.film.standard_error() * (1 - a) < 0.01);
+        }
+    }
+
+    TEST_CASE("furnace: every pixel of a convex diffuse ball is its albedo, glass is invisible") {
+        Film film = film_of(scene_from("scenes/furnace.pbrt", 32, 100), ch07::trace, 256).film;
+        for (int y = 9; y < 23; y++)
+            for (int x = 9; x < 23; x++) {
+                double mean = film.pixels()[static_cast<size_t>(32 * y + x)].mean;
+                CHECK(std::abs(mean - 0.8) < 5 * 0.8 / std::sqrt(3.0 * 256));
+            }
+        Film glass =
+            film_of(scene_from("scenes/furnace-glass.pbrt", 32, 1000), ch07::trace, 64).film;
+        CHECK(std::abs(glass.mean() - 1) <= 5 * glass.standard_error() + 1e-5);
+        CHECK(glass.standard_error() < 0.01);
+    }
+
+    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 06") {
+        for (std::string name : {"cornell", "cornell-spheres", "color-bleeding"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 12);
+            CHECK(check_classes(scene, 60000) >= 6);
+        }
+        Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 12);
+        Film a = film_of(scene, ch06::trace, 128).film,
+             b = film_of(scene, ch07::trace, 128, 2).film;
+        check_agreement(hold_against(a, b), 0.02);
+    }
+
+    TEST_CASE("variance: fewer rays for about the same error") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 100);
+        Rendering a = film_of(scene, ch06::trace, 256), b = film_of(scene, ch07::trace, 256);
+        auto cost = [](const Rendering& r) {  // relative variance of the mean, times rays
+            double e = r.film.standard_error() / r.film.mean();
+            return e * e * static_cast<double>(r.stats.rays);
+        };
+        CHECK(static_cast<double>(b.stats.rays) < 0.6 * static_cast<double>(a.stats.rays));
+        CHECK(cost(b) < 0.7 * cost(a));
+    }
+
+    TEST_CASE("failure: paths that nothing weakens end as well") {
+        // Inside a cube of glass 23.6 % of the paths are trapped for ever; a wall may reflect all.
+        Scene cube = world_of(
+            "LightSource \"infinite\" Material \"dielectric\" \"float eta\" 1.5\n"
+            "Shape \"trianglemesh\" \"integer indices\" [0 3 1 0 2 3 4 7 6 4 5 7 0 5 4 0 1 5"
+            " 2 7 3 2 6 7 0 6 2 0 4 6 1 7 5 1 3 7]\n \"point3 P\" [-1 -1 -1  1 -1 -1"
+            "  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1]");
+        cube.camera.o = {0.1f, 0.2f, 0.3f};
+        cube.max_depth = 1000000;
+        Rendering r = film_of(cube, ch07::trace, 4);
+        CHECK(r.stats.paths_cut == 0);
+        CHECK(r.film.mean() > 1);
+        Rendering white = film_of(closed_sphere(1, 1000000), ch07::trace, 4);
+        CHECK(white.stats.paths_cut == 0);
+        CHECK(std::isfinite(white.film.mean()));
+        CHECK(white.film.mean() > 5);
+    }
+
+    TEST_CASE("truth: a scene without light is black, one without things is sky: exactly") {
+        Sampler random = random_numbers(1);
+        PathLog log;
+        Scene scene;
+        prepare(scene, 1);
+        CHECK(is_black(ch07::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, log)));
+        scene.sky = {0.5f, 1, 2};
+        CHECK(ch07::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, log) == Rgb{0.5f, 1, 2});
+        Scene dark = closed_sphere(0, 100);
+        for (int i = 0; i < 100; i++) {
+            CHECK(ch07::trace(dark, {{0, 0, 0}, {0, 0, 1}}, random, log) == Rgb{1, 1, 1});
+        }
+    }
+
+    TEST_CASE("identity: what roulette keeps, it hands on: --explain's log sees q and beta") {
+        Scene scene = closed_sphere(0.5, 100);
+        PathLog log("", true);
+        bool seen = false;
+        for (uint32_t i = 0; i < 100 && !seen; i++) {
+            Sampler sampler(SamplerType::independent, 1, 1);
+            sampler.start(0, i);
+            log.start();
+            ch07::trace(scene, {{0, 0, 0}, {0, 0, 1}}, sampler, log);
+            seen = log.steps().find("survives roulette, q 0.") != std::string::npos;
+        }
+        CHECK(seen);
+    }
+
+    TEST_CASE("teeth: a roulette that does not divide, forgets, or multiplies is rejected") {
+        Scene scene = closed_sphere(0.8, 1000);
+        Film film = film_of(scene, ch07::trace, 64).film;
+        auto agrees = [&](Trace trace) {
+            return hold_against(film_of(scene, trace, 64, 2).film, film).agrees();
+        };
+        CHECK(agrees(flawed_trace<Flaw::none>));
+        CHECK_FALSE(agrees(flawed_trace<Flaw::no_division>));
+        CHECK_FALSE(agrees(flawed_trace<Flaw::before_emission>));
+        CHECK_FALSE(agrees(flawed_trace<Flaw::inverse>));
+    }
+}
+
+TEST_SUITE("ch07 slow") {
+    TEST_CASE("agreement: lengths and classes of paths with chapter 06, from many paths") {
+        for (auto [file, classes] :
+             {std::pair{std::string("cornell"), 12},
+              {"cornell-spheres", 20},
+              {"color-bleeding", 20},
+              {"caustic", 4}}) {  // light meets the camera's paths in one of 20,000
+            std::string name = file;
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 64, 20);
+            CHECK(check_classes(scene, 1000000) >= classes);
+        }
+    }
+}

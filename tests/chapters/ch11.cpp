@@ -1,0 +1,483 @@
+// Chapter 11: resampled importance sampling: the four-light example in full, the target, and walls.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <tuple>
+
+#include "chapters/10_light_importance/estimator.h"
+#include "chapters/11_ris/estimator.h"
+#include "common/base/parallel.h"
+#include "common/light/light_resampling.h"
+#include "tests/support/estimators.h"
+
+namespace {
+
+/// Four lights: probabilities, targets, and what they really give (the second is in shadow).
+using Four = std::array<double, 4>;
+constexpr Four p = {0.4, 0.3, 0.2, 0.1}, p_hat = {1, 2, 4, 8}, f = {1, 0, 4, 8};
+
+/// Calls visit(lights, probability) for all 4^M ways to draw M candidates.
+template <class Visit>
+void for_each_tuple(size_t M, const Four& pmf, const Visit& visit) {
+    std::vector<size_t> lights(M);
+    for (size_t code = 0; code < size_t{1} << (2 * M); code++) {
+        double probability = 1;
+        for (size_t k = 0; k < M; k++) {
+            lights[k] = code >> (2 * k) & 3;
+            probability *= pmf[lights[k]];
+        }
+        visit(lights, probability);
+    }
+}
+
+struct MeanVariance {
+    double mean = 0, variance = 0;
+};
+
+/// What the chapter's Reservoir makes of the candidates from number k on: sums of probability f W
+/// and of its square, over the two ways in which each decision can fall.
+struct Sums {
+    double first = 0, second = 0;
+};
+void follow(const ch11::Reservoir& kept, const std::vector<size_t>& lights, size_t k,
+            double probability, const Four& pmf, const Four& target, Sums& sums) {
+    if (k == lights.size()) {
+        double X = f[kept.light] * static_cast<double>(kept.W(static_cast<int>(k)));
+        sums.first += probability * X;
+        sums.second += probability * X * X;
+        return;
+    }
+    size_t light = lights[k];
+    double weight = target[light] / pmf[light];
+    double share = weight > 0 ? weight / (static_cast<double>(kept.weight_sum) + weight) : 0;
+    for (bool taken : {true, false}) {
+        double chance = taken ? share : 1 - share;
+        if (chance == 0) continue;
+        // u decides, and is uniform again afterwards: 0.3 of the way through either part.
+        float u = static_cast<float>(taken ? 0.3 * share : share + 0.3 * (1 - share));
+        ch11::Reservoir next = kept;
+        next.offer(light, static_cast<float>(target[light]), static_cast<float>(weight), u);
+        CHECK(u == doctest::Approx(0.3).epsilon(1e-5).scale(0));
+        CHECK(next.light == (taken ? light : kept.light));
+        follow(next, lights, k + 1, probability * chance, pmf, target, sums);
+    }
+}
+
+/// Mean and variance of f W over all tuples of M candidates.
+MeanVariance resampled(size_t M, const Four& pmf, const Four& target) {
+    Sums sums;
+    for_each_tuple(M, pmf, [&](const std::vector<size_t>& lights, double probability) {
+        follow({}, lights, 0, probability, pmf, target, sums);
+    });
+    return {sums.first, sums.second - sums.first * sums.first};
+}
+
+/// The mean of weight(lights, k, sum of target/p) f over all tuples, k kept by its `choice` share.
+template <class Choice, class Weight>
+double mean_of(size_t M, const Choice& choice, const Weight& weight) {
+    double mean = 0;
+    for_each_tuple(M, p, [&](const std::vector<size_t>& lights, double probability) {
+        double chances = 0, sum = 0;
+        for (size_t i : lights) chances += choice(i), sum += p_hat[i] / p[i];
+        for (size_t i : lights)
+            mean += probability * choice(i) / chances * f[i] * weight(i, choice(i) / chances, sum);
+    });
+    return mean;
+}
+
+auto is(double x) { return doctest::Approx(x).epsilon(1e-5).scale(0); }
+
+/// x^2 from M even candidates, resampled in proportion to x.
+RunningStats resampled_square(int M, int samples) {
+    RunningStats stats;
+    Sampler random = random_numbers(1);
+    std::vector<float> x(static_cast<size_t>(M));
+    for (int i = 0; i < samples; i++) {
+        ch11::Reservoir kept;
+        float u = random.u1();
+        for (size_t k = 0; k < x.size(); k++) {
+            x[k] = random.u1();
+            kept.offer(k, x[k], x[k], u);
+        }
+        double y = static_cast<double>(x[kept.light]);
+        stats.add(y * y * static_cast<double>(kept.W(M)));
+    }
+    return stats;
+}
+
+/// Draws M candidates while it lives.
+struct With {
+    explicit With(int M) { ch11::M = M; }
+    ~With() { ch11::M = 16; }
+};
+
+Scene prepared(Scene scene) {
+    ch11::prepare(scene);
+    return scene;
+}
+
+/// hidden-light.pbrt with this radiance of the lamp in the other room.
+Scene hidden_light(const std::string& L) {
+    std::string text = read_file("scenes/hidden-light.pbrt"), was = "140000 133000 122000";
+    size_t at = text.find("[" + was + "]");
+    REQUIRE(at != std::string::npos);
+    Scene scene = scene_of(text.replace(at + 1, was.size(), L));
+    scene.width = scene.height = 32, scene.max_depth = 8;
+    return prepared(scene);
+}
+
+/// Ten point lights in a ring over the origin, of very different power, two of them in shadow.
+struct Ring {
+    Scene scene;
+    std::vector<double> given, potential, pmf;
+    double E = 0;
+
+    Ring() {
+        std::string lights =
+            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0]"
+            " Translate 0 0.2 0.6 Scale 0.2 1 0.2 " +
+            square(0, true) + "AttributeEnd\n";
+        for (int i = 0; i < 10; i++) {
+            double angle = 2 * pi_exact * i / 10, height = 0.3 + 0.2 * i;
+            double power = std::pow(2.0, i * 7 % 10), d2 = 1 + height * height;
+            Vec3 at = {static_cast<float>(std::sin(angle)), static_cast<float>(height),
+                       static_cast<float>(std::cos(angle))};
+            lights += "LightSource \"point\" \"float scale\" " + std::to_string(power) +
+                      " \"point3 from\" [" + std::to_string(at.x) + " " + std::to_string(at.y) +
+                      " " + std::to_string(at.z) + "]\n";
+            potential.push_back(power * height / (d2 * std::sqrt(d2)));
+        }
+        scene = prepared(floor_under(lights));
+        Hit x = origin_of(scene);
+        for (size_t i = 0; i < 10; i++) {
+            Vec3 to_y = scene.lights[i].p;
+            bool dark = occluded(scene, spawn_ray(x, normalize(to_y), length(to_y)));
+            given.push_back(dark ? 0 : potential[i]);
+            pmf.push_back(static_cast<double>(pmf_light(scene, i)));
+            E += given.back();
+        }
+    }
+    /// E[(f/q)^n] for f drawn by q.
+    double moment(const std::vector<double>& q, int n) const {
+        double sum = 0;
+        for (size_t i = 0; i < 10; i++) sum += q[i] * std::pow(given[i] / q[i], n);
+        return sum;
+    }
+};
+
+}  // namespace
+
+TEST_SUITE("ch11 reservoir") {
+    TEST_CASE("identity: candidates all at once are those of chapter 11") {
+        const std::string all_kinds =
+            square(0, false) + "LightSource \"point\" \"point3 from\" [1 2 0]" +
+            "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
+            "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
+            "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
+            "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
+            square(0, false);
+        for (Scene scene :
+             {world_of(all_kinds), scene_from("scenes/thousand-lights.pbrt", 16, 1)}) {
+            ch11::prepare(scene);
+            prepare_light_bounds(scene);
+            Sampler random = random_numbers(1);
+            int gave = 0;
+            for (int k = 0; k < 2000; k++) {
+                Hit x{};
+                x.p = scene.radius * random.u1() * uniform_direction(random.u2());
+                x.n = x.ng = uniform_direction(random.u2());
+                int M = 1 + k % 70;
+                float u = random.u1();
+                Candidates c = draw_candidates(scene, x, M, u);
+                REQUIRE(c.M == M);
+                for (int i = 0; i < M; i++) {
+                    size_t light = static_cast<size_t>(c.light[i]);
+                    float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
+                    REQUIRE(light == pick_light(scene, slice));
+                    float p_hat = ch11::potential(scene, light, x);
+                    REQUIRE(std::abs(c.p_hat[i] - p_hat) <= 1e-5f * p_hat);
+                    float weight = p_hat / pmf_light(scene, light);
+                    REQUIRE(std::abs(c.weight[i] - weight) <= 1e-5f * weight);
+                    if (p_hat > 0) gave++;
+                }
+            }
+            CHECK(gave > 20000);
+        }
+    }
+
+    TEST_CASE("identity: each candidate is kept for its share of u") {
+        Sampler random = random_numbers(1);
+        for (int M : {1, 2, 7, 16, 100, Candidates::most}) {
+            CAPTURE(M);
+            Candidates c{};
+            c.M = M;
+            double sum = 0;
+            for (int i = 0; i < M; i++) {
+                c.light[i] = 3 * i;
+                c.p_hat[i] = i % 3 == 1 ? 0 : random.u1() + 0.1f;
+                c.weight[i] = c.p_hat[i] * (1 + 9 * random.u1());
+                sum += static_cast<double>(c.weight[i]);
+            }
+            constexpr int steps = 1 << 16;
+            std::vector<int> count(static_cast<size_t>(M));
+            for (int k = 0; k < steps; k++) {
+                Kept kept = keep_one(c, (static_cast<float>(k) + 0.5f) / steps);
+                int i = static_cast<int>(kept.light) / 3;
+                REQUIRE(kept.W ==
+                        doctest::Approx(sum / M / double{c.p_hat[i]}).epsilon(1e-5).scale(0));
+                count[static_cast<size_t>(i)]++;
+            }
+            for (int i = 0; i < M; i++) {
+                double share = static_cast<double>(c.weight[i]) / sum * steps;
+                CHECK(std::abs(count[static_cast<size_t>(i)] - share) < (share > 0 ? 2 : 0.5));
+            }
+        }
+    }
+
+    TEST_CASE("failure: no candidate gives light, or too little for float: none is kept") {
+        Candidates c{};
+        c.M = 16;
+        CHECK(keep_one(c, 0.5f).W == 0);
+        c.weight[7] = c.p_hat[7] = 1e-42f;
+        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) CHECK(keep_one(c, u).W == 0);
+        c.weight[7] = c.p_hat[7] = 1e-37f;
+        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f})
+            CHECK(keep_one(c, u).W == doctest::Approx(1 / 16.0).epsilon(1e-5).scale(0));
+    }
+
+    TEST_CASE("failure: weights beyond float: one of the candidates, and a sample that is seen") {
+        Candidates c{};
+        c.M = Candidates::most;
+        for (int i = 0; i < c.M; i++) c.light[i] = i, c.p_hat[i] = c.weight[i] = 1e38f;
+        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
+            Kept kept = keep_one(c, u);
+            CHECK(kept.light < Candidates::most);
+            CHECK(!std::isfinite(kept.W));
+        }
+    }
+
+    TEST_CASE("truth: RIS on four lights, all tuples") {
+        for (auto [M, variance] : {std::pair{size_t{1}, 553.5},
+                                   {2, 289.75},
+                                   {3, 201.8333333333},
+                                   {4, 157.875},
+                                   {5, 131.5}}) {
+            MeanVariance result = resampled(M, p, p_hat);
+            CHECK(result.mean == is(13));
+            CHECK(result.variance == is(variance));
+        }
+        MeanVariance perfect = resampled(4, p, f);
+        CHECK(perfect.mean == is(13));
+        CHECK(perfect.variance == is(138.375));
+        MeanVariance even = resampled(4, {0.25, 0.25, 0.25, 0.25}, p_hat);
+        CHECK(even.mean == is(13));
+        CHECK(even.variance == is(58.25));
+    }
+
+    TEST_CASE(
+        "truth: without the weight W, or with a wrong one, the four lights give 3.66, 8, 52") {
+        auto by_target = [](size_t i) { return p_hat[i]; };
+        auto by_ratio = [](size_t i) { return p_hat[i] / p[i]; };
+        // Candidates by p, one kept in proportion to p_hat / p, or to p_hat as the slide has it;
+        // truth 13.
+        CHECK(mean_of(4, by_ratio, [](size_t, double, double) { return 1.0; }) == is(3.663573988));
+        CHECK(mean_of(4, by_target, [](size_t, double P, double) { return 1 / P; }) == is(8));
+        CHECK(mean_of(4, by_target, [](size_t i, double P, double) { return 1 / (p[i] * P); }) ==
+              is(52));
+        CHECK(mean_of(4, by_ratio, [](size_t i, double, double) { return 15 / p_hat[i]; }) ==
+              is(11.2905333));
+        auto W = [](size_t i, double, double sum) { return sum / (4 * p_hat[i]); };
+        CHECK(mean_of(4, by_target, W) == is(12.20114435));
+        CHECK(mean_of(4, by_ratio, W) == is(13));
+    }
+
+    TEST_CASE("failure: a source or a target of 0 where there is light: missing, for every M") {
+        for (size_t M : {1u, 4u}) {
+            // p = 0 for the last two lights: only the first is found; p_hat = 0 for the last.
+            CHECK(resampled(M, {0.5, 0.5, 1e-30, 1e-30}, {1, 2, 0, 0}).mean == is(1));
+            CHECK(resampled(M, p, {1, 2, 4, 0}).mean == is(5));
+        }
+    }
+
+    TEST_CASE("truth: tuples without any light count as 0; left out, they make 8 into 42") {
+        const Four last = {0, 0, 0, 8};
+        MeanVariance result = resampled(2, p, last);
+        CHECK(result.mean == is(8));  // f of the last light
+        CHECK(result.mean / (1 - 0.81) == is(42.10526315789));
+    }
+
+    TEST_CASE("variance: x^2 from M even candidates, resampled by x: 1/72 + 3/(40 M)") {
+        for (int M : {1, 2, 4, 16, 64}) {
+            CAPTURE(M);
+            RunningStats s = resampled_square(M, M == 64 ? 100000 : 400000);
+            double variance = 1.0 / 72 + 3 / (40.0 * M);
+            check_mean(s, 1.0 / 3, variance, 0.01);
+            check_variance(s, variance, 5);
+        }
+    }
+}
+
+TEST_SUITE("ch11 potential") {
+    TEST_CASE("truth: far away the potential is the irradiance") {
+        for (const std::string& light :
+             {shining + "Translate 20 30 0 Rotate -20 0 0 1 " + square(0, false),
+              shining + "Translate 20 30 0 Rotate 100 1 0 0 Shape \"disk\"",
+              std::string("LightSource \"point\" \"point3 from\" [5 3 1]"),
+              std::string("LightSource \"distant\" \"point3 from\" [1 1 1] \"point3 to\" [0 0 0]"),
+              std::string("LightSource \"infinite\"")}) {
+            CAPTURE(light);
+            Scene scene = floor_under(light);
+            double E = irradiance(prepared(scene), ch11::trace, 4000).mean();
+            double potential = static_cast<double>(ch11::potential(scene, 0, origin_of(scene)));
+            CHECK(potential == doctest::Approx(E).epsilon(0.15).scale(0));
+        }
+    }
+
+    TEST_CASE("identity: wherever any point of a light gives something, the potential is not 0") {
+        for (const std::string& shape :
+             {square(0, false), std::string("Shape \"disk\""), std::string("Shape \"sphere\""),
+              std::string("Shape \"trianglemesh\" \"point3 P\" [-1 0 -1  1 0.2 -0.5  0 0 1]"),
+              std::string("Shape \"trianglemesh\" \"integer indices\" [0 1 4 1 2 4 2 3 4 3 0 4]"
+                          " \"point3 P\" [-1 1 -1  1 1 -1  1 1 1  -1 1 1  0.1 1.5 0.1]")})
+            for (std::string two_sided : {"false", "true"}) {
+                Scene scene = world_of("AreaLightSource \"diffuse\" \"bool twosided\" " +
+                                       two_sided + " Rotate 35 1 2 3 Scale 0.3 0.3 0.3 " + shape);
+                if (scene.lights.empty()) continue;
+                Sampler random = random_numbers(1);
+                int gave = 0;
+                for (int i = 0; i < 20000; i++) {
+                    Hit x{};
+                    float distance = 0.1f * std::pow(1000.0f, random.u1());
+                    x.p = distance * uniform_direction(random.u2());
+                    x.n = x.ng = uniform_direction(random.u2());
+                    LightPoint y = sample_area(scene, 0, random.u2());
+                    Vec3 to_y = y.p - x.p;
+                    float cos_y = -dot(to_y, y.n);
+                    bool gives =
+                        dot(to_y, x.n) > 0 && (scene.lights[0].two_sided ? cos_y != 0 : cos_y > 0);
+                    if (!gives) continue;
+                    gave++;
+                    CHECK(ch11::potential(scene, 0, x) > 0);
+                }
+                CHECK(gave > 1000);
+            }
+    }
+}
+
+TEST_SUITE("ch11 ris") {
+    TEST_CASE("truth: resampling ten lights gives their sum, for every M") {
+        Ring ring;
+        CHECK(std::count(ring.given.begin(), ring.given.end(), 0.0) >= 1);
+        for (int M : {1, 2, 3, 8, 16, 100}) {
+            CAPTURE(M);
+            With candidates(M);
+            check_bounded(irradiance(ring.scene, ch11::trace, 40000), ring.E, 0.015);
+        }
+    }
+
+    TEST_CASE("variance: Var_p for one candidate, below Var_p / M + (1 - 1/M) Var_q for M") {
+        Ring ring;
+        double sum = 0;
+        for (double x : ring.potential) sum += x;
+        std::vector<double> q;
+        for (double x : ring.potential) q.push_back(x / sum);
+        double E2 = ring.E * ring.E;
+        double Var_p = ring.moment(ring.pmf, 2) - E2, Var_q = ring.moment(q, 2) - E2;
+        double fourth = ring.moment(ring.pmf, 4) - 4 * ring.E * ring.moment(ring.pmf, 3) +
+                        6 * E2 * ring.moment(ring.pmf, 2) - 3 * E2 * E2;
+        {
+            With candidates(1);
+            check_variance(irradiance(ring.scene, ch11::trace, 60000), Var_p,
+                           fourth / (Var_p * Var_p));
+        }
+        // The candidates of the chapter come from M slices of the table: that is only better.
+        for (int M : {2, 4, 16}) {
+            CAPTURE(M);
+            With candidates(M);
+            double variance = irradiance(ring.scene, ch11::trace, 60000).variance();
+            CHECK(variance < 1.03 * (Var_p / M + (1 - 1.0 / M) * Var_q));
+            CHECK(variance > 0.5 * Var_q);
+        }
+    }
+
+    TEST_CASE("failure: without lights the picture is black") {
+        Scene none = floor_under(shining + unit_square(1));
+        none.lights.clear();
+        ch11::prepare(none);
+        CHECK(irradiance(none, ch11::trace, 100).mean() == 0);
+    }
+
+    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 10") {
+        for (const auto& [name_here, least] :
+             std::vector<std::pair<std::string, int>>{{"cornell", 6},
+                                                      {"cornell-spheres", 8},
+                                                      {"two-lights", 4},
+                                                      {"far-and-near", 2},
+                                                      {"thousand-lights", 4},
+                                                      {"near-light", 2},
+                                                      {"horizon-sky", 2}}) {
+            const auto& name = name_here;
+            CAPTURE(name);
+            Scene scene = prepared(scene_from("scenes/" + name + ".pbrt", 32, 8));
+            CHECK(check_classes(scene, ch10::trace, scene, ch11::trace, 20000) >= least);
+        }
+        // A bright light behind a wall, but 10 times as bright as the other one and not 10,000
+        // times as in the file: there the few samples that count are too rare for 20,000 paths.
+        Scene hidden = hidden_light("140 133 122");
+        CHECK(check_classes(hidden, ch10::trace, hidden, ch11::trace, 40000) >= 8);
+        Scene scene = prepared(scene_from("scenes/thousand-lights.pbrt", 32, 8));
+        check_agreement(hold_against(film_of(scene, ch10::trace, 256).film,
+                                     film_of(scene, ch11::trace, 64, 2).film),
+                        0.02);
+    }
+
+    TEST_CASE("variance: a thousand lights: a quarter of the relMSE of chapter 10") {
+        Scene scene = prepared(scene_from("scenes/thousand-lights.pbrt", 32, 8));
+        double before = rel_mse(film_of(scene, ch10::trace, 256).film);
+        double now = rel_mse(film_of(scene, ch11::trace, 128).film);
+        CHECK(now < before / 4);
+    }
+
+    TEST_CASE("failure: a bright light behind a wall: resampling is worse than chapter 10") {
+        Scene scene = prepared(scene_from("scenes/hidden-light.pbrt", 32, 8));
+        double before = rel_mse(film_of(scene, ch10::trace, 128).film);
+        double now = rel_mse(film_of(scene, ch11::trace, 128).film);
+        CHECK(now > 2 * before);
+    }
+}
+
+TEST_SUITE("ch11 ris, slow") {
+    TEST_CASE("agreement: behind a wall, classes of paths with chapter 10") {
+        // The lamp in sight wins one competition in some hundred, and then counts for all of them.
+        // Relative variance of one path of each class (from 20 million): skewness up to 107, so
+        // that the mean of 434 skew^2 = 5 million is normal enough for a gate of 5 standard
+        // errors. Longer paths, of 20,000 and 330, would need 50 million.
+        constexpr int before = 500000, now = 5000000;
+        Scene scene = hidden_light("140000 133000 122000");
+        scene.max_depth = 5;
+        PathCensus a = census_of(scene, ch10::trace, before, 1);
+        std::vector<PathCensus> parts(10);
+        int threads = static_cast<int>(std::thread::hardware_concurrency());
+        parallel_for(10, threads, [&](int i) {
+            parts[static_cast<size_t>(i)] =
+                census_of(scene, ch11::trace, now / 10, 2 + static_cast<uint32_t>(i));
+        });
+        for (auto [name_here, variance_a, variance_b] :
+             {std::tuple{std::string("LDE"), 15.0, 1380.0},
+              {"LDDE", 19.6, 2010.0},
+              {"LDDDE", 18.9, 1870.0},
+              {"LDDDDE", 19.6, 1970.0},
+              {"LDDDDDE", 19.7, 2020.0}}) {
+            const auto& name = name_here;
+            CAPTURE(name);
+            double mean_a = a.by_class[name].sum / before, mean_b = 0;
+            for (PathCensus& b : parts) mean_b += b.by_class[name].sum / now;
+            double se = std::sqrt(variance_a / before + variance_b / now);
+            CAPTURE(mean_a);
+            CAPTURE(mean_b);
+            CHECK(std::isfinite(mean_b));
+            CHECK(std::abs(mean_b / mean_a - 1) < 5 * se);
+            CHECK(se < 0.022);
+        }
+    }
+}

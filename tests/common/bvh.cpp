@@ -1,0 +1,578 @@
+// The hierarchy of common/ against the linear scan: the same hits, bit for bit, on awkward rays and
+// awkward meshes.
+#include "common/geometry/bvh.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "common/geometry/shapes.h"
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr float largest = std::numeric_limits<float>::max();
+constexpr float smallest = std::numeric_limits<float>::denorm_min();
+
+bool same_bits(const PrimHit& a, const PrimHit& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+enum class RayKind : uint8_t {
+    random,         // from around the mesh to a point in its box
+    axis_parallel,  // with zeros of either sign
+    grazing,        // towards edges and corners
+    in_plane,       // from coordinates of corners, along one or two axes
+    edge_on,        // nearly within the plane of a triangle
+    leaving,        // from a corner
+    far_away,       // from up to 2^17 times the size of the mesh
+    far_parallel,   // the same along an axis
+    long_or_short,  // directions of any length
+    count
+};
+
+/// Makes rays that a hierarchy may get wrong, out of the mesh's own numbers: there zeros, ties and
+/// touching boxes are.
+class RayMaker {
+public:
+    explicit RayMaker(const Geometry& g) : g_(g), random_(SamplerType::independent, 11, 1) {
+        for (Vec3 p : g.positions) {
+            if (is_finite(p)) corners_.push_back(p);
+        }
+        auto add_around = [&](Vec3 c, float r) {
+            for (int axis = 0; axis < 3; axis++) {
+                Vec3 towards;
+                towards[axis] = r;
+                for (Vec3 p : {c - towards, c + towards}) {
+                    if (is_finite(p)) corners_.push_back(p);
+                }
+            }
+        };
+        for (const Sphere& s : g.spheres) add_around(s.c, s.r);
+        for (const Disk& d : g.disks) add_around(d.c, d.r);
+        if (corners_.empty()) corners_.push_back({});
+        low_ = high_ = corners_[0];
+        for (Vec3 p : corners_) low_ = min(low_, p), high_ = max(high_, p);
+    }
+
+    Ray make(RayKind kind, uint32_t number) {
+        random_.start(static_cast<uint32_t>(kind), number);
+        Vec3 inside = point(0), outside = point(1);
+        switch (kind) {
+            case RayKind::random: return {outside, inside - outside};
+            case RayKind::axis_parallel: return {outside_along(axis_direction(), inside, 2)};
+            case RayKind::grazing: return {outside, on_edge() - outside};
+            case RayKind::in_plane: {
+                Vec3 o = {corner().x, corner().y, corner().z}, d = axis_direction();
+                if (random_.u1() < 0.5f) d = d + 0.5f * axis_direction();
+                return outside_along(d, o, random_.u1() < 0.5f ? 0.0f : 2.0f);
+            }
+            case RayKind::edge_on: {
+                auto [a, b, c] = triangle();
+                Vec2 u = random_.u2(), v = random_.u2();
+                Vec3 from = a + (6 * u.x - 3) * (b - a) + (6 * u.y - 3) * (c - a);
+                return {from, a + v.x * (b - a) + v.y * (1 - v.x) * (c - a) - from};
+            }
+            case RayKind::leaving: return {corner(), inside - outside};
+            case RayKind::far_away: {
+                float distance = std::exp2(17 * random_.u1());
+                Vec3 to = random_.u1() < 0.5f ? inside : on_edge();
+                Vec3 from = to + distance * (outside - inside);
+                return {from, to - from};
+            }
+            case RayKind::far_parallel:
+                return outside_along(axis_direction(), random_.u1() < 0.5f ? inside : on_edge(),
+                                     std::exp2(17 * random_.u1()));
+            default: {
+                float scale = std::exp2(std::floor(120 * random_.u1() - 60));
+                return {outside, scale * (inside - outside)};
+            }
+        }
+    }
+
+private:
+    uint32_t pick(size_t size) {
+        return std::min(static_cast<uint32_t>(random_.u1() * static_cast<float>(size)),
+                        static_cast<uint32_t>(size) - 1);
+    }
+    /// In the box, or in one that is larger by `margin` of its size on each side.
+    Vec3 point(float margin) {
+        Vec2 u = random_.u2();
+        Vec3 p, v = {u.x, u.y, random_.u1()};
+        for (int axis = 0; axis < 3; axis++) {
+            float at = v[axis] * (1 + 2 * margin) - margin;
+            p[axis] = (1 - at) * low_[axis] + at * high_[axis];
+        }
+        return p;
+    }
+    Vec3 corner() { return corners_[pick(corners_.size())]; }
+    std::array<Vec3, 3> triangle() {
+        if (g_.triangles.empty()) return {corner(), corner(), corner()};
+        auto [a, b, c] = g_.triangles[pick(g_.triangles.size())].v;
+        return {g_.positions[a], g_.positions[b], g_.positions[c]};
+    }
+    Vec3 on_edge() {
+        auto [a, b, c] = triangle();
+        float u = random_.u1();
+        return u < 0.25f ? a : a + random_.u1() * ((u < 0.6f ? b : c) - a);
+    }
+    Vec3 axis_direction() {
+        Vec3 d;
+        for (int axis = 0; axis < 3; axis++) d[axis] = random_.u1() < 0.5f ? 0.0f : -0.0f;
+        d[static_cast<int>(pick(3))] = random_.u1() < 0.5f ? 1.0f : -1.0f;
+        return d;
+    }
+    /// The ray along d through p, from `back` sizes of the mesh before it.
+    Ray outside_along(Vec3 d, Vec3 p, float back) const {
+        Vec3 size = high_ - low_;
+        for (int axis = 0; axis < 3; axis++) {
+            if (d[axis] != 0) p[axis] -= d[axis] * back * max_component(size);
+        }
+        return {p, d};
+    }
+
+    const Geometry& g_;
+    Sampler random_;
+    std::vector<Vec3> corners_;
+    Vec3 low_, high_;
+};
+
+/// What a ray found, so that it can be found again.
+std::string described(const char* what, int kind, uint32_t number, const Ray& ray,
+                      const PrimHit& found, const PrimHit& truth) {
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "%s, kind %d, ray %u: o %a %a %a, d %a %a %a, t_max %a: primitive %d at t %a, not "
+        "%d at %a",
+        what, kind, number, double{ray.o.x}, double{ray.o.y}, double{ray.o.z}, double{ray.d.x},
+        double{ray.d.y}, double{ray.d.z}, double{ray.t_max}, static_cast<int>(found.prim),
+        double{found.t}, static_cast<int>(truth.prim), double{truth.t});
+    return text;
+}
+
+/// Holds rays against the linear scan, and keeps the first one that found something else.
+struct Comparison {
+    const Geometry& g;
+    Bvh bvh;
+    int rays = 0, hits = 0, wrong = 0;
+    std::string first_wrong = "";
+
+    PrimHit compare(const char* what, int kind, uint32_t number, const Ray& ray) {
+        PrimHit truth = linear_scan(g, ray), found = closest_hit(bvh, g, ray);
+        bool hit = truth.prim != PrimHit::none, any = any_hit(bvh, g, ray);
+        rays++, hits += hit;
+        if (same_bits(found, truth) && any == hit) return truth;
+        if (wrong++ == 0) {
+            if (any != hit) found = {any ? 0 : PrimHit::none, 0, 0, 0};
+            first_wrong = described(what, kind, number, ray, found, truth);
+        }
+        return truth;
+    }
+};
+
+/// Rays of all kinds find in the hierarchy what they find one primitive after the other. At least
+/// this share of them hits something.
+void check_same_hits(const Geometry& g, double least_share, uint32_t rays_of_each = 1000) {
+    Comparison all{g, build_bvh(g, 1)};
+    RayMaker maker(g);
+    for (int kind = 0; kind < static_cast<int>(RayKind::count); kind++) {
+        for (uint32_t i = 0; i < rays_of_each; i++) {
+            Ray ray = maker.make(static_cast<RayKind>(kind), i);
+            PrimHit hit = all.compare("ray", kind, i, ray);
+            // Edge-on, rounding puts the hit anywhere on the triangle, even before its box.
+            if (hit.prim == PrimHit::none || kind == static_cast<int>(RayKind::edge_on)) continue;
+            // A ray that ends at the hit does not have it any more, one that ends behind it does.
+            ray.t_max = hit.t;
+            all.compare("ends at the hit", kind, i, ray);
+            ray.t_max = std::nextafter(hit.t, infinity);
+            all.compare("ends behind it", kind, i, ray);
+        }
+    }
+    CAPTURE(all.wrong);
+    CHECK(all.first_wrong == "");
+    CHECK(all.hits >= least_share * all.rays);
+}
+
+/// n triangles of this size with their centres in the cube [-1,1]^3.
+Geometry random_triangles(uint32_t n, float size) {
+    Geometry g;
+    Sampler random(SamplerType::independent, 12, 1);
+    for (uint32_t i = 0; i < n; i++) {
+        random.start(i, 0);
+        auto point = [&] {
+            Vec2 u = random.u2();
+            return Vec3{2 * u.x - 1, 2 * u.y - 1, 2 * random.u1() - 1};
+        };
+        Vec3 centre = point();
+        for (int k = 0; k < 3; k++) g.positions.push_back(centre + size * point());
+        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, 0});
+    }
+    return g;
+}
+
+/// With spheres and disks among the triangles.
+Geometry mixed(uint32_t triangles) {
+    Geometry g = random_triangles(triangles, 0.2f);
+    for (size_t i = 0; i < 40; i++) {
+        Vec3 a = g.positions[3 * i], b = g.positions[3 * i + 1], c = g.positions[3 * i + 2];
+        g.spheres.push_back({c, 0.5f * length(b - a), 0});
+        Vec3 n = normalize(cross(b - a, c - a));
+        if (i % 4 == 0) n = {0, i % 8 == 0 ? 1.0f : -1.0f, 0};
+        g.disks.push_back({b, n, 0.4f * length(c - a), 0});
+    }
+    return g;
+}
+
+template <typename Array>
+bool same_memory(const Array& a, const Array& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+/// Nodes on the longest way down.
+int levels_below(const Bvh& bvh, uint32_t child) {
+    if (child & BvhNode::leaf) return 0;
+    int levels = 0;
+    for (uint32_t next : bvh.nodes[child].child) levels = std::max(levels, levels_below(bvh, next));
+    return levels + 1;
+}
+int levels_of(const Bvh& bvh) { return levels_below(bvh, bvh.root); }
+
+template <typename Change>
+Geometry changed(Geometry g, const Change& change) {
+    for (Vec3& p : g.positions) p = change(p);
+    return g;
+}
+
+/// Bytes, the most that this process has had so far.
+double peak_memory() {
+    rusage used = {};
+    ::getrusage(RUSAGE_SELF, &used);
+    return 1024.0 * static_cast<double>(used.ru_maxrss);
+}
+
+Finished shell(const std::string& command) {
+    return Process([&] {
+               ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+               return 127;
+           })
+        .wait();
+}
+
+}  // namespace
+
+TEST_SUITE("ch05 bvh hits") {
+    TEST_CASE("brute: meshes, spheres and disks are hit as the linear scan hits them") {
+        check_same_hits(random_triangles(500, 0.2f), 0.2);
+        check_same_hits(random_triangles(40, 2), 0.2);
+        check_same_hits(mixed(200), 0.2);
+        Geometry round = mixed(40);
+        round.triangles.clear();
+        check_same_hits(round, 0.2);
+        check_same_hits(cornell_box(), 0.2);
+        check_same_hits(closed_mesh(3), 0.2);
+        check_same_hits(thin_diagonals(300), 0.1);
+    }
+
+    TEST_CASE("brute: flat meshes in the planes of the axes") {
+        for (int axis = 0; axis < 3; axis++) {
+            for (float at : {0.0f, 1.0f, -1e5f}) {
+                Geometry g;
+                add_surface(g, 10, 10, [&](float a, float b) {
+                    Vec3 p;
+                    p[axis] = at, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
+                    return p;
+                });
+                check_same_hits(g, 0.1, 300);
+            }
+        }
+    }
+
+    TEST_CASE("brute: touching boxes, whose sides are met by many rays at once") {
+        Geometry g;
+        for (int k = 0; k < 27; k++) {
+            float x = static_cast<float>(k % 3), y = static_cast<float>(k / 3 % 3),
+                  z = static_cast<float>(k / 9);
+            add_box(g, {x, y, z}, {x + 1, y + 1, z + 1});
+        }
+        check_same_hits(g, 0.5);
+    }
+
+    TEST_CASE("brute: no primitive, one, and one less or more than fit side by side") {
+        check_same_hits({}, 0);
+        for (uint32_t n : {1u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 32u, 33u}) {
+            check_same_hits(random_triangles(n, 1), 0.05, 300);
+        }
+        for (size_t n : {2u, 4u, 8u, 10u}) {  // 6, 12, 24 and 30 primitives
+            Geometry g = mixed(40);
+            g.triangles.resize(n), g.spheres.resize(n), g.disks.resize(n);
+            check_same_hits(g, 0.05, 300);
+        }
+        Geometry sphere, disk;
+        sphere.spheres = {{{1, 2, 3}, 2, 0}};
+        disk.disks = {{{1, 2, 3}, {0, 0, 1}, 2, 0}};
+        check_same_hits(sphere, 0.2);
+        check_same_hits(disk, 0.1);
+    }
+
+    TEST_CASE("brute: copies: of equal hits the one with the lowest number") {
+        Geometry g = random_triangles(20, 1);
+        std::vector<Triangle> once = g.triangles;
+        for (int copy = 0; copy < 30; copy++)
+            g.triangles.insert(g.triangles.end(), once.rbegin(), once.rend());
+        g.spheres.assign(40, {{0, 0, 0}, 0.5f, 0});
+        g.disks.assign(40, {{0, 0, 0}, {0, 0, 1}, 0.7f, 0});
+        check_same_hits(g, 0.2);
+        g.triangles.assign(1000, once[0]);
+        check_same_hits(g, 0.1, 300);
+    }
+
+    TEST_CASE("brute: triangles that are lines or points are never hit, and hide nothing") {
+        Geometry g = random_triangles(300, 0.5f);
+        for (size_t i = 0; i < 300; i += 3) g.triangles[i].v[2] = g.triangles[i].v[1];
+        for (size_t i = 1; i < 300; i += 9)
+            g.triangles[i].v[2] = g.triangles[i].v[1] = g.triangles[i].v[0];
+        check_same_hits(g, 0.2);
+        Geometry lines = random_triangles(50, 0.5f);
+        for (Triangle& t : lines.triangles) t.v[2] = t.v[1];
+        check_same_hits(lines, 0);
+    }
+
+    TEST_CASE("brute: what is nested, each half as large as the one around it") {
+        Geometry triangles, spheres;
+        for (int i = 0; i < 60; i++) {
+            float s = std::ldexp(1.0f, -i);
+            spheres.spheres.push_back({{0, 0, 0}, s, 0});
+            spheres.spheres.push_back({{s, 0, 0}, s, 0});
+            if (i >= 12) continue;
+            uint32_t v = static_cast<uint32_t>(triangles.positions.size());
+            triangles.positions.insert(triangles.positions.end(),
+                                       {{s, 0, 0}, {0, s, 0}, {0, 0, s}});
+            triangles.triangles.push_back({{v, v + 1, v + 2}, 0});
+        }
+        check_same_hits(spheres, 0.2);
+        check_same_hits(triangles, 0.05);
+        add_box(triangles, {-1, -1, -1}, {1, 1, 1});
+        check_same_hits(triangles, 0.2);
+    }
+
+    TEST_CASE("brute: NaN and infinite vertices are never hit, and hide nothing") {
+        for (float x : {std::nanf(""), infinity, -infinity}) {
+            Geometry g = mixed(300), all_bad = random_triangles(20, 1);
+            for (size_t i = 0; i < g.positions.size(); i += 20)
+                g.positions[i][static_cast<int>(i / 20 % 3)] = x;
+            g.spheres[3].r = g.spheres[4].c.y = g.disks[5].c.z = x;
+            g.disks[6].n = {x, x, x};
+            check_same_hits(g, 0.2);
+            for (Vec3& p : all_bad.positions) p.y = x;
+            check_same_hits(all_bad, 0, 100);
+        }
+        Geometry g = mixed(100);
+        g.spheres[3].r = g.disks[6].r = 0;
+        g.disks[7].n = {};
+        check_same_hits(g, 0.2);
+    }
+
+    TEST_CASE("brute: coordinates far from 0, huge ones and tiny ones") {
+        Geometry g = random_triangles(200, 0.5f);
+        for (Vec3 offset : {Vec3{1e4f, -1e4f, 1e4f}, {148376, 1234, -223423}, {1e7f, 0, 0}}) {
+            auto moved = changed(g, [&](Vec3 p) { return p + offset; });
+            check_same_hits(moved, 0.05);
+        }
+        for (float scale : {1e-6f, 1e6f, 1e12f, 1e18f, 1e30f, 1e37f}) {
+            CAPTURE(scale);
+            check_same_hits(changed(g, [&](Vec3 p) { return scale * p; }), 0, 300);
+        }
+        // Of very different size within one mesh.
+        for (size_t i = 0; i < 300; i++) g.positions[i] = 1000 * g.positions[i];
+        check_same_hits(g, 0.05);
+        for (size_t i = 0; i < 60; i++) {
+            g.positions[i] = (i % 2 == 0 ? -largest : largest) * Vec3{1, 1, 0};
+        }
+        check_same_hits(g, 0, 300);
+    }
+
+    TEST_CASE("brute: rays along an axis through corners, from up to 2^24 away") {
+        Geometry g = random_triangles(200, 0.5f);
+        Comparison all{g, build_bvh(g, 1)};
+        for (uint32_t i = 0; i < 600; i++) {
+            for (int power = 0; power <= 24; power++) {
+                int axis = static_cast<int>(i % 3);
+                Vec3 o = g.positions[i], d = {0.0f, -0.0f, 0.0f};
+                d[axis] = i % 2 == 0 ? 1.0f : -1.0f;
+                o[axis] = -std::ldexp(d[axis], power);
+                all.compare("from 2^kind away", power, i, {o, d});
+            }
+        }
+        CAPTURE(all.wrong);
+        CHECK(all.first_wrong == "");
+        CHECK(all.hits > 0.3 * all.rays);
+    }
+
+    TEST_CASE("brute: rays without a direction, without an end, and with NaN") {
+        const float odd[] = {0.0f, -0.0f, smallest, 1, largest, infinity, -infinity, std::nanf("")};
+        Geometry many = mixed(200), few = mixed(40);
+        few.triangles.resize(10), few.spheres.resize(10), few.disks.resize(10);  // no boxes
+        int rays = 0;
+        for (const Geometry& g : {many, few}) {
+            Bvh bvh = build_bvh(g, 1);
+            for (float x : odd)
+                for (float y : odd)
+                    for (float z : odd)
+                        for (float t_max : {infinity, largest, 1.0f, smallest, 0.0f, -1.0f}) {
+                            for (Ray ray : {Ray{{0.1f, 0.2f, 0.3f}, {x, y, z}, t_max},
+                                            Ray{{x, y, z}, {0.3f, 0.2f, 0.5f}, t_max}}) {
+                                PrimHit truth = linear_scan(g, ray);
+                                CAPTURE(rays);
+                                REQUIRE(same_bits(closest_hit(bvh, g, ray), truth));
+                                REQUIRE(any_hit(bvh, g, ray) == (truth.prim != PrimHit::none));
+                                rays++;
+                            }
+                        }
+        }
+        CHECK(rays == 2 * 2 * 6 * 512);
+    }
+}
+
+TEST_SUITE("ch05 bvh build") {
+    TEST_CASE("brute: a million rays through edges and corners of closed meshes, and no leak") {
+        for (Vec3 offset : {Vec3{0, 0, 0}, {148376, 1234, -223423}}) {
+            Geometry g = closed_mesh(5);
+            float size = offset.x == 0 ? 1.0f : 1000.0f;
+            for (Vec3& p : g.positions) p = size * p + offset;
+            Bvh bvh = build_bvh(g, 1);
+            Sampler random(SamplerType::independent, 14, 1);
+            int leaks = 0, shadow_leaks = 0, late = 0;
+            for (uint32_t i = 0; i < 500000; i++) {
+                random.start(i, 0);
+                const Triangle& t = g.triangles[i % g.triangles.size()];
+                Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]], at = a;
+                if (i % 4 != 0) at = at + random.u1() * (b - a);
+                // From near the middle outwards, or from outside through the middle.
+                Vec2 u = random.u2();
+                Vec3 middle = offset + 0.3f * size * Vec3{u.x - 0.5f, u.y - 0.5f, random.u1()};
+                bool from_outside = i % 2 == 0;
+                if (from_outside) middle = offset;
+                Ray ray = {middle, at - middle};
+                if (from_outside) ray = {at + (at - middle), middle - at};
+                PrimHit hit = closest_hit(bvh, g, ray);
+                leaks += hit.prim == PrimHit::none;
+                shadow_leaks += !any_hit(bvh, g, ray);
+                if (from_outside) late += hit.t > 1.001f;  // not the first wall
+            }
+            CHECK(leaks == 0);
+            CHECK(shadow_leaks == 0);
+            CHECK(late == 0);
+        }
+    }
+
+    TEST_CASE("identity: the same hierarchy for any number of threads") {
+        Geometry ball, copies;
+        add_bumpy_ball(ball, {0, 0, 0}, 1, 200);
+        copies.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        copies.triangles.assign(50000, {{0, 1, 2}, 0});
+        Geometry round = mixed(20000);
+        for (const Geometry& g : {ball, thin_diagonals(20000), round, copies}) {
+            Bvh one = build_bvh(g, 1);
+            for (int threads : {1, 2, 2, 7, 7}) {
+                Bvh other = build_bvh(g, threads);
+                CHECK(other.root == one.root);
+                CHECK(same_memory(other.nodes, one.nodes));
+                CHECK(same_memory(other.blocks, one.blocks));
+            }
+        }
+    }
+
+    TEST_CASE("failure: what cannot be parted, or only one by one, still ends in a low tree") {
+        Geometry copies, shrinking;
+        copies.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        copies.triangles.assign(100000, {{0, 1, 2}, 0});
+        CHECK(levels_of(build_bvh(copies, 1)) <= 17);
+        for (int i = 0; i < 149; i++) {
+            float s = std::ldexp(1.0f, -i);
+            for (int copy = 0; copy < 200; copy++) {
+                uint32_t v = static_cast<uint32_t>(shrinking.positions.size());
+                shrinking.positions.insert(shrinking.positions.end(),
+                                           {{s, 0, 0}, {s, s, 0}, {s, 0, s}});
+                shrinking.triangles.push_back({{v, v + 1, v + 2}, 0});
+            }
+        }
+        CHECK(levels_of(build_bvh(shrinking, 1)) <= 96);
+        PrimHit hit =
+            closest_hit(build_bvh(shrinking, 1), shrinking, {{-1, 0.1f, 0.1f}, {1, 0, 0}});
+        CHECK(same_bits(hit, linear_scan(shrinking, {{-1, 0.1f, 0.1f}, {1, 0, 0}})));
+        CHECK(hit.prim != PrimHit::none);
+    }
+
+    TEST_CASE("identity: every primitive is in one leaf") {
+        Geometry g = mixed(5000);
+        Bvh bvh = build_bvh(g, 1);
+        std::vector<int> places(g.size());
+        for (const BvhBlock& block : bvh.blocks) {
+            for (uint32_t prim : block.prim) {
+                if (prim != PrimHit::none) places[prim]++;
+            }
+        }
+        CHECK(std::count(places.begin(), places.end(), 1) == g.size());
+    }
+}
+
+TEST_SUITE("ch05 bvh slow") {
+    TEST_CASE("truth: building over 10 million triangles takes less than 200 bytes for each") {
+        // Beside the mesh itself; in a process of its own, which starts without used memory.
+        Finished end = Process([] {
+                           constexpr uint32_t side = 2237;
+                           Geometry g;
+                           add_surface(g, side, side, [](float a, float b) {
+                               return Vec3{a, b, 0.1f * std::sin(50 * a) * std::sin(60 * b)};
+                           });
+                           double before = peak_memory(), n = static_cast<double>(g.size());
+                           Bvh bvh = build_bvh(g, 2);
+                           bool holds_all = bvh.blocks.size() * lanes >= g.size();
+                           std::printf("%.0f %.1f\n", n, (peak_memory() - before) / n);
+                           return holds_all ? 0 : 1;
+                       }).wait();
+        REQUIRE(end.code == 0);
+        double triangles = 0, bytes = 0;
+        REQUIRE(std::sscanf(end.out.c_str(), "%lf %lf", &triangles, &bytes) == 2);
+        CHECK(triangles > 1e7);
+        MESSAGE("bytes per triangle at the peak: " << bytes);
+        CHECK(bytes > 32);
+        CHECK(bytes < 200);
+    }
+
+    TEST_CASE("agreement: the same pictures with AVX-512, with AVX2, and without") {
+        fs::path build = fs::read_symlink("/proc/self/exe").parent_path();
+        for (const std::string chapter : {"06_path_tracing", "12_mis"}) {
+            for (std::string instructions : {"x86-64", "x86-64-v3"}) {
+                // Without what the make around this one hands down.
+                fs::path other = build / instructions;
+                std::string program = other / chapter;
+                Finished made =
+                    shell("env -u MAKEFLAGS -u MAKELEVEL make BUILD='" + other.string() +
+                          "' OPT='-O1 -march=" + instructions + "' '" + program + "'");
+                CAPTURE(made.err);
+                REQUIRE(made.code == 0);
+                int pictures = 0;
+                TemporaryFolder folder;
+                for (const auto& entry : fs::directory_iterator("tests/pictures/references")) {
+                    if (entry.path().extension() != ".pbrt") continue;
+                    auto render = [&](const std::string& by, const std::string& picture) {
+                        return shell("'" + by + "' '" + entry.path().string() +
+                                     "' --size 64x64 --spp 4 --quiet --out '" + picture + "'")
+                            .code;
+                    };
+                    // Not every chapter knows what every scene needs.
+                    if (render(build / chapter, folder / "a.pfm") != 0) continue;
+                    CAPTURE(entry.path());
+                    REQUIRE(render(program, folder / "b.pfm") == 0);
+                    bool same = read_file(folder / "a.pfm") == read_file(folder / "b.pfm");
+                    CHECK(same);
+                    pictures++;
+                }
+                CHECK(pictures >= 7);
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+// The pinhole camera, by pbrt's conventions.
+#include "common/scene/camera.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/gates.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+/// Where on the film, in shares of its width and height, the camera of these options sees p.
+Vec2 film_place(const std::string& options, Vec3 p, int width = 100, int height = 100) {
+    Scene scene = scene_of(options + "\nWorldBegin\nLightSource \"infinite\" Shape \"sphere\"");
+    CameraView view = camera_view(scene.camera, width, height);
+    // Solve p - o = s (corner + x dx + y dy) by Cramer's rule.
+    Vec3 d = p - view.o;
+    float det = dot(view.corner, cross(view.dx, view.dy));
+    float s = dot(d, cross(view.dx, view.dy)) / det;
+    REQUIRE(s > 0);
+    return {dot(view.corner, cross(d, view.dy)) / det / s / static_cast<float>(width),
+            dot(view.corner, cross(view.dx, d)) / det / s / static_cast<float>(height)};
+}
+
+void check_place(Vec2 place, float x, float y) {
+    CHECK(std::abs(place.x - x) < 1e-5f);
+    CHECK(std::abs(place.y - y) < 1e-5f);
+}
+
+const std::string perspective = "Camera \"perspective\" \"float fov\" 90 ";
+
+}  // namespace
+
+TEST_SUITE("camera") {
+    TEST_CASE("identity: the camera of common/ is the one that chapter 04 teaches") {
+        for (const char* first :
+             {"struct CameraView", "inline CameraView camera_view", "inline Ray camera_ray"}) {
+            CHECK(definition("chapters/04_ray_casting/estimator.h", first) ==
+                  definition("common/scene/camera.h", first));
+        }
+    }
+
+    TEST_CASE("truth: LookAt is left-handed") {
+        // Looking along +z with y up, +x is on the right; looking along -z it is on the left.
+        check_place(film_place("LookAt 0 0 0  0 0 1  0 1 0 " + perspective, {1, 0, 2}), 0.75f,
+                    0.5f);
+        check_place(film_place("LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {1, 0, -2}), 0.25f,
+                    0.5f);
+        // Up is up: the first row of pixels is the top one.
+        check_place(film_place("LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {0, 1, -2}), 0.5f,
+                    0.25f);
+        // Without a transform, the camera looks along +z from the origin.
+        check_place(film_place(perspective, {1, 1, 2}), 0.75f, 0.25f);
+    }
+
+    TEST_CASE("truth: Scale -1 1 1 in front of LookAt mirrors the picture") {
+        check_place(
+            film_place("Scale -1 1 1 LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {1, 1, -2}),
+            0.75f, 0.25f);
+    }
+
+    TEST_CASE("truth: the camera takes the transform where it stands, and WorldBegin drops it") {
+        std::string moved = "Translate 0 0 5 LookAt 1 2 3  1 2 4  0 1 0 " + perspective;
+        // Translate comes after LookAt has acted: the camera stands 5 farther back.
+        check_place(film_place(moved + "Translate 100 0 0", {1, 2, 3}), 0.5f, 0.5f);
+        check_place(film_place(moved, {3.5f, 2, 3}), 0.75f, 0.5f);
+        check_place(film_place("Rotate 90 0 0 1 " + perspective, {1, 0, 2}), 0.5f, 0.25f);
+        // A camera matrix that scales the world changes nothing but units.
+        check_place(film_place("Scale 3 3 3 " + perspective, {1, 1, 2}), 0.75f, 0.25f);
+    }
+
+    TEST_CASE("truth: fov is the full angle across the shorter side") {
+        std::string fov = "Camera \"perspective\" \"float fov\" 60";
+        float half = std::tan(pi / 6);
+        check_place(film_place(fov, {half, half, 1}), 1, 0);
+        check_place(film_place(fov, {0, half, 1}, 200, 100), 0.5f, 0);
+        check_place(film_place(fov, {2 * half, 0, 1}, 200, 100), 1, 0.5f);
+        check_place(film_place(fov, {half, 0, 1}, 100, 300), 1, 0.5f);
+        check_place(film_place(fov, {0, 3 * half, 1}, 100, 300), 0.5f, 0);
+        check_place(film_place("Camera \"perspective\"", {1, 1, 1}), 1, 0);  // 90 when not given
+    }
+
+    TEST_CASE("truth: screenwindow and frameaspectratio replace the film's own shape") {
+        check_place(film_place(perspective + "\"float screenwindow\" [-2 2 -1 3]", {0, 0, 1}), 0.5f,
+                    0.75f);
+        check_place(film_place(perspective + "\"float screenwindow\" [-2 2 -1 3]", {2, 3, 1}), 1,
+                    0);
+        check_place(film_place(perspective + "\"float frameaspectratio\" 2", {2, 1, 1}), 1, 0);
+        check_place(film_place(perspective + "\"float frameaspectratio\" 0.5", {1, 2, 1}), 1, 0);
+        // Both: the window as it is written.
+        check_place(film_place(perspective + "\"float frameaspectratio\" 4 "
+                                             "\"float screenwindow\" [-1 1 -1 1]",
+                               {1, 1, 1}),
+                    1, 0);
+    }
+
+    TEST_CASE(
+        "identity: camera rays start in the pinhole, are unit long, and go through their point") {
+        Scene scene = world_of("LightSource \"infinite\" Shape \"sphere\"");
+        CameraView view = camera_view(scene.camera, 30, 20);
+        for (float x : {0.0f, 7.5f, 30.0f})
+            for (float y : {0.0f, 10.0f, 20.0f}) {
+                Ray ray = camera_ray(view, {x, y});
+                CHECK(ray.o == Vec3{0, 0, -4});
+                CHECK(std::abs(length(ray.d) - 1) < 1e-6f);
+                float half = std::tan(20 * pi / 180);
+                Vec3 truth = {(x / 10 - 1.5f) * half, (1 - y / 10) * half, 1};
+                CHECK(length(ray.d - normalize(truth)) < 1e-6f);
+            }
+    }
+}

@@ -1,0 +1,440 @@
+// Files that are whole or not there, and pictures on disk.
+#include "common/base/files.h"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <bit>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "common/picture/image.h"
+#include "tests/support/folder.h"
+
+#pragma GCC diagnostic push  // stb is not written for our warnings
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Runs `work` in a process of its own, since it changes the process; returns its exit code.
+template <typename Work>
+int in_child(const Work& work) {
+    pid_t child = ::fork();
+    if (child == 0) ::_exit(work());
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// The picture whose every channel has a value of its own, negative, tiny and huge ones too.
+Image numbered(int width, int height) {
+    Image image(width, height);
+    for (size_t i = 0; i < image.pixels.size(); i++) {
+        float v = static_cast<float>(i);
+        image.pixels[i] = {v + 0.25f, -v * 1e-20f, (v + 1) * 1e20f};
+    }
+    return image;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+    return a.width == b.width && a.height == b.height && a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
+}
+
+float big_endian_float(float x) {
+    return std::bit_cast<float>(__builtin_bswap32(std::bit_cast<uint32_t>(x)));
+}
+
+std::string bytes_of(const std::vector<float>& values) {
+    return {reinterpret_cast<const char*>(values.data()), 4 * values.size()};
+}
+
+uint32_t big_endian_at(const std::string& bytes, size_t at) {
+    uint32_t value = 0;
+    for (size_t i = 0; i < 4; i++) value = value << 8 | static_cast<uint8_t>(bytes.at(at + i));
+    return value;
+}
+
+/// The checksum of a PNG chunk, by long division of polynomials: one bit after the other.
+uint32_t png_crc(const std::string& bytes) {
+    uint32_t remainder = 0xffffffff;
+    for (char byte : bytes) {
+        for (int bit = 0; bit < 8; bit++) {
+            bool out = (remainder & 1) != ((static_cast<uint8_t>(byte) >> bit) & 1);
+            remainder = remainder >> 1 ^ (out ? 0xedb88320 : 0);
+        }
+    }
+    return ~remainder;
+}
+
+struct Chunk {
+    std::string type, data;
+};
+
+/// The chunks of a PNG; fails where their lengths or checksums are wrong.
+std::vector<Chunk> png_chunks(const std::string& png) {
+    REQUIRE(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
+    std::vector<Chunk> chunks;
+    for (size_t at = 8; at < png.size();) {
+        size_t length = big_endian_at(png, at);
+        REQUIRE(at + 12 + length <= png.size());
+        CHECK(big_endian_at(png, at + 8 + length) == png_crc(png.substr(at + 4, 4 + length)));
+        chunks.push_back({png.substr(at + 4, 4), png.substr(at + 8, length)});
+        at += 12 + length;
+    }
+    return chunks;
+}
+
+}  // namespace
+
+TEST_SUITE("files") {
+    TEST_CASE("files: what is written is what is read, bytes of all values too") {
+        TemporaryFolder folder;
+        std::string bytes;
+        for (int i = 0; i < 3000000; i++) bytes += static_cast<char>(i * 7 / 256 + i);
+        write_file_atomically(folder / "a", bytes);
+        CHECK(read_file(folder / "a") == bytes);
+        write_file_atomically(folder / "a", "");
+        CHECK(read_file(folder / "a").empty());
+        CHECK(folder.names() == std::set<std::string>{"a"});
+    }
+
+    TEST_CASE("files: a full device is an error") {
+        TemporaryFolder folder;
+        CHECK(error_of([] { write_file_atomically("/dev/full", "x"); }) ==
+              "/dev/full: error: cannot write: No space left on device");
+        fs::create_symlink("/dev/full", folder / "a.ppm");
+        CHECK(error_of([&] { write_image(folder / "a.ppm", Image(2, 2), ""); }) ==
+              folder / "a.ppm" + ": error: cannot write: No space left on device");
+    }
+
+    TEST_CASE("files: a write that fails in the middle keeps the old file, and leaves nothing") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "a", "the old one");
+        // What a full disk does: let no file of this process grow beyond 100,000 bytes.
+        int failed = in_child([&] {
+            std::signal(SIGXFSZ, SIG_IGN);
+            rlimit limit = {100000, 100000};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+            std::string error =
+                error_of([&] { write_file_atomically(folder / "a", std::string(200000, 'x')); });
+            return error == folder / "a" + ": error: cannot write: File too large" ? 0 : 1;
+        });
+        CHECK(failed == 0);
+        CHECK(read_file(folder / "a") == "the old one");
+        CHECK(folder.names() == std::set<std::string>{"a"});
+    }
+
+    TEST_CASE("files: killed at any time, the file is the old one or the new one") {
+        TemporaryFolder folder;
+        const std::string a(1 << 20, 'a'), b(1 << 19, 'b');
+        write_file_atomically(folder / "f", a);
+        int seen_b = 0;
+        for (int round = 0; round < 40 || (seen_b == 0 && round < 400); round++) {
+            pid_t child = ::fork();
+            if (child == 0) {
+                for (int i = 0;; i++) write_file_atomically(folder / "f", i % 2 ? a : b);
+            }
+            ::usleep(static_cast<useconds_t>(500 + 137 * round));
+            ::kill(child, SIGKILL);
+            ::waitpid(child, nullptr, 0);
+            std::string left = read_file(folder / "f");
+            REQUIRE((left == a || left == b));
+            seen_b += left == b;
+        }
+        CHECK(seen_b > 0);
+    }
+
+    TEST_CASE("files: a place that cannot be written to is an error, asked before or not") {
+        TemporaryFolder folder;
+        fs::create_directory(folder / "d");
+        write_file_atomically(folder / "f", "x");
+        fs::create_symlink("loop", folder / "loop");
+        struct {
+            std::string path, why;
+        } cases[] = {{folder / "none/a.ppm", "No such file or directory"},
+                     {folder / "d", "Is a directory"},
+                     {folder / "f/a.ppm", "Not a directory"},
+                     {folder / "loop", "Too many levels of symbolic links"},
+                     {folder / std::string(300, 'x'), "File name too long"}};
+        for (const auto& c : cases) {
+            std::string path = c.path, error = path + ": error: cannot write: " + c.why;
+            CHECK(error_of([&] { write_file_atomically(path, "x"); }) == error);
+            CHECK(error_of([&] { check_writable(path); }) == error);
+        }
+        CHECK(folder.names() == std::set<std::string>{"d", "f", "loop"});
+    }
+
+    TEST_CASE("files: a folder without permission is an error") {
+        TemporaryFolder folder;
+        fs::create_directory(folder / "d");
+        ::chmod((folder / "d").c_str(), 0555);
+        ::chmod(folder.path().c_str(), 0755);
+        int failed = in_child([&] {
+            if (::getuid() == 0 && ::setuid(65534) != 0) return 2;  // root may write everywhere
+            std::string error = folder / "d/a" + ": error: cannot write: Permission denied";
+            bool told = error_of([&] { write_file_atomically(folder / "d/a", "x"); }) == error;
+            return told && error_of([&] { check_writable(folder / "d/a"); }) == error ? 0 : 1;
+        });
+        CHECK(failed == 0);
+        ::chmod((folder / "d").c_str(), 0755);
+    }
+
+    TEST_CASE("files: asking whether a file can be written changes nothing") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "f", "x");
+        check_writable(folder / "f");
+        check_writable(folder / "g");
+        check_writable("/dev/null");
+        CHECK(read_file(folder / "f") == "x");
+        CHECK(folder.names() == std::set<std::string>{"f"});
+    }
+
+    TEST_CASE("files: a link stays a link, and the file it names is written") {
+        TemporaryFolder folder;
+        fs::create_directory(folder / "d");
+        for (const char* target : {"d/old", "d/new"}) {
+            if (target == std::string("d/old")) write_file_atomically(folder / "d/old", "x");
+            fs::create_symlink(target, folder / "link");
+            fs::create_symlink("link", folder / "to_link");
+            write_file_atomically(folder / "to_link", "new");
+            CHECK(fs::is_symlink(folder / "link"));
+            CHECK(read_file(folder / target) == "new");
+            fs::remove(folder / "link");
+            fs::remove(folder / "to_link");
+        }
+    }
+
+    TEST_CASE("files: a pipe is written to and not replaced") {
+        TemporaryFolder folder;
+        REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+        check_writable(folder / "pipe");  // must not open it: a reader would see its end
+        int failed = in_child([&] {
+            if (::fork() == 0) {
+                write_file_atomically(folder / "pipe", "through the pipe");
+                ::_exit(0);
+            }
+            return read_file(folder / "pipe") == "through the pipe" ? 0 : 1;
+        });
+        CHECK(failed == 0);
+        CHECK(fs::is_fifo(folder / "pipe"));
+    }
+
+    TEST_CASE("files: the same file is known under other names") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "f", "x");
+        fs::create_directory(folder / "d");
+        fs::create_symlink("../f", folder / "d/link");
+        CHECK(same_file(folder / "f", folder / "d/../f"));
+        CHECK(same_file(folder / "f", folder / "d/link"));
+        CHECK(same_file(folder / "new", folder / "d/../new"));
+        CHECK(same_file("Makefile", "./Makefile"));
+        CHECK_FALSE(same_file(folder / "f", folder / "new"));
+        CHECK_FALSE(same_file(folder / "f", folder / "d/f"));
+        CHECK_FALSE(same_file(folder / "f", ""));
+        CHECK_FALSE(same_file("none/f", "none/g"));
+    }
+
+    TEST_CASE("files: what cannot be read is an error") {
+        TemporaryFolder folder;
+        CHECK(error_of([&] { read_file(folder / "none"); }) ==
+              folder / "none" + ": error: cannot read: No such file or directory");
+        CHECK(error_of([&] { read_file(folder.path()); }) ==
+              folder.path() + ": error: cannot read: Is a directory");
+        // A file that opens but does not read: this process's memory at address 0.
+        CHECK(error_of([] { read_file("/proc/self/mem"); }) ==
+              "/proc/self/mem: error: cannot read: Input/output error");
+    }
+}
+
+TEST_SUITE("pictures on disk") {
+    TEST_CASE("identity: a .pfm picture is read back bit for bit") {
+        TemporaryFolder folder;
+        for (auto [w, h] : {std::pair(1, 1), std::pair(7, 3), std::pair(2, 5)}) {
+            Image image = numbered(w, h);
+            image.pixels.back() = {infinity, -0.0f, std::numeric_limits<float>::denorm_min()};
+            write_image(folder / "a.pfm", image, "");
+            CHECK(same_bits(read_image(folder / "a.pfm"), image));
+        }
+    }
+
+    TEST_CASE("truth: a .pfm file has its bottom row first, little endian") {
+        TemporaryFolder folder;
+        Image image(2, 2);
+        image.at(0, 0) = {1, 2, 3};
+        image.at(1, 0) = {4, 5, 6};
+        image.at(0, 1) = {7, 8, 9};
+        image.at(1, 1) = {10, 11, 12};
+        write_image(folder / "a.pfm", image, "");
+        CHECK(read_file(folder / "a.pfm") ==
+              "PF\n2 2\n-1.0\n" + bytes_of({7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, 6}));
+        CHECK(read_file(folder / "a.pfm").substr(12, 4) == std::string("\0\0\xe0\x40", 4));  // 7
+    }
+
+    TEST_CASE("truth: big-endian and grey .pfm files are read") {
+        TemporaryFolder folder;
+        std::vector<float> big;
+        for (float v : {7.f, 8.f, 9.f, 1.f, 2.f, 3.f}) big.push_back(big_endian_float(v));
+        write_file_atomically(folder / "big.pfm", "PF 1 2 1.0\n" + bytes_of(big));
+        Image image = read_image(folder / "big.pfm");
+        CHECK(image.at(0, 1) == Rgb{7, 8, 9});
+        CHECK(image.at(0, 0) == Rgb{1, 2, 3});
+
+        write_file_atomically(folder / "grey.pfm", "Pf\n2 1\n-1\n" + bytes_of({0.5f, 2}));
+        image = read_image(folder / "grey.pfm");
+        CHECK(image.at(0, 0) == Rgb{0.5f, 0.5f, 0.5f});
+        CHECK(image.at(1, 0) == Rgb{2, 2, 2});
+    }
+
+    TEST_CASE("truth: codes of sRGB, and what lies outside them") {
+        // From IEC 61966-2-1: linear below 0.0031308, then 1.055 x^(1/2.4) - 0.055.
+        CHECK(to_srgb8(0) == 0);
+        CHECK(to_srgb8(1) == 255);
+        CHECK(to_srgb8(0.5f) == 188);
+        CHECK(to_srgb8(0.18f) == 118);
+        CHECK(to_srgb8(0.003f) == 10);
+        CHECK(to_srgb8(0.2158605f) == 128);
+        CHECK(to_srgb8(-1) == 0);
+        CHECK(to_srgb8(7) == 255);
+        CHECK(to_srgb8(std::nanf("")) == 0);
+        CHECK(to_srgb8(infinity) == 255);
+    }
+
+    TEST_CASE("identity: each of the 256 codes of a .ppm file is read and written as itself") {
+        TemporaryFolder folder;
+        std::string ppm = "P6\n# a comment\n16 16\n255\n";
+        for (int i = 0; i < 256; i++) ppm += std::string(3, static_cast<char>(i));
+        write_file_atomically(folder / "a.ppm", ppm);
+        write_image(folder / "b.ppm", read_image(folder / "a.ppm"), "");
+        std::string written = read_file(folder / "b.ppm");
+        CHECK(written.starts_with("P6\n16 16\n255\n"));
+        CHECK(written.substr(written.size() - 768) == ppm.substr(ppm.size() - 768));
+    }
+
+    TEST_CASE("truth: a .ppm file has its top row first") {
+        TemporaryFolder folder;
+        Image image(1, 2);
+        image.at(0, 0) = {1, 0, 0};
+        image.at(0, 1) = {0, 0.5f, 1};
+        write_image(folder / "a.ppm", image, "");
+        CHECK(read_file(folder / "a.ppm") == std::string("P6\n1 2\n255\n\xff\0\0\0\xbc\xff", 17));
+    }
+
+    TEST_CASE("failure: a pixel that is not finite is NaN in a .pfm, and magenta in a .ppm") {
+        TemporaryFolder folder;
+        Image image(2, 1);
+        image.at(0, 0) = {std::nanf(""), 0, 0};
+        image.at(1, 0) = {0, infinity, 0};
+        write_image(folder / "a.pfm", image, "");
+        write_image(folder / "a.ppm", image, "");
+        CHECK(same_bits(read_image(folder / "a.pfm"), image));
+        CHECK(read_file(folder / "a.ppm").substr(11) == std::string("\xff\0\xff\xff\0\xff", 6));
+    }
+
+    TEST_CASE("truth: a .png file holds the picture's size, the command, and right checksums") {
+        TemporaryFolder folder;
+        write_image(folder / "a.png", numbered(300, 7), "build/06 --paths 'L\xc3\xa4' \n --out a");
+        std::vector<Chunk> chunks = png_chunks(read_file(folder / "a.png"));
+        REQUIRE(chunks.size() >= 4);
+        CHECK(chunks[0].type == "IHDR");
+        CHECK(big_endian_at(chunks[0].data, 0) == 300);
+        CHECK(big_endian_at(chunks[0].data, 4) == 7);
+        CHECK(chunks[0].data.substr(8) == std::string("\x08\x02\0\0\0", 5));  // 8 bits, RGB
+        CHECK(chunks[1].type == "tEXt");
+        CHECK(chunks[1].data == std::string("Comment\0", 8) +
+                                    "build/06 --paths 'L?"
+                                    "?' ? --out a");
+        for (size_t i = 2; i + 1 < chunks.size(); i++) CHECK(chunks[i].type == "IDAT");
+        CHECK(chunks.back().type == "IEND");
+    }
+
+    TEST_CASE("identity: a .png file has the pixels of the .ppm file") {
+        TemporaryFolder folder;
+        Image image(97, 31);
+        for (size_t i = 0; i < image.pixels.size(); i++) {
+            float v = static_cast<float>(i) / 3007;
+            image.pixels[i] = {v, std::sqrt(v), static_cast<float>(i % 97) / 96};
+        }
+        write_image(folder / "a.png", image, "a comment");
+        write_image(folder / "a.ppm", image, "");
+        int width, height, channels;
+        unsigned char* pixels =
+            stbi_load((folder / "a.png").c_str(), &width, &height, &channels, 0);
+        REQUIRE(pixels != nullptr);
+        CHECK(width == 97);
+        CHECK(height == 31);
+        REQUIRE(channels == 3);
+        std::string ppm = read_file(folder / "a.ppm"), header = "P6\n97 31\n255\n";
+        CHECK(header + std::string(reinterpret_cast<char*>(pixels), 3 * 97 * 31) == ppm);
+        stbi_image_free(pixels);
+    }
+
+    TEST_CASE("teeth: one wrong bit in a chunk spoils its checksum") {
+        std::string chunk = "tEXtComment";
+        uint32_t right = png_crc(chunk);
+        CHECK(png_crc("IEND") == 0xae426082);  // as in every PNG file
+        chunk[5] ^= 1;
+        CHECK(png_crc(chunk) != right);
+    }
+
+    TEST_CASE("input: damaged pictures are errors") {
+        TemporaryFolder folder;
+        struct {
+            std::string bytes, error;
+        } cases[] = {
+            {"", "not a .ppm (P6) or .pfm picture"},
+            {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6) or .pfm picture"},
+            {"\x89PNG\r\n\x1a\n", "not a .ppm (P6) or .pfm picture"},
+            {"P6", "a damaged header"},
+            {"P6\n4", "a damaged header"},
+            {"P6\nx 4\n255\n", "a damaged header"},
+            {"P6\n4x 4\n255\n", "a damaged header"},
+            {"P6\n0 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
+            {"P6\n-1 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
+            {"P6\n1.5 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
+            {"P6\nnan 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
+            {"P6\n65537 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
+            {"P6\n1 1\n65535\n000000", "only 8-bit .ppm files (maxval 255) are read"},
+            {"P6\n1 1\n255\n00", "the picture is cut short"},
+            {"P6\n1 1\n255", "the picture is cut short"},
+            {"P6\n65536 65536\n255\n", "the picture is cut short"},
+            {"PF\n1 1\n0\n" + std::string(12, 'x'), "a .pfm file's scale must not be 0"},
+            {"PF\n1 1\nnan\n" + std::string(12, 'x'), "a .pfm file's scale must not be 0"},
+            {"PF\n1 1\n-1\n" + std::string(11, 'x'), "the picture is cut short"},
+            {"Pf\n1 1\n-1\nxxx", "the picture is cut short"},
+            {"PF\n65536 65536\n-1\n", "the picture is cut short"},
+        };
+        for (const auto& c : cases) {
+            CAPTURE(c.bytes);
+            write_file_atomically(folder / "a", c.bytes);
+            CHECK(error_of([&] { read_image(folder / "a"); }) ==
+                  folder / "a" + ": error: " + c.error);
+        }
+    }
+
+    TEST_CASE("input: a picture needs an extension that is known") {
+        for (const char* path : {"a", "a.jpg", "a.ppm.gz", "ppm", "a.ppm/b", ""}) {
+            CHECK_FALSE(is_image_path(path));
+            CHECK(error_of([&] { write_image(path, Image(1, 1), ""); }) ==
+                  std::string(path) + ": error: a picture's name must end in .ppm, .pfm or .png");
+        }
+        for (const char* path : {"a.ppm", "b/a.pfm", "a.b.png", ".ppm"}) CHECK(is_image_path(path));
+    }
+}

@@ -1,0 +1,326 @@
+// Frames, the shapes' own tests, what a hit says, and leaving a surface without meeting it again.
+#include "common/scene/intersect.h"
+
+#include <doctest/doctest.h>
+
+#include "chapters/06_path_tracing/estimator.h"
+#include "common/geometry/shapes.h"
+#include "tests/support/gates.h"
+#include "tests/support/meshes.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+double to_double(float x) { return static_cast<double>(x); }
+
+/// How far |p - c| is from r, in double.
+double off_sphere(Vec3 p, Vec3 c, double r) {
+    return std::abs(std::hypot(to_double(p.x) - c.x, to_double(p.y) - c.y, to_double(p.z) - c.z) -
+                    r);
+}
+
+/// Two one-sided walls a hundredth apart, at x = 0 and x = 0.01, in a room of this size.
+Scene two_walls(float size, float distance) {
+    std::string s = std::to_string(size), x = std::to_string(distance);
+    auto wall = [&](const std::string& at) {
+        return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [" + at +
+               " 0 0  " + at + " " + s + " 0  " + at + " " + s + " " + s + "  " + at + " 0 " + s +
+               "]\n";
+    };
+    return world_of("LightSource \"infinite\"\n" + wall(s) + wall(std::to_string(size + distance)));
+}
+
+}  // namespace
+
+TEST_SUITE("frame") {
+    TEST_CASE("identity: the frame is orthonormal") {
+        std::vector<Vec3> normals = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
+                                     {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+        for (float e = 1e-4f; e < 0.2f;
+             e *= 1.1f) {  // where the frame without copysign is infinite
+            normals.push_back(normalize({e, e, -1}));
+            normals.push_back(normalize({-e, e, -1}));
+        }
+        Sampler random = random_numbers(1);
+        while (normals.size() < 100000) normals.push_back(uniform_direction(random.u2()));
+        float worst = 0;
+        for (Vec3 n : normals) {
+            Frame f(n);
+            for (float error : {dot(f.s, f.t), dot(f.s, n), dot(f.t, n), length(f.s) - 1,
+                                length(f.t) - 1, length(cross(f.s, f.t) - n)}) {
+                worst = std::max(worst, std::abs(error));
+                REQUIRE(std::isfinite(error));
+            }
+        }
+        CHECK(worst < 1e-6f);
+    }
+
+    TEST_CASE("identity: to the local frame and back") {
+        Sampler random = random_numbers(2);
+        for (int i = 0; i < 1000; i++) {
+            Frame f(uniform_direction(random.u2()));
+            Vec3 v = uniform_direction(random.u2());
+            CHECK(length(f.to_world(f.to_local(v)) - v) < 1e-6f);
+            CHECK(std::abs(f.to_local(f.n).z - 1) < 1e-6f);
+        }
+    }
+}
+
+TEST_SUITE("intersect shapes") {
+    TEST_CASE("identity: the shapes of common/ are the ones that chapter 04 teaches") {
+        for (const char* first :
+             {"struct TriangleHit", "struct Shear", "inline Shear shear_to_ray",
+              "inline std::optional<TriangleHit> intersect_triangle",
+              "inline std::optional<float> intersect_sphere",
+              "inline std::optional<float> intersect_disk", "inline PrimHit linear_scan"}) {
+            CHECK(definition("chapters/04_ray_casting/estimator.h", first) ==
+                  definition("common/geometry/shapes.h", first));
+        }
+    }
+
+    TEST_CASE("truth: a sphere from outside, from inside, beside and behind") {
+        Vec3 c = {0, 0, 0};
+        CHECK(*intersect_sphere({{0, 0, -4}, {0, 0, 1}}, c, 1) == 3);
+        CHECK(*intersect_sphere({{0, 0, -4}, {0, 0, 2}}, c, 1) == 1.5f);
+        CHECK(*intersect_sphere({{0, 0, 0.5f}, {0, 0, 1}}, c, 1) == 0.5f);
+        CHECK(*intersect_sphere({{0, 0.999f, -4}, {0, 0, 1}}, c, 1) > 3.9f);
+        CHECK_FALSE(intersect_sphere({{0, 1.001f, -4}, {0, 0, 1}}, c, 1));
+        CHECK_FALSE(intersect_sphere({{0, 0, 4}, {0, 0, 1}}, c, 1));
+        CHECK_FALSE(intersect_sphere({{0, 0, -4}, {0, 0, 1}, 3}, c, 1));
+        CHECK_FALSE(intersect_sphere({{0, 0, -4}, {0, 0, std::nanf("")}}, c, 1));
+    }
+
+    TEST_CASE("truth: a small sphere far away keeps its edge and its distance") {
+        // In float, b^2 - a c would be wrong by about 10 here, for a radius of 1.
+        Sampler random = random_numbers(1);
+        constexpr double distance = 1e4;
+        for (int i = 0; i < 10000; i++) {
+            Vec3 c = 1e4f * uniform_direction(random.u2());
+            Frame around(normalize(c));
+            float b = 1.5f * random.u1();
+            Vec3 d = normalize(c + b * around.s);
+            auto t = intersect_sphere({{0, 0, 0}, d}, c, 1);
+            if (b > 1.01f) CHECK_FALSE(t);
+            if (b > 0.9f) continue;
+            REQUIRE(t);
+            CHECK(std::abs(to_double(*t) - (distance - std::sqrt(1 - to_double(b) * b))) < 0.01);
+        }
+    }
+
+    TEST_CASE("truth: a disk is hit up to its rim, from both sides, and never edge-on") {
+        Vec3 c = {1, 2, 3}, n = {0, 0, 1};
+        CHECK(*intersect_disk({{1, 2, 0}, {0, 0, 1}}, c, n, 2) == 3);
+        CHECK(*intersect_disk({{1, 2, 6}, {0, 0, -1}}, c, n, 2) == 3);
+        CHECK(intersect_disk({{2.999f, 2, 0}, {0, 0, 1}}, c, n, 2));
+        CHECK_FALSE(intersect_disk({{3.001f, 2, 0}, {0, 0, 1}}, c, n, 2));
+        CHECK_FALSE(intersect_disk({{-4, 2, 3}, {1, 0, 0}}, c, n, 2));
+        CHECK_FALSE(intersect_disk({{-4, 2, 2}, {1, 0, 0}}, c, n, 2));
+        CHECK_FALSE(intersect_disk({{1, 2, 0}, {0, 0, 1}, 3}, c, n, 2));
+        CHECK_FALSE(intersect_disk({{1, 2, 6}, {0, 0, 1}}, c, n, 2));
+    }
+
+    TEST_CASE("truth: a triangle's distance and weights, from both sides") {
+        Vec3 p0 = {0, 0, 2}, p1 = {4, 0, 2}, p2 = {0, 4, 3};
+        for (Vec3 d : {Vec3{0, 0, 1}, Vec3{0, 0, -2}}) {
+            float from = d.z > 0 ? -1.0f : 7.0f;
+            Ray ray = {{1, 2, from}, d};
+            auto hit = intersect_triangle(ray, shear_to_ray(d), p0, p1, p2);
+            REQUIRE(hit);
+            CHECK(hit->b1 == 0.25f);
+            CHECK(hit->b2 == 0.5f);
+            CHECK(hit->t == (2.5f - from) / d.z);
+        }
+    }
+
+    TEST_CASE("truth: edges and corners belong to the triangle, and what is edge-on is not hit") {
+        Vec3 p0 = {0, 0, 0}, p1 = {1, 0, 0}, p2 = {0, 1, 0};
+        auto hit = [&](Vec3 o, Vec3 d) {
+            return intersect_triangle({o, d}, shear_to_ray(d), p0, p1, p2).has_value();
+        };
+        for (Vec3 p : {p0, p1, p2, 0.5f * (p0 + p1), 0.5f * (p1 + p2), 0.5f * (p2 + p0)}) {
+            CHECK(hit({p.x, p.y, -1}, {0, 0, 1}));
+        }
+        CHECK_FALSE(hit({-0.001f, 0.5f, -1}, {0, 0, 1}));
+        CHECK_FALSE(hit({0.51f, 0.5f, -1}, {0, 0, 1}));
+        CHECK_FALSE(hit({-1, 0.2f, 0}, {1, 0, 0}));
+        p2 = {0.5f, 0, 0};  // no area
+        CHECK_FALSE(hit({0.2f, 0, -1}, {0, 0, 1}));
+        p2 = {0, std::nanf(""), 0};
+        CHECK_FALSE(hit({0.2f, 0.2f, -1}, {0, 0, 1}));
+    }
+
+    TEST_CASE("brute: no ray leaks through a closed mesh") {
+        Geometry g = closed_mesh(2);
+        Bvh bvh = build_bvh(g, 1);
+        Sampler random = random_numbers(1);
+        int leaks = 0, disagreements = 0;
+        for (int i = 0; i < 40000; i++) {
+            // Aim at a point of an edge, or at a corner, from around the middle.
+            const Triangle& t = g.triangles[static_cast<size_t>(i) % g.triangles.size()];
+            Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]];
+            Vec3 from = 0.2f * uniform_direction(random.u2());
+            Vec3 at = i % 4 == 0 ? a : a + random.u1() * (b - a);
+            Ray ray = {from, at - from};
+            PrimHit brute = linear_scan(g, ray), found = closest_hit(bvh, g, ray);
+            leaks += brute.prim == PrimHit::none;
+            disagreements += brute.prim != found.prim || brute.t != found.t;
+        }
+        CHECK(leaks == 0);
+        CHECK(disagreements == 0);
+    }
+}
+
+TEST_SUITE("intersect hits") {
+    TEST_CASE("identity: normals face where the ray came from, and front is the shining side") {
+        for (bool reverse : {false, true}) {
+            std::string turn = reverse ? "ReverseOrientation\n" : "";
+            for (std::string shape :
+                 {std::string("Shape \"sphere\""), std::string("Shape \"disk\""),
+                  "Rotate 90 1 0 0\n" + square(0, true)}) {
+                Scene scene = world_of("LightSource \"infinite\"\n" + turn + shape);
+                for (float side : {1.0f, -1.0f}) {
+                    Ray ray = {{0.1f, 0.2f, 4 * side}, {0, 0, -side}};
+                    auto x = intersect(scene, ray);
+                    REQUIRE(x);
+                    CHECK(dot(x->n, ray.d) < 0);
+                    CHECK(dot(x->ng, ray.d) < 0);
+                    bool ball = !scene.geometry.spheres.empty();
+                    CHECK(x->front == (ball ? !reverse : (side > 0) != reverse));
+                    Ray inside = {x->p - 0.5f * ray.d, ray.d};
+                    if (ball) inside.o = {0, 0, 0};
+                    if (ball) CHECK(intersect(scene, inside)->front == reverse);
+                }
+            }
+        }
+    }
+
+    TEST_CASE(
+        "failure: a ray that only touches a ball sees it at an angle, so that 1 / cos is finite") {
+        Scene ball = world_of("LightSource \"infinite\" Shape \"sphere\"");
+        auto x = intersect(ball, {{1, 0, -4}, {0, 0, 1}});
+        REQUIRE(x);
+        for (Vec3 n : {x->n, x->ng}) {
+            CHECK(dot(n, {0, 0, -1}) > 1e-7f);
+            CHECK(dot(n, {0, 0, -1}) < 1e-5f);
+            CHECK(length(n) == doctest::Approx(1).epsilon(1e-6).scale(0));
+        }
+    }
+
+    TEST_CASE("identity: a smoothed normal bends, but never away from the viewer") {
+        Scene scene = world_of(
+            "LightSource \"infinite\"\n"
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0] \"integer indices\" [0 1 2]"
+            " \"normal N\" [-2 0 1  2 0 1  0 0 1]");
+        auto look = [&](Vec3 p, Vec3 d) { return *intersect(scene, {p - d, d}); };
+        Hit x = look({0.25f, 0.25f, 0}, {0, 0, -1});
+        CHECK(length(x.n - normalize({-0.5f, 0, 1})) < 1e-6f);
+        CHECK(x.ng == Vec3{0, 0, 1});
+        x = look({0.25f, 0.25f, 0}, {0, 0, 1});  // from behind
+        CHECK(length(x.n - normalize({0.5f, 0, -1})) < 1e-6f);
+        CHECK(x.ng == Vec3{0, 0, -1});
+        // From far to the right, the normal that leans left would look away.
+        x = look({0.01f, 0.01f, 0}, normalize({-1, 0, -0.3f}));
+        CHECK(x.n == x.ng);
+    }
+
+    TEST_CASE("truth: a hit lies on its surface to within its eps, and eps is small") {
+        Sampler random = random_numbers(1);
+        for (auto [centre, r] : {std::pair{0.0f, 1.0f},
+                                 {1e4f, 1.0f},
+                                 {556.0f, 30.0f},
+                                 {0.0f, 1e-3f},
+                                 {1e-3f, 1e-4f}}) {
+            Scene scene = world_of("LightSource \"infinite\" Shape \"sphere\"");
+            scene.geometry.spheres[0].c = {centre, -centre, centre / 2};
+            scene.geometry.spheres[0].r = r;
+            prepare(scene, 1);
+            Vec3 c = scene.geometry.spheres[0].c;
+            double worst = 0;
+            int hits = 0;
+            for (int i = 0; i < 2000; i++) {
+                // From nearby and from far away, towards a point inside.
+                Vec3 from = (i % 2 == 0 ? 3 : 1e4f) * r * uniform_direction(random.u2());
+                Vec3 to = 0.9f * r * uniform_direction(random.u2());
+                auto x = intersect(scene, {c + from, normalize(to - from)});
+                if (!x) continue;  // so far away, rounding can make a ray miss
+                hits++;
+                worst = std::max(worst, off_sphere(x->p, c, to_double(r)) / to_double(x->eps));
+                CHECK(x->eps <= 1e-6f * (centre + r));
+            }
+            CHECK(worst <= 1);
+            CHECK(hits > 1900);
+        }
+    }
+
+    TEST_CASE("failure: a ray that leaves a ball far from the origin does not meet it again") {
+        for (auto [x, r] : {std::pair{1e4f, 1.0f}, {0.0f, 1.0f}, {556.0f, 90.0f}, {1e-3f, 1e-4f}}) {
+            Scene scene = world_of("LightSource \"infinite\" Shape \"sphere\"");
+            scene.geometry.spheres[0].c = {x, 0, 0};
+            scene.geometry.spheres[0].r = r;
+            prepare(scene, 1);
+            Sampler random = random_numbers(1);
+            int met_again = 0, lost = 0;
+            for (int i = 0; i < 20000; i++) {
+                Vec3 n = uniform_direction(random.u2());
+                Ray ray = {Vec3{x, 0, 0} + 4 * r * n, -(4 * r * n)};
+                auto hit = intersect(scene, ray);
+                REQUIRE(hit);
+                Vec3 wi = uniform_direction(random.u2());
+                float cos = dot(wi, hit->ng);
+                auto next = intersect(scene, spawn_ray(*hit, wi));
+                if (cos > 0 && next) met_again++;
+                // Into the ball: the chord is 2 r cos long.
+                if (cos < -0.1f && !(next && std::abs(next->t + 2 * r * cos) < 0.05f * r)) lost++;
+            }
+            CHECK(met_again == 0);
+            CHECK(lost == 0);
+        }
+    }
+
+    TEST_CASE("failure: two walls a hundredth apart do not leak, nor stop what runs between them") {
+        for (auto [size, distance] : {std::pair{556.0f, 0.01f}, {1.0f, 0.001f}, {0.001f, 1e-6f}}) {
+            Scene scene = two_walls(size, distance);
+            Sampler random = random_numbers(1);
+            int wrong = 0;
+            for (int i = 0; i < 20000; i++) {
+                Vec2 u = random.u2();
+                Vec3 from = {0.2f * size, (0.3f + 0.4f * u.x) * size, (0.3f + 0.4f * u.y) * size};
+                auto x = intersect(scene, {from, {1, 0, 0}});
+                REQUIRE(x);
+                Vec3 wi = uniform_direction(random.u2());
+                wi.x = std::abs(wi.x);
+                // Back into the room: free. Onwards: the second wall, a distance / cos away.
+                wrong += intersect(scene, spawn_ray(*x, -wi)).has_value();
+                if (wi.x < 0.1f) continue;
+                auto second = intersect(scene, spawn_ray(*x, wi));
+                wrong += !second || std::abs(second->t * wi.x / distance - 1) > 0.1f;
+                // From the second wall back into the gap: the first wall stops it.
+                if (second) wrong += !intersect(scene, spawn_ray(*second, -wi)).has_value();
+            }
+            CHECK(wrong == 0);
+        }
+    }
+
+    TEST_CASE("failure: no light leaks into a closed box, of any size and anywhere") {
+        // What gets in would be seen: the sky outside is a million, the inside exactly black.
+        for (float size : {1e-3f, 1.0f, 556.0f, 1e5f}) {
+            for (float away : {0.0f, 10.0f}) {
+                Scene scene = world_of(
+                    "LightSource \"infinite\" \"float scale\" 1e6\n"
+                    "Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n"
+                    "Shape \"trianglemesh\" \"integer indices\" [0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 "
+                    "1"
+                    " 2 3 7 2 7 6 0 2 6 0 6 4 1 5 7 1 7 3]\n \"point3 P\" [-1 -1 -1  1 -1 -1"
+                    "  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1]");
+                Vec3 centre = size * away * Vec3{1, 0.3f, 0.7f};
+                for (Vec3& p : scene.geometry.positions) p = centre + size * p;
+                scene.camera.o = centre;
+                scene.max_depth = 20;
+                prepare(scene, 1);
+                Rendering r = film_of(scene, ch06::trace, 16);
+                CHECK(r.film.mean() == 0);
+                CHECK(r.stats.paths_cut == 16 * 32 * 32);
+            }
+        }
+    }
+}

@@ -1,0 +1,274 @@
+// The tools that hold pictures and measurements against each other.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/path/sampler.h"
+#include "common/picture/comparison.h"
+#include "common/picture/film.h"
+#include "common/picture/merging.h"
+#include "tests/measure/agreement.h"
+#include "tests/measure/spread.h"
+
+namespace {
+
+Image grey(int width, int height, float level) {
+    Image image(width, height);
+    for (Rgb& p : image.pixels) p = {level, level, level};
+    return image;
+}
+
+/// Noise of standard deviation `sigma` in every pixel.
+Image noisy(Image image, float sigma, uint32_t seed) {
+    Sampler sampler(SamplerType::independent, seed, 1);
+    for (uint32_t i = 0; i < image.pixels.size(); i++) {
+        sampler.start(i, 0);
+        float x = sigma * std::sqrt(12.0f) * (sampler.u1() - 0.5f);
+        image.pixels[i] += Rgb{x, x, x};
+    }
+    return image;
+}
+
+/// Samples first .. last-1 of a made-up render, all pixels of them.
+Image render_samples(uint32_t seed, uint64_t spp, Film& whole, uint64_t& done) {
+    Film film(5, 3);
+    Sampler sampler(SamplerType::independent, seed, 1);
+    for (uint64_t s = 0; s < spp; s++, done++) {
+        for (size_t i = 0; i < film.pixels().size(); i++) {
+            sampler.start(static_cast<uint32_t>(i), static_cast<uint32_t>(s));
+            Rgb L = {sampler.u1(), 10 * sampler.u1(), 1e-3f * sampler.u1()};
+            film.add(i, s, L);
+            whole.add(i, done, L);
+        }
+    }
+    film.spp = spp;
+    return film.image();
+}
+
+MergePart part_of(Image image, double spp, const std::string& json) {
+    return {"part.pfm", std::move(image), spp, StatsFile(json)};
+}
+
+std::string json_of(const std::string& scene, int depth, int seed) {
+    return "{\n  \"scene\": \"" + scene + "\",\n  \"max_depth\": " + std::to_string(depth) +
+           ",\n  \"seed\": " + std::to_string(seed) +
+           ",\n  \"mean\": 0.5,\n  \"standard_error\": 0.1\n}\n";
+}
+
+}  // namespace
+
+TEST_SUITE("comparison") {
+    TEST_CASE("truth: the numbers of a comparison, worked out by hand") {
+        // b: 1 0 / 2 4; a differs by +0.1 in one channel, by -1 in all, by +3 in all.
+        Image b(2, 2), a(2, 2);
+        b.pixels = {{1, 1, 1}, {0, 0, 0}, {2, 2, 2}, {4, 4, 4}};
+        a.pixels = {{1.5f, 1, 1}, {0, 0, 0}, {1, 1, 1}, {7, 7, 7}};
+        Comparison c = compare(a, b);
+        auto near = [](double x) { return doctest::Approx(x).epsilon(1e-6).scale(0); };
+        CHECK(c.mean_b == near(7.0 / 4));
+        CHECK(c.mean_a == near((3.5 / 3 + 0 + 1 + 7) / 4));
+        CHECK(c.mse == near((0.25 / 3 + 1 + 9) / 4));
+        CHECK(c.rmse == near(std::sqrt((0.25 / 3 + 1 + 9) / 4)));
+        CHECK(c.rel_mse == near((0.25 / 1.01 / 3 + 1 / 4.01 + 9 / 16.01) / 4));
+        CHECK(c.worst_share == near(9 / (0.25 / 3 + 1 + 9)));
+        CHECK(c.median_ratio == near(3.5 / 3));  // of 0.5, 1.1667, 1.75
+        CHECK(c.blocks == 0);
+        CHECK(std::isnan(c.standard_error));
+
+        // Without the worst pixel of four, which is the last.
+        Comparison trimmed = compare(a, b, 25);
+        CHECK(trimmed.mse == near((0.25 / 3 + 1) / 3));
+        CHECK(trimmed.rel_mse == near((0.25 / 1.01 / 3 + 1 / 4.01) / 3));
+        CHECK(trimmed.mean_a == c.mean_a);
+    }
+
+    TEST_CASE("identity: a picture does not differ from itself") {
+        Image a = noisy(grey(20, 20, 1), 0.1f, 1);
+        Comparison c = compare(a, a);
+        CHECK(c.rel_mse == 0);
+        CHECK(c.worst_share == 0);
+        CHECK(c.median_ratio == 1);
+        CHECK(c.worst_z == 0);
+        CHECK(c.blocks == 9);
+    }
+
+    TEST_CASE("truth: noise alone is within its standard error, in every block") {
+        Comparison c =
+            compare(noisy(grey(128, 128, 1), 0.2f, 1), noisy(grey(128, 128, 1), 0.1f, 2));
+        CHECK(c.standard_error ==
+              doctest::Approx(std::hypot(0.2, 0.1) / 128).epsilon(0.05).scale(0));
+        CHECK(std::abs(c.mean_a - c.mean_b) < 5 * c.standard_error);
+        CHECK(c.blocks == 256);
+        CHECK(c.worst_z < 5);
+        CHECK(c.worst_z > 1.5);  // of 256
+        CHECK(c.beyond_5 == 0);
+    }
+
+    TEST_CASE("teeth: one block that is brighter by one standard deviation is named") {
+        Image a = noisy(grey(64, 64, 1), 0.1f, 1);
+        for (int y = 16; y < 24; y++)
+            for (int x = 40; x < 48; x++) a.at(x, y) += Rgb{0.1f, 0.1f, 0.1f};
+        Comparison c = compare(a, grey(64, 64, 1));
+        CHECK(c.worst_z > 5);
+        CHECK(c.worst_x == 40);
+        CHECK(c.worst_y == 16);
+        CHECK(c.beyond_5 == 1);
+    }
+
+    TEST_CASE("input: pictures that cannot be compared") {
+        Image bad = grey(4, 4, 1);
+        bad.at(1, 2).g = NAN;
+        CHECK_THROWS_WITH_AS(check_comparable(grey(4, 4, 1), "a", grey(4, 5, 1), "b"),
+                             "b: error: has 4x5 pixels, but a has 4x4", InputError);
+        CHECK_THROWS_WITH_AS(check_comparable(grey(4, 4, 1), "a", bad, "b"),
+                             "b: error: pixel 1,2 is not finite", InputError);
+    }
+
+    TEST_CASE("identity: the error picture is black where equal, white from the range on") {
+        Image b = grey(10, 10, 0), a = b;
+        a.at(0, 0) = {0.01f, 0.01f, 0.01f};  // relative to sqrt(0.01): 0.1
+        a.at(1, 0) = {5, 5, 5};
+        Image e = error_image(a, b, 0.1);
+        CHECK(e.at(2, 0) == Rgb{0, 0, 0});
+        CHECK(e.at(0, 0).b == doctest::Approx(1).epsilon(1e-3).scale(0));
+        CHECK(e.at(1, 0) == Rgb{1, 1, 1});
+        CHECK(error_range(a, b) == doctest::Approx(0.1).epsilon(1e-5).scale(0));  // of 100, 1 above
+        for (double x = 0; x < 1; x += 0.01) {                                    // ever brighter
+            CHECK(average(false_colour(x + 0.01)) > average(false_colour(x)));
+        }
+    }
+}
+
+TEST_SUITE("merging") {
+    TEST_CASE("identity: merged renders equal one long run") {
+        Film whole(5, 3);
+        uint64_t done = 0;
+        std::vector<MergePart> parts;
+        for (uint32_t seed : {1u, 2u, 3u}) {
+            uint64_t spp = 10 * seed + 7;
+            parts.push_back(
+                {"", render_samples(seed, spp, whole, done), static_cast<double>(spp), {}});
+        }
+        whole.spp = done;
+        Image merged = merged_image(parts), long_run = whole.image();
+        for (size_t i = 0; i < merged.pixels.size(); i++) {
+            Rgb a = merged.pixels[i], b = long_run.pixels[i];
+            CHECK(std::abs(a.r / b.r - 1) < 2e-7f);
+            CHECK(std::abs(a.g / b.g - 1) < 2e-7f);
+            CHECK(std::abs(a.b / b.b - 1) < 2e-7f);
+        }
+    }
+
+    TEST_CASE("truth: the standard error of the whole, from those of its parts") {
+        std::vector<MergePart> parts = {part_of(grey(1, 1, 1), 10, json_of("s", 8, 1)),
+                                        part_of(grey(1, 1, 1), 30, json_of("s", 8, 2))};
+        StatsFile whole(merged_stats(parts, grey(1, 1, 1)));
+        CHECK(whole.number("spp") == 40);
+        CHECK(whole.numbers("seeds") == std::vector<double>{1, 2});
+        CHECK(*whole.number("standard_error") ==
+              doctest::Approx(std::hypot(10 * 0.1, 30 * 0.1) / 40).epsilon(1e-8).scale(0));
+        CHECK(*whole.number("mean") == doctest::Approx(0.5).epsilon(1e-8).scale(0));
+        parts[1].stats.reset();
+        CHECK(merged_stats(parts, grey(1, 1, 1)).empty());
+    }
+
+    TEST_CASE("teeth: parts of other scenes, sizes, depths, or with the same seed are refused") {
+        MergePart first = part_of(grey(2, 2, 1), 1, json_of("s", 8, 1));
+        auto with = [&](MergePart second) { check_parts({first, std::move(second)}); };
+        CHECK_NOTHROW(with(part_of(grey(2, 2, 1), 1, json_of("s", 8, 2))));
+        CHECK_THROWS_AS(with(part_of(grey(2, 2, 1), 1, json_of("s", 8, 1))), InputError);
+        CHECK_THROWS_AS(with(part_of(grey(2, 2, 1), 1, json_of("s", 9, 2))), InputError);
+        CHECK_THROWS_AS(with(part_of(grey(2, 2, 1), 1, json_of("t", 8, 2))), InputError);
+        CHECK_THROWS_AS(with(part_of(grey(2, 3, 1), 1, json_of("s", 8, 2))), InputError);
+    }
+
+    TEST_CASE("input: statistics read back") {
+        StatsFile stats(
+            "{\n \"mean\": 1.5e-3, \"scene\": \"a \\\"b\\\": c\",\"none\": null,"
+            "\"list\": [1, 2.5,3]}");
+        CHECK(stats.number("mean") == 1.5e-3);
+        CHECK(stats.text("scene") == "a \\\"b\\\": c");
+        CHECK(!stats.number("none"));
+        CHECK(!stats.number("b"));
+        CHECK(stats.numbers("list") == std::vector<double>{1, 2.5, 3});
+    }
+}
+
+TEST_SUITE("measuring") {
+    TEST_CASE("truth: relMSE from the spread of renders") {
+        // Two pixels: one of mean 2 and variance 1/2, one of mean 0.
+        Image a(2, 1), b(2, 1);
+        a.pixels = {{1.5f, 1.5f, 1.5f}, {0, 0, 0}};
+        b.pixels = {{2.5f, 2.5f, 2.5f}, {0, 0, 0}};
+        Spread spread;
+        spread.add(a);
+        spread.add(b);
+        CHECK(spread.mean().pixels[0] == Rgb{2, 2, 2});
+        CHECK(spread.rel_mse(spread.mean()) ==
+              doctest::Approx(0.5 / 4.01 / 2).epsilon(1e-12).scale(0));
+        // One bright and rare pixel: a better mean makes it count for what it is.
+        CHECK(spread.rel_mse(grey(2, 1, 0)) == doctest::Approx(25).epsilon(1e-6).scale(0));
+    }
+
+    TEST_CASE("truth: relMSE of noise falls like 1 / spp") {
+        for (float sigma : {0.2f, 0.1f}) {
+            Spread spread;
+            for (uint32_t run = 0; run < 16; run++) spread.add(noisy(grey(64, 64, 1), sigma, run));
+            double expected = static_cast<double>(sigma * sigma) / 1.01;
+            CHECK(spread.rel_mse(grey(64, 64, 1)) ==
+                  doctest::Approx(expected).epsilon(0.03).scale(0));
+        }
+    }
+
+    TEST_CASE("identity: the median of odd and even many numbers") {
+        CHECK(median({3, 1, 2}) == 2);
+        CHECK(median({4, 1, 3, 2}) == 2.5);
+        CHECK(std::isnan(median({})));
+    }
+
+    TEST_CASE("truth: mean, standard error and skewness of batches") {
+        Estimate e = estimate_of({1, 2, 3, 6});
+        CHECK(e.mean == 3);
+        CHECK(e.se == doctest::Approx(std::sqrt(14.0 / 3 / 4)).epsilon(1e-9).scale(0));
+        CHECK(e.skewness == doctest::Approx(4.5 / std::pow(3.5, 1.5)).epsilon(1e-12).scale(0));
+        CHECK(e.reliable());
+        // One lucky batch of many.
+        std::vector<double> rare(64, 0.0);
+        rare[17] = 1;
+        CHECK(!estimate_of(rare).reliable());
+        CHECK(!estimate_of(std::vector<double>(64, 0.0)).reliable());
+        // No noise at all is exact up to rounding.
+        Estimate exact = estimate_of(std::vector<double>(64, 0.8));
+        CHECK(exact.reliable());
+        CHECK(exact.se == doctest::Approx(0.8e-6).epsilon(1e-9).scale(0));
+    }
+
+    TEST_CASE("truth: z of three estimates") {
+        // The others: (1/4 * 10 + 1 * 12) / (5/4), with variance 4/5.
+        std::vector<Estimate> e = {{13, 1, 0}, {10, 2, 0}, {12, 1, 0}, {99, 0.1, 5}};
+        Verdict v = judge(e, 0);
+        CHECK(v.known);
+        CHECK(v.others_mean == doctest::Approx(11.6).epsilon(1e-12).scale(0));
+        CHECK(v.z == doctest::Approx(1.4 / std::sqrt(1.8)).epsilon(1e-12).scale(0));
+        CHECK(!judge(e, 3).known);                       // too few lucky samples
+        CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);  // nothing to hold it against
+    }
+
+    TEST_CASE("teeth: a bias of ten standard errors is seen, and in the right method") {
+        std::vector<Estimate> e;
+        for (uint32_t method = 0; method < 6; method++) {
+            std::vector<double> values;
+            Sampler sampler(SamplerType::independent, method, 1);
+            for (uint32_t batch = 0; batch < 64; batch++) {
+                sampler.start(0, batch);
+                values.push_back(static_cast<double>(sampler.u1()) + (method == 3 ? 0.36 : 0));
+            }
+            e.push_back(estimate_of(values));  // of standard error 0.036
+        }
+        for (size_t i = 0; i < e.size(); i++) {
+            CHECK(judge(e, i).known);
+            CHECK((std::abs(judge(e, i).z) > 5) == (i == 3));
+        }
+    }
+}

@@ -1,0 +1,320 @@
+// Mirrors and glass: Fresnel's equations, slabs, balls and cubes of glass, and metals.
+#include "common/material/optics.h"
+
+#include <doctest/doctest.h>
+
+#include <complex>
+
+#include "chapters/06_path_tracing/estimator.h"
+#include "common/material/metal.h"
+#include "tests/support/gates.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+double reflected(double degrees, double eta) {
+    float cos = static_cast<float>(std::cos(degrees * std::numbers::pi / 180));
+    return static_cast<double>(fresnel_dielectric(cos, static_cast<float>(eta)));
+}
+
+/// Two panes of a slab of glass, 0.1 thick; what is behind it (+z) shines with 1, the rest is
+/// black.
+Scene slab() {
+    return world_of(
+        "Material \"dielectric\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
+        " \"point3 P\" [-50 -50 0  -50 50 0  50 50 0  50 -50 0]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 3 2]"
+        " \"point3 P\" [-50 -50 0.1  -50 50 0.1  50 50 0.1  50 -50 0.1]\n"
+        "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
+        " \"point3 P\" [-900 -900 9  -900 900 9  900 900 9  900 -900 9]");
+}
+
+/// The ray that meets the slab at this angle.
+Ray ray_at(double degrees) {
+    float a = static_cast<float>(degrees * std::numbers::pi / 180);
+    Vec3 d = {std::sin(a), 0, std::cos(a)};
+    return {-5 * d, d};
+}
+
+/// Chapter 06 along one ray, over and over.
+RunningStats repeat(const Scene& scene, const Ray& ray, int paths) {
+    RunningStats stats;
+    Sampler sampler(SamplerType::independent, 1, 1);
+    PathLog log;
+    for (int i = 0; i < paths; i++) {
+        sampler.start(0, static_cast<uint32_t>(i));
+        stats.add(static_cast<double>(ch06::trace(scene, ray, sampler, log).g));
+    }
+    return stats;
+}
+
+/// Whether every path is worth 1 or nothing, which is what makes Bernoulli's variance hold.
+bool is_zero_or_one(const Scene& scene, const Ray& ray) {
+    Sampler random = random_numbers(5);
+    PathLog log;
+    for (int i = 0; i < 1000; i++) {
+        float L = ch06::trace(scene, ray, random, log).g;
+        if (L != 0 && std::abs(L - 1) > 1e-5f) return false;
+    }
+    return true;
+}
+
+double metal(double degrees, float r) {
+    float k = 2 * std::sqrt(r) / std::sqrt(1 - r);
+    float cos = static_cast<float>(std::cos(degrees * std::numbers::pi / 180));
+    return static_cast<double>(fresnel_conductor(cos, 1.0f, k));
+}
+
+}  // namespace
+
+TEST_SUITE("optics") {
+    TEST_CASE("identity: the optics of common/ are the ones that chapter 04 teaches") {
+        for (const char* first : {"inline Vec3 reflect", "inline std::optional<Vec3> refract",
+                                  "inline float fresnel_dielectric"}) {
+            CHECK(definition("chapters/04_ray_casting/estimator.h", first) ==
+                  definition("common/material/optics.h", first));
+        }
+    }
+
+    TEST_CASE("truth: Fresnel's equations for glass") {
+        struct Row {
+            double degrees, eta, R;
+        };
+        for (auto [degrees, eta, R] : {Row{0, 1.5, 0.04},
+                                       {0, 1.33, 0.02005931219952},
+                                       {0, 1.5168, 0.04216456259455},
+                                       {0, 2.417, 0.1719688325232},
+                                       {15, 1.5, 0.04008076715287},
+                                       {30, 1.5, 0.04152262597582},
+                                       {45, 1.5, 0.05023991101224},
+                                       {56, 1.5, 0.07291318722731},
+                                       {56.30993247402, 1.5, 0.07396449704142},  // Brewster's angle
+                                       {60, 1.5, 0.08918671280221},
+                                       {75, 1.5, 0.2530605629903},
+                                       {80, 1.5, 0.3877043546915},
+                                       {85, 1.5, 0.6127996452648},
+                                       {89, 1.5, 0.9041849497802},
+                                       {0, 1 / 1.5, 0.04},
+                                       {20, 1 / 1.5, 0.04172851819062},
+                                       {30, 1 / 1.5, 0.05519016729538},
+                                       {40, 1 / 1.5, 0.2452912042869},
+                                       {41, 1 / 1.5, 0.3797512659624},
+                                       {41.8, 1 / 1.5, 0.8907719214997},
+                                       {41.81, 1 / 1.5, 0.9798553651264}}) {
+            // In float, cos_t loses digits as it goes to 0 (grazing, and the critical angle).
+            double sin = std::sin(degrees * std::numbers::pi / 180) / eta;
+            double cos_t = std::sqrt(1 - sin * sin);
+            double angle = degrees;
+            CAPTURE(angle);
+            CHECK(std::abs(reflected(degrees, eta) - R) < 1e-6 / std::min(1.0, cos_t));
+        }
+        for (double degrees : {41.82, 45.0, 60.0, 89.9}) CHECK(reflected(degrees, 1 / 1.5) == 1);
+        CHECK(fresnel_dielectric(0, 1.5f) == 1);
+        CHECK(reflected(40, 1) == 0);
+    }
+
+    TEST_CASE("identity: glass reflects the same share from both sides of the surface") {
+        CHECK(std::abs(reflected(50, 1.5) - 0.05766294470392) < 1e-6);
+        CHECK(std::abs(reflected(30.7102207661, 1 / 1.5) - 0.05766294470392) < 1e-6);
+    }
+
+    TEST_CASE("truth: glass in light from everywhere reflects 9.2 % outside and 59.6 % inside") {
+        double outside = 0, inside = 0;
+        constexpr int steps = 100000;
+        for (int i = 0; i < steps; i++) {  // 2 integral R cos dcos
+            double cos = (i + 0.5) / steps;
+            float c = static_cast<float>(cos);
+            outside += 2 * cos / steps * static_cast<double>(fresnel_dielectric(c, 1.5f));
+            inside += 2 * cos / steps * static_cast<double>(fresnel_dielectric(c, 1 / 1.5f));
+        }
+        CHECK(std::abs(outside - 0.09177795934235) < 1e-6);
+        CHECK(std::abs(inside - 0.5963457597077) < 1e-5);
+    }
+
+    TEST_CASE("identity: refraction obeys Snell, stays in its plane, and runs back the same way") {
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < 10000; i++) {
+            Vec3 n = uniform_direction(random.u2());
+            Vec3 wo = Frame(n).to_world(ch06::sample_uniform_hemisphere(random.u2()));
+            float eta = 1 + random.u1();
+            auto wi = refract(wo, n, eta);
+            REQUIRE(wi);
+            CHECK(std::abs(length(*wi) - 1) < 1e-6f);
+            CHECK(dot(*wi, n) < 0);
+            CHECK(std::abs(length(cross(*wi, n)) * eta - length(cross(wo, n))) < 2e-6f);
+            CHECK(std::abs(dot(*wi, cross(wo, n))) < 1e-6f);
+            auto back = refract(*wi, -n, 1 / eta);
+            if (dot(wo, n) > 0.05f) CHECK(length(*back - wo) < 2e-5f);
+            Vec3 mirrored = reflect(wo, n);
+            CHECK(std::abs(dot(mirrored, n) - dot(wo, n)) < 1e-6f);
+            CHECK(length(mirrored + wo - 2 * dot(wo, n) * n) < 1e-6f);
+        }
+        float a = 50 * pi / 180;
+        auto wi = refract({std::sin(a), 0, std::cos(a)}, {0, 0, 1}, 1.5f);
+        CHECK(std::asin(-wi->x) * 180 / pi ==
+              doctest::Approx(30.7102207661).epsilon(1e-6).scale(0));
+        CHECK_FALSE(refract({std::sin(a), 0, std::cos(a)}, {0, 0, 1}, 1 / 1.5f));
+        CHECK_FALSE(refract({1, 0, 0}, {0, 0, 1}, 1 / 1.5f));
+    }
+
+    TEST_CASE("truth: a slab of glass lets through (1 - R) / (1 + R)") {
+        Scene scene = slab();
+        for (auto [degrees, T] : {std::pair{0.0, 0.9230769230769},
+                                  {30.0, 0.920265532519},
+                                  {60.0, 0.8362324627102},
+                                  {80.0, 0.4412291733744}}) {
+            CHECK(is_zero_or_one(scene, ray_at(degrees)));
+            check_mean(repeat(scene, ray_at(degrees), 100000), T, T * (1 - T), 0.013);
+        }
+    }
+
+    TEST_CASE("truth: a slab, cut off after 0, 2 and 4 reflections inside") {
+        Scene scene = slab();
+        for (auto [inside, T] : {std::pair{0, 0.9216}, {2, 0.92307456}, {4, 0.923076919296}}) {
+            scene.max_depth = inside + 2;
+            check_mean(repeat(scene, ray_at(0), 100000), T, T * (1 - T), 0.01);
+        }
+    }
+
+    TEST_CASE("truth: a slab reflects 2 R / (1 + R)") {
+        Scene scene = slab();
+        Ray from_behind = {{0, 0, 5}, {0, 0, -1}};  // sees the light mirrored: it shines this way
+        double R = 0.07692307692308;
+        // Turn the light around, behind the camera.
+        scene.shapes.back().reverse = true;
+        scene.lights[0].two_sided = true;
+        check_mean(repeat(scene, from_behind, 100000), R, R * (1 - R), 0.01);
+    }
+
+    TEST_CASE("furnace: paths through a glass ball are worth 1, and what a depth limit cuts, 0") {
+        Scene scene = world_of(
+            "LightSource \"infinite\" Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\"");
+        auto disc = [&](int inside) {  // parallel rays, spread evenly over the ball's disc
+            scene.max_depth = inside + 2;
+            RunningStats stats;
+            PathLog log;
+            Sampler random = random_numbers(1);
+            float largest = 0;
+            for (int i = 0; i < 200000; i++) {
+                float s = std::sqrt(random.u1());
+                Ray ray = {{s, 0, -4}, {0, 0, 1}};
+                float L = ch06::trace(scene, ray, random, log).g;
+                largest = std::max(largest, std::min(std::abs(L), std::abs(L - 1)));
+                stats.add(static_cast<double>(L));
+            }
+            CHECK(largest < 2e-5f);  // 0 or 1, to rounding
+            return stats;
+        };
+        for (auto [inside, L] : {std::pair{0, 0.9273223594859},
+                                 {1, 0.9885055761808},
+                                 {2, 0.9964989532408},
+                                 {4, 0.9991900811265}}) {
+            check_mean(disc(inside), L, L * (1 - L), 0.005);
+        }
+        for (auto [inside, L] : {std::pair{0, 0.9616}, {1, 0.998464}}) {
+            scene.max_depth = inside + 2;
+            check_mean(repeat(scene, {{0, 0, -4}, {0, 0, 1}}, 100000), L, L * (1 - L), 0.005);
+        }
+        scene.max_depth = 1000;
+        CHECK(repeat(scene, {{0.7f, 0, -4}, {0, 0, 1}}, 10000).mean() ==
+              doctest::Approx(1).epsilon(1e-5).scale(0));
+    }
+
+    TEST_CASE("truth: inside glass, the sky is n^2 times as bright") {
+        Scene scene = world_of(
+            "LightSource \"infinite\" Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\"");
+        scene.max_depth = 1000;
+        RunningStats s = repeat(scene, {{0, 0, 0}, {0, 0, 1}}, 1000);
+        CHECK(s.mean() == doctest::Approx(2.25).epsilon(1e-5).scale(0));
+        CHECK(s.variance() < 1e-9);
+    }
+
+    TEST_CASE(
+        "failure: 23.6 % of the directions in a glass cube never get out, yet all paths end") {
+        Scene scene = world_of(
+            "LightSource \"infinite\" Material \"dielectric\" \"float eta\" 1.5\n"
+            "Shape \"trianglemesh\" \"integer indices\" [0 3 1 0 2 3 4 7 6 4 5 7 0 5 4 0 1 5"
+            " 2 7 3 2 6 7 0 6 2 0 4 6 1 7 5 1 3 7]\n \"point3 P\" [-1 -1 -1  1 -1 -1"
+            "  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1]");
+        scene.max_depth = 100;
+        constexpr int paths = 20000;
+        constexpr float cos_critical = 0.7453559925f;
+        Sampler random = random_numbers(1);
+        RunningStats trapped;
+        int disagreements = 0;
+        for (int i = 0; i < paths; i++) {
+            Vec3 d = uniform_direction(random.u2());
+            float largest = max_component(abs(d));
+            PathLog log;
+            Rgb L = ch06::trace(scene, {{0.1f, 0.2f, 0.3f}, d}, random, log);
+            trapped.add(log.paths_cut() > 0);
+            // Away from the critical angle, whether a path gets out is no matter of chance: for
+            // others, a hundred reflections at R < 1 are.
+            if (largest < cos_critical - 1e-3f) disagreements += log.paths_cut() == 0;
+            if (largest > cos_critical + 0.01f) disagreements += log.paths_cut() > 0;
+            CHECK(is_finite(L));
+        }
+        CHECK(disagreements == 0);
+        double p = std::sqrt(5.0) - 2;
+        check_mean(trapped, p, p * (1 - p), 0.03);
+    }
+}
+
+TEST_SUITE("metal") {
+    TEST_CASE("truth: what a reflectance of 0.9 or 0.8 means at other angles") {
+        for (auto [degrees, R] :
+             {std::pair{0.0, 0.9}, {45.0, 0.896}, {60.0, 0.884}, {80.0, 0.847}, {89.0, 0.965}}) {
+            CHECK(std::abs(metal(degrees, 0.9f) - R) < 6e-4);
+        }
+        for (auto [r, mean] : {std::pair{0.9f, 0.889}, {0.8f, 0.792}}) {
+            double sum = 0;
+            for (int i = 0; i < 10000; i++) {
+                double cos = (i + 0.5) / 10000;
+                sum += 2 * cos / 10000 * metal(std::acos(cos) * 180 / std::numbers::pi, r);
+            }
+            CHECK(std::abs(sum - mean) < 6e-4);
+        }
+    }
+
+    TEST_CASE("identity: a metal's reflectance is Fresnel's with a complex index") {
+        using Complex = std::complex<double>;
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < 10000; i++) {
+            // Where metals lie: silver is 0.05 + 4 i, iron 2.9 + 3 i.
+            float eta = 0.05f + 3 * random.u1(), k = 1 + 4 * random.u1(), cos_i = 1 - random.u1();
+            double c = static_cast<double>(cos_i);
+            Complex n = {static_cast<double>(eta), static_cast<double>(k)};
+            Complex cos_t = std::sqrt(1.0 - (1 - c * c) / (n * n));
+            double s = std::norm((c - n * cos_t) / (c + n * cos_t));
+            double p = std::norm((n * c - cos_t) / (n * c + cos_t));
+            CAPTURE(eta);
+            CAPTURE(k);
+            CAPTURE(cos_i);
+            CHECK(std::abs(static_cast<double>(fresnel_conductor(cos_i, eta, k)) - (s + p) / 2) <
+                  2e-5);
+        }
+    }
+
+    TEST_CASE("identity: a metal that does not absorb reflects as glass does") {
+        for (float cos_i : {0.01f, 0.1f, 0.5f, 0.9f, 1.0f}) {
+            CHECK(std::abs(fresnel_conductor(cos_i, 1.5f, 0) - fresnel_dielectric(cos_i, 1.5f)) <
+                  1e-6f);
+        }
+    }
+
+    TEST_CASE("furnace: a metal ball shows what it reflects") {
+        Scene scene = world_of(
+            "LightSource \"infinite\"\n"
+            "Material \"conductor\" \"rgb reflectance\" [0.9 0.5 0.2] Shape \"sphere\"");
+        Sampler random = random_numbers(1);
+        PathLog log;
+        for (float s : {0.0f, 0.3f, 0.8f, 0.999f}) {
+            Rgb L = ch06::trace(scene, {{s, 0, -4}, {0, 0, 1}}, random, log);
+            double degrees = std::asin(static_cast<double>(s)) * 180 / std::numbers::pi;
+            CHECK(std::abs(static_cast<double>(L.r) - metal(degrees, 0.9f)) < 1e-5);
+            CHECK(std::abs(static_cast<double>(L.g) - metal(degrees, 0.5f)) < 1e-5);
+            CHECK(std::abs(static_cast<double>(L.b) - metal(degrees, 0.2f)) < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,207 @@
+// PLY meshes: what is read, and what is refused.
+#include "common/scene_file/ply.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "tests/support/folder.h"
+#include "tests/support/malformed.h"
+
+namespace {
+
+// The square of two ways to write it: two triangles over four corners with normals.
+const std::vector<Vec3> corners = {{0, 0, 0.5f}, {1, 0, 0.5f}, {1, 1, 0.5f}, {0, 1, 0.5f}};
+
+const std::string ascii_square =
+    "ply\nformat ascii 1.0\ncomment made by hand\nobj_info nothing\n"
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "property float nx\nproperty float ny\nproperty float nz\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 .5 0 0 1\n1 0 .5 0 0 1\n\n1 1 5e-1 0 0 1\n0 1 .5 0 0 1\n4 0 1 2 3\n";
+
+void check_square(const TriangleMesh& mesh, bool with_normals) {
+    CHECK(mesh.positions == corners);
+    CHECK(mesh.indices == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
+    CHECK(mesh.normals == std::vector<Vec3>(with_normals ? 4 : 0, Vec3{0, 0, 1}));
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+        text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+// Appends values in one byte order.
+struct BinaryWriter {
+    bool big_endian;
+    std::string bytes;
+    template <class T>
+    void put(T value) {
+        std::string raw(sizeof value, '\0');
+        std::memcpy(raw.data(), &value, sizeof value);
+        if (big_endian != (std::endian::native == std::endian::big)) {
+            std::reverse(raw.begin(), raw.end());
+        }
+        bytes += raw;
+    }
+};
+
+// The square as a program writes it: colors, texture coordinates, lists, and edges besides.
+std::string binary_square(bool big_endian, const std::string& line_end = "\n") {
+    std::string header =
+        "ply\nformat binary_" + std::string(big_endian ? "big" : "little") +
+        "_endian 1.0\ncomment exported\nelement material 2\nproperty ushort id\n"
+        "property list uchar float values\nelement vertex 4\nproperty double x\nproperty uchar "
+        "red\n"
+        "property float32 y\nproperty float u\nproperty float v\nproperty short z\n"
+        "element face 2\nproperty int8 flags\nproperty list uint8 uint32 vertex_index\n"
+        "property list int float texcoord\nelement edge 1\nproperty int vertex1\nend_header\n";
+    BinaryWriter out{big_endian, replaced(header, "\n", line_end)};
+    for (int i = 0; i < 2; i++) {
+        out.put(uint16_t{65535});
+        out.put(uint8_t{2});
+        out.put(1.5f);
+        out.put(2.5f);
+    }
+    for (Vec3 p : corners) {
+        out.put(double{p.x});
+        out.put(uint8_t{255});
+        out.put(p.y);
+        out.put(0.25f);
+        out.put(0.75f);
+        out.put(int16_t{-1});
+    }
+    const std::vector<std::vector<uint32_t>> faces = {{0, 1, 2}, {3, 2, 1, 0}};
+    for (const auto& face : faces) {
+        out.put(int8_t{-1});
+        out.put(static_cast<uint8_t>(face.size()));
+        for (uint32_t index : face) out.put(index);
+        out.put(int32_t{1});
+        out.put(0.5f);
+    }
+    out.put(int32_t{7});
+    return out.bytes;
+}
+
+std::string refuse(const std::string& bytes) {
+    return error_of([&] { parse_ply("mesh.ply", bytes); });
+}
+
+}  // namespace
+
+TEST_SUITE("ply") {
+    TEST_CASE("input: PLY as text") {
+        check_square(parse_ply("mesh.ply", ascii_square), true);
+        check_square(parse_ply("mesh.ply", replaced(ascii_square, "\n", "\r\n")), true);
+        check_square(parse_ply("mesh.ply", replaced(ascii_square, "\n", "\r")), true);
+        check_square(
+            parse_ply("mesh.ply", replaced(ascii_square, "vertex_indices", "vertex_index")), true);
+        check_square(parse_ply("mesh.ply", replaced(ascii_square, " 4 ", "\n4\n")), true);
+        check_square(parse_ply("mesh.ply", ascii_square + "what follows is not read"), true);
+        // Normals that are not whole are none.
+        check_square(parse_ply("mesh.ply", replaced(ascii_square, "float nz", "float curvature")),
+                     false);
+        // Without the last line end.
+        check_square(parse_ply("mesh.ply", ascii_square.substr(0, ascii_square.size() - 1)), true);
+    }
+
+    TEST_CASE("input: PLY as bytes of either order, with what other programs add") {
+        for (bool big_endian : {false, true}) {
+            for (const char* line_end : {"\n", "\r\n"}) {
+                TriangleMesh mesh = parse_ply("mesh.ply", binary_square(big_endian, line_end));
+                REQUIRE(mesh.positions.size() == 4);
+                for (size_t i = 0; i < 4; i++) {
+                    CHECK(mesh.positions[i] == Vec3{corners[i].x, corners[i].y, -1});
+                }
+                CHECK(mesh.normals.empty());
+                CHECK(mesh.indices == std::vector<uint32_t>{0, 1, 2, 3, 2, 1, 3, 1, 0});
+            }
+        }
+    }
+
+    TEST_CASE("input: faces may stand before the vertices") {
+        TriangleMesh mesh = parse_ply(
+            "mesh.ply",
+            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+            "element vertex 3\nproperty float z\nproperty float y\nproperty float x\nend_header\n"
+            "3 2 1 0\n1 2 3\n4 5 6\n7 8 9\n");
+        CHECK(mesh.positions == std::vector<Vec3>{{3, 2, 1}, {6, 5, 4}, {9, 8, 7}});
+        CHECK(mesh.indices == std::vector<uint32_t>{2, 1, 0});
+    }
+
+    TEST_CASE("input: a mesh without faces is empty") {
+        TriangleMesh mesh = parse_ply(
+            "mesh.ply", replaced(replaced(ascii_square, "face 1", "face 0"), "4 0 1 2 3\n", ""));
+        CHECK(mesh.positions.size() == 4);
+        CHECK(mesh.indices.empty());
+    }
+
+    TEST_CASE("input: every malformed PLY is refused with its message and place") {
+        auto cases = read_malformed_cases("tests/support/malformed/ply.txt");
+        CHECK(cases.size() >= 30);
+        for (const MalformedCase& c : cases) CHECK(refuse(c.input) == c.message);
+        CHECK(refuse("\x1f\x8b\x08") == "mesh.ply: error: compressed by gzip: unpack it first");
+        CHECK(refuse("ply\nformat ascii 1.0\nelement vertex \xff\n") ==
+              "mesh.ply:3:16: error: expected how many elements there are, not \"?\"");
+    }
+
+    TEST_CASE("input: a PLY that is cut off anywhere is refused") {
+        for (const std::string& whole : {binary_square(false), binary_square(true)}) {
+            for (size_t length = 0; length < whole.size(); length++) {
+                CAPTURE(length);
+                CHECK(refuse(whole.substr(0, length)) != "");
+            }
+            CHECK(refuse(whole) == "");
+        }
+        // As text, a number that is cut short is a number, and so the last one may lose digits.
+        size_t last = ascii_square.rfind('3');
+        for (size_t length = 0; length <= last; length++) {
+            CAPTURE(length);
+            CHECK(refuse(ascii_square.substr(0, length)) != "");
+        }
+    }
+
+    TEST_CASE("input: damaged bytes are refused with the byte where reading stopped") {
+        auto little = [](const std::string& elements, const std::string& body) {
+            return "ply\nformat binary_little_endian 1.0\n" + elements + "end_header\n" + body;
+        };
+        const std::string vertex =
+            "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+        const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+        const std::string origin(12, '\0');
+        std::string header = little(vertex + face, "");
+        auto at = [&](size_t offset) {
+            return " at byte " + std::to_string(header.size() + offset);
+        };
+
+        CHECK(refuse(header + origin + std::string("\3\0\0\0\0\0\0\0\0\0\0\0\0", 13)) == "");
+        CHECK(refuse(header + std::string("\0\0\xc0\x7f", 4) + origin.substr(4) + "\3") ==
+              "mesh.ply: error: a vertex is not finite" + at(4));
+        CHECK(refuse(header + origin + std::string("\3\0\0\0\0\1\0\0\0\0\0\0\0", 13)) ==
+              "mesh.ply: error: vertex 1 of a face does not exist: there are 1" + at(21));
+        CHECK(refuse(header + origin + std::string("\3\0\0\0\0\xff\xff\xff\xff\0\0\0\0", 13)) ==
+              "mesh.ply: error: vertex -1 of a face does not exist: there are 1" + at(21));
+        CHECK(refuse(header + origin + std::string("\2\0\0\0\0\0\0\0\0\0\0\0\0", 13)) ==
+              "mesh.ply: error: a face of 2 corners: only triangles and quads are supported" +
+                  at(13));
+        CHECK(refuse(header + origin + "\3") ==
+              "mesh.ply: error: the file is too short for a list of this length" + at(13));
+        CHECK(refuse(header) == "mesh.ply:3:9: error: the file is too short for 1 vertex elements");
+
+        // A header that lies makes nothing large: a count, an empty element, a list.
+        CHECK(refuse(little("element vertex 999999999999999\nproperty float x\nproperty float y\n"
+                            "property float z\n" +
+                                face,
+                            origin)) ==
+              "mesh.ply:3:9: error: the file is too short for 999999999999999 vertex elements");
+        CHECK(refuse(little("element nothing 999999999999999\n" + vertex + face,
+                            origin + std::string("\3\0\0\0\0\0\0\0\0\0\0\0\0", 13))) == "");
+        CHECK(refuse(little("element big 1\nproperty list uint char values\n" + vertex + face,
+                            "\xff\xff\xff\xff" + origin))
+                  .starts_with("mesh.ply: error: the file is too short for a list of this length"));
+    }
+}

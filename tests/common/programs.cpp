@@ -1,0 +1,528 @@
+// The programs themselves: what they write, what they print, and how they end.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstring>
+#include <map>
+
+#include "common/picture/image.h"
+#include "tests/support/process.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+const std::string spheres = "scenes/cornell-spheres.pbrt";
+const std::string path_tracer = "06_path_tracing";
+
+Process start(const std::string& program, Words words) {
+    fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / program;
+    words.insert(words.begin(), "build/" + program);
+    return Process([&] {
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        ::execv(file.c_str(), argv.data());
+        return 127;
+    });
+}
+
+Finished run(const std::string& program, const Words& words) {
+    return start(program, words).wait();
+}
+
+/// The programs of the chapters; those that render a scene, or those that print a table.
+std::vector<std::string> programs(bool render) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator("chapters")) {
+        std::string name = entry.path().filename().string();
+        if (name == "05_bvh") continue;  // draws work instead of light: has its own test below
+        std::string help = run(name, {"--help"}).out;
+        if ((help.find("[SCENE]") != std::string::npos) == render) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    REQUIRE(!names.empty());
+    return names;
+}
+
+/// Options for a render of a few milliseconds.
+Words small(const Words& more) {
+    Words words = {spheres, "--size", "33x17", "--spp", "3", "--max-depth", "6"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+/// Options that every program knows, for a run of a few milliseconds.
+Words brief(bool render, const Words& more) {
+    Words words = render ? small({}) : Words{"--n", "100"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+bool is_one_line(const std::string& text) { return text.find('\n') == text.size() - 1; }
+
+/// The values of a JSON object of numbers, texts and lists of numbers; fails for anything else.
+std::map<std::string, std::string> json_values(const std::string& json) {
+    std::map<std::string, std::string> values;
+    size_t at = 0;
+    auto skip = [&](const std::string& letters) {
+        size_t begin = at;
+        while (at < json.size() && letters.find(json[at]) != std::string::npos) at++;
+        return json.substr(begin, at - begin);
+    };
+    auto take = [&](char c) {
+        REQUIRE(at < json.size());
+        REQUIRE(json[at] == c);
+        at++;
+        skip(" \n");
+    };
+    auto text = [&] {
+        take('"');
+        size_t end = json.find('"', at);
+        std::string inside = json.substr(at, end - at);
+        CHECK(inside.find('\\') == std::string::npos);
+        at = end;
+        take('"');
+        return inside;
+    };
+    take('{');
+    while (true) {
+        std::string key = text();
+        take(':');
+        if (json[at] == '"') {
+            values[key] = text();
+        } else if (json[at] == '[') {
+            size_t end = json.find(']', at);
+            REQUIRE(end != std::string::npos);
+            values[key] = json.substr(at, end + 1 - at);
+            CHECK(values[key].find_first_not_of("[]-+.0123456789e, ") == std::string::npos);
+            at = end + 1;
+        } else if (std::string word = skip("truefalsn"); !word.empty()) {
+            CHECK((word == "true" || word == "false" || word == "null"));
+            values[key] = word;
+        } else {
+            values[key] = skip("-+.0123456789e");
+            char* end = nullptr;
+            std::strtod(values[key].c_str(), &end);
+            CHECK((!values[key].empty() && *end == '\0'));
+        }
+        skip(" \n");
+        if (json[at] == '}') break;
+        take(',');
+    }
+    take('}');
+    CHECK(at == json.size());
+    return values;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+TEST_SUITE("programs") {
+    TEST_CASE("input: --help lists the options, on stdout") {
+        for (bool render : {false, true}) {
+            for (const std::string& program : programs(render)) {
+                CAPTURE(program);
+                Finished help = run(program, {"--help"});
+                CHECK(help.code == 0);
+                CHECK(help.err == "");
+                CHECK(help.out.starts_with("usage: build/" + program));
+                Words names = {"--seed S", "--out FILE", "--quiet", "--help"};
+                if (render) {
+                    for (const char* name :
+                         {"--spp N", "--time SECONDS", "--size WxH", "--threads T", "--max-depth D",
+                          "--sampler KIND", "--stats FILE.json", "--explain X,Y[,SAMPLE]",
+                          "--paths REGEX", "--split DIR"}) {
+                        names.push_back(name);
+                    }
+                }
+                for (const std::string& name : names) {
+                    CHECK(help.out.find("  " + name + " ") != std::string::npos);
+                }
+            }
+        }
+    }
+
+    TEST_CASE("input: a wrong option is one line on stderr and exit code 2") {
+        for (bool render : {false, true}) {
+            for (const std::string& program : programs(render)) {
+                CAPTURE(program);
+                Finished end = run(program, {"--quite"});
+                CHECK(end.code == 2);
+                CHECK(end.out == "");
+                CHECK(end.err == "error: unknown option '--quite', did you mean '--quiet'?\n");
+                end = run(program, {"--out", "two\nlines"});
+                CHECK(end.code == 2);
+                CHECK(is_one_line(end.err));
+            }
+        }
+    }
+
+    TEST_CASE("files: an output without a place is exit code 1 before any work") {
+        for (bool render : {false, true}) {
+            for (const std::string& program : programs(render)) {
+                CAPTURE(program);
+                auto begin = std::chrono::steady_clock::now();
+                Words words =
+                    render ? Words{spheres, "--spp", "100000000"} : Words{"--n", "1000000000000"};
+                words.insert(words.end(), {"--out", "none/a.ppm"});
+                Finished end = run(program, words);
+                CHECK(end.code == 1);
+                CHECK(end.out == "");
+                CHECK(end.err == "none/a.ppm: error: cannot write: No such file or directory\n");
+                CHECK(seconds_since(begin) < 20);
+            }
+        }
+        TemporaryFolder folder;
+        for (Words words : {Words{"--stats", "none/s.json"}, Words{"--split", "/dev/null/d"}}) {
+            words.insert(words.end(), {"--spp", "100000000", "--out", folder / "a.ppm"});
+            Finished end = run(path_tracer, words);
+            CHECK(end.code == 1);
+            CHECK(end.err.starts_with(words[1]));
+            CHECK(is_one_line(end.err));
+        }
+        CHECK(folder.names().empty());
+    }
+
+    TEST_CASE("files: no result overwrites the scene or another result") {
+        TemporaryFolder folder;
+        std::string scene = folder / "a.pbrt";
+        fs::copy_file("scenes/furnace.pbrt", scene);
+        Finished end = run(path_tracer, {scene, "--out", folder / "a.ppm", "--stats", scene});
+        CHECK(end.code == 2);
+        CHECK(end.err == "error: '" + scene + "' is the input, and would be overwritten\n");
+        CHECK(read_file(scene) == read_file("scenes/furnace.pbrt"));
+        end = run(path_tracer, {"--out", folder / "a.ppm", "--out", folder / "./a.ppm"});
+        CHECK(end.code == 2);
+        CHECK(end.err ==
+              "error: '" + folder / "a.ppm" + "' and '" + folder / "./a.ppm" + "' are one file\n");
+        CHECK(folder.names() == std::set<std::string>{"a.pbrt"});
+    }
+
+    TEST_CASE("files: each program writes what it is asked for, and what it wrote is a picture") {
+        for (bool render : {false, true}) {
+            for (const std::string& program : programs(render)) {
+                CAPTURE(program);
+                TemporaryFolder folder;
+                Words words = brief(render, {});
+                std::set<std::string> files = {"a.ppm", "a.pfm", "a.png"};
+                if (!render) files.insert("a.tsv");
+                for (const std::string& file : files) {
+                    words.insert(words.end(), {"--out", folder / file});
+                }
+                Finished end = run(program, words);
+                CHECK(end.code == 0);
+                CHECK(end.err == "");
+                CHECK(end.out != "");
+                CHECK(folder.names() == files);
+                Image pfm = read_image(folder / "a.pfm"), ppm = read_image(folder / "a.ppm");
+                CHECK(pfm.width == ppm.width);
+                CHECK(pfm.height == ppm.height);
+                if (render) CHECK(pfm.width == 33);
+                // The command that made it stands in the .png.
+                std::string png = read_file(folder / "a.png");
+                CHECK(png.find(std::string("tEXtComment\0build/", 18) + program) !=
+                      std::string::npos);
+
+                words.push_back("--quiet");
+                end = run(program, words);
+                CHECK(end.code == 0);
+                CHECK(end.out == "");
+                CHECK(end.err == "");
+            }
+        }
+    }
+
+    TEST_CASE("files: the heat map of chapter 05 has its own table, and refuses before any work") {
+        TemporaryFolder folder;
+        Finished end = run("05_bvh", small({"--out", folder / "a.ppm"}));
+        CHECK(end.code == 0);
+        for (const char* word : {"linear", "median", "sah", "ordered", "wide", "M rays/s"}) {
+            CHECK(end.out.find(word) != std::string::npos);
+        }
+        CHECK(read_image(folder / "a.ppm").width == 33);
+        CHECK(run("05_bvh", small({"--step", "sha", "--out", folder / "a.ppm"})).err ==
+              "error: --step takes linear, median, sah, ordered or wide (did you mean 'sah'?), not "
+              "'sha'\n");
+        end = run("05_bvh", {spheres, "--out", "none/a.ppm"});
+        CHECK(end.code == 1);
+        CHECK(end.out == "");
+        CHECK(end.err == "none/a.ppm: error: cannot write: No such file or directory\n");
+    }
+
+    TEST_CASE("identity: the same bytes for 1, 2 and 7 threads and for each sampler") {
+        for (const std::string& program : programs(true)) {
+            CAPTURE(program);
+            std::set<std::string> different;
+            for (const char* sampler : {"independent", "stratified", "sobol"}) {
+                TemporaryFolder folder;
+                std::set<std::string> same;
+                for (const char* threads : {"1", "2", "7"}) {
+                    Words words = small({"--threads", threads, "--sampler", sampler, "--quiet",
+                                         "--out", folder / "a.pfm"});
+                    CHECK(run(program, words).code == 0);
+                    same.insert(read_file(folder / "a.pfm"));
+                }
+                CHECK(same.size() == 1);
+                different.insert(*same.begin());
+            }
+            CHECK(different.size() == 3);
+        }
+    }
+
+    TEST_CASE("teeth: another seed gives other bytes, and the same seed the same ones") {
+        TemporaryFolder folder;
+        for (bool render : {false, true}) {
+            for (const std::string& program : programs(render)) {
+                CAPTURE(program);
+                std::string picture = folder / "a.pfm", bytes[3];
+                for (size_t i = 0; i < 3; i++) {
+                    Words words = {"--seed", i == 2 ? "8" : "7", "--quiet", "--out", picture};
+                    CHECK(run(program, brief(render, words)).code == 0);
+                    bytes[i] = read_file(picture);
+                }
+                CHECK(bytes[0] == bytes[1]);
+                CHECK(bytes[0] != bytes[2]);
+            }
+        }
+    }
+
+    TEST_CASE("truth: --stats is JSON with what was measured, and null for what is unknown") {
+        TemporaryFolder folder;
+        Words words = {"scenes/furnace.pbrt",
+                       "--size",
+                       "20x10",
+                       "--seed",
+                       "3",
+                       "--threads",
+                       "2",
+                       "--stats",
+                       folder / "s.json",
+                       "--quiet",
+                       "--out",
+                       folder / "a.pfm"};
+        words.insert(words.end(), {"--spp", "4"});
+        REQUIRE(run(path_tracer, words).code == 0);
+        auto stats = json_values(read_file(folder / "s.json"));
+        CHECK(stats.at("scene") == "scenes/furnace.pbrt");
+        CHECK(stats.at("chapter") == path_tracer);
+        CHECK(stats.at("width") == "20");
+        CHECK(stats.at("height") == "10");
+        CHECK(stats.at("spp") == "4");
+        CHECK(stats.at("seed") == "3");
+        CHECK(stats.at("threads") == "2");
+        CHECK(stats.at("samples_not_finite") == "0");
+        CHECK(stats.at("interrupted") == "false");
+        double seconds = std::stod(stats.at("seconds")), rays = std::stod(stats.at("rays"));
+        CHECK(seconds > 0);
+        CHECK(rays >= 20 * 10 * 4);
+        CHECK(std::stod(stats.at("rays_per_second")) ==
+              doctest::Approx(rays / seconds).epsilon(1e-6).scale(0));
+        double mean = 0;
+        for (Rgb p : read_image(folder / "a.pfm").pixels) {
+            mean += static_cast<double>(p.r + p.g + p.b) / 3 / 200;
+        }
+        CHECK(std::stod(stats.at("mean")) == doctest::Approx(mean).epsilon(1e-6).scale(0));
+        CHECK(std::stod(stats.at("standard_error")) > 0);
+
+        words.back() = "1";
+        REQUIRE(run(path_tracer, words).code == 0);
+        stats = json_values(read_file(folder / "s.json"));
+        CHECK(stats.at("standard_error") == "null");
+        CHECK(stats.at("mean") != "null");
+    }
+
+    TEST_CASE("files: output that does not arrive is exit code 1") {
+        for (const Words& words : {Words{"--help"}, small({"--out", "a.ppm"})}) {
+            for (const char* place : {"/dev/full", "nowhere"}) {
+                TemporaryFolder folder;
+                Words all = words;
+                if (all.size() > 1) all.back() = folder / "a.ppm";
+                fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / path_tracer;
+                Finished end = Process([&] {
+                                   std::vector<char*> argv = {file.string().data()};
+                                   ::close(STDOUT_FILENO);
+                                   if (place[0] == '/') ::open(place, O_WRONLY);
+                                   std::string name = "build/" + path_tracer;
+                                   argv[0] = name.data();
+                                   for (std::string& word : all) argv.push_back(word.data());
+                                   argv.push_back(nullptr);
+                                   ::execv(file.c_str(), argv.data());
+                                   return 127;
+                               }).wait();
+                CHECK(end.code == 1);
+                CHECK(end.err == std::string("stdout: error: cannot write: ") +
+                                     (place[0] == '/' ? "No space left on device\n"
+                                                      : "Bad file descriptor\n"));
+                if (all.size() > 1) CHECK(read_image(folder / "a.ppm").width == 33);
+            }
+        }
+    }
+
+    TEST_CASE("files: an interrupt leaves a whole picture, with a note and exit code 0") {
+        TemporaryFolder folder;
+        Finished end;
+        // The signal must not come before it renders; so wait longer when it was too early.
+        for (int ms = 300; ms < 30000; ms *= 2) {
+            Process process = start(path_tracer, {"--size", "32x32", "--spp", "1000000000", "--out",
+                                                  folder / "a.pfm", "--stats", folder / "s.json"});
+            ::usleep(static_cast<useconds_t>(1000 * ms));
+            process.kill(SIGINT);
+            end = process.wait();
+            if (end.signal == 0) break;
+        }
+        CHECK(end.code == 0);
+        CHECK(end.err == "");
+        CHECK(end.out.find(" (interrupted)\n") != std::string::npos);
+        auto stats = json_values(read_file(folder / "s.json"));
+        CHECK(stats.at("interrupted") == "true");
+        CHECK(std::stod(stats.at("spp")) >= 64);  // the first pass of so small a picture
+        Image image = read_image(folder / "a.pfm");
+        CHECK(image.width == 32);
+        // Of the Cornell box, the light among its pixels.
+        float brightest = 0;
+        for (Rgb p : image.pixels) brightest = std::max(brightest, p.r);
+        CHECK(brightest > 10);
+    }
+
+    TEST_CASE("files: a killed program leaves the picture of before") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "a.ppm", "the old one");
+        Process process = start(path_tracer, {"--spp", "1000000000", "--out", folder / "a.ppm"});
+        ::usleep(300000);
+        process.kill(SIGKILL);
+        CHECK(process.wait().signal == SIGKILL);
+        CHECK(read_file(folder / "a.ppm") == "the old one");
+        CHECK(folder.names() == std::set<std::string>{"a.ppm"});
+    }
+
+    TEST_CASE("truth: --time ends the render after so many seconds") {
+        TemporaryFolder folder;
+        auto begin = std::chrono::steady_clock::now();
+        Finished end = run(path_tracer, {spheres, "--size", "64x64", "--time", "0.4", "--quiet",
+                                         "--out", folder / "a.pfm", "--stats", folder / "s.json"});
+        CHECK(end.code == 0);
+        CHECK(seconds_since(begin) < 10);
+        auto stats = json_values(read_file(folder / "s.json"));
+        CHECK(std::stod(stats.at("seconds")) >= 0.4);
+        CHECK(std::stod(stats.at("seconds")) < 5);
+        CHECK(std::stod(stats.at("spp")) >= 1);
+    }
+
+    TEST_CASE("identity: a path that is explained is the sample of the picture") {
+        TemporaryFolder folder;
+        for (const std::string& program : programs(true)) {
+            CAPTURE(program);
+            Words words = {spheres, "--size", "24x24", "--max-depth", "6", "--seed", "4"};
+            Words render = words, outputs = {"--spp", "1", "--quiet", "--out", folder / "a.pfm"};
+            render.insert(render.end(), outputs.begin(), outputs.end());
+            REQUIRE(run(program, render).code == 0);
+            Image image = read_image(folder / "a.pfm");
+            for (auto [x, y] : {std::pair(12, 12), std::pair(5, 20), std::pair(12, 1)}) {
+                Words explain = words;
+                std::string pixel = std::to_string(x) + "," + std::to_string(y);
+                explain.insert(explain.end(),
+                               {"--spp", "1", "--explain", pixel, "--out", folder / "b.ppm"});
+                Finished end = run(program, explain);
+                CHECK(end.code == 0);
+                CHECK(end.err == "");
+                CHECK(end.out.starts_with("pixel " + pixel + " sample 0 of " + spheres + ": "));
+                CHECK(end.out.find("\nvertex 1  ") != std::string::npos);
+                char L[200];
+                Rgb p = image.at(x, y);
+                std::snprintf(L, sizeof L, "\nL (%.6g, %.6g, %.6g)\n", double{p.r}, double{p.g},
+                              double{p.b});
+                CHECK(end.out.find(L) != std::string::npos);
+
+                // The drawing is well-formed: all its elements are closed, and it has the path.
+                std::string svg = read_file(folder / "b.svg");
+                CHECK(svg.starts_with("<svg xmlns='http://www.w3.org/2000/svg' "));
+                CHECK(svg.ends_with("</svg>\n"));
+                CHECK(svg.find("nan") == std::string::npos);
+                CHECK(svg.find("stroke='#c03'") != std::string::npos);
+                std::ptrdiff_t opened = std::count(svg.begin(), svg.end(), '<');
+                std::ptrdiff_t closed = 0, ends = 0;
+                for (size_t i = 0; i + 1 < svg.size(); i++) {
+                    closed += svg[i] == '/' && svg[i + 1] == '>';
+                    ends += svg[i] == '<' && svg[i + 1] == '/';
+                }
+                CHECK(opened == closed + 2 * ends);
+            }
+            CHECK_FALSE(folder.names().contains("b.ppm"));
+        }
+    }
+
+    TEST_CASE("input: a path that is not of the picture cannot be explained") {
+        struct {
+            const char *path, *error;
+        } cases[] = {
+            {"24,0", "error: pixel 24,0 lies outside the picture of 24x12\n"},
+            {"0,12", "error: pixel 0,12 lies outside the picture of 24x12\n"},
+            {"0,0,2", "error: sample 2 is not one of the 2 of a pixel; they count from 0\n"},
+        };
+        for (const auto& c : cases) {
+            Finished end =
+                run(path_tracer, {spheres, "--size", "24x12", "--spp", "2", "--explain", c.path});
+            CHECK(end.code == 2);
+            CHECK(end.err == c.error);
+        }
+    }
+
+    TEST_CASE("identity: the pictures of --split sum to the whole, in each chapter") {
+        for (const std::string& program : programs(true)) {
+            CAPTURE(program);
+            TemporaryFolder folder;
+            Words words = {spheres,   "--size",  "24x24",      "--spp", "4",
+                           "--quiet", "--split", folder / "d", "--out", folder / "a.pfm"};
+            REQUIRE(run(program, words).code == 0);
+            Image whole = read_image(folder / "a.pfm"), sum(24, 24);
+            std::set<std::string> classes;
+            for (const auto& entry : fs::directory_iterator(folder / "d")) {
+                classes.insert(entry.path().stem().string());
+                Image part = read_image(entry.path().string());
+                for (size_t i = 0; i < sum.pixels.size(); i++) sum.pixels[i] += part.pixels[i];
+            }
+            for (const char* one : {"LE", "LDE"}) CHECK(classes.contains(one));
+            for (size_t i = 0; i < sum.pixels.size(); i++) {
+                double a = static_cast<double>(sum.pixels[i].g);
+                double b = static_cast<double>(whole.pixels[i].g);
+                CHECK(std::abs(a - b) <= 1e-5 * b);
+            }
+        }
+    }
+
+    TEST_CASE("identity: --paths keeps the classes that --split would name") {
+        TemporaryFolder folder;
+        Words words = small({"--quiet", "--split", folder / "d", "--out", folder / "a.pfm"});
+        REQUIRE(run(path_tracer, words).code == 0);
+        words = small({"--quiet", "--paths", "LDE", "--out", folder / "b.pfm"});
+        REQUIRE(run(path_tracer, words).code == 0);
+        CHECK(read_file(folder / "d/LDE.pfm") == read_file(folder / "b.pfm"));
+    }
+
+    TEST_CASE("input: scenes that cannot be read are one line and exit code 1") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "bad.pbrt", "WorldBegin\nShape \"spere\"\n");
+        struct {
+            std::string scene, error;
+        } cases[] = {
+            {folder / "none.pbrt", folder / "none.pbrt" + ": error: cannot read: "},
+            {folder.path(), folder.path() + ": error: cannot read: Is a directory\n"},
+            {folder / "bad.pbrt", folder / "bad.pbrt" + ":2:7: error: "},
+            {"/dev/null", "/dev/null"},
+        };
+        for (const auto& c : cases) {
+            Finished end = run(path_tracer, {c.scene, "--out", folder / "a.ppm"});
+            CHECK(end.code == 1);
+            CHECK(end.out == "");
+            CHECK(end.err.starts_with(c.error));
+            CHECK(is_one_line(end.err));
+        }
+        CHECK(folder.names() == std::set<std::string>{"bad.pbrt"});
+    }
+}

@@ -1,0 +1,500 @@
+// The random numbers of common/path/sampler.h: their bits, their evenness, and their independence.
+#include "common/path/sampler.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "tests/support/gates.h"
+
+namespace {
+
+constexpr double pi_variance = std::numbers::pi * (4 - std::numbers::pi);  // of one dart
+constexpr SamplerType all_types[] = {SamplerType::independent, SamplerType::stratified,
+                                     SamplerType::sobol};
+
+double product(Vec2 p) { return double{p.x} * double{p.y}; }
+double dart(Vec2 p) {
+    double x = double{p.x}, y = double{p.y};
+    return x * x + y * y <= 1 ? 4 : 0;
+}
+double exponential(Vec2 p) { return std::exp(double{p.x} + double{p.y}); }
+
+/// The first `n` samples of a pixel: the pair number `pair` of each.
+std::vector<Vec2> pixel_points(Sampler sampler, uint32_t pixel, uint32_t n, int pair = 0) {
+    std::vector<Vec2> points;
+    for (uint32_t i = 0; i < n; i++) {
+        sampler.start(pixel, i);
+        for (int k = 0; k < pair; k++) sampler.u2();
+        points.push_back(sampler.u2());
+    }
+    return points;
+}
+
+/// The estimates of many pixels, each the average of f over its `spp` samples.
+RunningStats pixel_estimates(SamplerType type, uint32_t spp, uint32_t pixels, double (*f)(Vec2)) {
+    RunningStats estimates;
+    for (uint32_t pixel = 0; pixel < pixels; pixel++) {
+        RunningStats estimate;
+        for (Vec2 p : pixel_points(Sampler(type, 1, spp), pixel, spp)) estimate.add(f(p));
+        estimates.add(estimate.mean());
+    }
+    return estimates;
+}
+
+/// Whether each of the 2^m boxes of size 2^-a x 2^-(m-a) holds one of the 2^m points, for every a.
+bool fills_all_dyadic_boxes(const std::vector<Vec2>& points, int m) {
+    for (int a = 0; a <= m; a++) {
+        std::set<std::pair<int, int>> boxes;
+        for (Vec2 p : points)
+            boxes.emplace(static_cast<int>(std::ldexp(p.x, a)),
+                          static_cast<int>(std::ldexp(p.y, m - a)));
+        if (boxes.size() != points.size()) return false;
+    }
+    return points.size() == size_t{1} << m;
+}
+
+std::vector<Vec2> plain_sobol(uint32_t first, uint32_t n) {
+    std::vector<Vec2> points;
+    for (uint32_t i = first; i < first + n; i++)
+        points.push_back({to_unit_float(reverse_bits(i)), to_unit_float(sobol_second(i))});
+    return points;
+}
+
+double chi_square_10x10(const std::vector<Vec2>& points) {
+    std::array<double, 100> counts{};
+    for (Vec2 p : points)
+        counts[static_cast<size_t>(10 * p.x) * 10 + static_cast<size_t>(10 * p.y)]++;
+    return chi_square(counts);
+}
+
+struct Box {
+    Vec2 low, high;
+    double area() const {
+        return (static_cast<double>(high.x) - static_cast<double>(low.x)) *
+               (static_cast<double>(high.y) - static_cast<double>(low.y));
+    }
+};
+
+/// The strata of a jitter, found by asking for their corners.
+template <class Jitter>
+std::vector<Box> strata(Jitter jitter, uint32_t n) {
+    std::vector<Box> boxes;
+    constexpr float almost_1 = 0x1.fffffep-1f;
+    for (uint32_t i = 0; i < n; i++)
+        boxes.push_back({jitter(i, n, Vec2{0, 0}), jitter(i, n, Vec2{almost_1, almost_1})});
+    return boxes;
+}
+
+/// Whether the boxes cover the square once: equal areas of 1/n, and no two that overlap.
+bool are_equal_tiles(const std::vector<Box>& boxes) {
+    constexpr float rounding = 1e-6f;
+    double n = static_cast<double>(boxes.size());
+    for (const Box& a : boxes) {
+        if (std::abs(a.area() * n - 1) > 1e-4) return false;
+        for (const Box& b : boxes)
+            if (&a != &b && a.low.x + rounding < b.high.x && b.low.x + rounding < a.high.x &&
+                a.low.y + rounding < b.high.y && b.low.y + rounding < a.high.y)
+                return false;
+    }
+    return true;
+}
+
+/// The mistake: a k x k grid for any n, so that the first n - k^2 strata are used twice.
+Vec2 jitter_in_square_grid(uint32_t i, uint32_t n, Vec2 u) {
+    uint32_t k = static_cast<uint32_t>(std::sqrt(static_cast<double>(n))), cell = i % (k * k);
+    return {(static_cast<float>(cell % k) + u.x) / static_cast<float>(k),
+            (static_cast<float>(cell / k) + u.y) / static_cast<float>(k)};
+}
+
+}  // namespace
+
+TEST_SUITE("sampler: bits") {
+    TEST_CASE("identity: 32 random bits become a float that is never 1") {
+        CHECK(to_unit_float(0xffffffffu) == 0x1.fffffep-1f);
+        CHECK(to_unit_float(0) == 0);
+        CHECK(to_unit_float(0x100u) == 0x1p-24f);  // the smallest that is not 0
+        CHECK(to_unit_float(0x80000000u) == 0.5f);
+    }
+
+    TEST_CASE("teeth: scaling all 32 bits gives 1") {
+        CHECK(static_cast<float>(0xffffffffu) * 0x1p-32f == 1);
+    }
+
+    TEST_CASE("identity: reverse_bits puts bit k at 31 - k") {
+        for (uint32_t k = 0; k < 32; k++) CHECK(reverse_bits(1u << k) == 1u << (31 - k));
+        CHECK(reverse_bits(reverse_bits(0x12345678u)) == 0x12345678u);
+    }
+
+    TEST_CASE("identity: hash32 has no collisions") {
+        std::vector<uint32_t> hashes;
+        for (uint32_t i = 0; i < 1u << 20; i++) hashes.push_back(hash32(i));
+        std::sort(hashes.begin(), hashes.end());
+        CHECK(std::adjacent_find(hashes.begin(), hashes.end()) == hashes.end());
+    }
+
+    TEST_CASE("identity: a sample is a function of seed, pixel and number, not of the order") {
+        for (SamplerType type : all_types) {
+            Sampler a(type, 7, 16), b(type, 7, 16);
+            for (uint32_t i = 0; i < 16; i++) {
+                a.start(3, i);
+                Vec2 first = a.u2();
+                a.u1();
+                b.start(9, i);  // b wanders off and comes back
+                b.u1();
+                b.start(3, i);
+                Vec2 again = b.u2();
+                CHECK(first.x == again.x);
+                CHECK(first.y == again.y);
+            }
+        }
+    }
+
+    TEST_CASE("identity: another seed, pixel, sample or dimension gives other numbers") {
+        for (SamplerType type : all_types) {
+            Sampler a(type, 7, 16), b(type, 8, 16);
+            auto first = [](Sampler& s, uint32_t pixel, uint32_t sample) {
+                s.start(pixel, sample);
+                return s.u1();
+            };
+            float x = first(a, 3, 5);
+            CHECK(x != a.u1());
+            CHECK(x != first(b, 3, 5));
+            CHECK(x != first(a, 4, 5));
+            CHECK(x != first(b, 2, 5));  // seeds do not just shift the picture
+            CHECK(x != first(a, 3, 6));
+        }
+    }
+}
+
+TEST_SUITE("sampler: uniform and independent") {
+    TEST_CASE("density: every number is in [0,1), and as many fall into each of 10 x 10 cells") {
+        // One pair per pixel: however a pixel spreads its samples, a single one is uniform.
+        for (SamplerType type : all_types)
+            for (uint32_t spp : {1u, 7u, 16u})
+                for (int pair : {0, 1, 7}) {
+                    CAPTURE(static_cast<int>(type));
+                    CAPTURE(spp);
+                    CAPTURE(pair);
+                    std::vector<Vec2> points;
+                    for (uint32_t pixel = 0; pixel < 100000; pixel++) {
+                        Sampler sampler(type, 1, spp);
+                        sampler.start(pixel, pixel % spp);
+                        for (int k = 0; k < pair; k++) sampler.u2();
+                        Vec2 p = sampler.u2();
+                        points.push_back(p);
+                        if (!(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1)) FAIL(p.x, " ", p.y);
+                    }
+                    double chi2 = chi_square_10x10(points);
+                    CHECK(chi_square_tail(chi2, 99) > 1e-6);
+                    CHECK(chi_square_tail(chi2, 99) <
+                          1 - 1e-6);  // nor too even: pixels are independent
+                }
+    }
+
+    TEST_CASE("teeth: a coordinate that is squared fails the chi^2 gate") {
+        std::vector<Vec2> points = pixel_points(Sampler(SamplerType::independent, 1, 1), 0, 100000);
+        CHECK(chi_square_tail(chi_square_10x10(points), 99) > 1e-6);
+        for (Vec2& p : points) p.x = std::pow(p.x, 1.05f);
+        CHECK(chi_square_tail(chi_square_10x10(points), 99) < 1e-6);
+    }
+
+    TEST_CASE("truth: moments of one number and of a pair") {
+        RunningStats x, x2, x4, xy;
+        for (Vec2 p : pixel_points(Sampler(SamplerType::independent, 1, 1), 5, 1000000)) {
+            double u = double{p.x};
+            x.add(u);
+            x2.add(u * u);
+            x4.add(u * u * u * u);
+            xy.add(product(p));
+        }
+        check_mean(x, 1.0 / 2, 1.0 / 12, 0.003);
+        check_mean(x2, 1.0 / 3, 4.0 / 45, 0.003);
+        check_mean(x4, 1.0 / 5, 16.0 / 225, 0.003);
+        check_mean(xy, 1.0 / 4, 7.0 / 144, 0.002);
+    }
+
+    TEST_CASE("density: neighbours in pixel, sample, dimension and seed are not correlated") {
+        // 12 (u - 1/2)(v - 1/2) has mean 0 and variance 1 when u and v are independent.
+        constexpr uint32_t n = 1 << 18;
+        for (SamplerType type : all_types) {
+            CAPTURE(static_cast<int>(type));
+            auto number = [&](uint32_t seed, uint32_t pixel, uint32_t sample, uint32_t dimension) {
+                Sampler s(type, seed, 16);
+                s.start(pixel, sample);
+                for (uint32_t d = 0; d < dimension; d++) s.u1();
+                return static_cast<double>(s.u1()) - 0.5;
+            };
+            RunningStats pixel, row, dimension, seed;
+            for (uint32_t i = 0; i < n; i++) {
+                double u = number(1, i, 0, 0);
+                pixel.add(12 * u * number(1, i + 1, 0, 0));
+                row.add(12 * u * number(1, i + 256, 0, 0));
+                dimension.add(12 * u * number(1, i, 0, 1));
+                seed.add(12 * u * number(2, i, 0, 0));
+            }
+            for (const RunningStats& s : {pixel, row, dimension, seed}) check_mean(s, 0, 1, 0.02);
+        }
+        RunningStats sample;
+        std::vector<Vec2> p = pixel_points(Sampler(SamplerType::independent, 1, 1), 0, n + 1);
+        for (uint32_t i = 0; i < n; i++)
+            sample.add(12 * (static_cast<double>(p[i].x) - 0.5) *
+                       (static_cast<double>(p[i + 1].x) - 0.5));
+        check_mean(sample, 0, 1, 0.02);
+    }
+
+    TEST_CASE("density: the numbers of one long path are uniform, and each pair independent") {
+        for (SamplerType type : all_types) {
+            CAPTURE(static_cast<int>(type));
+            Sampler sampler(type, 3, 16);
+            sampler.start(5, 7);
+            std::vector<Vec2> points;
+            RunningStats lag;
+            float last = sampler.u1();
+            for (int i = 0; i < 100000; i++) {
+                points.push_back(sampler.u2());
+                lag.add(12 * (double{points.back().x} - 0.5) * (double{last} - 0.5));
+                last = points.back().y;
+            }
+            double chi2 = chi_square_10x10(points);
+            CHECK(chi_square_tail(chi2, 99) > 1e-6);
+            CHECK(chi_square_tail(chi2, 99) < 1 - 1e-6);
+            check_mean(lag, 0, 1, 0.03);
+        }
+    }
+
+    TEST_CASE("truth: pairs of different dimensions are shuffled apart, E[xy] is 1/4") {
+        // x from the first pair and y from the second: strata in the same order for both would
+        // give 1/3 - 1/(12 N^2) = 0.3333.
+        for (SamplerType type : all_types) {
+            RunningStats estimates;
+            for (uint32_t pixel = 0; pixel < 2000; pixel++) {
+                std::vector<Vec2> a = pixel_points(Sampler(type, 1, 64), pixel, 64, 0);
+                std::vector<Vec2> b = pixel_points(Sampler(type, 1, 64), pixel, 64, 1);
+                for (size_t i = 0; i < 64; i++) estimates.add(product({a[i].x, b[i].y}));
+            }
+            check_mean(estimates, 0.25, 7.0 / 144, 0.006);
+        }
+    }
+
+    TEST_CASE("truth: a product over twelve dimensions has mean 1 with every sampler") {
+        // f = (1/2 + x1) ... (1/2 + x12): E f = 1, Var f = (13/12)^12 - 1 = 1.613
+        for (SamplerType type : all_types) {
+            RunningStats samples;
+            Sampler sampler(type, 1, 16);
+            for (uint32_t i = 0; i < 200000; i++) {
+                sampler.start(i / 16, i % 16);
+                double f = 1;
+                for (int pair = 0; pair < 6; pair++) {
+                    Vec2 p = sampler.u2();
+                    f *= (0.5 + double{p.x}) * (0.5 + double{p.y});
+                }
+                samples.add(f);
+            }
+            check_mean(samples, 1, std::pow(13.0 / 12, 12) - 1, 0.03);
+        }
+    }
+
+    TEST_CASE("truth: permute is a permutation for every n, and each place equally likely") {
+        for (uint32_t n = 1; n <= 200; n++)
+            for (uint32_t seed : {0u, 1u, 0xffffffffu, 0x9e3779b9u}) {
+                std::vector<bool> seen(n, false);
+                for (uint32_t i = 0; i < n; i++) seen[permute(i, n, seed)] = true;
+                CHECK(std::count(seen.begin(), seen.end(), true) == n);
+            }
+        for (uint32_t i = 0; i < 10; i++) {
+            std::array<double, 10> counts{};
+            for (uint32_t seed = 0; seed < 100000; seed++) counts[permute(i, 10, hash32(seed))]++;
+            CHECK(chi_square_tail(chi_square(counts), 9) > 1e-6);
+        }
+    }
+
+    TEST_CASE("variance: two shuffled dimensions meet as in a random order, also for n = 4") {
+        // Centres of n strata, c = cos(2 pi x) and so for y: over all pairs of random orders,
+        // Var (1/n) sum c(x) c(y) = (sum c^2)^2 / (n^2 (n-1)) = 1 / (4 (n-1)).
+        for (uint32_t n : {4u, 7u, 16u}) {
+            CAPTURE(n);
+            auto wave = [&](uint32_t i) {
+                return std::cos(2 * std::numbers::pi * (i + 0.5) / static_cast<double>(n));
+            };
+            RunningStats estimates;
+            for (uint32_t run = 0; run < 20000; run++) {
+                uint32_t x = hash32(run, 1), y = hash32(run, 2);
+                double sum = 0;
+                for (uint32_t i = 0; i < n; i++)
+                    sum += wave(permute(i, n, x)) * wave(permute(i, n, y));
+                estimates.add(sum / n);
+            }
+            check_mean(estimates, 0, 1 / (4.0 * (n - 1)), 0.02);
+            check_variance(estimates, 1 / (4.0 * (n - 1)), 3);
+        }
+    }
+
+    TEST_CASE("teeth: the same order in two dimensions gives E[xy] = 1/3 - 1/(12 N^2)") {
+        double sum = 0;
+        for (uint32_t i = 0; i < 64; i++) {
+            double centre = (permute(i, 64, 5) + 0.5) / 64;
+            sum += centre * centre;  // of the stratum; jitter in both: x and y are independent
+        }
+        CHECK(sum / 64 == doctest::Approx(1.0 / 3 - 1 / (12.0 * 64 * 64)).epsilon(1e-14).scale(0));
+    }
+}
+
+TEST_SUITE("sampler: strata") {
+    TEST_CASE("identity: n strata of area 1/n tile the square for every n from 1 to 200") {
+        for (uint32_t n = 1; n <= 200; n++) {
+            CAPTURE(n);
+            CHECK(are_equal_tiles(strata(jitter_in_stratum, n)));
+        }
+    }
+
+    TEST_CASE("teeth: a square grid that repeats or drops the remainder is no tiling") {
+        CHECK(are_equal_tiles(strata(jitter_in_square_grid, 9)));
+        CHECK_FALSE(are_equal_tiles(strata(jitter_in_square_grid, 7)));
+        CHECK_FALSE(are_equal_tiles(strata(jitter_in_square_grid, 12)));
+    }
+
+    TEST_CASE("identity: n = k^2 gives the k x k grid") {
+        for (uint32_t k = 1; k <= 32; k++)
+            for (uint32_t i = 0; i < k * k; i++) {
+                Vec2 centre = jitter_in_stratum(i, k * k, {0.5f, 0.5f});
+                float size = 1 / static_cast<float>(k);
+                CHECK(std::abs(centre.x - (static_cast<float>(i / k) + 0.5f) * size) < 1e-6f);
+                CHECK(std::abs(centre.y - (static_cast<float>(i % k) + 0.5f) * size) < 1e-6f);
+            }
+    }
+
+    TEST_CASE("identity: strata of large n stay in the square and 1/n in area") {
+        for (uint32_t n : {1000003u, 16777216u, 0xfffffffeu})
+            for (uint32_t i : {0u, n / 3, n - 1}) {
+                Vec2 p = jitter_in_stratum(i, n, {0x1.fffffep-1f, 0x1.fffffep-1f});
+                CHECK(p.x >= 0);
+                CHECK(p.x < 1);
+                CHECK(p.y >= 0);
+                CHECK(p.y < 1);
+            }
+    }
+
+    TEST_CASE("identity: the samples of a pixel fill all strata in every dimension, for any spp") {
+        for (uint32_t spp : {1u, 2u, 3u, 5u, 7u, 16u, 36u, 61u})
+            for (int pair : {0, 1, 5})
+                for (uint32_t pass : {0u, 1u}) {  // samples beyond spp start another set
+                    std::vector<Box> boxes = strata(jitter_in_stratum, spp);
+                    Sampler sampler(SamplerType::stratified, 1, spp);
+                    std::set<size_t> filled;
+                    for (uint32_t i = 0; i < spp; i++) {
+                        sampler.start(11, pass * spp + i);
+                        for (int k = 0; k < pair; k++) sampler.u2();
+                        Vec2 p = sampler.u2();
+                        for (size_t b = 0; b < boxes.size(); b++)
+                            if (p.x >= boxes[b].low.x && p.x <= boxes[b].high.x &&
+                                p.y >= boxes[b].low.y && p.y <= boxes[b].high.y)
+                                filled.insert(b);
+                    }
+                    CHECK(filled.size() == spp);
+                }
+    }
+
+    TEST_CASE("truth: half of the stratified samples are a fair choice, not half of the picture") {
+        // In scan order the lower half of the strata would give 4 E = 3.826 instead of pi.
+        RunningStats darts;
+        for (uint32_t pixel = 0; pixel < 2000; pixel++)
+            for (Vec2 p : pixel_points(Sampler(SamplerType::stratified, 1, 64), pixel, 32))
+                darts.add(dart(p));
+        check_mean(darts, std::numbers::pi, pi_variance, 0.06);
+    }
+
+    TEST_CASE("variance: 6 x 6 and 16 x 16 strata have the exact variance for pi") {
+        auto pi_estimates = [](SamplerType type, uint32_t spp) {
+            return pixel_estimates(type, spp, 20000, dart);
+        };
+        // The averages of 36 and more darts are nearly normal: kurtosis 3.
+        check_variance(pi_estimates(SamplerType::independent, 36), pi_variance / 36, 3);
+        check_variance(pi_estimates(SamplerType::stratified, 36), 0.0162201310097, 3);
+        check_variance(pi_estimates(SamplerType::stratified, 256), 0.0009134520428503, 3);
+    }
+
+    TEST_CASE("variance: n x n strata have the exact variance for x y") {
+        for (uint32_t n : {2u, 4u, 8u, 16u}) {
+            double n2 = n * n, truth = 1 / (18 * n2 * n2) - 1 / (144 * n2 * n2 * n2);
+            RunningStats s = pixel_estimates(SamplerType::stratified, n * n, 10000, product);
+            check_variance(s, truth, 3);
+            check_mean(s, 0.25, truth, 0.01);
+        }
+    }
+}
+
+TEST_SUITE("sampler: Sobol") {
+    TEST_CASE("truth: the first eight Sobol points") {
+        std::set<std::pair<float, float>> expected{
+            {0, 0},           {0.5f, 0.5f},     {0.75f, 0.25f},   {0.25f, 0.75f},
+            {0.375f, 0.375f}, {0.875f, 0.875f}, {0.625f, 0.125f}, {0.125f, 0.625f}};
+        std::set<std::pair<float, float>> points;
+        for (Vec2 p : plain_sobol(0, 8)) points.emplace(p.x, p.y);
+        CHECK(points == expected);
+    }
+
+    TEST_CASE("truth: every dyadic box holds one of the first 2^m Sobol points") {
+        for (int m = 1; m <= 10; m++) CHECK(fills_all_dyadic_boxes(plain_sobol(0, 1u << m), m));
+    }
+
+    TEST_CASE("teeth: without point 0, or for x = y, boxes stay empty") {
+        CHECK_FALSE(fills_all_dyadic_boxes(plain_sobol(1, 15), 4));
+        CHECK_FALSE(fills_all_dyadic_boxes(plain_sobol(1, 16), 4));
+        std::vector<Vec2> diagonal = plain_sobol(0, 16);
+        for (Vec2& p : diagonal) p.y = p.x;
+        CHECK_FALSE(fills_all_dyadic_boxes(diagonal, 4));
+    }
+
+    TEST_CASE("truth: darts inside the quarter circle, of the first N Sobol points") {
+        for (auto [n, inside] : {std::pair{16u, 13},
+                                 {64u, 52},
+                                 {256u, 203},
+                                 {1024u, 806},
+                                 {4096u, 3215},
+                                 {16384u, 12873},
+                                 {65536u, 51475}}) {
+            double sum = 0;
+            for (Vec2 p : plain_sobol(0, n)) sum += dart(p);
+            CHECK(sum == 4 * inside);
+        }
+    }
+
+    TEST_CASE("identity: scrambled and shuffled points fill the same boxes, in every dimension") {
+        for (uint32_t pixel = 0; pixel < 50; pixel++)
+            for (int pair : {0, 1, 6})
+                for (int m = 1; m <= 8; m++) {
+                    Sampler sampler(SamplerType::sobol, 1, 1u << m);
+                    CHECK(fills_all_dyadic_boxes(pixel_points(sampler, pixel, 1u << m, pair), m));
+                }
+    }
+
+    TEST_CASE("variance: Owen-scrambled Sobol as with explicit nested scrambling") {
+        struct Row {
+            uint32_t n;
+            double pi, xy, exponential;
+        };
+        for (Row row : {Row{16, 4.805e-2, 4.785e-5, 7.391e-4},
+                        {64, 5.499e-3, 1.013e-6, 1.431e-5},
+                        {256, 7.015e-4, 1.952e-8, 2.630e-7},
+                        {1024, 1.032e-4, 3.759e-10, 4.720e-9}}) {
+            CAPTURE(row.n);
+            auto variance = [&](double (*f)(Vec2)) {
+                return pixel_estimates(SamplerType::sobol, row.n, 3000, f).variance();
+            };
+            CHECK(std::abs(variance(dart) / row.pi - 1) < 0.15);
+            CHECK(std::abs(variance(product) / row.xy - 1) < 0.15);
+            CHECK(std::abs(variance(exponential) / row.exponential - 1) < 0.15);
+        }
+    }
+
+    TEST_CASE("truth: Owen-scrambled Sobol is unbiased") {
+        RunningStats darts = pixel_estimates(SamplerType::sobol, 16, 20000, dart);
+        check_mean(darts, std::numbers::pi, 4.805e-2, 0.02);
+        RunningStats products = pixel_estimates(SamplerType::sobol, 16, 20000, product);
+        check_mean(products, 0.25, 4.785e-5, 0.001);
+    }
+}

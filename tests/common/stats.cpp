@@ -1,0 +1,148 @@
+// The running statistics of common/base/stats.h.
+#include "common/base/stats.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "tests/support/gates.h"
+
+namespace {
+
+RunningStats stats_of(const std::vector<double>& samples) {
+    RunningStats s;
+    for (double x : samples) s.add(x);
+    return s;
+}
+
+/// `n` numbers: `base`, `base + 1`, `base`, ...: the mean is base + 1/2, and the variance 1/4.
+RunningStats alternate(double base, int n) {
+    RunningStats s;
+    for (int i = 0; i < n; i++) s.add(base + i % 2);
+    return s;
+}
+
+/// E[x^2] - E[x]^2, the formula that cancels.
+template <class Float>
+Float textbook_variance(Float base, int n) {
+    Float sum = 0, squares = 0;
+    for (int i = 0; i < n; i++) {
+        Float x = base + static_cast<Float>(i % 2);
+        sum += x;
+        squares += x * x;
+    }
+    Float mean = sum / static_cast<Float>(n);
+    return squares / static_cast<Float>(n) - mean * mean;
+}
+
+}  // namespace
+
+TEST_SUITE("stats") {
+    TEST_CASE("identity: mean, variance and standard error of four numbers") {
+        RunningStats s = stats_of({2, 4, 4, 6});
+        CHECK(s.count() == 4);
+        CHECK(s.mean() == 4);
+        CHECK(s.variance() == doctest::Approx(8.0 / 3).epsilon(1e-15).scale(0));
+        CHECK(s.standard_error() == doctest::Approx(std::sqrt(2.0 / 3)).epsilon(1e-15).scale(0));
+    }
+
+    TEST_CASE("identity: the variance is unbiased, its divisor is n - 1") {
+        // All 9 pairs of {0, 1, 5}: the average of s^2 is the variance of one draw, 14/3.
+        double sum = 0;
+        for (double a : {0, 1, 5})
+            for (double b : {0, 1, 5}) sum += stats_of({a, b}).variance();
+        CHECK(sum / 9 == doctest::Approx(14.0 / 3).epsilon(1e-15).scale(0));
+    }
+
+    TEST_CASE("identity: nothing and one number have no variance") {
+        CHECK(RunningStats().count() == 0);
+        CHECK(RunningStats().mean() == 0);
+        CHECK(RunningStats().standard_error() == 0);
+        RunningStats nothing;
+        nothing.merge(RunningStats());
+        CHECK(nothing.mean() == 0);
+        CHECK(stats_of({7}).mean() == 7);
+        CHECK(stats_of({7}).variance() == 0);
+        CHECK(stats_of({7}).standard_error() == 0);
+    }
+
+    TEST_CASE("identity: merged halves equal the whole, wherever it is cut") {
+        std::vector<double> x;
+        for (int i = 0; i < 101; i++) x.push_back(std::sin(i * i) * 1e3 + 1e6);
+        RunningStats whole = stats_of(x);
+        for (size_t cut : {size_t{0}, size_t{1}, size_t{50}, size_t{100}, size_t{101}}) {
+            auto middle = x.begin() + static_cast<std::ptrdiff_t>(cut);
+            RunningStats a = stats_of({x.begin(), middle});
+            a.merge(stats_of({middle, x.end()}));
+            CHECK(a.count() == whole.count());
+            CHECK(a.mean() == doctest::Approx(whole.mean()).epsilon(1e-14).scale(0));
+            CHECK(a.variance() == doctest::Approx(whole.variance()).epsilon(1e-10).scale(0));
+        }
+    }
+
+    TEST_CASE("teeth: merging only sums of squares would lose the distance of the means") {
+        RunningStats a = stats_of({0, 0, 0}), b = stats_of({10, 10, 10});
+        a.merge(b);
+        CHECK(a.mean() == 5);
+        CHECK(a.variance() == doctest::Approx(30.0).epsilon(1e-14).scale(0));  // 150 / 5, not 0
+    }
+
+    TEST_CASE("truth: Welford keeps the digits that E[x^2] - E[x]^2 loses") {
+        // n even: s^2 = (n/4) / (n-1)
+        for (double base : {0.0, 1e3, 1e9}) {
+            CAPTURE(base);
+            RunningStats s = alternate(base, 1000000);
+            CHECK(s.mean() == doctest::Approx(base + 0.5).epsilon(1e-15).scale(0));
+            CHECK(std::abs(s.variance() - 0.25 * 1e6 / (1e6 - 1)) < 1e-6);
+        }
+    }
+
+    TEST_CASE("failure: E[x^2] - E[x]^2 is negative or thousands where the truth is a quarter") {
+        CHECK(textbook_variance(0.0f, 1000000) == 0.25f);
+        CHECK(textbook_variance(1000.0f, 1000000) < 0);
+        CHECK(std::abs(textbook_variance(1e9, 1000000)) > 100);
+    }
+
+    TEST_CASE("truth: the running mean of ten million equal numbers is that number") {
+        RunningStats s;
+        for (int i = 0; i < 10000000; i++) s.add(0.1f);
+        CHECK(s.mean() == doctest::Approx(static_cast<double>(0.1f)).epsilon(1e-12).scale(0));
+        CHECK(s.variance() < 1e-20);
+    }
+
+    TEST_CASE("failure: one sample that is not finite spoils the mean, and is never hidden") {
+        RunningStats s = stats_of({1, 2, std::numeric_limits<double>::quiet_NaN(), 4});
+        CHECK(std::isnan(s.mean()));
+        CHECK(std::isnan(s.standard_error()));
+    }
+}
+
+TEST_SUITE("gates") {
+    TEST_CASE("truth: how often |z| exceeds 3, 4, 5 and 6 by chance") {
+        for (auto [z, chance] : {std::pair{3, 0.00269979606326},
+                                 {4, 6.334248366624e-5},
+                                 {5, 5.733031437584e-7},
+                                 {6, 1.973175290075e-9}})
+            CHECK(std::erfc(z / std::sqrt(2.0)) == doctest::Approx(chance).epsilon(1e-9).scale(0));
+    }
+
+    TEST_CASE("truth: the values that chi^2 exceeds once in a million") {
+        for (auto [freedom, x] :
+             {std::pair{99, 180.7920153259}, {63, 131.3697020517}, {255, 377.078115499}})
+            CHECK(chi_square_tail(x, freedom) == doctest::Approx(1e-6).epsilon(1e-6).scale(0));
+        CHECK(chi_square_tail(2 * std::log(2.0), 2) ==
+              doctest::Approx(0.5).epsilon(1e-14).scale(0));
+        CHECK(chi_square_tail(4, 1) == doctest::Approx(std::erfc(2 / std::sqrt(2.0))).scale(0));
+    }
+
+    TEST_CASE("teeth: chi^2 rejects one cell of a hundred that is 45 % too full") {
+        std::vector<double> counts(100, 1000);
+        CHECK(chi_square(counts) == 0);
+        counts[7] = 1200;
+        CHECK(chi_square_tail(chi_square(counts), 99) > 1e-6);  // not yet: chi^2 = 39
+        counts[7] = 1450;
+        CHECK(chi_square_tail(chi_square(counts), 99) < 1e-6);
+    }
+}

@@ -1,0 +1,99 @@
+// Pictures by another renderer: what our chapters must agree with.
+#include <doctest/doctest.h>
+
+#include "chapters/06_path_tracing/estimator.h"
+#include "chapters/07_russian_roulette/estimator.h"
+#include "chapters/12_mis/estimator.h"
+#include "common/picture/image.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+/// A reference picture, and for each pixel one sample of its standard error.
+struct Reference {
+    Image image, error;
+
+    explicit Reference(const std::string& name)
+        : image(read_image("tests/pictures/references/" + name + ".pfm")),
+          error(read_image("tests/pictures/references/" + name + ".err.pfm")) {}
+
+    Measured block(int x0, int y0, int side) const {
+        double mean = 0, squares = 0, pixels = static_cast<double>(side) * side;
+        for (int y = y0; y < y0 + side; y++)
+            for (int x = x0; x < x0 + side; x++) {
+                mean += static_cast<double>(average(image.at(x, y)));
+                squares += std::pow(static_cast<double>(average(error.at(x, y))), 2);
+            }
+        return {mean / pixels, std::sqrt(squares) / pixels};
+    }
+};
+
+/// Renders the reference's scene and holds it against the picture, block by block.
+Agreement hold_against_reference(const std::string& name, Trace trace, int spp, int block_side) {
+    Reference reference(name);
+    Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
+    ch12::prepare(scene);  // the other chapters do not mind
+    Film film = film_of(scene, trace, spp).film;
+    return hold_against(
+        128, block_side, [&](int x, int y, int side) { return block_of(film, x, y, side); },
+        [&](int x, int y, int side) { return reference.block(x, y, side); });
+}
+
+}  // namespace
+
+TEST_SUITE("references") {
+    TEST_CASE("agreement: the furnaces, with chapters 06 and 07") {
+        for (Trace trace : {Trace(ch06::trace), Trace(ch07::trace)}) {
+            check_agreement(hold_against_reference("furnace", trace, 16, 64), 0.001);
+            check_agreement(hold_against_reference("furnace-glass", trace, 4, 64), 0.001);
+        }
+    }
+
+    TEST_CASE("agreement: the grey Cornell box, with chapter 07") {
+        check_agreement(hold_against_reference("cornell-grey", ch07::trace, 32, 32), 0.01);
+    }
+}
+
+TEST_SUITE("references slow") {
+    TEST_CASE("agreement: the grey Cornell box, with chapters 06 and 07") {
+        for (Trace trace : {Trace(ch06::trace), Trace(ch07::trace)}) {
+            Agreement a = hold_against_reference("cornell-grey", trace, 1024, 8);
+            check_agreement(a, 0.002);
+            CHECK(a.relative < 0.01);
+        }
+    }
+
+    TEST_CASE("agreement: plates, many lights, hidden and close lights, with chapter 12") {
+        struct {
+            std::string name;
+            int spp;
+            double relative_se;
+        } cases[] = {{"veach-mis", 2048, 0.003},
+                     {"many-lights", 1024, 0.001},
+                     {"hidden-bright", 1024, 0.001},
+                     {"tiny-close-light", 1024, 0.003},
+                     {"cornell-grey", 1024, 0.001}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            Agreement a = hold_against_reference(c.name, ch12::trace, c.spp, 8);
+            check_agreement(a, c.relative_se);
+            CHECK(a.relative < 0.005);
+        }
+    }
+
+    TEST_CASE("agreement: a caustic, found by chance") {
+        check_agreement(hold_against_reference("glass-caustic", ch06::trace, 4096, 32), 0.015);
+    }
+
+    TEST_CASE("agreement: lights that almost touch what they light") {
+        check_agreement(hold_against_reference("tiny-close-light", ch06::trace, 1024, 32), 0.01);
+    }
+
+    TEST_CASE("agreement: a room with a far brighter one behind the wall") {
+        check_agreement(hold_against_reference("hidden-bright", ch07::trace, 512, 16), 0.01);
+    }
+
+    TEST_CASE("agreement: a thousand lights, found by chance") {
+        check_agreement(hold_against_reference("many-lights", ch06::trace, 512, 32), 0.01);
+    }
+}

@@ -1,0 +1,191 @@
+// Meshes for the tests of the hierarchy, and for the program that measures it.
+#pragma once
+#include <cmath>
+#include <map>
+
+#include "common/geometry/geometry.h"
+#include "common/path/sampler.h"
+
+/// A surface of nu x nv rectangles, each cut in two: point(a, b) for a, b in [0,1].
+template <typename Point>
+void add_surface(Geometry& g, uint32_t nu, uint32_t nv, const Point& point) {
+    uint32_t base = static_cast<uint32_t>(g.positions.size());
+    g.positions.reserve(base + size_t{nu + 1} * (nv + 1));
+    g.triangles.reserve(g.triangles.size() + size_t{2} * nu * nv);
+    for (uint32_t j = 0; j <= nv; j++) {
+        float b = static_cast<float>(j) / static_cast<float>(nv);
+        for (uint32_t i = 0; i <= nu; i++) {
+            g.positions.push_back(point(static_cast<float>(i) / static_cast<float>(nu), b));
+        }
+    }
+    for (uint32_t j = 0; j < nv; j++) {
+        for (uint32_t i = 0; i < nu; i++) {
+            uint32_t p = base + j * (nu + 1) + i, above = p + nu + 1;
+            g.triangles.push_back({{p, p + 1, above + 1}, 0});
+            g.triangles.push_back({{p, above + 1, above}, 0});
+        }
+    }
+}
+
+/// n x n squares, from corner o along the sides u and v.
+inline void add_parallelogram(Geometry& g, Vec3 o, Vec3 u, Vec3 v, uint32_t n = 1) {
+    add_surface(g, n, n, [&](float a, float b) { return o + a * u + b * v; });
+}
+
+inline void add_box(Geometry& g, Vec3 low, Vec3 high) {
+    Vec3 d = high - low, x = {d.x, 0, 0}, y = {0, d.y, 0}, z = {0, 0, d.z};
+    for (Vec3 side : {Vec3{}, z}) add_parallelogram(g, low + side, x, y);
+    for (Vec3 side : {Vec3{}, y}) add_parallelogram(g, low + side, x, z);
+    for (Vec3 side : {Vec3{}, x}) add_parallelogram(g, low + side, y, z);
+}
+
+/// A ball with bumps of all sizes, of n^2 triangles.
+inline void add_bumpy_ball(Geometry& g, Vec3 centre, float r, uint32_t n) {
+    add_surface(g, n, n / 2, [&](float a, float b) {
+        float phi = 2 * pi * a, theta = pi * b, bumps = 1;
+        Vec3 d = {std::sin(theta) * std::cos(phi), std::cos(theta),
+                  std::sin(theta) * std::sin(phi)};
+        float waves = 3, height = 0.25f, shift = 0;
+        for (int octave = 0; octave < 5; octave++) {
+            bumps += height * std::sin(waves * d.x + shift) * std::sin(waves * d.y + 0.7f) *
+                     std::sin(waves * d.z + 2.1f);
+            waves *= 2, height /= 2, shift += 1.3f;
+        }
+        return centre + r * bumps * d;
+    });
+}
+
+/// The Cornell box without its front: 36 triangles, one unit wide, light and two blocks included.
+inline Geometry cornell_box() {
+    Geometry g;
+    add_parallelogram(g, {0, 0, 0}, {1, 0, 0}, {0, 0, 1});
+    add_parallelogram(g, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
+    add_parallelogram(g, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+    add_parallelogram(g, {0, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    add_parallelogram(g, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    add_parallelogram(g, {0.35f, 0.999f, 0.35f}, {0.3f, 0, 0}, {0, 0, 0.3f});
+    auto add_block = [&](float x, float z, float height, float angle) {
+        size_t first = g.positions.size();
+        add_box(g, {-0.15f, 0, -0.15f}, {0.15f, height, 0.15f});
+        float cos = std::cos(angle), sin = std::sin(angle);
+        for (size_t i = first; i < g.positions.size(); i++) {
+            Vec3& p = g.positions[i];
+            p = {cos * p.x - sin * p.z + x, p.y, sin * p.x + cos * p.z + z};
+        }
+    };
+    add_block(0.68f, 0.3f, 0.3f, -0.3f);
+    add_block(0.3f, 0.65f, 0.6f, 0.3f);
+    return g;
+}
+
+/// A hall of 20 x 8 x 10 with two rows of columns, arches, drapes and rough balls; the number of
+/// triangles grows with detail^2 (10: 66 thousand, 45: 1.3 million).
+inline Geometry hall(uint32_t detail) {
+    Geometry g;
+    for (float y : {0.0f, 8.0f}) {
+        add_parallelogram(g, {-10, y, -5}, {20, 0, 0}, {0, 0, 10}, 2 * detail);
+    }
+    for (float z : {-5.0f, 5.0f}) {
+        add_parallelogram(g, {-10, 0, z}, {20, 0, 0}, {0, 8, 0}, 2 * detail);
+    }
+    for (float x : {-10.0f, 10.0f}) {
+        add_parallelogram(g, {x, 0, -5}, {0, 8, 0}, {0, 0, 10}, detail);
+    }
+    for (int k = 0; k < 14; k++) {
+        float x = -9 + 3 * static_cast<float>(k % 7), z = k < 7 ? -3.0f : 3.0f;
+        auto column = [&](float a, float b) {
+            float angle = 2 * pi * a, flare = std::pow(std::abs(2 * b - 1), 8.0f);
+            float r = 0.3f + 0.1f * flare + 0.01f * std::sin(12 * angle);
+            return Vec3{x + r * std::cos(angle), 4 * b, z + r * std::sin(angle)};
+        };
+        add_surface(g, 4 * detail, 2 * detail, column);
+        for (float y : {0.0f, 4.0f}) {
+            add_box(g, {x - 0.45f, y, z - 0.45f}, {x + 0.45f, y + 0.25f, z + 0.45f});
+        }
+        auto arch = [&](float a, float b) {
+            float angle = pi * a, ripple = 0.05f * std::sin(2 * pi * b);
+            return Vec3{x + 1.5f - 1.3f * std::cos(angle), 4.25f + 1.3f * std::sin(angle) + ripple,
+                        z - 0.4f + 0.8f * b};
+        };
+        if (k % 7 < 6) add_surface(g, 3 * detail, detail, arch);
+        auto drape = [&](float a, float b) {
+            float folds = 0.1f * std::sin(40 * a + 3 * b) * b + 0.05f * std::sin(13 * b);
+            return Vec3{x + 0.5f + 2 * a, 3.8f - 2.5f * b, 0.9f * z + folds};
+        };
+        if (k % 2 == 1) add_surface(g, 6 * detail, 6 * detail, drape);
+    }
+    for (int k = 0; k < 6; k++) {
+        float x = -7.5f + 3 * static_cast<float>(k), z = k % 2 == 1 ? 1.0f : -1.2f;
+        add_bumpy_ball(g, {x, 0.6f, z}, 0.45f, 6 * detail);
+    }
+    return g;
+}
+
+/// A hall of 10 x 6 x 10 of few triangles, and 27 balls of n^2 in one corner of it.
+inline Geometry dense_corner(uint32_t n) {
+    Geometry g;
+    add_box(g, {0, 0, 0}, {10, 6, 10});
+    for (int k = 1; k <= 8; k++) {
+        float x = static_cast<float>(k);
+        add_box(g, {x, 0, 4}, {x + 0.3f, 6, 4.3f});
+    }
+    for (int k = 0; k < 27; k++) {
+        float x = static_cast<float>(k % 3), y = static_cast<float>(k / 3 % 3),
+              z = static_cast<float>(k / 9);
+        add_bumpy_ball(g, Vec3{9.3f, 0.15f, 9.3f} + 0.2f * Vec3{x, y, z}, 0.1f, n);
+    }
+    return g;
+}
+
+/// Long thin triangles across all axes in the unit cube: boxes that hold next to nothing.
+inline Geometry thin_diagonals(uint32_t n) {
+    Geometry g;
+    Sampler random(SamplerType::independent, 7, 1);
+    for (uint32_t i = 0; i < n; i++) {
+        random.start(i, 0);
+        Vec2 a = random.u2(), b = random.u2(), c = random.u2(), e = random.u2();
+        Vec3 centre = {a.x, a.y, b.x}, along = normalize({1, 1 - 0.5f * b.y, 1 - 0.5f * c.x});
+        Vec3 across = {c.y - 0.5f, e.x - 0.5f, e.y - 0.5f};
+        Vec3 from = centre - 0.3f * along, to = centre + 0.3f * along;
+        g.positions.insert(g.positions.end(), {from, to, to + 0.02f * across});
+        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, 0});
+    }
+    return g;
+}
+
+/// A closed mesh around the origin: an octahedron whose faces are cut in four, again and again,
+/// with corners moved in and out.
+inline Geometry closed_mesh(int cuts) {
+    Geometry g;
+    g.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (uint32_t x : {0u, 1u})
+        for (uint32_t y : {2u, 3u})
+            for (uint32_t z : {4u, 5u}) g.triangles.push_back({{x, y, z}, 0});
+    Sampler random(SamplerType::independent, 3, 1);
+    random.start(0, 0);
+    for (int cut = 0; cut < cuts; cut++) {
+        std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+        auto middle = [&](uint32_t a, uint32_t b) {
+            auto [found, added] =
+                middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(g.positions.size()));
+            if (added) {
+                Vec3 m = normalize(g.positions[a] + g.positions[b]);
+                g.positions.push_back((0.8f + 0.4f * random.u1()) * m);
+            }
+            return found->second;
+        };
+        std::vector<Triangle> finer;
+        for (const Triangle& t : g.triangles) {
+            auto [a, b, c] = t.v;
+            uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            for (Triangle part : {Triangle{{a, ab, ca}, 0},
+                                  {{ab, b, bc}, 0},
+                                  {{ca, bc, c}, 0},
+                                  {{ab, bc, ca}, 0}}) {
+                finer.push_back(part);
+            }
+        }
+        g.triangles = finer;
+    }
+    return g;
+}

@@ -1,0 +1,58 @@
+// Helper of the tests that need a process of its own: what it prints and how it ends.
+#pragma once
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "common/base/files.h"
+#include "tests/support/folder.h"
+
+/// How a process ended: its exit code, or -1 after a signal.
+struct Finished {
+    int code = -1, signal = 0;
+    std::string out, err;
+};
+
+/// A process that does `work` and exits with what it returns.
+class Process {
+public:
+    template <typename Work>
+    explicit Process(const Work& work) {
+        std::fflush(nullptr);
+        id_ = ::fork();
+        if (id_ == 0) {
+            rlimit none = {0, 0};
+            ::setrlimit(RLIMIT_CORE, &none);
+            std::freopen((folder_ / "out").c_str(), "w", stdout);
+            std::freopen((folder_ / "err").c_str(), "w", stderr);
+            int code = work();
+            std::fflush(nullptr);
+            ::_exit(code);
+        }
+    }
+    ~Process() {
+        if (id_ > 0) kill(SIGKILL), wait();
+    }
+    void kill(int signal) const { ::kill(id_, signal); }
+    Finished wait() {
+        int status = 0;
+        while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+        }
+        id_ = 0;
+        Finished end;
+        if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
+        if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+        end.out = read_file(folder_ / "out");
+        end.err = read_file(folder_ / "err");
+        return end;
+    }
+
+private:
+    TemporaryFolder folder_;
+    pid_t id_ = 0;
+};
