@@ -36,20 +36,11 @@ inline Vec2 invert_uniform_hemisphere(Vec3 w) {
     return {1 - w.z, (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
-///
-///   diffuse:  f = reflectance / pi  on wo's side of the surface
-inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
-    if (x.material->type != MaterialType::diffuse) return {};
-    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
-    return x.material->reflectance / pi;
-}
-
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
-inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
-    if (x.material->type != MaterialType::diffuse) return 0;
-    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
-    return pdf_uniform_hemisphere();
+/// A mirror has one direction to go on in.      f cos = F, the share that the metal reflects
+inline BsdfSample sample_mirror(const Hit& x, Vec3 wo) {
+    float cos_o = dot(wo, x.n);
+    Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
+    return {reflect(wo, x.n), F / cos_o, 1, true};
 }
 
 /// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
@@ -71,6 +62,22 @@ inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
     return {*wi, {f, f, f}, 1 - R, true};
 }
 
+/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+///
+///   diffuse:  f = reflectance / pi  on wo's side of the surface
+inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    return x.material->reflectance / pi;
+}
+
+/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return 0;
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
+    return pdf_uniform_hemisphere();
+}
+
 /// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
@@ -78,11 +85,7 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
             Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u2));
             return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
         }
-        case MaterialType::conductor: {
-            float cos_o = dot(wo, x.n);
-            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
-            return {reflect(wo, x.n), F / cos_o, 1, true};
-        }
+        case MaterialType::conductor: return sample_mirror(x, wo);
         case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
     }
     return {};
@@ -95,7 +98,7 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
 /// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
 /// only when it happens to hit some.
 /// source  Kajiya 1986      tested by  "ch06 path tracing"
-[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
         // Find the next vertex. A path that leaves the scene ends in the sky.

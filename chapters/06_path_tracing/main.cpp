@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
         Scene scene = load(options);
         refuse_glossy(scene);
         refuse_delta_lights(scene);
-        return render(scene, options, ch06::trace);
+        return render(scene, options, trace_with<ch06::trace>());
     });
 }

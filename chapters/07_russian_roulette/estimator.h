@@ -4,8 +4,6 @@
 //   its variance:  Var[X] / q + E[X]^2 (1 - q) / q
 #pragma once
 #include "common/material/bsdf.h"
-#include "common/material/metal.h"
-#include "common/material/optics.h"
 #include "common/path/path_log.h"
 #include "common/path/sampler.h"
 
@@ -27,25 +25,6 @@ inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     return pdf_uniform_hemisphere();
 }
 
-/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
-///
-///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
-///
-/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
-/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
-inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
-    float eta = x.front ? x.material->ior : 1 / x.material->ior;
-    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
-    if (u < R) {
-        float f = R / cos_o;
-        return {reflect(wo, x.n), {f, f, f}, R, true};
-    }
-    std::optional<Vec3> wi = refract(wo, x.n, eta);
-    if (!wi) return {};
-    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
-    return {*wi, {f, f, f}, 1 - R, true};
-}
-
 /// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
@@ -53,11 +32,7 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
             Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u2));
             return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
         }
-        case MaterialType::conductor: {
-            float cos_o = dot(wo, x.n);
-            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
-            return {reflect(wo, x.n), F / cos_o, 1, true};
-        }
+        case MaterialType::conductor: return sample_mirror(x, wo);
         case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
     }
     return {};
@@ -65,14 +40,13 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
 
 /// The probability with which a path of throughput beta goes on.
 ///
-///   q = 2.5 max(beta), within [0.05, 0.95];  1 for the first few vertices
+///   q = max(beta), within [0.05, 0.95];  1 for the first few vertices
 ///
-/// From the largest channel: no channel of beta / q is above 0.4, or beta / 0.95. Below 1, so that
-/// a path that loses nothing (mirrors, total reflection) ends as well. 2.5: more adds less noise,
-/// less saves more rays; of 1, 1.5, 2, 2.5 and 3 it was the most efficient in the Cornell box.
+/// From the largest channel: no channel of beta / q is above 1, or beta / 0.95. Below 1, so that a
+/// path that loses nothing (mirrors, total reflection) ends as well.
 inline float survival_probability(Rgb beta, int depth) {
     if (depth < 3) return 1;
-    return std::clamp(2.5f * max_component(beta), 0.05f, 0.95f);
+    return std::clamp(max_component(beta), 0.05f, 0.95f);
 }
 
 /// Estimates Li along the ray from one path.
@@ -82,7 +56,7 @@ inline float survival_probability(Rgb beta, int depth) {
 /// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
 /// only when it happens to hit some.
 /// source  Kajiya 1986; roulette: Arvo, Kirk 1990      tested by  "ch07 russian roulette"
-[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
         // Find the next vertex. A path that leaves the scene ends in the sky.

@@ -5,8 +5,6 @@
 #pragma once
 #include "common/light/light_shapes.h"
 #include "common/material/bsdf.h"
-#include "common/material/metal.h"
-#include "common/material/optics.h"
 #include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
@@ -29,25 +27,6 @@ inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     return pdf_uniform_hemisphere();
 }
 
-/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
-///
-///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
-///
-/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
-/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
-inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
-    float eta = x.front ? x.material->ior : 1 / x.material->ior;
-    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
-    if (u < R) {
-        float f = R / cos_o;
-        return {reflect(wo, x.n), {f, f, f}, R, true};
-    }
-    std::optional<Vec3> wi = refract(wo, x.n, eta);
-    if (!wi) return {};
-    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
-    return {*wi, {f, f, f}, 1 - R, true};
-}
-
 /// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
@@ -55,11 +34,7 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
             Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u2));
             return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
         }
-        case MaterialType::conductor: {
-            float cos_o = dot(wo, x.n);
-            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
-            return {reflect(wo, x.n), F / cos_o, 1, true};
-        }
+        case MaterialType::conductor: return sample_mirror(x, wo);
         case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
     }
     return {};
@@ -76,20 +51,18 @@ struct LightSample {
 
 /// How a point on an area light is drawn: by area, or by the solid angle that x sees it under.
 enum class LightMeasure : uint8_t { area, solid_angle };
-inline LightMeasure light_measure = LightMeasure::solid_angle;
 
 /// A point y of an area light, and the density of its direction at x.
 ///
 ///   by area:  pdf_w = pdf_A d^2 / cos_y: 1/cos_y and d^2 make a spike where y is near x
 ///
 /// zero    where y faces away, or is edge-on
-/// error   unbiased; by area, Var -> infinity like 1 / distance^2 of a near light, by solid angle
-///         it stays below E^2 / 3
+/// error   unbiased; near a light Var -> infinity by area, and is below E^2 / 3 by solid angle
 /// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
-inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
-    bool by_area = light_measure == LightMeasure::area;
-    LightPoint y =
-        by_area ? sample_area(scene, light, u) : sample_solid_angle(scene, light, x.p, u);
+inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u,
+                                     LightMeasure measure) {
+    bool by_area = measure == LightMeasure::area;
+    auto y = by_area ? sample_area(scene, light, u) : sample_solid_angle(scene, light, x.p, u);
     Vec3 to_y = y.p - x.p;
     float d2 = dot(to_y, to_y), d = std::sqrt(d2);
     Vec3 wi = to_y / d;
@@ -101,10 +74,11 @@ inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit
 }
 
 /// One light: its point or direction as seen from x. The sky is drawn from the hemisphere around n.
-inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, Vec2 u) {
+inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, Vec2 u,
+                                    LightMeasure measure) {
     const Light& light = scene.lights[i];
     switch (light.type) {
-        case LightType::area: return sample_area_light(scene, i, x, u);
+        case LightType::area: return sample_area_light(scene, i, x, u, measure);
         case LightType::point: {
             Vec3 to_y = light.p - x.p;
             float d2 = dot(to_y, to_y);
@@ -121,11 +95,12 @@ inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, 
 }
 
 /// Chooses one of the N lights, all alike, and a point on it.      pdf_w = pdf_one / N
-inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
+inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2,
+                                LightMeasure measure) {
     size_t N = scene.lights.size();
     if (N == 0) return {};
     size_t i = std::min(static_cast<size_t>(u1 * static_cast<float>(N)), N - 1);
-    LightSample y = sample_one_light(scene, i, x, u2);
+    LightSample y = sample_one_light(scene, i, x, u2, measure);
     y.pdf_w /= static_cast<float>(N);
     return y;
 }
@@ -135,10 +110,10 @@ inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2
 ///   Ld = f Le V cos / pdf_w
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
-inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec2 u2, Rgb beta,
-                        PathLog& log) {
+inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec2 u2,
+                        LightMeasure measure, Rgb beta, PathLog& log) {
     if (x.material->type != MaterialType::diffuse) return {};
-    LightSample y = sample_light(scene, x, u1, u2);
+    LightSample y = sample_light(scene, x, u1, u2, measure);
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
@@ -147,14 +122,14 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec
 
 /// Estimates Li along the ray from one path.
 ///
-///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k),   beta_k = product of f cos /
-///   pdf_w
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
 /// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
 /// glass. Anywhere else it was Ld of the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Cook et al. 1984; Shirley et al. 1996      tested by  "ch08 light sampling"
-[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+inline Rgb trace(const Scene& scene, LightMeasure measure, Ray ray, Sampler& sampler,
+                 PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
@@ -170,14 +145,14 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec
             return L;
         }
 
-        // Choose a direction, then aim at a light: so the processor works on both rays at once.
+        // Aim at a light.
         Vec3 wo = -ray.d;
         float u1 = sampler.u1();
-        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
-        u1 = sampler.u1();
-        L += direct_light(scene, *x, wo, u1, sampler.u2(), beta, log);
+        L += direct_light(scene, *x, wo, u1, sampler.u2(), measure, beta, log);
 
-        // Go on in that direction, and count it for all those that were not taken.
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);

@@ -4,8 +4,6 @@
 #pragma once
 #include "common/light/light_shapes.h"
 #include "common/material/bsdf.h"
-#include "common/material/metal.h"
-#include "common/material/optics.h"
 #include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
@@ -43,25 +41,6 @@ inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     return pdf_cosine_hemisphere(dot(wi, x.n));
 }
 
-/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
-///
-///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
-///
-/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
-/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
-inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
-    float eta = x.front ? x.material->ior : 1 / x.material->ior;
-    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
-    if (u < R) {
-        float f = R / cos_o;
-        return {reflect(wo, x.n), {f, f, f}, R, true};
-    }
-    std::optional<Vec3> wi = refract(wo, x.n, eta);
-    if (!wi) return {};
-    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
-    return {*wi, {f, f, f}, 1 - R, true};
-}
-
 /// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
@@ -69,11 +48,7 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
             Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(u2));
             return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
         }
-        case MaterialType::conductor: {
-            float cos_o = dot(wo, x.n);
-            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
-            return {reflect(wo, x.n), F / cos_o, 1, true};
-        }
+        case MaterialType::conductor: return sample_mirror(x, wo);
         case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
     }
     return {};
@@ -96,11 +71,12 @@ struct LightSample {
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);
     Vec3 to_y = y.p - x.p;
-    float d_cos_y = -dot(to_y, y.n);
-    if (scene.lights[light].two_sided) d_cos_y = std::abs(d_cos_y);
-    if (!(d_cos_y > 0)) return {};
     float d = length(to_y);
-    return {to_y / d, scene.lights[light].L, d - (x.eps + y.eps) * d / d_cos_y, y.pdf};
+    Vec3 wi = to_y / d;
+    float cos_y = -dot(wi, y.n);
+    if (scene.lights[light].two_sided) cos_y = std::abs(cos_y);
+    if (!(cos_y > 0)) return {};
+    return {wi, scene.lights[light].L, d - (x.eps + y.eps) / cos_y, y.pdf};
 }
 
 /// One light: its point or direction as seen from x. The sky is drawn from the hemisphere around n.
@@ -151,14 +127,13 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec
 
 /// Estimates Li along the ray from one path.
 ///
-///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k),   beta_k = product of f cos /
-///   pdf_w
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
 /// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
 /// glass. Anywhere else it was Ld of the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Kajiya 1986, importance sampling      tested by  "ch09 cosine sampling"
-[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
@@ -174,14 +149,14 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec
             return L;
         }
 
-        // Choose a direction, then aim at a light: so the processor works on both rays at once.
+        // Aim at a light.
         Vec3 wo = -ray.d;
         float u1 = sampler.u1();
-        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
-        u1 = sampler.u1();
         L += direct_light(scene, *x, wo, u1, sampler.u2(), beta, log);
 
-        // Go on in that direction, and count it for all those that were not taken.
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);

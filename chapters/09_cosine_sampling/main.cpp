@@ -8,6 +8,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "09_cosine_sampling", "scenes/cornell.pbrt");
         Scene scene = load(options);
         refuse_glossy(scene);
-        return render(scene, options, ch09::trace);
+        return render(scene, options, trace_with<ch09::trace>());
     });
 }

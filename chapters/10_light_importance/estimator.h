@@ -4,66 +4,14 @@
 //   pmf_i = (1 - d) power_i / sum power + d / N      a share d for all alike: no light has pmf 0
 #pragma once
 #include "common/light/lights.h"
-#include "common/material/bsdf.h"
-#include "common/material/metal.h"
-#include "common/material/optics.h"
+#include "common/material/basic_bsdf.h"
 #include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 
 namespace ch10 {
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
-///
-///   diffuse:  f = reflectance / pi  on wo's side of the surface
-inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
-    if (x.material->type != MaterialType::diffuse) return {};
-    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
-    return x.material->reflectance / pi;
-}
-
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
-inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
-    if (x.material->type != MaterialType::diffuse) return 0;
-    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
-    return pdf_cosine_hemisphere(dot(wi, x.n));
-}
-
-/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
-///
-///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
-///
-/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
-/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
-inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
-    float eta = x.front ? x.material->ior : 1 / x.material->ior;
-    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
-    if (u < R) {
-        float f = R / cos_o;
-        return {reflect(wo, x.n), {f, f, f}, R, true};
-    }
-    std::optional<Vec3> wi = refract(wo, x.n, eta);
-    if (!wi) return {};
-    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
-    return {*wi, {f, f, f}, 1 - R, true};
-}
-
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
-inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
-    switch (x.material->type) {
-        case MaterialType::diffuse: {
-            Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(u2));
-            return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
-        }
-        case MaterialType::conductor: {
-            float cos_o = dot(wo, x.n);
-            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
-            return {reflect(wo, x.n), F / cos_o, 1, true};
-        }
-        case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
-    }
-    return {};
-}
+using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
 
 /// The power of a light, in W: radiance times area times pi, and what corresponds to it.
 ///
@@ -93,14 +41,22 @@ inline std::vector<double> light_pmf(const Scene& scene, double d) {
     return pmf;
 }
 
+/// One column of the alias table that lights are chosen from.
+struct AliasColumn {
+    float own;       // share of the column that is the light of the same number
+    uint32_t other;  // the light that the rest of the column is
+    float pmf;       // of the light of the same number, over the whole table
+};
+using LightTable = std::vector<AliasColumn>;
+
 /// Cuts N probabilities into N columns of equal width, with at most two lights in each.
 ///
 ///   a column that is too low is filled up from one that is too high, which so gets lower
 ///
 /// source  Walker 1974; Vose 1991      tested by  "identity: the alias table keeps every pmf"
-inline std::vector<AliasColumn> build_alias_table(const std::vector<double>& pmf) {
+inline LightTable build_light_table(const std::vector<double>& pmf) {
     size_t N = pmf.size();
-    std::vector<AliasColumn> table(N);
+    LightTable table(N);
     std::vector<double> height(N);
     std::vector<uint32_t> low, high;
     for (uint32_t i = 0; i < N; i++) {
@@ -122,39 +78,37 @@ inline std::vector<AliasColumn> build_alias_table(const std::vector<double>& pmf
     return table;
 }
 
-/// Gets the scene ready for this chapter's trace().
-inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0.25)); }
-
 /// Chooses a light in O(1): a column, and one of the two lights in it.
-inline size_t pick_light(const Scene& scene, float u) {
-    const auto& table = scene.light_table;
-    int N = static_cast<int>(table.size());
-    float at = u * static_cast<float>(N);
-    int column = std::min(static_cast<int>(at), N - 1);
-    auto [own, other, pmf] = table[static_cast<size_t>(column)];
-    bool is_own = at - static_cast<float>(column) < own;
-    return is_own ? static_cast<size_t>(column) : other;
+inline size_t pick_light(const LightTable& lights, float u) {
+    float at = u * static_cast<float>(lights.size());
+    size_t column = std::min(static_cast<size_t>(at), lights.size() - 1);
+    bool is_own = at - static_cast<float>(column) < lights[column].own;
+    return is_own ? column : lights[column].other;
 }
-inline float pmf_light(const Scene& scene, size_t light) { return scene.light_table[light].pmf; }
+inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 
 /// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
-inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
-    if (scene.lights.empty()) return {};
-    size_t light = pick_light(scene, u1);
+inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
+                                float u1, Vec2 u2) {
+    if (lights.empty()) return {};
+    size_t light = pick_light(lights, u1);
     LightSample y = sample_one_light(scene, light, x, u2);
-    y.pdf_w *= pmf_light(scene, light);
+    y.pdf_w *= pmf_light(lights, light);
     return y;
 }
+
+/// The table that trace() chooses lights from.
+inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
 
 /// Estimates what all lights send by way of x to wo, from one point of one light.
 ///
 ///   Ld = f Le V cos / pdf_w
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
-inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec2 u2, Rgb beta,
-                        PathLog& log) {
+inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
+                        float u1, Vec2 u2, Rgb beta, PathLog& log) {
     if (x.material->type != MaterialType::diffuse) return {};
-    LightSample y = sample_light(scene, x, u1, u2);
+    LightSample y = sample_light(scene, lights, x, u1, u2);
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
@@ -163,14 +117,14 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec
 
 /// Estimates Li along the ray from one path.
 ///
-///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k),   beta_k = product of f cos /
-///   pdf_w
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
 /// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
 /// glass. Anywhere else it was Ld of the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Shirley et al. 1996      tested by  "ch10 light importance"
-[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler& sampler,
+                 PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
@@ -186,14 +140,14 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec
             return L;
         }
 
-        // Choose a direction, then aim at a light: so the processor works on both rays at once.
+        // Aim at a light.
         Vec3 wo = -ray.d;
         float u1 = sampler.u1();
-        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
-        u1 = sampler.u1();
-        L += direct_light(scene, *x, wo, u1, sampler.u2(), beta, log);
+        L += direct_light(scene, lights, *x, wo, u1, sampler.u2(), beta, log);
 
-        // Go on in that direction, and count it for all those that were not taken.
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);

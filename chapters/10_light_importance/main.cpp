@@ -8,7 +8,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "10_light_importance", "scenes/thousand-lights.pbrt");
         Scene scene = load(options);
         refuse_glossy(scene);
-        ch10::prepare(scene);
-        return render(scene, options, ch10::trace);
+        return render(scene, options, trace_with<ch10::trace>(ch10::prepare(scene)));
     });
 }

@@ -4,99 +4,35 @@
 //   Ld = f Le V cos W,   W = weight_sum / (M p_hat(y))
 #pragma once
 #include "common/light/light_table.h"
-#include "common/material/bsdf.h"
-#include "common/material/metal.h"
-#include "common/material/optics.h"
+#include "common/material/basic_bsdf.h"
 #include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 
 namespace ch11 {
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
-///
-///   diffuse:  f = reflectance / pi  on wo's side of the surface
-inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
-    if (x.material->type != MaterialType::diffuse) return {};
-    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
-    return x.material->reflectance / pi;
-}
-
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
-inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
-    if (x.material->type != MaterialType::diffuse) return 0;
-    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
-    return pdf_cosine_hemisphere(dot(wi, x.n));
-}
-
-/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
-///
-///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
-///
-/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
-/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
-inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
-    float eta = x.front ? x.material->ior : 1 / x.material->ior;
-    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
-    if (u < R) {
-        float f = R / cos_o;
-        return {reflect(wo, x.n), {f, f, f}, R, true};
-    }
-    std::optional<Vec3> wi = refract(wo, x.n, eta);
-    if (!wi) return {};
-    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
-    return {*wi, {f, f, f}, 1 - R, true};
-}
-
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
-inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
-    switch (x.material->type) {
-        case MaterialType::diffuse: {
-            Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(u2));
-            return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
-        }
-        case MaterialType::conductor: {
-            float cos_o = dot(wo, x.n);
-            Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
-            return {reflect(wo, x.n), F / cos_o, 1, true};
-        }
-        case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
-    }
-    return {};
-}
-
-/// M: how many candidates compete for one shadow ray.
-inline int M = 16;
-
-/// Gets the scene ready for this chapter's trace().
-inline void prepare(Scene& scene) { scene.light_table = build_alias_table(light_pmf(scene, 0.25)); }
+using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
 
 /// p_hat: what light i could send by way of x if nothing were in between, from its centre alone.
 ///
-///   area:  p_hat = L A cos_x cos_y / d^2,  with each cosine as large as any point of the light may
-///          have it (it lies within `spread` radians of the centre), and d at least its radius
+///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
 ///
-/// 0 only where the light surely gives nothing.      [W m^-2]
+/// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
+/// count as 0.02 at least, and d as its radius. So p_hat is 0 only where the light gives nothing.
 inline float potential(const Scene& scene, size_t i, const Hit& x) {
     const Light& light = scene.lights[i];
+    const LightShape& shape = scene.light_shapes[i];
     float L = average(light.L);
     if (light.type == LightType::infinite) return pi * L;
     if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
-    const LightShape& shape = scene.light_shapes[i];
-    bool area = light.type == LightType::area;
-    Vec3 to_y = (area ? shape.centre : light.p) - x.p;
-    float d2 = std::max(dot(to_y, to_y), 1e-30f), inv_d = 1 / std::sqrt(d2);
-    float spread = area ? shape.radius * inv_d : 0, more = spread + spread * spread;
-    if (spread > 0.5f) return L * shape.area / std::max(d2, shape.radius * shape.radius);
-    float cos_x = std::min(1.0f, dot(to_y, x.n) * inv_d + more);
-    if (!(cos_x > 0)) return 0;
-    if (!area) return L * cos_x / d2;
-    float cos_y = 1;  // of a light that is flat
-    if (shape.flat) {
-        cos_y = -dot(to_y, shape.first.n) * inv_d;
-        cos_y = std::min(1.0f, (light.two_sided ? std::abs(cos_y) : cos_y) + more);
-    }
-    return cos_y > 0 ? L * shape.area * cos_x * cos_y * inv_d * inv_d : 0;
+    Vec3 to_y = (light.type == LightType::area ? shape.centre : light.p) - x.p;
+    float d = std::max(length(to_y), 1e-15f);
+    float cos_x = dot(to_y, x.n) / d, cos_y = 1;
+    if (light.type == LightType::point) return L * std::max(0.0f, cos_x) / (d * d);
+    if (shape.flat) cos_y = -dot(to_y, shape.first.n) / d;
+    if (light.two_sided) cos_y = std::abs(cos_y);
+    float d2 = std::max(d * d, shape.radius * shape.radius);
+    return L * shape.area * std::max(0.02f, cos_x) * std::max(0.02f, cos_y) / d2;
 }
 
 /// The light kept among the candidates so far.
@@ -112,30 +48,34 @@ struct Reservoir {
         if (!(weight > 0)) return;
         weight_sum += weight;
         float share = weight / weight_sum;
-        bool taken = u < share;
-        light = taken ? candidate : light;
-        p_hat = taken ? p_hat_candidate : p_hat;
-        u = (taken ? u : u - share) / (taken ? share : 1 - share);
+        if (u < share) {
+            light = candidate, p_hat = p_hat_candidate;
+            u = u / share;
+        } else {
+            u = (u - share) / (1 - share);
+        }
     }
     /// W: what the kept light counts for all others, in place of 1 / probability.
-    float W(int candidates) const {
-        return p_hat > 0 ? weight_sum / (static_cast<float>(candidates) * p_hat) : 0;
-    }
+    float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
 };
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x.
-inline Reservoir resample_lights(const Scene& scene, const Hit& x, Sampler& sampler) {
+///
+/// u: one number for the candidates, one from each of M slices of the table; one for the choice.
+inline Reservoir resample_lights(const Scene& scene, const LightTable& lights, const Hit& x, int M,
+                                 Vec2 u) {
     Reservoir kept;
-    float u = sampler.u1(), u1 = sampler.u1();
     for (int i = 0; i < M; i++) {
-        // One candidate from each of M slices of the table.
-        float slice = (static_cast<float>(i) + u1) / static_cast<float>(M);
-        size_t light = pick_light(scene, slice);
+        float slice = (static_cast<float>(i) + u.x) / static_cast<float>(M);
+        size_t light = pick_light(lights, slice);
         float p_hat = potential(scene, light, x);
-        kept.offer(light, p_hat, p_hat / pmf_light(scene, light), u);
+        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u.y);
     }
     return kept;
 }
+
+/// The table that candidates are drawn from.
+inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
 
 /// Estimates what all lights send by way of x to wo, by the best of M candidates.
 ///
@@ -144,28 +84,28 @@ inline Reservoir resample_lights(const Scene& scene, const Hit& x, Sampler& samp
 /// Unbiased where p_hat > 0 wherever the light counts.
 /// Var = Var_p / M + (1 - 1/M) Var_q: what the shadows leave, Var_q, no M takes away.
 /// source  Talbot, Cline, Egbert 2005      tested by  "truth: RIS on four lights, all tuples"
-inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& sampler, Rgb beta,
-                        PathLog& log) {
-    if (x.material->type != MaterialType::diffuse || scene.lights.empty()) return {};
-    Reservoir kept = resample_lights(scene, x, sampler);
-    LightSample y = sample_one_light(scene, kept.light, x, sampler.u2());
+inline Rgb direct_light(const Scene& scene, const LightTable& lights, int M, const Hit& x, Vec3 wo,
+                        Vec2 u, Vec2 u2, Rgb beta, PathLog& log) {
+    if (x.material->type != MaterialType::diffuse || lights.empty()) return {};
+    Reservoir kept = resample_lights(scene, lights, x, M, u);
+    LightSample y = sample_one_light(scene, kept.light, x, u2);
     float W = kept.W(M);
     if (y.pdf_w == 0 || W == 0) return {};
-    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (std::max(0.0f, dot(y.wi, x.n)) / y.pdf_w * W);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w * W);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
     return log.direct(beta * Ld, y.wi, y.pdf_w / W, pdf_bsdf(x, wo, y.wi));
 }
 
 /// Estimates Li along the ray from one path.
 ///
-///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k),   beta_k = product of f cos /
-///   pdf_w
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
 /// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
 /// glass. Anywhere else it was Ld of the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Talbot et al. 2005      tested by  "ch11 ris"
-[[gnu::flatten]] inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+inline Rgb trace(const Scene& scene, const LightTable& lights, int M, Ray ray, Sampler& sampler,
+                 PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
@@ -181,13 +121,14 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, Sampler& samp
             return L;
         }
 
-        // Choose a direction, then aim at a light: so the processor works on both rays at once.
+        // Aim at the light that gives most.
         Vec3 wo = -ray.d;
+        Vec2 u = sampler.u2();
+        L += direct_light(scene, lights, M, *x, wo, u, sampler.u2(), beta, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
-        L += direct_light(scene, *x, wo, sampler, beta, log);
-
-        // Go on in that direction, and count it for all those that were not taken.
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);

@@ -4,15 +4,15 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
+        int M = 16;
         Option candidates = {"m", "M", "light candidates for each shadow ray (default 16)",
-                             [](const std::string& text) {
-                                 ch11::M = static_cast<int>(parse_integer("m", text, 1, 1024));
+                             [&](const std::string& text) {
+                                 M = static_cast<int>(parse_integer("m", text, 1, 1024));
                              }};
         RenderOptions options =
             parse_render_options(argc, argv, "11_ris", "scenes/thousand-lights.pbrt", {candidates});
         Scene scene = load(options);
         refuse_glossy(scene);
-        ch11::prepare(scene);
-        return render(scene, options, ch11::trace);
+        return render(scene, options, trace_with<ch11::trace>(ch11::prepare(scene), M));
     });
 }

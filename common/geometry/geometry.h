@@ -48,3 +48,6 @@ struct PrimHit {
     uint32_t prim = none;
     float t = infinity, b1 = 0, b2 = 0;
 };
+
+/// How far off a point computed from numbers of this size may lie: some units in the last place.
+inline float rounding_error(float size) { return size * 8 * 0x1p-24f; }

@@ -10,9 +10,6 @@ struct LightPoint {
     float pdf = 0;  // m^-2 by area, sr^-1 by solid angle; 0: no point
 };
 
-/// Fills scene.light_shapes: areas, centres, and whether two triangles make one parallelogram.
-void prepare_light_shapes(Scene& scene);
-
 /// A point of the light's surface, all equally likely.      pdf_A = 1 / area
 inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u);
 float pdf_area(const Scene& scene, size_t light);

@@ -1,4 +1,5 @@
-// Choosing lights by power, in O(1) (chapter 10).
+// taught by chapter 10
+// Choosing lights by power, in O(1).
 #pragma once
 #include "common/light/lights.h"
 
@@ -30,14 +31,22 @@ inline std::vector<double> light_pmf(const Scene& scene, double d) {
     return pmf;
 }
 
+/// One column of the alias table that lights are chosen from.
+struct AliasColumn {
+    float own;       // share of the column that is the light of the same number
+    uint32_t other;  // the light that the rest of the column is
+    float pmf;       // of the light of the same number, over the whole table
+};
+using LightTable = std::vector<AliasColumn>;
+
 /// Cuts N probabilities into N columns of equal width, with at most two lights in each.
 ///
 ///   a column that is too low is filled up from one that is too high, which so gets lower
 ///
 /// source  Walker 1974; Vose 1991      tested by  "identity: the alias table keeps every pmf"
-inline std::vector<AliasColumn> build_alias_table(const std::vector<double>& pmf) {
+inline LightTable build_light_table(const std::vector<double>& pmf) {
     size_t N = pmf.size();
-    std::vector<AliasColumn> table(N);
+    LightTable table(N);
     std::vector<double> height(N);
     std::vector<uint32_t> low, high;
     for (uint32_t i = 0; i < N; i++) {
@@ -60,22 +69,20 @@ inline std::vector<AliasColumn> build_alias_table(const std::vector<double>& pmf
 }
 
 /// Chooses a light in O(1): a column, and one of the two lights in it.
-inline size_t pick_light(const Scene& scene, float u) {
-    const auto& table = scene.light_table;
-    int N = static_cast<int>(table.size());
-    float at = u * static_cast<float>(N);
-    int column = std::min(static_cast<int>(at), N - 1);
-    auto [own, other, pmf] = table[static_cast<size_t>(column)];
-    bool is_own = at - static_cast<float>(column) < own;
-    return is_own ? static_cast<size_t>(column) : other;
+inline size_t pick_light(const LightTable& lights, float u) {
+    float at = u * static_cast<float>(lights.size());
+    size_t column = std::min(static_cast<size_t>(at), lights.size() - 1);
+    bool is_own = at - static_cast<float>(column) < lights[column].own;
+    return is_own ? column : lights[column].other;
 }
-inline float pmf_light(const Scene& scene, size_t light) { return scene.light_table[light].pmf; }
+inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 
 /// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
-inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
-    if (scene.lights.empty()) return {};
-    size_t light = pick_light(scene, u1);
+inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
+                                float u1, Vec2 u2) {
+    if (lights.empty()) return {};
+    size_t light = pick_light(lights, u1);
     LightSample y = sample_one_light(scene, light, x, u2);
-    y.pdf_w *= pmf_light(scene, light);
+    y.pdf_w *= pmf_light(lights, light);
     return y;
 }

@@ -1,4 +1,5 @@
-// Aiming at one light (chapters 08 and 09).
+// taught by chapter 09
+// Aiming at one light.
 #pragma once
 #include "common/light/light_shapes.h"
 #include "common/material/cosine.h"
@@ -20,11 +21,12 @@ struct LightSample {
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);
     Vec3 to_y = y.p - x.p;
-    float d_cos_y = -dot(to_y, y.n);
-    if (scene.lights[light].two_sided) d_cos_y = std::abs(d_cos_y);
-    if (!(d_cos_y > 0)) return {};
     float d = length(to_y);
-    return {to_y / d, scene.lights[light].L, d - (x.eps + y.eps) * d / d_cos_y, y.pdf};
+    Vec3 wi = to_y / d;
+    float cos_y = -dot(wi, y.n);
+    if (scene.lights[light].two_sided) cos_y = std::abs(cos_y);
+    if (!(cos_y > 0)) return {};
+    return {wi, scene.lights[light].L, d - (x.eps + y.eps) / cos_y, y.pdf};
 }
 
 /// One light: its point or direction as seen from x. The sky is drawn from the hemisphere around n.

@@ -1,6 +1,9 @@
-// What sampling a surface returns, and the warp it starts from (chapter 06).
+// taught by chapter 06
+// What sampling a surface returns; uniform directions, mirrors and glass.
 #pragma once
-#include "common/base/vec.h"
+#include "common/material/hit.h"
+#include "common/material/metal.h"
+#include "common/material/optics.h"
 
 /// A direction drawn from a BSDF. pdf_w == 0: no sample, the path ends.
 ///
@@ -26,4 +29,30 @@ inline float pdf_uniform_hemisphere() { return 1 / (2 * pi); }
 inline Vec2 invert_uniform_hemisphere(Vec3 w) {
     float phi = std::atan2(w.y, w.x);
     return {1 - w.z, (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
+}
+
+/// A mirror has one direction to go on in.      f cos = F, the share that the metal reflects
+inline BsdfSample sample_mirror(const Hit& x, Vec3 wo) {
+    float cos_o = dot(wo, x.n);
+    Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
+    return {reflect(wo, x.n), F / cos_o, 1, true};
+}
+
+/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
+///
+///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
+///
+/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
+/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
+inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
+    float eta = x.front ? x.material->ior : 1 / x.material->ior;
+    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
+    if (u < R) {
+        float f = R / cos_o;
+        return {reflect(wo, x.n), {f, f, f}, R, true};
+    }
+    std::optional<Vec3> wi = refract(wo, x.n, eta);
+    if (!wi) return {};
+    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
+    return {*wi, {f, f, f}, 1 - R, true};
 }

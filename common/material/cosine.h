@@ -1,4 +1,5 @@
-// The warp for diffuse surfaces (chapter 09).
+// taught by chapter 09
+// The warp for diffuse surfaces.
 #pragma once
 #include "common/base/vec.h"
 

@@ -122,7 +122,7 @@ std::string draw(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& pa
 
 }  // namespace
 
-int explain(const Scene& scene, const RenderOptions& options, Trace trace) {
+int explain(const Scene& scene, const RenderOptions& options, const Trace& trace) {
     int x = options.explain_x, y = options.explain_y, s = options.explain_sample;
     if (x >= scene.width || y >= scene.height) {
         throw UsageError("error: pixel " + std::to_string(x) + "," + std::to_string(y) +

@@ -10,8 +10,8 @@
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
-#include "common/light/light_shapes.h"
 #include "common/scene/camera.h"
+#include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 
 namespace {
@@ -56,7 +56,7 @@ public:
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
 
-    TileRenderer(const Scene& scene, const RenderOptions& options, Trace trace, Rendering& result)
+    TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace, Rendering& result)
         : scene_(scene),
           options_(options),
           trace_(trace),
@@ -130,54 +130,14 @@ private:
 
     const Scene& scene_;
     const RenderOptions& options_;
-    Trace trace_;
+    const Trace& trace_;
     Rendering& result_;
     CameraView view_;
     int tiles_x_;
     std::mutex mutex_;
 };
 
-/// Half the diagonal of the box around all primitives.
-float bounding_radius(const Geometry& g) {
-    Vec3 low = {infinity, infinity, infinity}, high = -low;
-    auto add = [&](Vec3 p, float r) {
-        low = min(low, p - Vec3{r, r, r}), high = max(high, p + Vec3{r, r, r});
-    };
-    for (Vec3 p : g.positions) add(p, 0);
-    for (const Sphere& s : g.spheres) add(s.c, s.r);
-    for (const Disk& d : g.disks) add(d.c, d.r);
-    return g.size() > 0 ? length(high - low) / 2 : 0;
-}
-
-std::vector<Vec3> facet_normals(const Geometry& g) {
-    std::vector<Vec3> normals;
-    normals.reserve(g.triangles.size());
-    for (const Triangle& t : g.triangles) {
-        Vec3 p0 = g.positions[t.v[0]];
-        normals.push_back(normalize(cross(g.positions[t.v[1]] - p0, g.positions[t.v[2]] - p0)));
-    }
-    return normals;
-}
-
 }  // namespace
-
-void prepare(Scene& scene, int threads) {
-    // Gather all skies in the first.
-    scene.sky = {};
-    for (size_t i = 0; i < scene.lights.size(); i++) {
-        Light& light = scene.lights[i];
-        if (light.type != LightType::infinite) continue;
-        scene.sky += light.L;
-        if (scene.sky_light < 0) scene.sky_light = static_cast<int>(i);
-        light.L = {};
-    }
-    if (scene.sky_light >= 0) scene.lights[static_cast<size_t>(scene.sky_light)].L = scene.sky;
-
-    scene.radius = bounding_radius(scene.geometry);
-    prepare_light_shapes(scene);
-    scene.geometry.facet_normals = facet_normals(scene.geometry);
-    scene.bvh = build_bvh(scene.geometry, threads);
-}
 
 Scene load(const RenderOptions& options) {
     std::vector<std::string> notes;
@@ -206,14 +166,14 @@ void refuse_delta_lights(const Scene& scene) {
 void refuse_glossy(const Scene& scene) {
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
-        if (m.type != MaterialType::conductor || m.alpha == 0) continue;
+        if (!is_rough(m)) continue;
         throw InputError(scene.file + ":" + std::to_string(m.line) + ":" +
                          std::to_string(m.column) +
                          ": error: rough conductors are not supported before chapter 12");
     }
 }
 
-Rendering render_film(const Scene& scene, const RenderOptions& options, Trace trace) {
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace) {
     Rendering result{Film(scene.width, scene.height), {}, {}};
     TileRenderer renderer(scene, options, trace, result);
     StopOnInterrupt stop;
@@ -245,7 +205,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, Trace tr
     return result;
 }
 
-int render(const Scene& scene, const RenderOptions& options, Trace trace) {
+int render(const Scene& scene, const RenderOptions& options, const Trace& trace) {
     if (options.explain) return explain(scene, options, trace);
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace));

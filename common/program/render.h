@@ -3,13 +3,11 @@
 #include <map>
 #include <string>
 
-#include "common/path/path_log.h"
+#include "common/path/trace.h"
 #include "common/picture/film.h"
 #include "common/program/options.h"
+#include "common/scene/prepare.h"
 #include "common/scene/scene.h"
-
-/// A chapter's estimator: one sample of the radiance that arrives along the ray.
-using Trace = Rgb (*)(const Scene&, Ray, Sampler&, PathLog&);
 
 /// What happened while a picture was rendered.
 struct RenderStats {
@@ -33,9 +31,6 @@ struct Rendering {
 /// samples and depth in place of the scene's own.
 Scene load(const RenderOptions& options);
 
-/// Makes a scene in memory ready to trace: its hierarchy, and the sum of its skies.
-void prepare(Scene& scene, int threads);
-
 /// Throws InputError when the scene has a point or distant light: a path that only looks for light
 /// by chance never finds one.
 void refuse_delta_lights(const Scene& scene);
@@ -46,11 +41,11 @@ void refuse_glossy(const Scene& scene);
 
 /// Renders in passes over the whole picture, until scene.spp samples a pixel, or options.time, or
 /// Ctrl-C. The same pixels for any number of threads.
-Rendering render_film(const Scene& scene, const RenderOptions& options, Trace trace);
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace);
 
 /// All that a chapter's program does with its scene: renders it, or explains one path of it, and
 /// writes what the options ask for. Returns the exit code.
-int render(const Scene& scene, const RenderOptions& options, Trace trace);
+int render(const Scene& scene, const RenderOptions& options, const Trace& trace);
 
 /// Throws now what writing the results would throw later; see files.h. Makes the folder of --split.
 void check_outputs(const RenderOptions& options);
@@ -60,4 +55,4 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
 
 /// Prints the path that makes sample options.explain_sample of one pixel, and draws it as an SVG
 /// beside the first picture.
-int explain(const Scene& scene, const RenderOptions& options, Trace trace);
+int explain(const Scene& scene, const RenderOptions& options, const Trace& trace);

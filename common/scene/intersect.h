@@ -1,25 +1,10 @@
 // What a ray meets, ready for shading, and how to leave a surface without meeting it again.
 #pragma once
+#include "common/material/hit.h"
 #include "common/scene/scene.h"
-
-/// A point of a surface, as seen by the ray that found it: n and ng face where it came from.
-struct Hit {
-    Vec3 p;      // m
-    Vec3 n;      // shading normal, unit
-    Vec3 ng;     // geometric normal, unit
-    float eps;   // m: how far p may be off the surface
-    float t;     // in lengths of the ray's d
-    bool front;  // came from the side of the normal: where it shines, outside of glass
-    const Material* material;
-    int light;      // into Scene::lights; -1: does not shine
-    uint32_t prim;  // into Scene::geometry
-};
 
 /// Rays traced by this thread, for rays per second.
 inline constinit thread_local uint64_t rays_traced = 0;
-
-/// How far off a point computed from numbers of this size may lie: some units in the last place.
-inline float rounding_error(float size) { return size * 8 * 0x1p-24f; }
 
 namespace hit_details {
 

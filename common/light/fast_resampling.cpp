@@ -1,26 +1,29 @@
-#include "common/light/light_resampling.h"
+#include "common/light/fast_resampling.h"
 
 #include <limits>
 
 namespace {
 
-LightBounds bounds_of(const Scene& scene, size_t i) {
+LightBounds bounds_of(const Scene& scene, const LightTable& table, size_t i) {
     const Light& light = scene.lights[i];
     LightBounds b;
     b.power = average(light.L);
     b.centre = light.p;
     if (light.type == LightType::area) {
         const LightShape& shape = scene.light_shapes[i];
-        b.centre = shape.centre, b.radius = shape.radius;
+        b.centre = shape.centre, b.radius2 = shape.radius * shape.radius;
         b.power *= shape.area;
-        if (shape.flat) b.n = shape.first.n, b.back = light.two_sided ? -1.0f : 1, b.least_cos = 0;
+        b.least_cos_x = 0.02f;
+        if (shape.flat) {
+            b.n = shape.first.n, b.back = light.two_sided ? -1.0f : 1, b.least_cos_y = 0.02f;
+        }
     } else if (light.type == LightType::distant) {
         b.has_place = 0;
     } else if (light.type == LightType::infinite) {  // all around
-        b.centre = {0, 0, 1}, b.has_place = 0, b.radius = 1;
+        b.centre = {0, 0, 1}, b.has_place = 0, b.least_cos_x = 1;
         b.power *= pi;
     }
-    float pmf = scene.light_table[i].pmf;
+    float pmf = table[i].pmf;
     b.inv_pmf = pmf > 1e-30f ? 1 / pmf : 0;  // never drawn, but for rounding
     return b;
 }
@@ -29,33 +32,33 @@ LightBounds bounds_of(const Scene& scene, size_t i) {
 inline float potential(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
     float d2 = std::max(dot(to_y, to_y), 1e-30f), inv_d = 1 / std::sqrt(d2);
-    float spread = y.radius * inv_d, more = spread + spread * spread;
-    more = spread > 0.5f ? 2 : more;  // so near that its points may lie anywhere
     float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d;
-    float least = y.least_cos;  // a copy: std::max of y's own number would be a branch
-    cos_x = std::min(std::max(cos_x + more, 0.0f), 1.0f);
-    cos_y = std::min(std::max(std::max(cos_y, y.back * cos_y) + more, least), 1.0f);
-    return y.power * cos_x * cos_y / std::max(d2, y.radius * y.radius);
+    float least_x = y.least_cos_x, least_y = y.least_cos_y;  // copies: std::max of y's own numbers
+    cos_x = std::max(cos_x, least_x);                        // would be branches
+    cos_y = std::max(std::max(cos_y, y.back * cos_y), least_y);
+    return y.power * cos_x * cos_y / std::max(d2, float{y.radius2});
 }
 
 }  // namespace
 
-void prepare_light_bounds(Scene& scene) {
-    scene.light_bounds.clear();
-    for (size_t i = 0; i < scene.lights.size(); i++)
-        scene.light_bounds.push_back(bounds_of(scene, i));
+ManyLights many_lights(const Scene& scene, LightTable table, int M) {
+    M = std::min(M, static_cast<int>(table.size()));
+    ManyLights lights{std::move(table), {}, M};
+    for (size_t i = 0; i < lights.table.size(); i++)
+        lights.bounds.push_back(bounds_of(scene, lights.table, i));
+    return lights;
 }
 
 // The compiler turns each of these loops into vector instructions: no branches, no calls.
 
-Candidates draw_candidates(const Scene& scene, const Hit& x, int M, float u) {
+Candidates draw_candidates(const ManyLights& lights, const Hit& x, float u) {
     Candidates c;
-    c.M = M;
+    const int M = c.M = lights.M;
     for (int i = 0; i < M; i++) {
         float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
-        c.light[i] = static_cast<int>(pick_light(scene, slice));
+        c.light[i] = static_cast<int>(pick_light(lights.table, slice));
     }
-    const LightBounds* bounds = scene.light_bounds.data();
+    const LightBounds* bounds = lights.bounds.data();
     for (int i = 0; i < M; i++) {
         const LightBounds& y = bounds[c.light[i]];
         c.p_hat[i] = potential(y, x);

@@ -1,0 +1,20 @@
+// Chapter 12 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/12_glossy/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        auto strategy = ch12::Strategy::light;
+        Option ways = {
+            "strategy", "KIND", "how to find light: by aiming at light (default) or by bsdf",
+            [&](const std::string& text) {
+                strategy =
+                    static_cast<ch12::Strategy>(parse_choice("strategy", text, {"bsdf", "light"}));
+            }};
+        RenderOptions options =
+            parse_render_options(argc, argv, "12_glossy", "scenes/veach-mis.pbrt", {ways});
+        Scene scene = load(options);
+        if (strategy == ch12::Strategy::bsdf) refuse_delta_lights(scene);
+        return render(scene, options, trace_with<ch12::trace>(ch12::prepare(scene), strategy));
+    });
+}

@@ -1,0 +1,139 @@
+// Chapter 13: multiple importance sampling. Look for light both ways, and trust each where it is
+// good.
+//
+//   L = mis_l f Le V cos / pdf_l + mis_b f Le cos / pdf_b,    mis_l + mis_b = 1 for each direction
+#pragma once
+#include "common/light/light_table.h"
+#include "common/material/ggx.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+
+namespace ch13 {
+
+using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
+
+/// The weight of a direction that was drawn with density a, and could have been drawn with b.
+///
+///   balance: a / (a + b);  power: a^2 / (a^2 + b^2)
+///
+/// By way of b / a, so that no square overflows. a > 0; an infinite a has weight 1.
+/// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1"
+inline float balance_heuristic(float a, float b) { return 1 / (1 + b / a); }
+inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / a)); }
+
+/// Which ways of looking for light are used, and how they share it. One-sample: a coin at each
+/// vertex chooses the way, which then counts twice.
+enum class Strategy : uint8_t { bsdf, light, mis, one_sample };
+struct Settings {
+    Strategy strategy = Strategy::mis;
+    float (*heuristic)(float a, float b) = power_heuristic;
+};
+
+/// The table that lights are chosen from.
+inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
+
+/// The density, in sr^-1, with which sample_light() draws the direction wi from x: towards the
+/// light that a ray met at y, or else into the sky.
+inline float pdf_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wi,
+                       const std::optional<Hit>& y) {
+    size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
+    return pmf_light(lights, light) * (y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi));
+}
+
+/// What each way counts at a vertex.
+struct Counts {
+    float light, bsdf;
+};
+inline Counts count_ways(Strategy strategy, float u) {
+    switch (strategy) {
+        case Strategy::bsdf: return {0, 1};
+        case Strategy::light: return {1, 0};
+        case Strategy::mis: return {1, 1};
+        case Strategy::one_sample: return u < 0.5f ? Counts{2, 0} : Counts{0, 2};
+    }
+    return {};
+}
+/// The share of one way, of density a, beside the other, of density b: all where it is alone.
+inline float share(const Settings& settings, float a, float b) {
+    bool alone = settings.strategy == Strategy::bsdf || settings.strategy == Strategy::light;
+    return alone ? 1 : settings.heuristic(a, b);
+}
+
+/// Estimates what all lights send by way of x to wo, from one point of one light.
+///
+///   Ld = mis_l f Le V cos / pdf_w
+///
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Settings& settings,
+                        const Hit& x, Vec3 wo, float u1, Vec2 u2, Rgb beta, PathLog& log) {
+    if (is_specular(*x.material) || is_black(beta)) return {};
+    LightSample y = sample_light(scene, lights, x, u1, u2);
+    if (y.pdf_w == 0) return {};
+    float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
+    float mis_l = share(settings, y.pdf_w, pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_b, mis_l);
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
+///
+/// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the better way.
+/// source  Veach, Guibas 1995      tested by  "ch13 mis"
+inline Rgb trace(const Scene& scene, const LightTable& lights, const Settings& settings, Ray ray,
+                 Sampler& sampler, PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    Hit last;              // the vertex before
+    Counts counts{};       // of the ways to look for light from there
+    float pdf_b = 0;       // of the direction that was drawn there
+    bool only_way = true;  // nothing but this path could find what shines next
+    for (int depth = 0;; depth++) {
+        // Find the next vertex, or the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (x) log.vertex(*x);
+
+        // Add what shines there, as far as it is this way's share.
+        Rgb Le = x ? emission(scene, *x) : scene.sky;
+        if (!is_black(Le)) {
+            float mis_b = 1;
+            if (!only_way) {
+                float pdf_l = pdf_light(scene, lights, last, ray.d, x);
+                mis_b = counts.bsdf * share(settings, pdf_b, pdf_l);
+            }
+            L += log.emitted(beta * Le * mis_b, mis_b);
+        }
+        if (!x) return L;
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at a light.
+        Vec3 wo = -ray.d;
+        counts = count_ways(settings.strategy, sampler.u1());
+        float u1 = sampler.u1();
+        Vec2 u2 = sampler.u2();
+        L += direct_light(scene, lights, settings, *x, wo, u1, u2, beta * counts.light, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        last = *x, pdf_b = s.pdf_w, only_way = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch13

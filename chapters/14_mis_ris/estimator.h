@@ -1,0 +1,164 @@
+// Chapter 14: multiple importance sampling of many lights. Chapters 11 and 13 in one.
+//
+//   three ways find light: the best of M candidates, any light, and the BSDF; each is weighed by
+//   mis_a = a^2 / (resampled^2 + uniform^2 + bsdf^2),    a: the way's own density
+#pragma once
+#include "common/light/fast_resampling.h"
+#include "common/material/ggx.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+
+namespace ch14 {
+
+using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
+
+/// The lights, and M: candidates for one shadow ray, but no more than there are lights.
+inline ManyLights prepare(const Scene& scene, int M = 64) {
+    return many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
+}
+
+/// The densities, in sr^-1, with which each way finds a direction that lies on a certain light.
+struct Densities {
+    float resampled, uniform, bsdf;
+};
+
+/// The weight of a direction found with density a:  a^2 / (resampled^2 + uniform^2 + bsdf^2)
+///
+/// By way of ratios, so that no square overflows.      source  Veach, Guibas 1995
+/// tested by  "identity: the three weights sum to 1"
+inline float mis_weight(float a, const Densities& d) {
+    float r = d.resampled / a, u = d.uniform / a, b = d.bsdf / a;
+    return 1 / (r * r + u * u + b * b);
+}
+
+/// The densities of the three ways towards `light`, where one point of it has density pdf_one.
+///
+/// min(1, M pmf) is a heuristic: nobody knows how likely a light is to be the best of M candidates.
+/// It does not touch the mean: whatever positive numbers stand here, the three weights sum to 1 for
+/// each direction. Only the variance depends on how good they are.
+inline Densities densities(const ManyLights& lights, size_t light, float pdf_one, float pdf_b) {
+    float N = static_cast<float>(lights.table.size()), M = static_cast<float>(lights.M);
+    float best = std::min(1.0f, M * pmf_light(lights.table, light));
+    return {best * pdf_one, N > 1 ? pdf_one / N : 0, pdf_b};
+}
+
+/// How much of a light's potential rough metal turns to wo, and the BSDF does not find by itself:
+/// mis_l f, both towards the light's centre. + 0.05: a heuristic, as its other points may differ.
+inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t light, const Hit& x,
+                        Vec3 wo) {
+    if (scene.lights[light].type != LightType::area) return 1;
+    const LightShape& shape = scene.light_shapes[light];
+    Vec3 to_y = shape.centre - x.p;
+    float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
+    Vec3 wi = to_y / std::sqrt(d2);
+    Densities d = densities(lights, light, d2 / shape.area, pdf_bsdf(x, wo, wi));
+    return mis_weight(d.resampled, d) * average(eval_bsdf(x, wo, wi)) + 0.05f;
+}
+
+/// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
+/// inside: candidates of which the BSDF takes care are not chosen.
+inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
+                            Vec2 u) {
+    Candidates c = draw_candidates(lights, x, u.x);
+    if (is_rough(*x.material)) {
+        for (int i = 0; i < c.M; i++) {
+            if (c.p_hat[i] == 0) continue;
+            float share = lobe_share(scene, lights, static_cast<size_t>(c.light[i]), x, wo);
+            c.p_hat[i] *= share, c.weight[i] *= share;
+        }
+    }
+    return keep_one(c, u.y);
+}
+
+/// Light from one point of one light, which was found in one of two ways and counts W times.
+enum class Way : uint8_t { resampled, uniform };
+inline Rgb light_from(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
+                      size_t light, float W, Way way, Vec2 u2, Rgb beta, PathLog& log) {
+    LightSample y = sample_one_light(scene, light, x, u2);
+    if (y.pdf_w == 0 || W == 0) return {};
+    float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
+    Densities d = densities(lights, light, y.pdf_w, pdf_b);
+    float pdf_l = way == Way::resampled ? d.resampled : d.uniform, mis_l = mis_weight(pdf_l, d);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * W);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
+}
+
+/// Estimates what all lights send by way of x to wo, in the two ways that aim at lights.
+/// source  Talbot et al. 2005; Veach, Guibas 1995      tested by  "truth: irradiance of all lights"
+inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
+                        Sampler& sampler, Rgb beta, PathLog& log) {
+    size_t N = scene.lights.size();
+    if (is_specular(*x.material) || N == 0) return {};
+    if (N == 1) {
+        return light_from(scene, lights, x, wo, 0, 1, Way::resampled, sampler.u2(), beta, log);
+    }
+    Kept best = resample_lights(scene, lights, x, wo, sampler.u2());
+    Rgb L = light_from(scene, lights, x, wo, best.light, best.W, Way::resampled, sampler.u2(), beta,
+                       log);
+    float count = static_cast<float>(N);
+    size_t any = std::min(static_cast<size_t>(sampler.u1() * count), N - 1);
+    return L + light_from(scene, lights, x, wo, any, count, Way::uniform, sampler.u2(), beta, log);
+}
+
+/// The weight of emission that the direction s, drawn at x, has met: at y, or else in the sky.
+inline float mis_emission(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wi,
+                          float pdf_b, const std::optional<Hit>& y) {
+    size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
+    float pdf_one = y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi);
+    return mis_weight(pdf_b, densities(lights, light, pdf_one, pdf_b));
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
+///
+/// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
+/// source  Veach, Guibas 1995      tested by  "ch14 mis ris"
+inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler& sampler,
+                 PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    Hit last;              // the vertex before
+    float pdf_b = 0;       // of the direction that was drawn there
+    bool only_way = true;  // nothing but this path could find what shines next
+    for (int depth = 0;; depth++) {
+        // Find the next vertex, or the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (x) log.vertex(*x);
+
+        // Add what shines there, as far as it is this way's share.
+        Rgb Le = x ? emission(scene, *x) : scene.sky;
+        if (!is_black(Le)) {
+            float mis_b = only_way ? 1 : mis_emission(scene, lights, last, ray.d, pdf_b, x);
+            L += log.emitted(beta * Le * mis_b, mis_b);
+        }
+        if (!x) return L;
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at lights.
+        Vec3 wo = -ray.d;
+        L += direct_light(scene, lights, *x, wo, sampler, beta, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        last = *x, pdf_b = s.pdf_w, only_way = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 07
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch14

@@ -1,0 +1,25 @@
+// What a surface is made of, as the scene file says it.
+#pragma once
+#include <cstdint>
+
+#include "common/base/vec.h"
+
+enum class MaterialType : uint8_t { diffuse, conductor, dielectric };
+
+struct Material {
+    MaterialType type = MaterialType::diffuse;
+    Rgb reflectance = {0.5f, 0.5f, 0.5f};  // diffuse: albedo, in [0,1]
+    Rgb eta, k;                            // conductor: complex index of refraction eta + i k
+    float alpha = 0;                       // conductor: GGX roughness; 0: a perfect mirror
+    float ior = 1.5f;                      // dielectric: index inside over index outside
+    int line = 0, column = 0;              // where the scene file makes it, for messages
+};
+
+/// Whether light that arrives from one direction leaves in one direction (or two) only.
+inline bool is_specular(const Material& m) {
+    return m.type == MaterialType::dielectric ||
+           (m.type == MaterialType::conductor && m.alpha == 0);
+}
+
+/// Whether it is metal that light leaves in many directions, more in some than in others.
+inline bool is_rough(const Material& m) { return m.type == MaterialType::conductor && m.alpha > 0; }
