@@ -36,8 +36,7 @@ public:
     /// Throws at the last word read, or at the byte that is reached.
     [[noreturn]] void fail_here(const std::string& text) const {
         if (format == PlyFormat::ascii) fail(at(), text);
-        throw InputError(
-            printable(file_ + ": error: " + text + " at byte " + std::to_string(position_)));
+        fail({file_}, text + " at byte " + std::to_string(position_));
     }
 
     /// The next word of the line; empty at its end.
