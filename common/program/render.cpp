@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
+#include "common/geometry/bvh_build.h"
 #include "common/light/light_shapes.h"
 #include "common/scene/camera.h"
 #include "common/scene_file/reader.h"
