@@ -261,37 +261,35 @@ struct Walk {
         return enter(box, ray, inv_d);
     }
     /// Tests one primitive, and keeps it if it is nearer, or as near with a lower number.
-    void test(uint32_t prim);
+    void test(uint32_t prim) {
+        work.prims++;
+        const Geometry& g = geometry;
+        Ray up_to = ray;
+        up_to.t_max = std::nextafter(best.t, infinity);  // so that an equal t is found, too
+        PrimHit hit{prim, infinity};
+        visit(
+            g, prim,
+            [&](const Triangle& triangle) {
+                auto [v0, v1, v2] = triangle.v;
+                auto found = intersect_triangle(up_to, shear, g.positions[v0], g.positions[v1],
+                                                g.positions[v2]);
+                if (found) hit = {prim, found->t, found->b1, found->b2};
+            },
+            [&](const Sphere& sphere) {
+                hit.t = intersect_sphere(up_to, sphere.c, sphere.r).value_or(infinity);
+            },
+            [&](const Disk& disk) {
+                hit.t = intersect_disk(up_to, disk.c, disk.n, disk.r).value_or(infinity);
+            });
+        bool tie = hit.t == best.t && best.prim != PrimHit::none;
+        if (hit.t < best.t || (tie && prim < best.prim)) best = hit;
+    }
     /// Tests the primitives of a leaf.
     void test_all(const std::vector<uint32_t>& prims, const Node& leaf) {
         for (uint32_t i = 0; i < leaf.count; i++) test(prims[leaf.first + i]);
     }
     PrimHit found() const { return best.prim == PrimHit::none ? PrimHit{} : best; }
 };
-
-inline void Walk::test(uint32_t prim) {
-    work.prims++;
-    const Geometry& g = geometry;
-    Ray up_to = ray;
-    up_to.t_max = std::nextafter(best.t, infinity);  // so that an equal t is found, too
-    PrimHit hit{prim, infinity};
-    visit(
-        g, prim,
-        [&](const Triangle& triangle) {
-            auto [v0, v1, v2] = triangle.v;
-            auto found =
-                intersect_triangle(up_to, shear, g.positions[v0], g.positions[v1], g.positions[v2]);
-            if (found) hit = {prim, found->t, found->b1, found->b2};
-        },
-        [&](const Sphere& sphere) {
-            hit.t = intersect_sphere(up_to, sphere.c, sphere.r).value_or(infinity);
-        },
-        [&](const Disk& disk) {
-            hit.t = intersect_disk(up_to, disk.c, disk.n, disk.r).value_or(infinity);
-        });
-    bool tie = hit.t == best.t && best.prim != PrimHit::none;
-    if (hit.t < best.t || (tie && prim < best.prim)) best = hit;
-}
 
 /// Finds the nearest hit. In order, the nearer child comes first, and a box that begins behind the
 /// hit found so far is not opened; else all boxes that the ray meets are.
@@ -369,7 +367,8 @@ inline FourHierarchy collapse(const Hierarchy& h) {
 }
 
 /// Finds the nearest hit: asks the boxes of four children at a time, and goes on with the nearest.
-inline PrimHit traverse(const FourHierarchy& h, const Geometry& g, const Ray& ray, Work& work) {
+inline PrimHit traverse_four(const FourHierarchy& h, const Geometry& g, const Ray& ray,
+                             Work& work) {
     struct Waiting {
         const Node* node;
         float t;
@@ -435,7 +434,7 @@ inline PrimHit find(const Finder& f, const Geometry& g, const Ray& ray, Work& wo
         case Step::median:
         case Step::sah: return traverse(f.hierarchy, g, ray, false, work);
         case Step::ordered: return traverse(f.hierarchy, g, ray, true, work);
-        case Step::four: return traverse(f.four, g, ray, work);
+        case Step::four: return traverse_four(f.four, g, ray, work);
         case Step::wide: {
             BvhCount count;
             PrimHit hit = closest_hit(f.wide, g, ray, count);
