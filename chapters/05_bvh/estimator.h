@@ -233,9 +233,9 @@ inline double sah_cost(const Hierarchy& h) {
     return cost;
 }
 
-/// How many boxes and primitives rays were tested against.
+/// How many nodes rays opened, and how many boxes and primitives they were tested against.
 struct Work {
-    uint64_t boxes = 0, prims = 0;
+    uint64_t nodes = 0, boxes = 0, prims = 0;
 };
 
 /// A ray on its way through a hierarchy, with what it has found so far.
@@ -312,6 +312,7 @@ inline PrimHit traverse(const Hierarchy& h, const Geometry& g, const Ray& ray, b
             continue;
         }
         // Put both children on the stack, the nearer one on top.
+        work.nodes++;
         Waiting left{index + 1, walk.ask(h.nodes[index + 1].box)};
         Waiting right{node.first, walk.ask(h.nodes[node.first].box)};
         if (in_order && left.t < right.t) std::swap(left, right);
@@ -386,6 +387,7 @@ inline PrimHit traverse_four(const FourHierarchy& h, const Geometry& g, const Ra
             continue;
         }
         // Put the children that the ray meets on the stack, from far to near.
+        work.nodes++;
         size_t bottom = stack.size();
         const FourNode& four = h.nodes[node->first];
         for (size_t i = 0; i < four.size; i++) {
@@ -438,6 +440,7 @@ inline PrimHit find(const Finder& f, const Geometry& g, const Ray& ray, Work& wo
         case Step::wide: {
             BvhCount count;
             PrimHit hit = closest_hit(f.wide, g, ray, count);
+            work.nodes += count.nodes;
             work.boxes += count.nodes;
             work.prims += count.blocks;
             return hit;

@@ -30,6 +30,7 @@ inline std::vector<std::string> measure(const Scene& scene, Step step,
             digits(build_seconds, 3),
             std::to_string(nodes),
             binary ? digits(sah_cost(finder.hierarchy), 4) : "-",
+            per_ray(work.nodes),
             per_ray(work.boxes),
             per_ray(work.prims),
             digits(traced / seconds / 1e6, 3)};
@@ -37,7 +38,8 @@ inline std::vector<std::string> measure(const Scene& scene, Step step,
 
 /// A row for each step; the linear scan, which is slow, traces a few of the rays only.
 inline Table steps_table(const Scene& scene) {
-    Table table{{"step", "build s", "nodes", "SAH", "boxes/ray", "prims/ray", "M rays/s"}, {}};
+    Table table{
+        {"step", "build s", "nodes", "SAH", "nodes/ray", "boxes/ray", "prims/ray", "M rays/s"}, {}};
     size_t pixels = static_cast<size_t>(scene.width) * static_cast<size_t>(scene.height);
     std::vector<Ray> rays = pixel_rays(scene, 1 + pixels / (1 << 20));
     std::vector<Ray> few = pixel_rays(scene, 1 + scene.geometry.size() / 100);
