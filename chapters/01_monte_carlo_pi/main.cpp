@@ -1,4 +1,5 @@
-#include "chapters/01_monte_carlo_pi/estimator.h"
+// Chapter 01 as a program: throws darts, prints a table, draws a picture.
+#include "chapters/01_monte_carlo_pi/figure.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

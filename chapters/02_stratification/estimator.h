@@ -5,8 +5,6 @@
 
 #include "common/base/stats.h"
 #include "common/path/sampler.h"
-#include "common/picture/plot.h"
-#include "common/program/table.h"
 
 namespace ch02 {
 
@@ -156,23 +154,36 @@ enum class PointSet { uniform, jittered, rooks, poisson, repelled, halton, sobol
 /// n points of a kind (Poisson disc: about n); another seed gives others, and over all seeds the
 /// points of each kind are uniform on the square.
 inline Points make_points(PointSet set, uint32_t n, uint32_t seed) {
-    if (set == PointSet::poisson)
-        return poisson_disc_points(std::sqrt(0.65f / static_cast<float>(n)), 1000, seed);
+    if (set == PointSet::poisson) {
+        float r = std::sqrt(0.65f / static_cast<float>(n));
+        return poisson_disc_points(r, 1000, seed);
+    }
     if (set == PointSet::repelled) return repelled_points(n, 100, seed);
+
     Points points;
     Vec2 shift = random_pair(seed, n);
     for (uint32_t i = 0; i < n; i++) {
-        Vec2 u = random_pair(seed, i), p = u;
-        if (set == PointSet::jittered) p = ch02::jitter_in_stratum(i, n, u);
-        if (set == PointSet::rooks)  // one in each column, one in each row
-            p = {jitter_in_interval(i, n, u.x),
-                 jitter_in_interval(permute(i, n, hash32(seed)), n, u.y)};
-        if (set == PointSet::halton)  // shifted by chance, around the torus
-            p = wrap({radical_inverse(2, i) + shift.x, radical_inverse(3, i) + shift.y});
-        if (set == PointSet::sobol)
-            p = {to_unit_float(owen_scramble(reverse_bits(i), hash32(seed, 1))),
-                 to_unit_float(owen_scramble(sobol_second(i), hash32(seed, 2)))};
-        points.push_back(p);
+        Vec2 u = random_pair(seed, i);
+        switch (set) {
+            case PointSet::jittered: points.push_back(ch02::jitter_in_stratum(i, n, u)); break;
+            case PointSet::rooks: {  // one in each column, one in each row
+                uint32_t row = permute(i, n, hash32(seed));
+                points.push_back({jitter_in_interval(i, n, u.x), jitter_in_interval(row, n, u.y)});
+                break;
+            }
+            case PointSet::halton: {  // shifted by chance, around the torus
+                Vec2 p = {radical_inverse(2, i), radical_inverse(3, i)};
+                points.push_back(wrap({p.x + shift.x, p.y + shift.y}));
+                break;
+            }
+            case PointSet::sobol: {
+                uint32_t x = owen_scramble(reverse_bits(i), hash32(seed, 1));
+                uint32_t y = owen_scramble(sobol_second(i), hash32(seed, 2));
+                points.push_back({to_unit_float(x), to_unit_float(y)});
+                break;
+            }
+            default: points.push_back(u);  // uniform
+        }
     }
     return points;
 }
@@ -209,92 +220,6 @@ inline double fraction_seen(double p) {
     auto square = [](double x) { return x > 0 ? x * x : 0; };
     return (square(p) - square(p - edge_a) - square(p - edge_b) + square(p - edge_a - edge_b)) /
            (2 * edge_a * edge_b);
-}
-
-// What the program shows.
-
-struct Kind {
-    PointSet set;
-    const char *name, *edge, *smooth;  // slopes of the error in theory
-    uint32_t runs, largest;            // sets, and N, that it can afford
-};
-inline constexpr Kind kinds[] = {
-    {PointSet::uniform, "uniform", "-0.50", "-0.50", 256, 1 << 16},
-    {PointSet::jittered, "jittered", "-0.75", "-1.00", 256, 1 << 16},
-    {PointSet::rooks, "N-rooks", "-0.50", "-0.50", 256, 1 << 16},
-    {PointSet::poisson, "Poisson disc", "-0.50 at last", "-0.50 at last", 64, 1024},
-    {PointSet::repelled, "repelled", "unknown", "unknown", 64, 256},
-    {PointSet::halton, "Halton, shifted", "about -0.75", "about -0.84", 256, 1 << 16},
-    {PointSet::sobol, "Sobol, scrambled", "-0.75", "-1.50", 256, 1 << 16},
-};
-
-struct Measurement {
-    double count = 0, pi = 0;  // means over the sets
-    double errors[3] = {};     // root mean square: of pi, of xy, of the penumbra
-    double seconds = 0;        // for one set
-};
-
-/// Estimates from `runs` sets of about n points, against the truth.
-inline Measurement measure(PointSet set, uint32_t n, uint32_t runs, uint32_t seed) {
-    RunningStats count, pi_estimate, squares[3];
-    Stopwatch watch;
-    for (uint32_t run = 0; run < runs; run++) {
-        Points points = make_points(set, n, hash32(seed, run));
-        double p = (run + 0.5) / runs * (edge_a + edge_b);
-        auto seen = [&](Vec2 u) { return sees_light(u, p); };
-        count.add(static_cast<double>(points.size()));
-        pi_estimate.add(estimate(points, quarter_circle));
-        squares[0].add(std::pow(estimate(points, quarter_circle) - std::numbers::pi, 2));
-        squares[1].add(std::pow(estimate(points, product) - 0.25, 2));
-        squares[2].add(std::pow(estimate(points, seen) - fraction_seen(p), 2));
-    }
-    auto root_mean = [&](int k) { return std::sqrt(squares[k].mean()); };
-    return {count.mean(),
-            pi_estimate.mean(),
-            {root_mean(0), root_mean(1), root_mean(2)},
-            watch.seconds() / runs};
-}
-
-/// 36 darts, thrown freely and into 6 x 6 strata.
-inline std::string six_by_six(uint32_t seed) {
-    double uniform = measure(PointSet::uniform, 36, 10000, seed).errors[0];
-    double jittered = measure(PointSet::jittered, 36, 10000, seed).errors[0];
-    return "\n36 darts: standard error " + digits(uniform, 3) + " uniform (exact 0.274), " +
-           digits(jittered, 3) + " in 6 x 6 strata (exact 0.127); ratio of variances " +
-           digits(uniform * uniform / (jittered * jittered), 3) + " (exact 4.62)\n";
-}
-
-/// A column for each kind: 64 points; the penumbra and a zone plate with 16 points in each pixel.
-inline Image sets_picture(uint32_t seed) {
-    constexpr int size = 76, gap = 4, sets = 256;
-    constexpr Rgb white{1, 1, 1}, paper{0.85f, 0.85f, 0.82f}, ink{0.05f, 0.2f, 0.55f};
-    Image image(std::ssize(kinds) * (size + gap) - gap, 2 * (size + gap) + size / 3);
-    std::fill(image.pixels.begin(), image.pixels.end(), paper);
-    for (int k = 0; k < std::ssize(kinds); k++) {
-        int left = k * (size + gap);
-        Panel panel{image, left, 0, size, size};
-        for (Vec2 p : make_points(kinds[k].set, 64, seed)) panel.dot(p, 1.6f, ink);
-
-        std::vector<Points> pool;
-        for (uint32_t i = 0; i < sets; i++)
-            pool.push_back(make_points(kinds[k].set, 16, hash32(seed, i)));
-        uint32_t pixel = 0;  // each takes one set of the pool, by chance
-        auto average = [&](auto f) {
-            double value = estimate(pool[hash32(pixel++, seed) % sets], f);
-            return static_cast<float>(value) * white;
-        };
-        Panel penumbra{image, left, size + gap, size, size / 3, {0, 0}, {1.4f, 1}};
-        penumbra.fill(
-            [&](Vec2 x) { return average([&](Vec2 u) { return sees_light(u, double{x.x}); }); });
-        Panel zone_plate{image, left, size + size / 3 + 2 * gap, size, size, {0, 0}, {size, size}};
-        zone_plate.fill([&](Vec2 x) {  // rings whose period shrinks to one pixel at the border
-            return average([&](Vec2 u) {
-                double i = double{x.x} + double{u.x}, j = double{x.y} + double{u.y};
-                return std::cos(std::numbers::pi / size * (i * i + j * j)) > 0 ? 1 : 0;
-            });
-        });
-    }
-    return image;
 }
 
 }  // namespace ch02

@@ -3,7 +3,6 @@
 //   L = Le + sum over lamps of  f I cos / r^2 V     (diffuse: one shadow ray for each lamp)
 //   L = Le + R L(reflected) + (1 - R) L(refracted)  (mirror and glass: follow every branch)
 #pragma once
-#include <bit>
 #include <optional>
 
 #include "common/material/metal.h"
@@ -56,13 +55,11 @@ struct Shear {
 };
 
 inline Shear shear_to_ray(const Vec3& d) {
-    // Without the sign, the bits of floats are in their order, and integers compare faster.
-    auto size = [&](int axis) { return std::bit_cast<uint32_t>(d[axis]) << 1; };
-    uint32_t x = size(0), y = size(1), z = size(2);
-    int is_z = z >= std::max(x, y), is_y = !is_z & (y >= x);
-    int kz = is_y + 2 * is_z;
-    static constexpr int after[] = {1, 2, 0, 1};
-    int kx = after[kz], ky = after[kz + 1];
+    Vec3 size = abs(d);
+    int kz = 0;
+    if (size.y >= size.x) kz = 1;
+    if (size.z >= std::max(size.x, size.y)) kz = 2;
+    int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
     return {kx, ky, kz, d[kx] / d[kz], d[ky] / d[kz], 1 / d[kz]};
 }
 
@@ -133,11 +130,17 @@ inline PrimHit linear_scan(const Geometry& g, Ray ray) {
         prim++;
     }
     for (const Sphere& s : g.spheres) {
-        if (auto t = intersect_sphere(ray, s.c, s.r)) best = {prim, ray.t_max = *t};
+        if (auto t = intersect_sphere(ray, s.c, s.r)) {
+            best = {prim, *t};
+            ray.t_max = *t;
+        }
         prim++;
     }
     for (const Disk& disk : g.disks) {
-        if (auto t = intersect_disk(ray, disk.c, disk.n, disk.r)) best = {prim, ray.t_max = *t};
+        if (auto t = intersect_disk(ray, disk.c, disk.n, disk.r)) {
+            best = {prim, *t};
+            ray.t_max = *t;
+        }
         prim++;
     }
     return best;
@@ -178,29 +181,40 @@ inline float fresnel_dielectric(float cos_i, float eta) {
 
 /// A lamp as Whitted's method sees it: everything that shines, gathered in one point.
 struct Lamp {
-    Vec3 p;         // m, the centre of the primitive that shines
-    Vec3 n;         // its normal; 0 where it shines the same to all sides (a sphere, a point light)
-    Rgb intensity;  // along n, W sr^-1: radiance times the area that is seen
-    float radius = 0;  // m, of a sphere
+    Vec3 p = {};         // m, the centre of the primitive that shines
+    Vec3 n = {};         // its normal; 0: shines the same to all sides (a sphere, a point light)
+    Rgb intensity = {};  // along n, W sr^-1: radiance times the area that is seen
+    float radius = 0;    // m, of a sphere
     bool two_sided = false;
 };
 
 /// The primitive of an area light as a lamp: a point in its middle.
 inline Lamp lamp_of(const Geometry& g, const Light& light, uint32_t prim) {
-    size_t i = prim;
-    if (i < g.triangles.size()) {
-        auto [v0, v1, v2] = g.triangles[i].v;
-        Vec3 p0 = g.positions[v0], p1 = g.positions[v1], p2 = g.positions[v2];
-        Vec3 n = cross(p1 - p0, p2 - p0);  // twice the area long
-        return {(p0 + p1 + p2) / 3, normalize(n), light.L * (length(n) / 2), 0, light.two_sided};
-    }
-    i -= g.triangles.size();
-    if (i < g.spheres.size()) {
-        const Sphere& s = g.spheres[i];
-        return {s.c, {}, light.L * (pi * s.r * s.r), s.r, true};
-    }
-    const Disk& d = g.disks[i - g.spheres.size()];
-    return {d.c, d.n, light.L * (pi * d.r * d.r), 0, light.two_sided};
+    Lamp lamp{.two_sided = light.two_sided};
+    float area = 0;  // that is seen along n
+    visit(
+        g, prim,
+        [&](const Triangle& triangle) {
+            auto [v0, v1, v2] = triangle.v;
+            Vec3 p0 = g.positions[v0], p1 = g.positions[v1], p2 = g.positions[v2];
+            Vec3 n = cross(p1 - p0, p2 - p0);  // twice the area long
+            lamp.p = (p0 + p1 + p2) / 3;
+            lamp.n = normalize(n);
+            area = length(n) / 2;
+        },
+        [&](const Sphere& sphere) {
+            lamp.p = sphere.c;
+            lamp.radius = sphere.r;
+            lamp.two_sided = true;
+            area = pi * sphere.r * sphere.r;
+        },
+        [&](const Disk& disk) {
+            lamp.p = disk.c;
+            lamp.n = disk.n;
+            area = pi * disk.r * disk.r;
+        });
+    lamp.intensity = light.L * area;
+    return lamp;
 }
 
 /// What one lamp sends from the diffuse point x to the eye: f I cos cos_lamp / r^2 V.
@@ -234,10 +248,14 @@ inline Rgb shade_all(const Scene& scene, const Hit& x, Rgb beta, PathLog& log) {
                     add(lamp_of(scene.geometry, light, light.first_prim + i));
                 }
                 break;
-            case LightType::point: add({light.p, {}, light.L, 0, true}); break;
+            case LightType::point:
+                add({.p = light.p, .intensity = light.L, .two_sided = true});
+                break;
             case LightType::distant: {  // a lamp so far away that its rays are parallel
                 constexpr float far = 1e12f;
-                add({x.p + far * light.p, {}, light.L * (far * far), 0, true});
+                add({.p = x.p + far * light.p,
+                     .intensity = light.L * (far * far),
+                     .two_sided = true});
                 break;
             }
             case LightType::infinite: break;  // no point to aim at: only seen, never lighting

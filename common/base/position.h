@@ -8,7 +8,8 @@
 #include "common/base/nearest.h"
 #include "common/base/utf8.h"
 
-/// A place in a text file; lines and columns count from 1, columns in characters.
+/// A place in a text file; lines and columns count from 1, columns in characters. Line 0: the file
+/// as a whole.
 struct Position {
     std::string file;
     int line = 0, column = 0;
@@ -35,11 +36,13 @@ inline std::string quote(std::string_view word) {
     return '"' + std::string(word.substr(0, end)) + "...\"";
 }
 
-/// "file:line:column: kind: text", the form in which compilers and editors know it.
+/// "file:line:column: kind: text", the form in which compilers and editors know it; for a file as a
+/// whole "file: kind: text".
 inline std::string message_at(const Position& at, const std::string& kind,
                               const std::string& text) {
-    return printable(at.file + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) +
-                     ": " + kind + ": " + text);
+    std::string place = at.file;
+    if (at.line > 0) place += ':' + std::to_string(at.line) + ':' + std::to_string(at.column);
+    return printable(place + ": " + kind + ": " + text);
 }
 
 /// Throws the InputError for something wrong at a place in a file.

@@ -81,16 +81,12 @@ template <bool any>
 bool test_others(const BvhBlock& block, const Geometry& g, Ray ray, PrimHit& best) {
     bool found = false;
     for (uint32_t prim : block.prim) {
-        size_t i = prim;
-        if (prim == PrimHit::none || i < g.triangles.size()) continue;
+        if (prim == PrimHit::none) continue;
         ray.t_max = next_above(best.t);
-        std::optional<float> t;
-        if ((i -= g.triangles.size()) < g.spheres.size()) {
-            t = intersect_sphere(ray, g.spheres[i].c, g.spheres[i].r);
-        } else {
-            const Disk& disk = g.disks[i - g.spheres.size()];
-            t = intersect_disk(ray, disk.c, disk.n, disk.r);
-        }
+        auto t = visit(
+            g, prim, [](const Triangle&) { return std::optional<float>{}; },
+            [&](const Sphere& s) { return intersect_sphere(ray, s.c, s.r); },
+            [&](const Disk& d) { return intersect_disk(ray, d.c, d.n, d.r); });
         if (!t || (*t == best.t && prim >= best.prim)) continue;
         best = {prim, *t};
         found = true;

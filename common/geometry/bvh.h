@@ -37,9 +37,6 @@ struct BvhCount {
     uint64_t nodes = 0, blocks = 0;
 };
 
-/// The same hierarchy for any number of threads.
-Bvh build_bvh(const Geometry& geometry, int threads);
-
 /// The first primitive that the ray hits, as linear_scan() finds it, bit for bit: of two at the
 /// same t the one with the lower number.
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);

@@ -1,9 +1,10 @@
 // Builds the hierarchy of bounding boxes (chapter 05): a tree of two children per node where the
 // surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
+#include "common/geometry/bvh_build.h"
+
 #include <bit>
 
 #include "common/base/parallel.h"
-#include "common/geometry/bvh.h"
 
 namespace {
 
@@ -63,25 +64,26 @@ struct Range {
 /// primitive with NaN or infinity in it, which no ray can hit.
 Ref make_ref(const Geometry& g, uint32_t prim) {
     Vec3 lo, hi;
-    size_t i = prim;
-    if (i < g.triangles.size()) {
-        const Triangle& tri = g.triangles[i];
-        Vec3 a = g.positions[tri.v[0]], b = g.positions[tri.v[1]], c = g.positions[tri.v[2]];
-        bool finite = is_finite(a) && is_finite(b) && is_finite(c);
-        lo = finite ? min(min(a, b), c) : Vec3{infinity, infinity, infinity};
-        hi = max(max(a, b), c);
-    } else if ((i -= g.triangles.size()) < g.spheres.size()) {
-        float r = std::abs(g.spheres[i].r);
-        lo = g.spheres[i].c - Vec3{r, r, r};
-        hi = g.spheres[i].c + Vec3{r, r, r};
-    } else {
-        const Disk& disk = g.disks[i - g.spheres.size()];
-        Vec3 n = disk.n / length(disk.n);
-        Vec3 r = std::abs(disk.r) *
-                 Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
-        lo = disk.c - r;
-        hi = disk.c + r;
-    }
+    visit(
+        g, prim,
+        [&](const Triangle& tri) {
+            Vec3 a = g.positions[tri.v[0]], b = g.positions[tri.v[1]], c = g.positions[tri.v[2]];
+            bool finite = is_finite(a) && is_finite(b) && is_finite(c);
+            lo = finite ? min(min(a, b), c) : Vec3{infinity, infinity, infinity};
+            hi = max(max(a, b), c);
+        },
+        [&](const Sphere& sphere) {
+            float r = std::abs(sphere.r);
+            lo = sphere.c - Vec3{r, r, r};
+            hi = sphere.c + Vec3{r, r, r};
+        },
+        [&](const Disk& disk) {
+            Vec3 n = disk.n / length(disk.n);
+            Vec3 r = std::abs(disk.r) *
+                     Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
+            lo = disk.c - r;
+            hi = disk.c + r;
+        });
     if (!is_finite(lo) || !is_finite(hi)) prim = PrimHit::none;
     float pad = 0x1p-20f * max_component(max(abs(lo), abs(hi)));
     Ref ref;
@@ -482,7 +484,7 @@ private:
         std::fill_n(block.prim, lanes, PrimHit::none);
         for (uint32_t i = 0; i < leaf.end - leaf.begin; i++) {
             uint32_t prim = block.prim[i] = refs_[leaf.begin + i].prim();
-            if (prim >= g_.triangles.size()) continue;
+            if (prim >= g_.triangles.size()) continue;  // its lane stays NaN
             for (size_t k = 0; k < 3; k++) {
                 Vec3 p = g_.positions[g_.triangles[prim].v[k]];
                 for (int axis = 0; axis < 3; axis++)

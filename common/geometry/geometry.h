@@ -42,6 +42,18 @@ struct Geometry {
     }
 };
 
+/// Calls the one of the three functions that fits primitive number `prim`, with that primitive;
+/// they return the same type.
+template <class OnTriangle, class OnSphere, class OnDisk>
+auto visit(const Geometry& g, uint32_t prim, const OnTriangle& on_triangle,
+           const OnSphere& on_sphere, const OnDisk& on_disk) {
+    size_t i = prim;
+    if (i < g.triangles.size()) return on_triangle(g.triangles[i]);
+    i -= g.triangles.size();
+    if (i < g.spheres.size()) return on_sphere(g.spheres[i]);
+    return on_disk(g.disks[i - g.spheres.size()]);
+}
+
 /// The nearest primitive a ray meets. b1, b2: weights of a triangle's second and third vertex.
 struct PrimHit {
     static constexpr uint32_t none = ~0u;

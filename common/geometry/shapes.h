@@ -95,11 +95,17 @@ inline PrimHit linear_scan(const Geometry& g, Ray ray) {
         prim++;
     }
     for (const Sphere& s : g.spheres) {
-        if (auto t = intersect_sphere(ray, s.c, s.r)) best = {prim, ray.t_max = *t};
+        if (auto t = intersect_sphere(ray, s.c, s.r)) {
+            best = {prim, *t};
+            ray.t_max = *t;
+        }
         prim++;
     }
     for (const Disk& disk : g.disks) {
-        if (auto t = intersect_disk(ray, disk.c, disk.n, disk.r)) best = {prim, ray.t_max = *t};
+        if (auto t = intersect_disk(ray, disk.c, disk.n, disk.r)) {
+            best = {prim, *t};
+            ray.t_max = *t;
+        }
         prim++;
     }
     return best;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/error.h"
+#include "common/base/position.h"
 #include "common/base/stats.h"
 
 namespace {
@@ -122,15 +122,13 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
         return std::to_string(image.width) + "x" + std::to_string(image.height);
     };
     if (a.width != b.width || a.height != b.height) {
-        throw InputError(name_b + ": error: has " + size(b) + " pixels, but " + name_a + " has " +
-                         size(a));
+        fail({name_b}, "has " + size(b) + " pixels, but " + name_a + " has " + size(a));
     }
     auto check = [](const Image& image, const std::string& name) {
         for (size_t i = 0; i < image.pixels.size(); i++) {
             if (is_finite(image.pixels[i])) continue;
             int x = static_cast<int>(i) % image.width, y = static_cast<int>(i) / image.width;
-            throw InputError(name + ": error: pixel " + std::to_string(x) + "," +
-                             std::to_string(y) + " is not finite");
+            fail({name}, "pixel " + std::to_string(x) + "," + std::to_string(y) + " is not finite");
         }
     };
     check(a, name_a);

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/position.h"
 
 #pragma GCC diagnostic push  // stb is not written for our warnings
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -149,9 +149,7 @@ struct Header {
         if (rest.size() < size) fail("the picture is cut short");
         return rest.substr(0, size);
     }
-    [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(path + ": error: " + what);
-    }
+    [[noreturn]] void fail(const std::string& what) const { ::fail({path}, what); }
 };
 
 Image decode_ppm(Header header) {
@@ -207,7 +205,7 @@ void write_image(const std::string& path, const Image& image, const std::string&
     if (kind == ".ppm") return write_file_atomically(path, encode_ppm(image));
     if (kind == ".pfm") return write_file_atomically(path, encode_pfm(image));
     if (kind == ".png") return write_file_atomically(path, encode_png(image, comment));
-    throw InputError(path + ": error: a picture's name must end in .ppm, .pfm or .png");
+    fail({path}, "a picture's name must end in .ppm, .pfm or .png");
 }
 
 Image read_image(const std::string& path) {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "common/base/error.h"
+#include "common/base/position.h"
 
 namespace {
 
@@ -17,10 +17,6 @@ std::string number(double x) {
 std::vector<double> seeds_of(const StatsFile& stats) {
     std::vector<double> seeds = stats.numbers("seeds");
     return seeds.empty() ? stats.numbers("seed") : seeds;
-}
-
-[[noreturn]] void fail(const std::string& file, const std::string& what) {
-    throw InputError(file + ": error: " + what);
 }
 
 }  // namespace
@@ -39,8 +35,8 @@ MergePart read_part(const std::string& word) {
     part.stats = StatsFile::beside(part.file);
     if (!digits_follow && part.stats) part.spp = part.stats->number("spp").value_or(0);
     if (part.spp > 0) return part;
-    fail(part.file, "how many samples per pixel has it? Name them as " + part.file +
-                        ":SPP, or render with --stats " + StatsFile::path_beside(part.file));
+    fail({part.file}, "how many samples per pixel has it? Name them as " + part.file +
+                          ":SPP, or render with --stats " + StatsFile::path_beside(part.file));
 }
 
 void check_parts(const std::vector<MergePart>& parts) {
@@ -48,21 +44,22 @@ void check_parts(const std::vector<MergePart>& parts) {
     const MergePart& first = parts[0];
     for (const MergePart& part : parts) {
         if (part.image.width != first.image.width || part.image.height != first.image.height) {
-            fail(part.file, "its size is not that of " + first.file);
+            fail({part.file}, "its size is not that of " + first.file);
         }
         if (!part.stats || !first.stats) continue;
         for (const char* name : {"scene", "chapter"}) {
             std::string a = part.stats->text(name), b = first.stats->text(name);
             if (a != b)
-                fail(part.file, std::string(name) + " " + a + ", but " + first.file + " has " + b);
+                fail({part.file},
+                     std::string(name) + " " + a + ", but " + first.file + " has " + b);
         }
         if (part.stats->number("max_depth") != first.stats->number("max_depth")) {
-            fail(part.file, "its --max-depth is not that of " + first.file);
+            fail({part.file}, "its --max-depth is not that of " + first.file);
         }
         for (double seed : seeds_of(*part.stats)) {
             if (seeds.insert(seed).second) continue;
-            fail(part.file, "seed " + number(seed) + " is in another part already: its samples " +
-                                "would count twice");
+            fail({part.file}, "seed " + number(seed) + " is in another part already: its samples " +
+                                  "would count twice");
         }
     }
 }

@@ -38,6 +38,7 @@ void flush_stdout() {
     std::printf("usage: %s%s%s [OPTION]...\n%s\n\n", program, positional.empty() ? "" : " ",
                 positional.c_str(), about.c_str());
     for (const Option& option : options) {
+        if (option.help.empty()) continue;
         std::string left =
             "--" + option.name + (option.argument.empty() ? "" : " " + option.argument);
         std::printf("  %-24s %s\n", left.c_str(), option.help.c_str());

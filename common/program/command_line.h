@@ -6,7 +6,7 @@
 #include <vector>
 
 /// One option, `--name ARGUMENT` (or `--name` alone where argument is empty). `set` gets the
-/// argument's text and throws UsageError when it cannot be used.
+/// argument's text and throws UsageError when it cannot be used. Without help --help leaves it out.
 struct Option {
     std::string name, argument, help;
     std::function<void(const std::string&)> set;

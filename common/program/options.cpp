@@ -58,10 +58,24 @@ std::string parse_class_filter(const std::string& text) {
     return text;
 }
 
+/// Options that mean nothing to the program are an error, and --help does not list them.
+void refuse_all_but(const std::vector<std::string>& takes, const std::string& program,
+                    std::vector<Option>& options) {
+    for (Option& option : options) {
+        if (std::find(takes.begin(), takes.end(), option.name) != takes.end()) continue;
+        option.help.clear();
+        option.set = [=, name = option.name](const std::string&) {
+            throw UsageError("error: option '--" + name + "' means nothing to " + program +
+                             "; --help lists those that do");
+        };
+    }
+}
+
 }  // namespace
 
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
-                                   const std::string& scene, std::vector<Option> extra) {
+                                   const std::string& scene, std::vector<Option> extra,
+                                   const std::vector<std::string>& takes) {
     RenderOptions o;
     o.name = name;
     o.command = command_line(argc, argv);
@@ -95,6 +109,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
          [&](const std::string& text) { o.split = text; }},
         {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
     };
+    if (!takes.empty()) refuse_all_but(takes, name, options);
     options.insert(options.begin(), extra.begin(), extra.end());
     parse_options(
         argc, argv, "[SCENE]", "Chapter " + name + " on a pbrt-v4 scene (default " + scene + ").",

@@ -29,8 +29,10 @@ struct RenderOptions {
 };
 
 /// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.
+/// `takes` names those of the others that mean something to it (empty: all); the rest it refuses.
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
-                                   const std::string& scene, std::vector<Option> extra = {});
+                                   const std::string& scene, std::vector<Option> extra = {},
+                                   const std::vector<std::string>& takes = {});
 
 /// What the chapters without a scene (01 to 03) understand.
 struct TableOptions {

@@ -8,8 +8,7 @@ inline constinit thread_local uint64_t rays_traced = 0;
 
 namespace hit_details {
 
-inline void finish_triangle(const Geometry& g, const PrimHit& found, Hit& x, uint32_t& shape) {
-    const Triangle& tri = g.triangles[found.prim];
+inline uint32_t finish(const Geometry& g, const Triangle& tri, const PrimHit& found, Hit& x) {
     Vec3 p0 = g.positions[tri.v[0]], p1 = g.positions[tri.v[1]], p2 = g.positions[tri.v[2]];
     float b0 = 1 - found.b1 - found.b2;
     x.p = b0 * p0 + found.b1 * p1 + found.b2 * p2;
@@ -20,21 +19,21 @@ inline void finish_triangle(const Geometry& g, const PrimHit& found, Hit& x, uin
                  found.b2 * g.normals[tri.v[2]];
         if (dot(n, n) > 0) x.n = normalize(n);
     }
-    shape = tri.shape;
+    return tri.shape;
 }
 
-inline void finish_sphere(const Sphere& sphere, Vec3 p, Hit& x, uint32_t& shape) {
+inline uint32_t finish(const Sphere& sphere, Vec3 p, Hit& x) {
     x.n = x.ng = normalize(p - sphere.c);
     x.p = sphere.c + sphere.r * x.ng;
     x.eps = rounding_error(max_component(abs(sphere.c)) + sphere.r);
-    shape = sphere.shape;
+    return sphere.shape;
 }
 
-inline void finish_disk(const Disk& disk, Vec3 p, Hit& x, uint32_t& shape) {
+inline uint32_t finish(const Disk& disk, Vec3 p, Hit& x) {
     x.n = x.ng = disk.n;
     x.p = p - dot(p - disk.c, disk.n) * disk.n;
     x.eps = rounding_error(max_component(abs(disk.c)) + disk.r);
-    shape = disk.shape;
+    return disk.shape;
 }
 
 /// Turns the normal of what is met edge-on towards the ray, so that no cosine is 0.
@@ -50,15 +49,13 @@ inline void finish_disk(const Disk& disk, Vec3 p, Hit& x, uint32_t& shape) {
 inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
     const Geometry& g = scene.geometry;
     // Work out the point and its normals on the shape that was hit.
-    uint32_t shape;
-    size_t i = found.prim;
-    if (i < g.triangles.size()) {
-        hit_details::finish_triangle(g, found, x, shape);
-    } else if ((i -= g.triangles.size()) < g.spheres.size()) {
-        hit_details::finish_sphere(g.spheres[i], ray.o + found.t * ray.d, x, shape);
-    } else {
-        hit_details::finish_disk(g.disks[i - g.spheres.size()], ray.o + found.t * ray.d, x, shape);
-    }
+    uint32_t shape = visit(
+        g, found.prim,
+        [&](const Triangle& triangle) { return hit_details::finish(g, triangle, found, x); },
+        [&](const Sphere& sphere) {
+            return hit_details::finish(sphere, ray.o + found.t * ray.d, x);
+        },
+        [&](const Disk& disk) { return hit_details::finish(disk, ray.o + found.t * ray.d, x); });
 
     // Turn the normals to the side that the ray came from.
     float away = dot(ray.d, x.ng);

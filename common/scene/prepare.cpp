@@ -1,5 +1,7 @@
 #include "common/scene/prepare.h"
 
+#include "common/geometry/bvh_build.h"
+
 namespace {
 
 /// Half the diagonal of the box around all primitives.

@@ -1,4 +1,5 @@
-#include "common/scene_file/scene_reader.h"
+#include "common/scene_file/directives.h"
+
 #include "common/scene_file/transforms.h"
 
 Token expect_string(Lexer& lexer, const Token& word, const std::string& what) {
@@ -8,14 +9,14 @@ Token expect_string(Lexer& lexer, const Token& word, const std::string& what) {
          std::string(word.text) + " needs " + what + " in quotes, not " + Lexer::describe(token));
 }
 
-void SceneReader::move(Lexer& lexer, const Token& word) {
+void Directives::move(Lexer& lexer, const Token& word) {
     Position at = lexer.at(word);
     TransformStep step = read_transform(lexer, word);
     if (state_.set_start) state_.start = apply(step, state_.start, at);
     if (state_.set_end) state_.end = apply(step, state_.end, at);
 }
 
-void SceneReader::active_transform(Lexer& lexer, const Token&) {
+void Directives::active_transform(Lexer& lexer, const Token&) {
     Token which = lexer.next();
     bool all = which.text == "All", start = which.text == "StartTime";
     if (which.type != Token::word || !(all || start || which.text == "EndTime")) {
@@ -26,7 +27,7 @@ void SceneReader::active_transform(Lexer& lexer, const Token&) {
     state_.set_end = all || !start;
 }
 
-void SceneReader::color_space(Lexer& lexer, const Token& word) {
+void Directives::color_space(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     if (token.text == "srgb") return;
     for (const char* name : {"aces2065-1", "dci-p3", "rec2020"}) {
@@ -39,28 +40,28 @@ void SceneReader::color_space(Lexer& lexer, const Token& word) {
                  {"aces2065-1", "dci-p3", "rec2020", "srgb"});
 }
 
-void SceneReader::accelerator(Lexer& lexer, const Token& word) {
+void Directives::accelerator(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     read_accelerator(params, notes_);
 }
 
-void SceneReader::camera(Lexer& lexer, const Token& word) {
+void Directives::camera(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     read_camera(params, still_transform(params.at()), scene_.camera, exposure_);
     has_camera_ = true;
 }
 
-void SceneReader::film(Lexer& lexer, const Token& word) {
+void Directives::film(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     read_film(params, scene_, exposure_, notes_);
 }
 
-void SceneReader::integrator(Lexer& lexer, const Token& word) {
+void Directives::integrator(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     read_integrator(params, scene_, notes_);
 }
 
-void SceneReader::option(Lexer& lexer, const Token& word) {
+void Directives::option(Lexer& lexer, const Token& word) {
     Token name = expect_string(lexer, word, "a name");
     Token value = lexer.next();
     if (value.type != Token::word && value.type != Token::string) {
@@ -69,32 +70,32 @@ void SceneReader::option(Lexer& lexer, const Token& word) {
     read_option(lexer.at(name), lexer.unescape(name), notes_);
 }
 
-void SceneReader::pixel_filter(Lexer& lexer, const Token& word) {
+void Directives::pixel_filter(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     read_pixel_filter(params, notes_);
     has_filter_ = true;
 }
 
-void SceneReader::sampler(Lexer& lexer, const Token& word) {
+void Directives::sampler(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     read_sampler(params, scene_, notes_);
 }
 
-void SceneReader::world_begin(Lexer&, const Token&) {
+void Directives::world_begin(Lexer&, const Token&) {
     in_world_ = true;
     state_ = {};
 }
 
-void SceneReader::area_light_source(Lexer& lexer, const Token& word) {
+void Directives::area_light_source(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     state_.emission = read_area_light(params);
 }
 
-void SceneReader::begin(Lexer& lexer, const Token& word) {
+void Directives::begin(Lexer& lexer, const Token& word) {
     saved_.push_back({state_, lexer.at(word), std::string(word.text)});
 }
 
-void SceneReader::end(Lexer& lexer, const Token& word) {
+void Directives::end(Lexer& lexer, const Token& word) {
     std::string name(word.text);
     if (saved_.empty()) fail(lexer.at(word), name + " without a beginning");
     const SavedState& saved = saved_.back();
@@ -106,13 +107,13 @@ void SceneReader::end(Lexer& lexer, const Token& word) {
     saved_.pop_back();
 }
 
-void SceneReader::light_source(Lexer& lexer, const Token& word) {
+void Directives::light_source(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     Light light = read_light(params, still_transform(params.at()));
     if (!is_black(light.L)) scene_.lights.push_back(light);
 }
 
-void SceneReader::make_named_material(Lexer& lexer, const Token& word) {
+void Directives::make_named_material(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     std::string name = lexer.unescape(token);
     Params params(lexer, word, false);
@@ -124,22 +125,22 @@ void SceneReader::make_named_material(Lexer& lexer, const Token& word) {
     scene_.materials[index] = read_material(params);
 }
 
-void SceneReader::material(Lexer& lexer, const Token& word) {
+void Directives::material(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     state_.material = static_cast<uint32_t>(scene_.materials.size());
     scene_.materials.push_back(read_material(params));
 }
 
-void SceneReader::named_material(Lexer& lexer, const Token& word) {
+void Directives::named_material(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     state_.material = find_material(lexer.unescape(token), lexer.at(token));
 }
 
-void SceneReader::reverse_orientation(Lexer&, const Token&) {
+void Directives::reverse_orientation(Lexer&, const Token&) {
     state_.reverse_orientation = !state_.reverse_orientation;
 }
 
-void SceneReader::shape(Lexer& lexer, const Token& word) {
+void Directives::shape(Lexer& lexer, const Token& word) {
     Params params(lexer, word);
     ShapeState state = {still_transform(params.at()), state_.material, state_.emission,
                         state_.reverse_orientation};
@@ -147,7 +148,7 @@ void SceneReader::shape(Lexer& lexer, const Token& word) {
 }
 
 // The number of the named material, which may be defined after its use.
-uint32_t SceneReader::find_material(const std::string& name, const Position& at) {
+uint32_t Directives::find_material(const std::string& name, const Position& at) {
     auto [place, is_new] = named_materials_.try_emplace(name);
     if (is_new) {
         place->second = {static_cast<uint32_t>(scene_.materials.size()), false, at};
@@ -157,7 +158,41 @@ uint32_t SceneReader::find_material(const std::string& name, const Position& at)
 }
 
 // The current transform; throws where it moves while the shutter is open.
-const Transform& SceneReader::still_transform(const Position& at) const {
+const Transform& Directives::still_transform(const Position& at) const {
     if (state_.start != state_.end) fail(at, "motion is not supported yet");
     return state_.start;
+}
+
+void Directives::check_materials() const {
+    std::vector<std::string> known;
+    for (const auto& [name, material] : named_materials_) {
+        if (material.defined) known.push_back(name);
+    }
+    for (const auto& [name, material] : named_materials_) {
+        if (!material.defined) fail_unknown(material.first_use, "NamedMaterial", name, known);
+    }
+}
+
+Scene Directives::finish() {
+    Position file = {scene_.file};
+    if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
+    check_materials();
+    if (!in_world_) fail(file, "no WorldBegin");
+    if (!has_camera_) fail(file, "no Camera");
+    if (scene_.geometry.size() == 0) fail(file, "no Shape");
+    if (scene_.lights.empty()) fail(file, "no light: the picture would be black");
+    number_light_primitives(scene_);
+
+    // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.
+    float exposure = exposure_.shutter * exposure_.iso / 100;
+    for (Light& light : scene_.lights) {
+        light.L *= exposure;
+        if (!is_finite(light.L) || is_black(light.L))
+            fail(file, "shutter or iso leave no usable light");
+    }
+    if (!has_filter_) {
+        notes_.push_back(
+            message_at(file, "note", "no PixelFilter: pbrt's \"gaussian\" is replaced by the box"));
+    }
+    return std::move(scene_);
 }

@@ -22,12 +22,9 @@ Lexer::Lexer(std::string file, std::string bytes)
 }
 
 void Lexer::check_encoding() const {
-    auto refuse = [&](const std::string& text) {
-        throw InputError(printable(file_) + ": error: " + text);
-    };
-    if (bytes_.starts_with("\x1f\x8b")) refuse("compressed by gzip: unpack it first");
+    if (bytes_.starts_with("\x1f\x8b")) fail({file_}, "compressed by gzip: unpack it first");
     if (bytes_.starts_with("\xff\xfe") || bytes_.starts_with("\xfe\xff")) {
-        refuse("UTF-16 text: save it as UTF-8");
+        fail({file_}, "UTF-16 text: save it as UTF-8");
     }
     int line = 1, column = 1;
     for (size_t i = 0; i < bytes_.size(); column++) {

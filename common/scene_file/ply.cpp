@@ -206,7 +206,7 @@ void read_faces(PlyBytes& reader, const Element& element, size_t vertices, Trian
 
 TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
     if (bytes.starts_with("\x1f\x8b")) {
-        throw InputError(printable(file) + ": error: compressed by gzip: unpack it first");
+        fail({file}, "compressed by gzip: unpack it first");
     }
     PlyBytes reader(file, bytes);
     std::vector<Element> elements = read_header(reader);
@@ -220,8 +220,7 @@ TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
         *known = &element;
     }
     if (!vertex || !face) {
-        throw InputError(printable(file) + ": error: no element " +
-                         quote(vertex ? "face" : "vertex"));
+        fail({file}, "no element " + quote(vertex ? "face" : "vertex"));
     }
 
     TriangleMesh mesh;

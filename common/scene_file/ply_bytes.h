@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "common/scene_file/lexer.h"
+#include "common/base/numbers.h"
+#include "common/base/position.h"
 
 enum class PlyFormat { ascii, little, big };
 
@@ -36,8 +37,7 @@ public:
     /// Throws at the last word read, or at the byte that is reached.
     [[noreturn]] void fail_here(const std::string& text) const {
         if (format == PlyFormat::ascii) fail(at(), text);
-        throw InputError(
-            printable(file_ + ": error: " + text + " at byte " + std::to_string(position_)));
+        fail({file_}, text + " at byte " + std::to_string(position_));
     }
 
     /// The next word of the line; empty at its end.

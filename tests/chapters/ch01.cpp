@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "chapters/01_monte_carlo_pi/estimator.h"
+#include "chapters/01_monte_carlo_pi/figure.h"
 #include "tests/support/gates.h"
 
 namespace {

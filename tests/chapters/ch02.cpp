@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "chapters/02_stratification/estimator.h"
+#include "chapters/02_stratification/figure.h"
 #include "tests/support/gates.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "chapters/03_importance/estimator.h"
+#include "chapters/03_importance/figure.h"
 #include "tests/support/gates.h"
 
 namespace {

@@ -88,6 +88,67 @@ TEST_SUITE("ch05 bvh") {
         CHECK(work[2] < work[1]);
         CHECK(work[3] < work[2]);
         CHECK(work[4] < work[3]);
+        CHECK(work[5] < work[4]);
+    }
+
+    TEST_CASE("identity: nodes of four hold the leaves of the binary tree, each in its box") {
+        Scene scene = clutter(5000);
+        ch05::Hierarchy two = ch05::build(scene.geometry, ch05::split_sah);
+        ch05::FourHierarchy four = ch05::collapse(two);
+        CHECK(four.prims == two.prims);
+        std::vector<int> leaves_of(two.prims.size(), 0);
+        for (const ch05::Node& node : two.nodes) {
+            if (node.count > 0) leaves_of[node.first]++;
+        }
+        size_t children = 0;
+        for (const ch05::FourNode& node : four.nodes) {
+            REQUIRE(node.size >= 2);
+            children += node.size;
+            for (size_t i = 0; i < node.size; i++) {
+                const ch05::Node& child = node.child[i];
+                if (child.count > 0) {
+                    leaves_of[child.first]--;
+                    continue;
+                }
+                REQUIRE(node.size == 4);  // else there would have been room for its own children
+                // The box of an inner child is the one around its own children.
+                ch05::Box around;
+                const ch05::FourNode& below = four.nodes[child.first];
+                for (size_t k = 0; k < below.size; k++) around.add(below.child[k].box);
+                REQUIRE(around.low == child.box.low);
+                REQUIRE(around.high == child.box.high);
+            }
+        }
+        for (int n : leaves_of) REQUIRE(n == 0);
+        // Every leaf, and every node but the root, is the child of one node.
+        size_t leaves = (two.nodes.size() + 1) / 2;
+        CHECK(children == leaves + four.nodes.size() - 1);
+    }
+
+    TEST_CASE("truth: nodes of four open the largest child first") {
+        // A root of two inner nodes, the second of which is larger, and has an inner child again.
+        ch05::Hierarchy h;
+        auto box = [](float size) {
+            ch05::Box b;
+            b.add(Vec3{0, 0, 0});
+            b.add(Vec3{size, size, size});
+            return b;
+        };
+        h.nodes = {{box(9), 4, 0}, {box(2), 3, 0}, {box(1), 0, 1}, {box(1), 1, 1}, {box(8), 8, 0},
+                   {box(7), 7, 0}, {box(1), 2, 1}, {box(1), 3, 1}, {box(1), 4, 1}};
+        h.prims = {0, 1, 2, 3, 4};
+        ch05::FourHierarchy four = ch05::collapse(h);
+        REQUIRE(four.nodes.size() == 2);
+        REQUIRE(four.nodes[0].size == 4);
+        // Left as it was: the small inner node; in the place of the large ones: their children.
+        CHECK(four.nodes[0].child[0].count == 0);
+        CHECK(four.nodes[0].child[0].first == 1);
+        CHECK(four.nodes[0].child[1].first == 2);
+        CHECK(four.nodes[0].child[2].first == 4);
+        CHECK(four.nodes[0].child[3].first == 3);
+        CHECK(four.nodes[1].size == 2);
+        CHECK(four.nodes[1].child[0].first == 0);
+        CHECK(four.nodes[1].child[1].first == 1);
     }
 
     TEST_CASE("truth: the SAH cost of a root parted into two cubes is 1 + 12/10") {
@@ -125,18 +186,28 @@ TEST_SUITE("ch05 bvh") {
     TEST_CASE("truth: the box test takes rays in the plane of a side") {
         ch05::Box box;
         box.add(Vec3{0, 0, 0}), box.add(Vec3{1, 1, 1});
-        auto hit = [&](Vec3 o, Vec3 d) {
+        // A ray that starts at (a, b, c) and goes along +z, with the axes turned by `turns`.
+        auto hit = [&](float a, float b, float c, float zero, int turns) {
+            Vec3 o, d;
+            o[turns] = a, o[(turns + 1) % 3] = b, o[(turns + 2) % 3] = c;
+            d[turns] = d[(turns + 1) % 3] = zero, d[(turns + 2) % 3] = 1;
             return enter(box, {o, d}, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity;
         };
-        for (float zero : {0.0f, -0.0f}) {
-            CHECK(hit({0, 0.5f, -1}, {zero, zero, 1}));
-            CHECK(hit({1, 0.5f, -1}, {zero, zero, 1}));
-            CHECK(hit({0, 0, -1}, {zero, zero, 1}));
-            CHECK(hit({1, 1, -1}, {zero, zero, 1}));
-            CHECK(hit({1, 0, -1}, {zero, zero, 1}));
-            CHECK(hit({0.5f, 0.5f, 0.5f}, {zero, zero, 1}));
-            CHECK_FALSE(hit({1.0001f, 0.5f, -1}, {zero, zero, 1}));
-            CHECK_FALSE(hit({-0.0001f, 0.5f, -1}, {zero, zero, 1}));
+        for (int turns = 0; turns < 3; turns++) {
+            for (float zero : {0.0f, -0.0f}) {
+                CHECK(hit(0, 0.5f, -1, zero, turns));
+                CHECK(hit(1, 0.5f, -1, zero, turns));
+                CHECK(hit(0.5f, 0, -1, zero, turns));
+                CHECK(hit(0.5f, 1, -1, zero, turns));
+                CHECK(hit(0, 0, -1, zero, turns));
+                CHECK(hit(1, 1, -1, zero, turns));
+                CHECK(hit(1, 0, -1, zero, turns));
+                CHECK(hit(0.5f, 0.5f, 0.5f, zero, turns));
+                CHECK_FALSE(hit(1.0001f, 0.5f, -1, zero, turns));
+                CHECK_FALSE(hit(-0.0001f, 0.5f, -1, zero, turns));
+                CHECK_FALSE(hit(0.5f, 1.0001f, -1, zero, turns));
+                CHECK_FALSE(hit(0.5f, 0.5f, 1.0001f, zero, turns));
+            }
         }
     }
 

@@ -1,11 +1,10 @@
 // The hierarchy of common/ against the linear scan: the same hits, bit for bit, on awkward rays and
 // awkward meshes.
-#include "common/geometry/bvh.h"
-
 #include <doctest/doctest.h>
 
 #include <cstring>
 
+#include "common/geometry/bvh_build.h"
 #include "common/geometry/shapes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"

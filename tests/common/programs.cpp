@@ -240,15 +240,25 @@ TEST_SUITE("programs") {
 
     TEST_CASE("files: the heat map of chapter 05 has its own table, and refuses before any work") {
         TemporaryFolder folder;
-        Finished end = run("05_bvh", small({"--out", folder / "a.ppm"}));
+        Words words = {spheres, "--size", "33x17", "--out", folder / "a.ppm"};
+        Finished end = run("05_bvh", words);
         CHECK(end.code == 0);
-        for (const char* word : {"linear", "median", "sah", "ordered", "wide", "M rays/s"}) {
+        for (const char* word :
+             {"linear", "median", "sah", "ordered", "four", "wide", "M rays/s"}) {
             CHECK(end.out.find(word) != std::string::npos);
         }
         CHECK(read_image(folder / "a.ppm").width == 33);
-        CHECK(run("05_bvh", small({"--step", "sha", "--out", folder / "a.ppm"})).err ==
-              "error: --step takes linear, median, sah, ordered or wide (did you mean 'sah'?), not "
-              "'sha'\n");
+        CHECK(
+            run("05_bvh", {spheres, "--step", "sha"}).err ==
+            "error: --step takes linear, median, sah, ordered, four or wide (did you mean 'sah'?), "
+            "not 'sha'\n");
+        for (const char* option : {"--explain=1,1", "--spp=4", "--split=out", "--paths=LDE"}) {
+            end = run("05_bvh", {spheres, option});
+            CHECK(end.code == 2);
+            CHECK(end.out == "");
+            CHECK(end.err.find("means nothing to 05_bvh") != std::string::npos);
+        }
+        CHECK(run("05_bvh", {"--help"}).out.find("--explain") == std::string::npos);
         end = run("05_bvh", {spheres, "--out", "none/a.ppm"});
         CHECK(end.code == 1);
         CHECK(end.out == "");

@@ -111,8 +111,8 @@ std::vector<BuildTime> build_times(const std::vector<Build>& builds, int runs) {
 
 /// All that is measured: a table of rays, one of builds, and the ratios to Embree's better one.
 struct Results {
-    Table rays{{"M rays/s", "rays", "linear", "median", "sah", "ordered", "wide", "Embree medium",
-                "Embree high", "wide/Embree"},
+    Table rays{{"M rays/s", "rays", "linear", "median", "sah", "ordered", "four", "wide",
+                "Embree medium", "Embree high", "wide/Embree"},
                {}};
     Table builds{{"build: s per M", "triangles", "SAH median", "SAH sah", "median", "sah", "wide",
                   "by threads", "bytes", "Embree medium", "its by threads", "its bytes",
@@ -147,6 +147,7 @@ private:
         };
         BuildTime by_median = step(median_, ch05::Step::median);
         BuildTime by_sah = step(sah_, ch05::Step::sah);
+        four_ = make_finder(scene_, ch05::Step::four);
         auto own = [&](int threads) {
             return Build{[&] { wide_ = {}; }, [&, threads] { wide_ = build_bvh(g, threads); }};
         };
@@ -192,6 +193,7 @@ private:
         all.push_back(step(median_, ch05::Step::median));
         all.push_back(step(sah_, ch05::Step::sah));
         all.push_back(step(sah_, ch05::Step::ordered));
+        all.push_back(step(four_, ch05::Step::four));
         all.push_back(contender(
             "wide", [this](const Ray& ray) { return closest_hit(wide_, scene_.geometry, ray).t; },
             [this](const Ray& ray) { return any_hit(wide_, scene_.geometry, ray); }));
@@ -243,7 +245,7 @@ private:
     const BenchMesh& mesh_;
     const BenchOptions& o_;
     Scene scene_;
-    ch05::Finder linear_{ch05::Step::linear, {}, {}}, median_, sah_;
+    ch05::Finder linear_, median_, sah_, four_;
     Bvh wide_;
     std::unique_ptr<Embree> medium_, high_;
 };
@@ -258,7 +260,7 @@ std::string summary(const Results& results) {
     std::string text =
         "bytes: of the hierarchy, for each triangle; by threads: how many times faster with all\n"
         "each step over the one before, geometric means:";
-    for (const char* step : {"sah", "ordered", "wide"}) {
+    for (const char* step : {"sah", "ordered", "four", "wide"}) {
         text +=
             std::string(" ") + step + " " + short_number(geometric_mean(results.gains.at(step)));
     }
@@ -314,7 +316,7 @@ int main(int argc, char** argv) {
                     summary(results).c_str());
         write_table(o.out, "bench", results.rays);
         write_table(o.out, "bench-build", results.builds);
-        if (!results.rays.rows.empty()) draw_bench(o.out + "/bench", results.rays, 7);
+        if (!results.rays.rows.empty()) draw_bench(o.out + "/bench", results.rays, 8);
         return 0;
     });
 }

@@ -8,7 +8,7 @@
 /// table  rows: mesh, kind of ray, then M rays/s of each of `steps`; "-": not measured
 inline void draw_bench(const std::string& path, const Table& table, size_t steps) {
     const char* colors[] = {"#cccccc", "#aab8d0", "#7c9fd0", "#3f7cc0",
-                            "#c03020", "#e0c060", "#c09020"};
+                            "#205090", "#c03020", "#e0c060", "#c09020"};
     std::string script =
         "set multiplot layout 2,2 title 'Rays per second, one thread' margins 0.06,0.84,0.09,0.9 "
         "spacing 0.05,0.17\nset logscale y\nset yrange [0.005:50]\nset grid y lt 1 lc rgb "

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "chapters/01_monte_carlo_pi/estimator.h"
-#include "chapters/02_stratification/estimator.h"
-#include "chapters/03_importance/estimator.h"
+#include "chapters/02_stratification/figure.h"
+#include "chapters/03_importance/figure.h"
 #include "tests/measure/measure.h"
 
 namespace {
