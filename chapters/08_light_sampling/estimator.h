@@ -56,7 +56,7 @@ enum class LightMeasure : uint8_t { area, solid_angle };
 ///
 ///   by area:  pdf_w = pdf_A d^2 / cos_y: 1/cos_y and d^2 make a spike where y is near x
 ///
-/// zero    where y faces away, or is edge-on
+/// zero    where y faces away, is edge-on, or is x itself (cos_y is then not a number)
 /// error   unbiased; near a light Var -> infinity by area, and is below E^2 / 3 by solid angle
 /// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u,

@@ -65,7 +65,7 @@ struct LightSample {
 
 /// A point y of an area light, and the density of its direction at x.
 ///
-/// zero    where y faces away, or is edge-on
+/// zero    where y faces away, is edge-on, or is x itself (cos_y is then not a number)
 /// error   unbiased, Var < E^2 / 3 however near the light
 /// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {

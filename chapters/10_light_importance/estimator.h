@@ -97,7 +97,7 @@ inline LightSample sample_light(const Scene& scene, const LightTable& lights, co
     return y;
 }
 
-/// The table that trace() chooses lights from.
+/// The table that trace() chooses lights from; a quarter of all choices is even, d = 1/4.
 inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
 
 /// Estimates what all lights send by way of x to wo, from one point of one light.

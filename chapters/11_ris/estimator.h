@@ -1,4 +1,5 @@
-// Chapter 11: resampled importance sampling. Draw M cheap candidates, keep the one that gives most.
+// Chapter 11: resampled importance sampling. Draw M cheap candidates and keep one by chance: the
+// more it gives, the likelier.
 //
 //   w_i = p_hat(y_i) / p(y_i);   keep y = y_i with probability w_i / weight_sum;
 //   Ld = f Le V cos W,   W = weight_sum / (M p_hat(y))
@@ -26,7 +27,7 @@ inline float potential(const Scene& scene, size_t i, const Hit& x) {
     if (light.type == LightType::infinite) return pi * L;
     if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
     Vec3 to_y = (light.type == LightType::area ? shape.centre : light.p) - x.p;
-    float d = std::max(length(to_y), 1e-15f);
+    float d = std::max(length(to_y), 1e-15f);  // not 0, even where x is the centre
     float cos_x = dot(to_y, x.n) / d, cos_y = 1;
     if (light.type == LightType::point) return L * std::max(0.0f, cos_x) / (d * d);
     if (shape.flat) cos_y = -dot(to_y, shape.first.n) / d;
@@ -77,7 +78,7 @@ inline Reservoir resample_lights(const Scene& scene, const LightTable& lights, c
 /// The table that candidates are drawn from.
 inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
 
-/// Estimates what all lights send by way of x to wo, by the best of M candidates.
+/// Estimates what all lights send by way of x to wo, by one of M candidates.
 ///
 ///   Ld = f Le V cos / pdf_one W      one point on the light that was kept
 ///
@@ -121,7 +122,7 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, int M, Ray ray, S
             return L;
         }
 
-        // Aim at the light that gives most.
+        // Aim at one of M lights.
         Vec3 wo = -ray.d;
         Vec2 u = sampler.u2();
         L += direct_light(scene, lights, M, *x, wo, u, sampler.u2(), beta, log);

@@ -4,6 +4,7 @@
 //   L = mis_l f Le V cos / pdf_l + mis_b f Le cos / pdf_b,    mis_l + mis_b = 1 for each direction
 #pragma once
 #include "common/light/light_table.h"
+#include "common/light/pdf_one_light.h"
 #include "common/material/ggx.h"
 #include "common/path/path_log.h"
 #include "common/path/roulette.h"

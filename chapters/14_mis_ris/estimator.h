@@ -4,6 +4,7 @@
 //   mis_a = a^2 / (resampled^2 + uniform^2 + bsdf^2),    a: the way's own density
 #pragma once
 #include "common/light/fast_resampling.h"
+#include "common/light/pdf_one_light.h"
 #include "common/material/ggx.h"
 #include "common/path/path_log.h"
 #include "common/path/roulette.h"

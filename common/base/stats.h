@@ -1,3 +1,4 @@
+// taught by chapter 01
 // Running statistics: mean, variance and standard error of a stream of numbers.
 #pragma once
 #include <cmath>

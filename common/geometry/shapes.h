@@ -1,4 +1,5 @@
-// The tests of a ray against each kind of primitive, and against all of them in turn (chapter 04).
+// taught by chapter 04
+// The tests of a ray against each kind of primitive, and against all of them in turn.
 #pragma once
 #include <bit>
 #include <optional>

@@ -15,7 +15,7 @@ struct LightSample {
 
 /// A point y of an area light, and the density of its direction at x.
 ///
-/// zero    where y faces away, or is edge-on
+/// zero    where y faces away, is edge-on, or is x itself (cos_y is then not a number)
 /// error   unbiased, Var < E^2 / 3 however near the light
 /// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
@@ -48,14 +48,4 @@ inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, 
         }
     }
     return {};
-}
-
-/// The density, in sr^-1, with which sample_one_light would have drawn the direction from x in
-/// which a ray met y, a point of the light.
-inline float pdf_one_light(const Scene& scene, size_t light, const Hit& x, const Hit& y) {
-    return pdf_solid_angle(scene, light, x.p, y);
-}
-/// The same for a direction wi from x in which a ray met nothing, and saw the sky.
-inline float pdf_sky(const Hit& x, Vec3 wi) {
-    return pdf_cosine_hemisphere(std::max(0.0f, dot(wi, x.n)));
 }

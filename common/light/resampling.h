@@ -16,7 +16,7 @@ inline float potential(const Scene& scene, size_t i, const Hit& x) {
     if (light.type == LightType::infinite) return pi * L;
     if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
     Vec3 to_y = (light.type == LightType::area ? shape.centre : light.p) - x.p;
-    float d = std::max(length(to_y), 1e-15f);
+    float d = std::max(length(to_y), 1e-15f);  // not 0, even where x is the centre
     float cos_x = dot(to_y, x.n) / d, cos_y = 1;
     if (light.type == LightType::point) return L * std::max(0.0f, cos_x) / (d * d);
     if (shape.flat) cos_y = -dot(to_y, shape.first.n) / d;

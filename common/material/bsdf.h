@@ -7,8 +7,8 @@
 
 /// A direction drawn from a BSDF. pdf_w == 0: no sample, the path ends.
 ///
-/// specular: wi is the only direction there is; f and pdf_w then stand for the factors of one
-/// delta function, which cancels in f cos / pdf_w.
+/// specular: wi is the only direction there is. f and pdf_w are then both infinite, and hold only
+/// the factors in front, which are all that f cos / pdf_w needs.
 struct BsdfSample {
     Vec3 wi;          // unit
     Rgb f;            // sr^-1, without the cosine

@@ -1,4 +1,5 @@
-// Mirrors and glass: where light goes, and how much of it (chapter 04).
+// taught by chapter 04
+// Mirrors and glass: where light goes, and how much of it.
 #pragma once
 #include <optional>
 

@@ -1,3 +1,4 @@
+// in part taught by chapter 02 (strata, Sobol points); all chapters draw from the Sampler on top
 // Random numbers as a pure function of (seed, pixel, sample, dimension).
 #pragma once
 #include <bit>

@@ -1,4 +1,5 @@
-// The pinhole camera (chapter 04).
+// taught by chapter 04
+// The pinhole camera.
 #pragma once
 #include "common/scene/scene.h"
 

@@ -123,14 +123,6 @@ double rim(Vec2 p) {
 }  // namespace
 
 TEST_SUITE("ch02 strata") {
-    TEST_CASE("identity: what common/ has of this chapter is what is taught here") {
-        for (const char* first : {"inline Vec2 jitter_in_stratum", "inline uint32_t sobol_second",
-                                  "inline uint32_t owen_scramble"}) {
-            CHECK(definition("chapters/02_stratification/estimator.h", first) ==
-                  definition("common/path/sampler.h", first));
-        }
-    }
-
     TEST_CASE("truth: every kind of points is unbiased, for pi, for xy and for e^(x+y)") {
         // The variance of free points bounds the gate: none of these sets is worse.
         double e = std::numbers::e;

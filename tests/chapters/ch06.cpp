@@ -119,16 +119,6 @@ TEST_SUITE("ch06 bsdf") {
         CHECK(from_cylindrical(1, 0.75f, 0) == Vec3{0, -1, 0});
     }
 
-    TEST_CASE("identity: what common/ keeps of the chapter is what it teaches") {
-        for (const char* first :
-             {"struct BsdfSample", "inline Vec3 sample_uniform_hemisphere",
-              "inline float pdf_uniform_hemisphere", "inline Vec2 invert_uniform_hemisphere"}) {
-            std::string taught = definition("chapters/06_path_tracing/estimator.h", first);
-            CHECK(taught.substr(0, taught.find("\n///")) ==
-                  definition("common/material/bsdf.h", first).substr(0, taught.find("\n///")));
-        }
-    }
-
     TEST_CASE("density: uniform hemisphere") {
         std::array<double, 100> counts{};
         RunningStats z, z2, x2;

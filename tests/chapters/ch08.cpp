@@ -11,12 +11,9 @@ using ch08::LightMeasure;
 
 namespace {
 
-/// Draws lights this way while it lives.
-struct DrawBy {
-    explicit DrawBy(LightMeasure measure) { ch08::light_measure = measure; }
-    ~DrawBy() { ch08::light_measure = LightMeasure::solid_angle; }
-};
-constexpr LightMeasure both_ways[] = {LightMeasure::area, LightMeasure::solid_angle};
+const Trace trace_by_area = trace_with<ch08::trace>(LightMeasure::area);
+const Trace trace_by_angle = trace_with<ch08::trace>(LightMeasure::solid_angle);
+const Trace both_ways[] = {trace_by_area, trace_by_angle};
 
 /// The irradiance that light straight up, drawn by area, gives the floor: its exact moments.
 SquareMoments disk_moments(double h) {  // R = 1; X = pi h^2 / (h^2 + r^2)^2, r^2 uniform
@@ -45,11 +42,6 @@ std::string light_on_edge(double z) {
 }  // namespace
 
 TEST_SUITE("ch08 light sampling") {
-    TEST_CASE("identity: what common/ keeps of the chapter is what it teaches") {
-        CHECK(definition("chapters/08_light_sampling/estimator.h", "struct LightSample") ==
-              definition("common/light/lights.h", "struct LightSample"));
-    }
-
     TEST_CASE("truth: disks overhead and aside") {
         struct Row {
             double R, h, x, E;
@@ -66,16 +58,15 @@ TEST_SUITE("ch08 light sampling") {
             const auto& x = x_here;
             CAPTURE(x);
             Scene scene = floor_under(shining + disk(R, h, x));
-            for (LightMeasure measure : both_ways) {
-                DrawBy draw(measure);
-                check_bounded(irradiance(scene, ch08::trace, 40000), E, 0.005);
+            for (const Trace& trace : both_ways) {
+                check_bounded(irradiance(scene, trace, 40000), E, 0.005);
             }
         }
         for (auto [h, x, E] : {std::tuple{0.1, 0.0, 3.110487775831},
                                {0.01, 0.0, 3.141278525737},
                                {0.1, 1.0, 1.492354501531}}) {
             Scene scene = floor_under(shining + disk(1, h, x));
-            check_bounded(irradiance(scene, ch08::trace, 40000), E, 0.006);
+            check_bounded(irradiance(scene, trace_by_angle, 40000), E, 0.006);
         }
     }
 
@@ -88,9 +79,8 @@ TEST_SUITE("ch08 light sampling") {
             // The floor faces the axis: the axis is d up, and runs along x, h away.
             Scene scene = floor_under(shining + "Translate " + std::to_string(h) + " " +
                                       std::to_string(d) + " 0 Rotate -90 0 1 0 Shape \"disk\"");
-            for (LightMeasure measure : both_ways) {
-                DrawBy draw(measure);
-                check_bounded(irradiance(scene, ch08::trace, 100000), E, 0.01);
+            for (const Trace& trace : both_ways) {
+                check_bounded(irradiance(scene, trace, 100000), E, 0.01);
             }
         }
     }
@@ -117,7 +107,7 @@ TEST_SUITE("ch08 light sampling") {
             Scene scene = floor_under(shining + "Translate " + std::to_string(D * std::sin(a)) +
                                       " " + std::to_string(D * std::cos(a)) +
                                       " 0 Shape \"sphere\" \"float radius\" " + std::to_string(R));
-            check_bounded(irradiance(scene, ch08::trace, 40000), E, 0.02);
+            check_bounded(irradiance(scene, trace_by_angle, 40000), E, 0.02);
         }
     }
 
@@ -139,21 +129,20 @@ TEST_SUITE("ch08 light sampling") {
             const auto& light = light_here;
             CAPTURE(light);
             Scene scene = floor_under(shining + light);
-            for (LightMeasure measure : both_ways) {
-                DrawBy draw(measure);
-                check_bounded(irradiance(scene, ch08::trace, 100000), E, 0.007);
+            for (const Trace& trace : both_ways) {
+                check_bounded(irradiance(scene, trace, 100000), E, 0.007);
             }
         }
         for (auto [h, E] : {std::pair{0.1, 3.04212843837}, {0.01, 3.140564683433}}) {
             Scene scene = floor_under(shining + unit_square(h));
-            check_bounded(irradiance(scene, ch08::trace, 40000), E, 0.004);
+            check_bounded(irradiance(scene, trace_by_angle, 40000), E, 0.004);
         }
     }
 
     TEST_CASE("truth: point and distant lights are exact, sample by sample") {
         auto exactly = [](const std::string& light, double E) {
             Scene scene = floor_under(light);
-            RunningStats s = irradiance(scene, ch08::trace, 100);
+            RunningStats s = irradiance(scene, trace_by_angle, 100);
             CHECK(s.mean() == doctest::Approx(E).epsilon(1e-6).scale(0));
             CHECK(s.variance() <= 1e-12 * E * E);
         };
@@ -177,7 +166,7 @@ TEST_SUITE("ch08 light sampling") {
                 slide.add(static_cast<double>(y.p.y) / std::sqrt(d2) / d2);
             }
             check_bounded(slide, wrong, 0.001);
-            double right = 0.5 * irradiance(scene, ch08::trace, 100000).mean() / pi_exact;
+            double right = 0.5 * irradiance(scene, trace_by_angle, 100000).mean() / pi_exact;
             CHECK(slide.mean() / right == doctest::Approx(factor).epsilon(0.005).scale(0));
         }
     }
@@ -194,7 +183,8 @@ TEST_SUITE("ch08 light sampling") {
         Sampler random = random_numbers(1);
         for (int i = 0; i < 100000; i++) {
             float u1 = random.u1();
-            ch08::LightSample y = ch08::sample_light(scene, x, u1, random.u2());
+            ch08::LightSample y =
+                ch08::sample_light(scene, x, u1, random.u2(), LightMeasure::solid_angle);
             REQUIRE(y.pdf_w > 0);
             size_t light = static_cast<size_t>(std::lround(y.Le.g)) - 1;
             counts[light]++;
@@ -213,7 +203,7 @@ TEST_SUITE("ch08 light sampling") {
         for (const char* turn : {"0", "90", "180", "270"})
             lights += "AttributeBegin " + shining + "Rotate " + turn + " 0 1 0 " +
                       unit_square(1, 1.5) + " AttributeEnd\n";
-        check_bounded(irradiance(floor_under(lights), ch08::trace, 100000), 4 * 0.1046370751909,
+        check_bounded(irradiance(floor_under(lights), trace_by_angle, 100000), 4 * 0.1046370751909,
                       0.002);
     }
 
@@ -222,18 +212,18 @@ TEST_SUITE("ch08 light sampling") {
         // On the floor, albedo 1/2: radiance E / (2 pi); the light itself: 1, exactly.
         Scene scene = floor_under(shining + unit_square(1));
         scene.max_depth = 10;
-        RunningStats floor = repeat(scene, onto_origin, ch08::trace, 40000, 1, 0.5);
+        RunningStats floor = repeat(scene, onto_origin, trace_by_angle, 40000, 1, 0.5);
         double relative = square_moments(1).variance / std::pow(square_moments(1).mean, 2);
         CHECK(relative == doctest::Approx(0.03035451318485).epsilon(1e-4).scale(0));
         check_mean(floor, 0.1197282352, std::pow(0.1197282352, 2) * 0.001873136382573, 0.001);
-        RunningStats light = repeat(scene, {{0, 0.5f, 0}, {0, 1, 0}}, ch08::trace, 100);
+        RunningStats light = repeat(scene, {{0, 0.5f, 0}, {0, 1, 0}}, trace_by_angle, 100);
         CHECK(light.mean() == 1);
         CHECK(light.variance() == 0);
         // In a mirror of reflectance 0.9, straight on: 0.9. Through a slab of glass: 0.9231.
         Scene mirror =
             world_of("Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] Shape \"sphere\"\n" +
                      shining + "Translate 0 0 -9 Rotate -90 1 0 0 Scale 9 1 9 " + square(0, false));
-        RunningStats in_mirror = repeat(mirror, {{0, 0, -4}, {0, 0, 1}}, ch08::trace, 100);
+        RunningStats in_mirror = repeat(mirror, {{0, 0, -4}, {0, 0, 1}}, trace_by_angle, 100);
         CHECK(in_mirror.mean() == doctest::Approx(0.9).epsilon(1e-5).scale(0));
         CHECK(in_mirror.variance() <= 1e-12);
         Scene slab = world_of(
@@ -244,7 +234,7 @@ TEST_SUITE("ch08 light sampling") {
             shining +
             "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
             " \"point3 P\" [-900 -900 9  -900 900 9  900 900 9  900 -900 9]");
-        RunningStats through = repeat(slab, {{0, 0, -4}, {0, 0, 1}}, ch08::trace, 40000);
+        RunningStats through = repeat(slab, {{0, 0, -4}, {0, 0, 1}}, trace_by_angle, 40000);
         double T = 0.9230769230769;
         check_mean(through, T, T * (1 - T), 0.02);
     }
@@ -255,9 +245,8 @@ TEST_SUITE("ch08 light sampling") {
                 Scene scene = floor_under("AreaLightSource \"diffuse\" \"bool twosided\" " +
                                           std::string(two_sided ? "true" : "false") +
                                           " Translate 0 1 0 Scale 0.5 1 0.5 " + square(0, up));
-                for (LightMeasure measure : both_ways) {
-                    DrawBy draw(measure);
-                    RunningStats s = irradiance(scene, ch08::trace, 10000);
+                for (const Trace& trace : both_ways) {
+                    RunningStats s = irradiance(scene, trace, 10000);
                     if (up && !two_sided) {
                         CHECK(s.mean() == 0);
                     } else {
@@ -270,23 +259,23 @@ TEST_SUITE("ch08 light sampling") {
     TEST_CASE("truth: what stands in between takes all light away, half of it half") {
         const std::string board = "AttributeBegin Translate 0 0.5 0 " + square(0, true);
         Scene covered = floor_under(board + " AttributeEnd\n" + shining + unit_square(1));
-        CHECK(irradiance(covered, ch08::trace, 1000).mean() == 0);
+        CHECK(irradiance(covered, trace_by_angle, 1000).mean() == 0);
         Scene half = floor_under("AttributeBegin Translate 1 0.5 0 " + square(0, true) +
                                  " AttributeEnd\n" + shining + unit_square(1));
         half.max_depth = 1;
-        check_bounded(irradiance(half, ch08::trace, 40000), 0.7522746884541 / 2, 0.006);
+        check_bounded(irradiance(half, trace_by_angle, 40000), 0.7522746884541 / 2, 0.006);
     }
 
     TEST_CASE("truth: a constant sky gives pi, with a third of its square as variance") {
         Scene scene = floor_under("LightSource \"infinite\"");
-        RunningStats s = irradiance(scene, ch08::trace, 100000);
+        RunningStats s = irradiance(scene, trace_by_angle, 100000);
         check_mean(s, pi_exact, pi_exact * pi_exact / 3, 0.05);
         check_variance(s, 3.289868133696, 1.8);  // 2 pi cos is uniform in [0, 2 pi]
         Scene three =
             floor_under("LightSource \"infinite\" LightSource \"infinite\" \"float scale\" 2 " +
                         shining + unit_square(1));
         // The square hides 3 of its own solid angle, and shines with 1.
-        check_bounded(irradiance(three, ch08::trace, 200000), 3 * pi_exact - 2 * 0.7522746884541,
+        check_bounded(irradiance(three, trace_by_angle, 200000), 3 * pi_exact - 2 * 0.7522746884541,
                       0.005);
     }
 
@@ -296,7 +285,7 @@ TEST_SUITE("ch08 light sampling") {
             Scene scene = floor_under(
                 "LightSource \"infinite\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" +
                 disk(std::sqrt(1 / (e * e) - 1), 1));
-            RunningStats s = irradiance(scene, ch08::trace, 200000);
+            RunningStats s = irradiance(scene, trace_by_angle, 200000);
             double E = pi_exact * e * e, relative = 4 / (3 * e) - 1;
             check_mean(s, E, relative * E * E, 0.1 * E);
             check_variance(s, relative * E * E, 9 / (5 * e));  // E X^4 / var^2, for small e
@@ -307,12 +296,10 @@ TEST_SUITE("ch08 light sampling") {
         for (std::string name : {"two-lights", "cornell"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 4);
-            auto film = [&](LightMeasure measure, int spp, uint32_t seed) {
-                DrawBy draw(measure);
-                return film_of(scene, ch08::trace, spp, seed).film;
+            auto film = [&](const Trace& trace, int spp, uint32_t seed) {
+                return film_of(scene, trace, spp, seed).film;
             };
-            check_agreement(hold_against(film(LightMeasure::area, 256, 1),
-                                         film(LightMeasure::solid_angle, 64, 2)),
+            check_agreement(hold_against(film(trace_by_area, 256, 1), film(trace_by_angle, 64, 2)),
                             0.05);
         }
     }
@@ -321,7 +308,6 @@ TEST_SUITE("ch08 light sampling") {
 TEST_SUITE("ch08 near lights") {
     TEST_CASE(
         "variance: near-light, a disk, by area: (1 + h^2)^2 (1/h^2 - h^4/(1 + h^2)^3) / 3 - 1") {
-        DrawBy draw(LightMeasure::area);
         struct Row {
             double h, relative;
             int paths;
@@ -335,7 +321,7 @@ TEST_SUITE("ch08 near lights") {
             double E = pi_exact / (1 + h * h);
             CHECK(exact.variance / (E * E) == doctest::Approx(relative).epsilon(1e-2).scale(0));
             Scene scene = floor_under(shining + disk(1, h));
-            RunningStats s = irradiance(scene, ch08::trace, paths);
+            RunningStats s = irradiance(scene, trace_by_area, paths);
             check_mean(s, E, relative * E * E, 0.08 * E);
             check_variance(s, relative * E * E, exact.kurtosis);
         }
@@ -354,7 +340,7 @@ TEST_SUITE("ch08 near lights") {
             double relative = square / round * (1 + own) - 1, E = pi_exact / (1 + h * h);
             CHECK(relative < 1.0 / 3);
             Scene scene = floor_under(shining + disk(1, h));
-            RunningStats s = irradiance(scene, ch08::trace, 100000);
+            RunningStats s = irradiance(scene, trace_by_angle, 100000);
             check_mean(s, E, relative * E * E, 0.02 * E);
             check_variance(s, relative * E * E, 4);
         }
@@ -373,11 +359,10 @@ TEST_SUITE("ch08 near lights") {
             double E2 = exact.mean * exact.mean;
             CHECK(exact.variance / E2 == doctest::Approx(by_area).epsilon(1e-2).scale(0));
             Scene scene = floor_under(shining + unit_square(h));
-            RunningStats angle = irradiance(scene, ch08::trace, 100000);
+            RunningStats angle = irradiance(scene, trace_by_angle, 100000);
             check_mean(angle, exact.mean, by_angle * E2, 0.02 * exact.mean);
             check_variance(angle, by_angle * E2, 5);
-            DrawBy draw(LightMeasure::area);
-            RunningStats area = irradiance(scene, ch08::trace, 300000);
+            RunningStats area = irradiance(scene, trace_by_area, 300000);
             check_mean(area, exact.mean, by_area * E2, 0.05 * exact.mean);
             check_variance(area, by_area * E2, exact.kurtosis);
         }
@@ -394,7 +379,7 @@ TEST_SUITE("ch08 near lights") {
             const auto& z = z_here;
             CAPTURE(z);
             Scene scene = floor_under(shining + light_on_edge(z));
-            RunningStats s = irradiance(scene, ch08::trace, 100000);
+            RunningStats s = irradiance(scene, trace_by_angle, 100000);
             check_mean(s, E, by_angle * E * E, 0.02 * E);
             check_variance(s, by_angle * E * E, 2);
         }
@@ -402,8 +387,8 @@ TEST_SUITE("ch08 near lights") {
         double E2 = exact.mean * exact.mean;
         CHECK(exact.mean == doctest::Approx(1.327463828739).epsilon(1e-2).scale(0));
         CHECK(exact.variance / E2 == doctest::Approx(6.423288931219).epsilon(1e-2).scale(0));
-        DrawBy draw(LightMeasure::area);
-        RunningStats s = irradiance(floor_under(shining + light_on_edge(0.1)), ch08::trace, 300000);
+        RunningStats s =
+            irradiance(floor_under(shining + light_on_edge(0.1)), trace_by_area, 300000);
         check_mean(s, exact.mean, exact.variance, 0.05 * exact.mean);
         check_variance(s, exact.variance, exact.kurtosis);
     }
@@ -411,11 +396,10 @@ TEST_SUITE("ch08 near lights") {
     TEST_CASE("failure: by area, most runs near a light are too dark, and sure of it") {
         // h = 0.01, 1000 samples: 65 % of the runs below half the truth; the interval of two
         // standard errors holds it in 38 % of the runs.
-        DrawBy draw(LightMeasure::area);
         Scene scene = floor_under(shining + disk(1, 0.01));
         int runs = 500, dark = 0, covered = 0;
         for (int i = 0; i < runs; i++) {
-            RunningStats s = irradiance(scene, ch08::trace, 1000, static_cast<uint32_t>(i + 1));
+            RunningStats s = irradiance(scene, trace_by_area, 1000, static_cast<uint32_t>(i + 1));
             dark += s.mean() < 3.141278525737 / 2;
             covered += std::abs(s.mean() - 3.141278525737) < 1.96 * s.standard_error();
         }
@@ -424,7 +408,6 @@ TEST_SUITE("ch08 near lights") {
     }
 
     TEST_CASE("failure: a clamp at ten times the truth loses 47 % of the light, for ever") {
-        DrawBy draw(LightMeasure::area);
         Scene scene = floor_under(shining + disk(1, 0.1));
         double E = 3.110487775831;
         Sampler sampler(SamplerType::independent, 1, 1);
@@ -432,25 +415,25 @@ TEST_SUITE("ch08 near lights") {
         RunningStats clamped;
         for (uint32_t i = 0; i < 200000; i++) {
             sampler.start(0, i);
-            double X = pi_exact * double{ch08::trace(scene, onto_origin, sampler, log).g};
+            double X = pi_exact * double{trace_by_area(scene, onto_origin, sampler, log).g};
             clamped.add(std::min(X, 10 * E));
         }
         check_bounded(clamped, (1 - 0.4743900567172) * E, 0.01);
     }
 
     TEST_CASE("failure: in the light's plane, at a point light, without lights: 0, and finite") {
-        for (LightMeasure measure : both_ways) {
-            DrawBy draw(measure);
+        for (const Trace& trace : both_ways) {
             Scene level = floor_under(shining + "Translate 5 0 0 " + square(0, false));
-            CHECK(irradiance(level, ch08::trace, 1000).mean() == 0);
+            CHECK(irradiance(level, trace, 1000).mean() == 0);
         }
         Scene none = floor_under(shining + unit_square(1));
         none.lights.clear();
-        CHECK(irradiance(none, ch08::trace, 1000).mean() == 0);
+        CHECK(irradiance(none, trace_by_angle, 1000).mean() == 0);
         Scene touching = floor_under("LightSource \"point\" \"point3 from\" [0 0 0]");
         Sampler random = random_numbers(1);
         float u1 = random.u1();
-        ch08::LightSample y = ch08::sample_light(touching, origin_of(touching), u1, random.u2());
+        ch08::LightSample y = ch08::sample_light(touching, origin_of(touching), u1, random.u2(),
+                                                 LightMeasure::solid_angle);
         CHECK(y.pdf_w == 0);
     }
 
@@ -460,11 +443,10 @@ TEST_SUITE("ch08 near lights") {
             return e * e * static_cast<double>(film.spp) * film.width * film.height;
         };
         Scene scene = scene_from("scenes/near-disk.pbrt", 64, 1);
-        Film angle = film_of(scene, ch08::trace, 64).film;
+        Film angle = film_of(scene, trace_by_angle, 64).film;
         CHECK(std::abs(angle.mean() - 0.5 / 1.01) < 5 * angle.standard_error());
         CHECK(relative_variance(angle) < 1.0 / 3);
-        DrawBy draw(LightMeasure::area);
-        Film area = film_of(scene, ch08::trace, 64).film;
+        Film area = film_of(scene, trace_by_area, 64).film;
         CHECK(std::abs(area.mean() - 0.5 / 1.01) < 5 * area.standard_error());
         CHECK(relative_variance(area) == doctest::Approx(33).epsilon(0.15).scale(0));
     }
@@ -482,10 +464,10 @@ TEST_SUITE("ch08 pictures") {
             const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            CHECK(check_classes(scene, ch07::trace, scene, ch08::trace, 80000) >= least);
+            CHECK(check_classes(scene, ch07::trace, scene, trace_by_angle, 80000) >= least);
         }
         Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 8);
-        check_agreement(hold_against(film_of(scene, ch08::trace, 64).film,
+        check_agreement(hold_against(film_of(scene, trace_by_angle, 64).film,
                                      film_of(scene, ch07::trace, 128, 2).film),
                         0.02);
     }
@@ -493,21 +475,21 @@ TEST_SUITE("ch08 pictures") {
     TEST_CASE(
         "failure: nobody aims at a light in glass: all its light comes by LSS, found by chance") {
         Scene scene = scene_from("scenes/light-in-glass.pbrt", 32, 8);
-        PathCensus census = census_of(scene, ch08::trace, 40000, 1);
+        PathCensus census = census_of(scene, trace_by_angle, 40000, 1);
         for (const auto& [name_here, part] : census.by_class) {
             const auto& name = name_here;
             CAPTURE(name);
             CHECK((name.substr(0, 3) == "LSS" || part.sum == 0));
         }
         CHECK(census.all.sum > 0);
-        Film a = film_of(scene, ch07::trace, 64).film, b = film_of(scene, ch08::trace, 64).film;
+        Film a = film_of(scene, ch07::trace, 64).film, b = film_of(scene, trace_by_angle, 64).film;
         CHECK(rel_mse(b) == doctest::Approx(rel_mse(a)).epsilon(0.2).scale(0));
     }
 
     TEST_CASE("variance: on the Cornell box, a twentieth of the variance of chapter 07") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 8);
         double before = rel_mse(film_of(scene, ch07::trace, 512).film);
-        double now = rel_mse(film_of(scene, ch08::trace, 128).film);
+        double now = rel_mse(film_of(scene, trace_by_angle, 128).film);
         CHECK(now < before / 20);
     }
 }

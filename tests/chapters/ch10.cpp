@@ -5,6 +5,7 @@
 
 #include "chapters/09_cosine_sampling/estimator.h"
 #include "chapters/10_light_importance/estimator.h"
+#include "common/light/pdf_one_light.h"
 #include "tests/support/estimators.h"
 
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr float below_one = 0x1.fffffep-1f;
 
 /// What the columns of the table give each light: the sum of their shares.
-std::vector<double> pmf_of(const std::vector<AliasColumn>& table) {
+std::vector<double> pmf_of(const ch10::LightTable& table) {
     std::vector<double> pmf(table.size());
     double width = 1 / static_cast<double>(table.size());
     for (size_t i = 0; i < table.size(); i++) {
@@ -20,13 +21,6 @@ std::vector<double> pmf_of(const std::vector<AliasColumn>& table) {
         pmf[table[i].other] += width * (1 - static_cast<double>(table[i].own));
     }
     return pmf;
-}
-
-/// A scene of nothing but a table.
-Scene scene_with(const std::vector<double>& pmf) {
-    Scene scene;
-    scene.light_table = ch10::build_alias_table(pmf);
-    return scene;
 }
 
 std::vector<double> normalized(std::vector<double> weights) {
@@ -59,30 +53,18 @@ Scene far_and_near() {
         "LightSource \"point\" \"point3 from\" [0 1 0]");
 }
 
-Scene prepared(Scene scene) {
-    ch10::prepare(scene);
-    return scene;
-}
+/// Chapter 10 in this scene.
+Trace trace_10(const Scene& scene) { return trace_with<ch10::trace>(ch10::prepare(scene)); }
 
 }  // namespace
 
 TEST_SUITE("ch10 light table") {
-    TEST_CASE("identity: what common/ keeps of the chapter is what it teaches") {
-        for (const char* first :
-             {"inline float light_power", "inline std::vector<double> light_pmf",
-              "inline std::vector<AliasColumn> build_alias_table", "inline size_t pick_light",
-              "inline LightSample sample_light"}) {
-            CHECK(definition("chapters/10_light_importance/estimator.h", first) ==
-                  definition("common/light/light_table.h", first));
-        }
-    }
-
     TEST_CASE("identity: the alias table keeps every pmf") {
         Sampler random = random_numbers(1);
         for (size_t n : {1u, 2u, 3u, 7u, 100u, 1000u})
             for (bool skewed : {false, true}) {
                 std::vector<double> pmf = random_pmf(n, random, skewed);
-                auto table = ch10::build_alias_table(pmf);
+                auto table = ch10::build_light_table(pmf);
                 std::vector<double> kept = pmf_of(table);
                 for (size_t i = 0; i < n; i++) {
                     CHECK(table[i].own >= 0);
@@ -97,10 +79,10 @@ TEST_SUITE("ch10 light table") {
     TEST_CASE("identity: over all 2^24 random numbers each light gets its share") {
         Sampler random = random_numbers(2);
         std::vector<double> pmf = random_pmf(100, random, true);
-        Scene scene = scene_with(pmf);
+        ch10::LightTable table = ch10::build_light_table(pmf);
         std::vector<double> counts(pmf.size());
         for (uint32_t i = 0; i < 1u << 24; i++)
-            counts[ch10::pick_light(scene, static_cast<float>(i) * 0x1p-24f)]++;
+            counts[ch10::pick_light(table, static_cast<float>(i) * 0x1p-24f)]++;
         for (size_t i = 0; i < pmf.size(); i++)  // each column rounds by one number at most
             CHECK(std::abs(counts[i] * 0x1p-24 - pmf[i]) < 1e-5);
     }
@@ -112,11 +94,11 @@ TEST_SUITE("ch10 light table") {
                                               {1, 0},
                                               {0, 0, 0.5, 0, 0.5, 0, 0},
                                               {1e-12, 0, 1 - 1e-12}}) {
-            Scene scene = scene_with(pmf);
+            ch10::LightTable table = ch10::build_light_table(pmf);
             for (uint32_t i = 0; i < 4096; i++)
-                CHECK(pmf[ch10::pick_light(scene, static_cast<float>(i) / 4096)] > 0);
+                CHECK(pmf[ch10::pick_light(table, static_cast<float>(i) / 4096)] > 0);
             for (float u : {0.0f, 0x1p-24f, below_one, 0.5f, std::nextafter(0.5f, 0.0f)})
-                CHECK(pmf[ch10::pick_light(scene, u)] > 0);
+                CHECK(pmf[ch10::pick_light(table, u)] > 0);
         }
     }
 
@@ -164,7 +146,8 @@ TEST_SUITE("ch10 light table") {
                 "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0]"
                 " AreaLightSource \"diffuse\" \"float scale\" " +
                 std::to_string(i + 1) + " " + unit_square(9, 2 * i) + " AttributeEnd\n";
-        Scene scene = prepared(floor_under(lights));
+        Scene scene = floor_under(lights);
+        ch10::LightTable table = ch10::prepare(scene);
         Hit x = origin_of(scene);
         std::array<double, 10> counts{}, expected{};
         for (size_t i = 0; i < 10; i++)
@@ -172,7 +155,7 @@ TEST_SUITE("ch10 light table") {
         Sampler random = random_numbers(1);
         for (int i = 0; i < 100000; i++) {
             float u1 = random.u1();
-            LightSample y = ch10::sample_light(scene, x, u1, random.u2());
+            LightSample y = ch10::sample_light(scene, table, x, u1, random.u2());
             REQUIRE(y.pdf_w > 0);
             size_t light = static_cast<size_t>(std::lround(y.Le.g)) - 1;
             counts[light]++;
@@ -197,11 +180,11 @@ TEST_SUITE("ch10 light importance") {
     }
 
     TEST_CASE("variance: the chapter's own share bounds it by N / d, and so it is measured") {
-        Scene scene = prepared(far_and_near());
+        Scene scene = far_and_near();
         std::vector<double> f = {1000 / 1e6, 1}, pmf = ch10::light_pmf(scene, 0.25);
         double relative = relative_variance(f, pmf), E = f[0] + f[1], p = pmf[1];
         CHECK(relative < 2 / 0.25);
-        RunningStats s = irradiance(scene, ch10::trace, 100000);
+        RunningStats s = irradiance(scene, trace_10(scene), 100000);
         check_mean(s, E, relative * E * E, 0.1);
         check_variance(s, relative * E * E, (1 - 3 * p * (1 - p)) / (p * (1 - p)));
     }
@@ -212,8 +195,8 @@ TEST_SUITE("ch10 light importance") {
             "LightSource \"point\" \"point3 from\" [0 1 0]\n"
             "LightSource \"point\" \"point3 from\" [0 1 0] \"float scale\" 3");
         for (auto [d, variance] : {std::pair{0.0, 0.0}, {1.0, 4.0}}) {
-            scene.light_table = ch10::build_alias_table(ch10::light_pmf(scene, d));
-            RunningStats s = irradiance(scene, ch10::trace, 10000);
+            auto table = ch10::build_light_table(ch10::light_pmf(scene, d));
+            RunningStats s = irradiance(scene, trace_with<ch10::trace>(table), 10000);
             check_mean(s, 4, variance + 1e-8, 0.2);
             if (variance > 0) check_variance(s, variance, 1.1);
             CHECK(s.variance() <= variance * 1.1 + 1e-9);
@@ -225,23 +208,24 @@ TEST_SUITE("ch10 light importance") {
             "LightSource \"point\" \"point3 from\" [0 1 0]\n"
             "LightSource \"point\" \"point3 from\" [0 1 0]");
         for (auto [p, variance] : {std::pair{0.5, 0.0}, {0.25, 4.0 / 3}}) {
-            scene.light_table = ch10::build_alias_table({p, 1 - p});
-            RunningStats s = irradiance(scene, ch10::trace, 100000);
+            auto table = ch10::build_light_table({p, 1 - p});
+            RunningStats s = irradiance(scene, trace_with<ch10::trace>(table), 100000);
             check_mean(s, 2, variance + 1e-8, 0.05);
             if (variance > 0) check_variance(s, variance, (1 - 3 * p * (1 - p)) / (p * (1 - p)));
         }
     }
 
     TEST_CASE("failure: a light of one colour alone is not forgotten") {
-        Scene scene = prepared(
-            floor_under("LightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [0 0 1]\n"
-                        "LightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [1 0 0]"));
+        Scene scene = floor_under(
+            "LightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [0 0 1]\n"
+            "LightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [1 0 0]");
+        Trace trace = trace_10(scene);
         Sampler sampler(SamplerType::independent, 1, 1);
         PathLog log;
         RunningStats blue;
         for (uint32_t i = 0; i < 40000; i++) {
             sampler.start(0, i);
-            blue.add(pi_exact * double{ch10::trace(scene, onto_origin, sampler, log).b});
+            blue.add(pi_exact * double{trace(scene, onto_origin, sampler, log).b});
         }
         check_mean(blue, 1, 1, 0.05);
         CHECK(blue.variance() == doctest::Approx(1).epsilon(1e-4).scale(0));
@@ -250,14 +234,13 @@ TEST_SUITE("ch10 light importance") {
     TEST_CASE("failure: without lights the picture is black") {
         Scene none = floor_under(shining + unit_square(1));
         none.lights.clear();
-        ch10::prepare(none);
-        CHECK(irradiance(none, ch10::trace, 100).mean() == 0);
+        CHECK(irradiance(none, trace_10(none), 100).mean() == 0);
     }
 
     TEST_CASE("truth: thousand-lights.pbrt shows no light from its front") {
         Scene scene = scene_from("scenes/thousand-lights.pbrt", 64, 0);
         CHECK(scene.lights.size() == 1000);
-        CHECK(film_of(prepared(scene), ch10::trace, 4).film.mean() == 0);
+        CHECK(film_of(scene, trace_10(scene), 4).film.mean() == 0);
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 09") {
@@ -272,18 +255,18 @@ TEST_SUITE("ch10 light importance") {
             const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            CHECK(check_classes(scene, ch09::trace, prepared(scene), ch10::trace, 40000) >= least);
+            CHECK(check_classes(scene, ch09::trace, scene, trace_10(scene), 40000) >= least);
         }
         Scene scene = scene_from("scenes/two-lights.pbrt", 32, 8);
         check_agreement(hold_against(film_of(scene, ch09::trace, 128).film,
-                                     film_of(prepared(scene), ch10::trace, 128, 2).film),
+                                     film_of(scene, trace_10(scene), 128, 2).film),
                         0.005);
     }
 
     TEST_CASE("variance: a thousand lights: a third of the relMSE of chapter 09") {
         Scene scene = scene_from("scenes/thousand-lights.pbrt", 32, 8);
         double before = rel_mse(film_of(scene, ch09::trace, 256).film);
-        double now = rel_mse(film_of(prepared(scene), ch10::trace, 256).film);
+        double now = rel_mse(film_of(scene, trace_10(scene), 256).film);
         CHECK(now < before / 3);
     }
 
@@ -292,7 +275,7 @@ TEST_SUITE("ch10 light importance") {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             double before = rel_mse(film_of(scene, ch09::trace, 128).film);
-            double now = rel_mse(film_of(prepared(scene), ch10::trace, 128).film);
+            double now = rel_mse(film_of(scene, trace_10(scene), 128).film);
             CHECK(now > 1.2 * before);
             CHECK(now < 8.5 * before);  // but not by more than N / d
         }

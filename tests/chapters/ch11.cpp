@@ -7,7 +7,6 @@
 #include "chapters/10_light_importance/estimator.h"
 #include "chapters/11_ris/estimator.h"
 #include "common/base/parallel.h"
-#include "common/light/light_resampling.h"
 #include "tests/support/estimators.h"
 
 namespace {
@@ -105,15 +104,10 @@ RunningStats resampled_square(int M, int samples) {
     return stats;
 }
 
-/// Draws M candidates while it lives.
-struct With {
-    explicit With(int M) { ch11::M = M; }
-    ~With() { ch11::M = 16; }
-};
-
-Scene prepared(Scene scene) {
-    ch11::prepare(scene);
-    return scene;
+/// Chapters 10 and 11 in this scene; M as in the program without options.
+Trace trace_10(const Scene& scene) { return trace_with<ch10::trace>(ch10::prepare(scene)); }
+Trace trace_11(const Scene& scene, int M = 16) {
+    return trace_with<ch11::trace>(ch11::prepare(scene), M);
 }
 
 /// hidden-light.pbrt with this radiance of the lamp in the other room.
@@ -123,7 +117,7 @@ Scene hidden_light(const std::string& L) {
     REQUIRE(at != std::string::npos);
     Scene scene = scene_of(text.replace(at + 1, was.size(), L));
     scene.width = scene.height = 32, scene.max_depth = 8;
-    return prepared(scene);
+    return scene;
 }
 
 /// Ten point lights in a ring over the origin, of very different power, two of them in shadow.
@@ -147,13 +141,14 @@ struct Ring {
                       " " + std::to_string(at.z) + "]\n";
             potential.push_back(power * height / (d2 * std::sqrt(d2)));
         }
-        scene = prepared(floor_under(lights));
+        scene = floor_under(lights);
+        LightTable table = ch11::prepare(scene);
         Hit x = origin_of(scene);
         for (size_t i = 0; i < 10; i++) {
             Vec3 to_y = scene.lights[i].p;
             bool dark = occluded(scene, spawn_ray(x, normalize(to_y), length(to_y)));
             given.push_back(dark ? 0 : potential[i]);
-            pmf.push_back(static_cast<double>(pmf_light(scene, i)));
+            pmf.push_back(static_cast<double>(pmf_light(table, i)));
             E += given.back();
         }
     }
@@ -168,94 +163,6 @@ struct Ring {
 }  // namespace
 
 TEST_SUITE("ch11 reservoir") {
-    TEST_CASE("identity: candidates all at once are those of chapter 11") {
-        const std::string all_kinds =
-            square(0, false) + "LightSource \"point\" \"point3 from\" [1 2 0]" +
-            "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
-            "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
-            "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
-            "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
-            square(0, false);
-        for (Scene scene :
-             {world_of(all_kinds), scene_from("scenes/thousand-lights.pbrt", 16, 1)}) {
-            ch11::prepare(scene);
-            prepare_light_bounds(scene);
-            Sampler random = random_numbers(1);
-            int gave = 0;
-            for (int k = 0; k < 2000; k++) {
-                Hit x{};
-                x.p = scene.radius * random.u1() * uniform_direction(random.u2());
-                x.n = x.ng = uniform_direction(random.u2());
-                int M = 1 + k % 70;
-                float u = random.u1();
-                Candidates c = draw_candidates(scene, x, M, u);
-                REQUIRE(c.M == M);
-                for (int i = 0; i < M; i++) {
-                    size_t light = static_cast<size_t>(c.light[i]);
-                    float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
-                    REQUIRE(light == pick_light(scene, slice));
-                    float p_hat = ch11::potential(scene, light, x);
-                    REQUIRE(std::abs(c.p_hat[i] - p_hat) <= 1e-5f * p_hat);
-                    float weight = p_hat / pmf_light(scene, light);
-                    REQUIRE(std::abs(c.weight[i] - weight) <= 1e-5f * weight);
-                    if (p_hat > 0) gave++;
-                }
-            }
-            CHECK(gave > 20000);
-        }
-    }
-
-    TEST_CASE("identity: each candidate is kept for its share of u") {
-        Sampler random = random_numbers(1);
-        for (int M : {1, 2, 7, 16, 100, Candidates::most}) {
-            CAPTURE(M);
-            Candidates c{};
-            c.M = M;
-            double sum = 0;
-            for (int i = 0; i < M; i++) {
-                c.light[i] = 3 * i;
-                c.p_hat[i] = i % 3 == 1 ? 0 : random.u1() + 0.1f;
-                c.weight[i] = c.p_hat[i] * (1 + 9 * random.u1());
-                sum += static_cast<double>(c.weight[i]);
-            }
-            constexpr int steps = 1 << 16;
-            std::vector<int> count(static_cast<size_t>(M));
-            for (int k = 0; k < steps; k++) {
-                Kept kept = keep_one(c, (static_cast<float>(k) + 0.5f) / steps);
-                int i = static_cast<int>(kept.light) / 3;
-                REQUIRE(kept.W ==
-                        doctest::Approx(sum / M / double{c.p_hat[i]}).epsilon(1e-5).scale(0));
-                count[static_cast<size_t>(i)]++;
-            }
-            for (int i = 0; i < M; i++) {
-                double share = static_cast<double>(c.weight[i]) / sum * steps;
-                CHECK(std::abs(count[static_cast<size_t>(i)] - share) < (share > 0 ? 2 : 0.5));
-            }
-        }
-    }
-
-    TEST_CASE("failure: no candidate gives light, or too little for float: none is kept") {
-        Candidates c{};
-        c.M = 16;
-        CHECK(keep_one(c, 0.5f).W == 0);
-        c.weight[7] = c.p_hat[7] = 1e-42f;
-        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) CHECK(keep_one(c, u).W == 0);
-        c.weight[7] = c.p_hat[7] = 1e-37f;
-        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f})
-            CHECK(keep_one(c, u).W == doctest::Approx(1 / 16.0).epsilon(1e-5).scale(0));
-    }
-
-    TEST_CASE("failure: weights beyond float: one of the candidates, and a sample that is seen") {
-        Candidates c{};
-        c.M = Candidates::most;
-        for (int i = 0; i < c.M; i++) c.light[i] = i, c.p_hat[i] = c.weight[i] = 1e38f;
-        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
-            Kept kept = keep_one(c, u);
-            CHECK(kept.light < Candidates::most);
-            CHECK(!std::isfinite(kept.W));
-        }
-    }
-
     TEST_CASE("truth: RIS on four lights, all tuples") {
         for (auto [M, variance] : {std::pair{size_t{1}, 553.5},
                                    {2, 289.75},
@@ -327,7 +234,7 @@ TEST_SUITE("ch11 potential") {
               std::string("LightSource \"infinite\"")}) {
             CAPTURE(light);
             Scene scene = floor_under(light);
-            double E = irradiance(prepared(scene), ch11::trace, 4000).mean();
+            double E = irradiance(scene, trace_11(scene), 4000).mean();
             double potential = static_cast<double>(ch11::potential(scene, 0, origin_of(scene)));
             CHECK(potential == doctest::Approx(E).epsilon(0.15).scale(0));
         }
@@ -344,7 +251,8 @@ TEST_SUITE("ch11 potential") {
                                        two_sided + " Rotate 35 1 2 3 Scale 0.3 0.3 0.3 " + shape);
                 if (scene.lights.empty()) continue;
                 Sampler random = random_numbers(1);
-                int gave = 0;
+                const LightShape& shape_of_light = scene.light_shapes[0];
+                int gave = 0, not_by_centre = 0;
                 for (int i = 0; i < 20000; i++) {
                     Hit x{};
                     float distance = 0.1f * std::pow(1000.0f, random.u1());
@@ -358,8 +266,11 @@ TEST_SUITE("ch11 potential") {
                     if (!gives) continue;
                     gave++;
                     CHECK(ch11::potential(scene, 0, x) > 0);
+                    Vec3 to_centre = shape_of_light.centre - x.p;
+                    not_by_centre += dot(to_centre, x.n) <= 0;
                 }
                 CHECK(gave > 1000);
+                CHECK(not_by_centre > 100);  // where a plain cosine at the centre would be 0
             }
     }
 }
@@ -370,8 +281,7 @@ TEST_SUITE("ch11 ris") {
         CHECK(std::count(ring.given.begin(), ring.given.end(), 0.0) >= 1);
         for (int M : {1, 2, 3, 8, 16, 100}) {
             CAPTURE(M);
-            With candidates(M);
-            check_bounded(irradiance(ring.scene, ch11::trace, 40000), ring.E, 0.015);
+            check_bounded(irradiance(ring.scene, trace_11(ring.scene, M), 40000), ring.E, 0.015);
         }
     }
 
@@ -385,16 +295,12 @@ TEST_SUITE("ch11 ris") {
         double Var_p = ring.moment(ring.pmf, 2) - E2, Var_q = ring.moment(q, 2) - E2;
         double fourth = ring.moment(ring.pmf, 4) - 4 * ring.E * ring.moment(ring.pmf, 3) +
                         6 * E2 * ring.moment(ring.pmf, 2) - 3 * E2 * E2;
-        {
-            With candidates(1);
-            check_variance(irradiance(ring.scene, ch11::trace, 60000), Var_p,
-                           fourth / (Var_p * Var_p));
-        }
+        check_variance(irradiance(ring.scene, trace_11(ring.scene, 1), 60000), Var_p,
+                       fourth / (Var_p * Var_p));
         // The candidates of the chapter come from M slices of the table: that is only better.
         for (int M : {2, 4, 16}) {
             CAPTURE(M);
-            With candidates(M);
-            double variance = irradiance(ring.scene, ch11::trace, 60000).variance();
+            double variance = irradiance(ring.scene, trace_11(ring.scene, M), 60000).variance();
             CHECK(variance < 1.03 * (Var_p / M + (1 - 1.0 / M) * Var_q));
             CHECK(variance > 0.5 * Var_q);
         }
@@ -403,8 +309,7 @@ TEST_SUITE("ch11 ris") {
     TEST_CASE("failure: without lights the picture is black") {
         Scene none = floor_under(shining + unit_square(1));
         none.lights.clear();
-        ch11::prepare(none);
-        CHECK(irradiance(none, ch11::trace, 100).mean() == 0);
+        CHECK(irradiance(none, trace_11(none), 100).mean() == 0);
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 10") {
@@ -418,30 +323,30 @@ TEST_SUITE("ch11 ris") {
                                                       {"horizon-sky", 2}}) {
             const auto& name = name_here;
             CAPTURE(name);
-            Scene scene = prepared(scene_from("scenes/" + name + ".pbrt", 32, 8));
-            CHECK(check_classes(scene, ch10::trace, scene, ch11::trace, 20000) >= least);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
+            CHECK(check_classes(scene, trace_10(scene), scene, trace_11(scene), 20000) >= least);
         }
         // A bright light behind a wall, but 10 times as bright as the other one and not 10,000
         // times as in the file: there the few samples that count are too rare for 20,000 paths.
         Scene hidden = hidden_light("140 133 122");
-        CHECK(check_classes(hidden, ch10::trace, hidden, ch11::trace, 40000) >= 8);
-        Scene scene = prepared(scene_from("scenes/thousand-lights.pbrt", 32, 8));
-        check_agreement(hold_against(film_of(scene, ch10::trace, 256).film,
-                                     film_of(scene, ch11::trace, 64, 2).film),
+        CHECK(check_classes(hidden, trace_10(hidden), hidden, trace_11(hidden), 40000) >= 8);
+        Scene scene = scene_from("scenes/thousand-lights.pbrt", 32, 8);
+        check_agreement(hold_against(film_of(scene, trace_10(scene), 256).film,
+                                     film_of(scene, trace_11(scene), 64, 2).film),
                         0.02);
     }
 
     TEST_CASE("variance: a thousand lights: a quarter of the relMSE of chapter 10") {
-        Scene scene = prepared(scene_from("scenes/thousand-lights.pbrt", 32, 8));
-        double before = rel_mse(film_of(scene, ch10::trace, 256).film);
-        double now = rel_mse(film_of(scene, ch11::trace, 128).film);
+        Scene scene = scene_from("scenes/thousand-lights.pbrt", 32, 8);
+        double before = rel_mse(film_of(scene, trace_10(scene), 256).film);
+        double now = rel_mse(film_of(scene, trace_11(scene), 128).film);
         CHECK(now < before / 4);
     }
 
     TEST_CASE("failure: a bright light behind a wall: resampling is worse than chapter 10") {
-        Scene scene = prepared(scene_from("scenes/hidden-light.pbrt", 32, 8));
-        double before = rel_mse(film_of(scene, ch10::trace, 128).film);
-        double now = rel_mse(film_of(scene, ch11::trace, 128).film);
+        Scene scene = scene_from("scenes/hidden-light.pbrt", 32, 8);
+        double before = rel_mse(film_of(scene, trace_10(scene), 128).film);
+        double now = rel_mse(film_of(scene, trace_11(scene), 128).film);
         CHECK(now > 2 * before);
     }
 }
@@ -455,12 +360,12 @@ TEST_SUITE("ch11 ris, slow") {
         constexpr int before = 500000, now = 5000000;
         Scene scene = hidden_light("140000 133000 122000");
         scene.max_depth = 5;
-        PathCensus a = census_of(scene, ch10::trace, before, 1);
+        PathCensus a = census_of(scene, trace_10(scene), before, 1);
         std::vector<PathCensus> parts(10);
         int threads = static_cast<int>(std::thread::hardware_concurrency());
         parallel_for(10, threads, [&](int i) {
             parts[static_cast<size_t>(i)] =
-                census_of(scene, ch11::trace, now / 10, 2 + static_cast<uint32_t>(i));
+                census_of(scene, trace_11(scene), now / 10, 2 + static_cast<uint32_t>(i));
         });
         for (auto [name_here, variance_a, variance_b] :
              {std::tuple{std::string("LDE"), 15.0, 1380.0},

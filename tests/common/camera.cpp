@@ -31,14 +31,6 @@ const std::string perspective = "Camera \"perspective\" \"float fov\" 90 ";
 }  // namespace
 
 TEST_SUITE("camera") {
-    TEST_CASE("identity: the camera of common/ is the one that chapter 04 teaches") {
-        for (const char* first :
-             {"struct CameraView", "inline CameraView camera_view", "inline Ray camera_ray"}) {
-            CHECK(definition("chapters/04_ray_casting/estimator.h", first) ==
-                  definition("common/scene/camera.h", first));
-        }
-    }
-
     TEST_CASE("truth: LookAt is left-handed") {
         // Looking along +z with y up, +x is on the right; looking along -z it is on the left.
         check_place(film_place("LookAt 0 0 0  0 0 1  0 1 0 " + perspective, {1, 0, 2}), 0.75f,

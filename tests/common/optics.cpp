@@ -69,14 +69,6 @@ double metal(double degrees, float r) {
 }  // namespace
 
 TEST_SUITE("optics") {
-    TEST_CASE("identity: the optics of common/ are the ones that chapter 04 teaches") {
-        for (const char* first : {"inline Vec3 reflect", "inline std::optional<Vec3> refract",
-                                  "inline float fresnel_dielectric"}) {
-            CHECK(definition("chapters/04_ray_casting/estimator.h", first) ==
-                  definition("common/material/optics.h", first));
-        }
-    }
-
     TEST_CASE("truth: Fresnel's equations for glass") {
         struct Row {
             double degrees, eta, R;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/base/files.h"
 #include "common/base/stats.h"
 
 /// The mean of independent samples is within 5 standard errors of `truth`, by the KNOWN variance of
@@ -62,14 +61,4 @@ inline double chi_square_tail(double x, int freedom) {
         term *= h / (k / 2.0);
     }
     return tail;
-}
-
-/// The source of a function or class: from the line that starts with `first` to the next line that
-/// starts with `}`. What a chapter teaches and what common/ keeps of it are compared by this.
-inline std::string definition(const std::string& path, const std::string& first) {
-    std::string text = read_file(path);
-    size_t begin = text.find("\n" + first), end = text.find("\n}", begin);
-    REQUIRE(begin != std::string::npos);
-    REQUIRE(end != std::string::npos);
-    return text.substr(begin, end - begin);
 }
