@@ -24,13 +24,14 @@ struct Densities {
     float resampled, uniform, bsdf;
 };
 
-/// The weight of a direction found with density a:  a^2 / (resampled^2 + uniform^2 + bsdf^2)
+/// The weight of a direction that was drawn with density a, and could have been drawn with b or c.
 ///
-/// By way of ratios, so that no square overflows.      source  Veach, Guibas 1995
-/// tested by  "identity: the three weights sum to 1"
-inline float mis_weight(float a, const Densities& d) {
-    float r = d.resampled / a, u = d.uniform / a, b = d.bsdf / a;
-    return 1 / (r * r + u * u + b * b);
+///   a^2 / (a^2 + b^2 + c^2)
+///
+/// Chapter 13's, for three ways: the three weights of a direction sum to 1.
+/// source  Veach, Guibas 1995      tested by  "identity: the three weights sum to 1"
+inline float power_heuristic(float a, float b, float c) {
+    return 1 / (1 + (b / a) * (b / a) + (c / a) * (c / a));
 }
 
 /// The densities of the three ways towards `light`, where one point of it has density pdf_one.
@@ -54,7 +55,7 @@ inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t lig
     float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
     Vec3 wi = to_y / std::sqrt(d2);
     Densities d = densities(lights, light, d2 / shape.area, pdf_bsdf(x, wo, wi));
-    return mis_weight(d.resampled, d) * average(eval_bsdf(x, wo, wi)) + 0.05f;
+    return power_heuristic(d.resampled, d.uniform, d.bsdf) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
@@ -80,7 +81,9 @@ inline Rgb light_from(const Scene& scene, const ManyLights& lights, const Hit& x
     if (y.pdf_w == 0 || W == 0) return {};
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     Densities d = densities(lights, light, y.pdf_w, pdf_b);
-    float pdf_l = way == Way::resampled ? d.resampled : d.uniform, mis_l = mis_weight(pdf_l, d);
+    bool best = way == Way::resampled;
+    float pdf_l = best ? d.resampled : d.uniform, pdf_other = best ? d.uniform : d.resampled;
+    float mis_l = power_heuristic(pdf_l, pdf_other, pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * W);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
     return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
@@ -108,7 +111,8 @@ inline float mis_emission(const Scene& scene, const ManyLights& lights, const Hi
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
     float pdf_one = y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi);
-    return mis_weight(pdf_b, densities(lights, light, pdf_one, pdf_b));
+    Densities d = densities(lights, light, pdf_one, pdf_b);
+    return power_heuristic(d.bsdf, d.resampled, d.uniform);
 }
 
 /// Estimates Li along the ray from one path.

@@ -543,7 +543,7 @@ TEST_SUITE("ch05 bvh slow") {
 
     TEST_CASE("agreement: the same pictures with AVX-512, with AVX2, and without") {
         fs::path build = fs::read_symlink("/proc/self/exe").parent_path();
-        for (const std::string chapter : {"06_path_tracing", "12_mis"}) {
+        for (const std::string chapter : {"06_path_tracing", "14_mis_ris"}) {
             for (std::string instructions : {"x86-64", "x86-64-v3"}) {
                 // Without what the make around this one hands down.
                 fs::path other = build / instructions;

@@ -184,9 +184,8 @@ SceneResult agree_on(const std::string& path, const std::vector<Method>& methods
     Scene scene = load_scene_for(path, o);
     SceneResult result{scene_name(path), {}};
     for (size_t m = 0; m < methods.size(); m++) {
-        auto prepared = prepared_for(methods[m], scene);
-        if (!prepared) continue;
-        result.columns.push_back({&methods[m], measure(methods[m], m, *prepared, o, cell_seconds)});
+        if (!can_render(methods[m], scene)) continue;
+        result.columns.push_back({&methods[m], measure(methods[m], m, scene, o, cell_seconds)});
     }
     return result;
 }
@@ -201,7 +200,7 @@ int main(int argc, char** argv) {
             "16x16 pixels, for each path length and each class of path. Beyond 5 it fails.",
             {.spp = 0, .runs = 64, .width = 64, .height = 64, .seconds = 300});
         if (o.words.empty()) o.words = all_scenes();
-        if (o.methods.empty()) o.methods = {"all", "12-bsdf", "12-light"};
+        if (o.methods.empty()) o.methods = {"all", "12-bsdf", "13-one-sample"};
         std::vector<Method> methods = methods_named(o.methods);
         std::vector<SceneResult> results;
         Table details{{"scene", "chapter", "quantity", "mean", "standard error", "mean of others",

@@ -13,11 +13,10 @@ std::vector<Curve> measure_scene(const std::string& path, const std::vector<Meth
     Scene scene = load_scene_for(path, o);
     std::vector<Curve> curves;
     for (const Method& method : methods) {
-        auto prepared = prepared_for(method, scene);
-        if (!prepared) continue;
+        if (!can_render(method, scene)) continue;
         Reference reference =
             reference_for(scene_name(path), method, scene.width, scene.height, scene.max_depth);
-        curves.push_back(measure_curve(method, *prepared, reference, o, seconds));
+        curves.push_back(measure_curve(method, scene, reference, o, seconds));
     }
     return curves;
 }
@@ -70,12 +69,12 @@ int main(int argc, char** argv) {
         for (const std::string& word : o.words) {
             std::string path = find_scene(word), name = scene_name(path);
             std::vector<std::string> names = o.methods;
-            if (names.empty()) names = {"all", "12-sobol"};
+            if (names.empty()) names = {"all", "14-sobol"};
             if (o.methods.empty() && name == "cornell") {
                 names.insert(names.end(), {"depth-cap", "clamp", "wrong-pdf"});
             }
             if (o.methods.empty() && name == "veach-mis") {
-                names.insert(names.end(), {"12-bsdf", "12-light"});
+                names.push_back("12-bsdf");
             }
             std::vector<Method> methods = methods_named(names);
             double seconds = o.seconds * o.threads / static_cast<double>(o.words.size()) /

@@ -21,9 +21,7 @@ std::vector<Contender> contenders_on(const std::string& path, const std::vector<
     Scene scene = load_scene_for(path, o);
     std::vector<Contender> contenders;
     for (const Method& method : methods) {
-        if (auto prepared = prepared_for(method, scene)) {
-            contenders.push_back({&method, std::move(*prepared), o.spp});
-        }
+        if (can_render(method, scene)) contenders.push_back({&method, scene, o.spp});
     }
     return contenders;
 }

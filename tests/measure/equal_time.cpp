@@ -77,9 +77,8 @@ void draw_equal_time(const std::string& path, const std::string& title,
     std::vector<double> ranges;
     for (const Curve& c : curves) {
         if (c.points.empty()) continue;
-        Scene prepared = *prepared_for(*c.method, scene);
         int spp = std::max(1, static_cast<int>(std::lround(seconds / per_sample(c))));
-        Image image = render_once(*c.method, prepared, o, spp, 77).film.image();
+        Image image = render_once(*c.method, scene, o, spp, 77).film.image();
         shots.push_back({c.method, image, compare(image, reference.image).rel_mse});
         ranges.push_back(error_range(image, reference.image));
     }

@@ -27,10 +27,10 @@ MeasureOptions parse_measure_options(int argc, char** argv, const std::string& p
                                      const std::string& about, MeasureOptions defaults,
                                      std::vector<Option> extra = {});
 
-/// The scene of this path at the size and depth of the options, ready but for Method::prepare.
+/// The scene of this path at the size and depth of the options, ready to render.
 Scene load_scene_for(const std::string& path, const MeasureOptions& options);
 
-/// One render of a prepared scene; `classes`: with the films of the classes of path.
+/// One render, for which scene.spp is set; `classes`: with the films of the classes of path.
 /// stats.seconds is processor time over threads: what a clock shows on a machine with nothing else
 /// to do.
 Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& options, int spp,

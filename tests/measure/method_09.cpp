@@ -1,10 +1,11 @@
 #include "chapters/09_cosine_sampling/estimator.h"
 #include "tests/measure/methods.h"
 
-[[maybe_unused]] static const bool added = add_method({.name = "09",
-                                                       .label = "09 cosine sampling",
-                                                       .color = "#17becf",
-                                                       .finds_light = "by aim",
-                                                       .scenes = {"cornell", "horizon-sky"},
-                                                       .refuse = {refuse_glossy},
-                                                       .render = by_trace(ch09::trace)});
+[[maybe_unused]] static const bool added =
+    add_method({.name = "09",
+                .label = "09 cosine sampling",
+                .color = "#17becf",
+                .finds_light = "by aim",
+                .scenes = {"cornell", "horizon-sky"},
+                .refuse = {refuse_glossy},
+                .render = by_trace([](const Scene&) { return trace_with<ch09::trace>(); })});

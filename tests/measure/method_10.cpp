@@ -8,5 +8,6 @@
                 .finds_light = "by aim",
                 .scenes = {"thousand-lights", "two-lights", "far-and-near"},
                 .refuse = {refuse_glossy},
-                .prepare = ch10::prepare,
-                .render = by_trace(ch10::trace)});
+                .render = by_trace([](const Scene& scene) {
+                    return trace_with<ch10::trace>(ch10::prepare(scene));
+                })});

@@ -8,8 +8,9 @@ static bool add(const char* name, const char* label, const char* color, int M) {
                        .finds_light = "by aim",
                        .scenes = {"thousand-lights", "hidden-light"},
                        .refuse = {refuse_glossy},
-                       .prepare = ch11::prepare,
-                       .render = by_trace(ch11::trace, [=] { ch11::M = M; })});
+                       .render = by_trace([=](const Scene& scene) {
+                           return trace_with<ch11::trace>(ch11::prepare(scene), M);
+                       })});
 }
 [[maybe_unused]] static const bool added[] = {
     add("11", "11 RIS, M = 16", "#ff7f0e", 16),

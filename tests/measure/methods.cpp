@@ -34,10 +34,9 @@ bool add_method(Method method) {
 const std::vector<Method>& all_methods() { return registry(); }
 
 std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
-    Trace trace, std::function<void()> set_up) {
+    std::function<Trace(const Scene&)> make_trace) {
     return [=](const Scene& scene, const RenderOptions& options) {
-        if (set_up) set_up();
-        return render_film(scene, options, trace);
+        return render_film(scene, options, make_trace(scene));
     };
 }
 
@@ -59,15 +58,13 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
     return found;
 }
 
-std::optional<Scene> prepared_for(const Method& method, const Scene& scene) {
+bool can_render(const Method& method, const Scene& scene) {
     try {
         for (auto refuse : method.refuse) refuse(scene);
     } catch (const InputError&) {
-        return {};
+        return false;
     }
-    Scene prepared = scene;
-    if (method.prepare) method.prepare(prepared);
-    return prepared;
+    return true;
 }
 
 std::vector<std::string> own_scenes() { return scenes_in("scenes"); }

@@ -9,7 +9,6 @@
 // options.split it gives the films of the classes as well.
 #pragma once
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +21,6 @@ struct Method {
     std::string finds_light = {};          // how, in two words: those that do it alike err alike
     std::vector<std::string> scenes = {};  // what its chapter is about, for make efficiency
     std::vector<void (*)(const Scene&)> refuse = {};  // throw InputError for what it cannot render
-    std::function<void(Scene&)> prepare = {};         // of the chapter; may be empty
     std::function<Rendering(const Scene&, const RenderOptions&)> render = {};
     bool biased = false;  // on purpose
 };
@@ -33,9 +31,10 @@ inline bool is_variant(const Method& method) { return method.name.size() > 2; }
 /// Adds to all_methods(); returns true.
 bool add_method(Method method);
 
-/// render for a chapter that has nothing but trace(); `set_up` (may be empty) sets its options.
+/// render for a chapter that has nothing but trace(): `make_trace` hands it what it needs of the
+/// scene.
 std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
-    Trace trace, std::function<void()> set_up = {});
+    std::function<Trace(const Scene&)> make_trace);
 
 /// All methods, sorted by name.
 const std::vector<Method>& all_methods();
@@ -44,8 +43,8 @@ const std::vector<Method>& all_methods();
 /// variants.
 std::vector<Method> methods_named(const std::vector<std::string>& names);
 
-/// A scene made ready for a method; nothing when the method cannot render it.
-std::optional<Scene> prepared_for(const Method& method, const Scene& scene);
+/// Whether the method can render the scene.
+bool can_render(const Method& method, const Scene& scene);
 
 /// The scenes of scenes/, as paths; and those with the ones of tests/pictures/references/.
 std::vector<std::string> own_scenes();

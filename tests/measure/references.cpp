@@ -51,16 +51,16 @@ int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int
 
 /// The chapter that is quickest to a small error, and the quickest that finds light another way;
 /// where one chapter alone can render the scene, the two quickest of its variants.
-std::vector<std::string> two_best(const Scene& scene, const MeasureOptions& o) {
+std::vector<std::string> two_best(Scene& scene, const MeasureOptions& o) {
     std::vector<std::pair<double, const Method*>> costs;
     auto measure = [&](bool variants) {
         for (const Method& method : all_methods()) {
-            auto prepared = prepared_for(method, scene);
-            if (!prepared || method.biased || is_variant(method) != variants) continue;
+            if (!can_render(method, scene) || method.biased || is_variant(method) != variants)
+                continue;
             Spread spread;
             double seconds = 0;
             for (uint32_t seed = 0; seed < 4; seed++) {
-                Rendering r = render_once(method, *prepared, o, 64, seed);
+                Rendering r = render_once(method, scene, o, 64, seed);
                 spread.add(r.film.image());
                 seconds += r.stats.seconds;
             }
@@ -138,9 +138,9 @@ int main(int argc, char** argv) {
             remove_references(scene_name(scene.file));
             int first_seed = 1;
             for (const Method& method : methods_named(names)) {
-                Scene prepared = prepared_for(method, scene).value();
-                prepared.spp = o.spp > 0 ? o.spp : part_samples(method, prepared, o, first_seed);
-                make_reference(method, prepared, o, command_line(argc, argv), first_seed);
+                for (auto refuse : method.refuse) refuse(scene);
+                scene.spp = o.spp > 0 ? o.spp : part_samples(method, scene, o, first_seed);
+                make_reference(method, scene, o, command_line(argc, argv), first_seed);
                 first_seed += 1000;
             }
         }

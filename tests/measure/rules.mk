@@ -23,7 +23,7 @@ stability: $(BUILD)/stability $(made)
 #: make agree        z values of every chapter against the others, on every scene
 agree: $(BUILD)/agree $(BUILD)/gnuplot $(made)
 	$< $(SCENE)
-#: make efficiency CH=12   a chapter's error, time and efficiency beside the one before
+#: make efficiency CH=13   a chapter's error, time and efficiency beside the one before
 efficiency: $(BUILD)/efficiency $(made)
 	@$< $(or $(CH),$(SCENE),cornell) $(chosen)
 #: make compare A=08 B=09 SCENE=cornell   two chapters with equal samples, and with equal time

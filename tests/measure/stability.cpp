@@ -184,15 +184,15 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Report& report)
     prepare(scene, 1);
     for (const StabilityCase::Expected& expected : c.expected) {
         for (const Method& method : methods_named(expected.methods)) {
-            std::optional<Scene> prepared = prepared_for(method, scene);
-            if (!prepared) throw InputError("error: " + method.name + " refuses " + c.name);
-            Observed seen = observe(method, *prepared, c, o);
+            if (!can_render(method, scene))
+                throw InputError("error: " + method.name + " refuses " + c.name);
+            Observed seen = observe(method, scene, c, o);
             Verdict verdict = judge(seen, c, expected.predictions);
             report.add(c, method, verdict, row_of(c, method, seen, verdict));
         }
     }
     for (const Method& method : methods_named(c.refuse)) {
-        Verdict verdict{prepared_for(method, scene) ? "FAILS" : "refuses"};
+        Verdict verdict{can_render(method, scene) ? "FAILS" : "refuses"};
         report.add(c, method, verdict,
                    {c.name, method.name, "-", "-", "-", "-", "-", "-", "-", "-", verdict.text()});
     }

@@ -1,0 +1,403 @@
+// Chapter 13: the weights of multiple importance sampling, and all strategies.
+#include <doctest/doctest.h>
+
+#include "chapters/12_glossy/estimator.h"
+#include "chapters/13_mis/estimator.h"
+#include "tests/support/known_lights.h"
+#include "tests/support/plates.h"
+
+using ch13::balance_heuristic, ch13::power_heuristic, ch13::Strategy;
+
+namespace {
+
+/// The chapter's trace with these settings.
+Trace by(ch13::Settings settings, const Scene& scene) {
+    return trace_with<ch13::trace>(ch13::prepare(scene), settings);
+}
+constexpr Strategy all_strategies[] = {Strategy::bsdf, Strategy::light, Strategy::mis,
+                                       Strategy::one_sample};
+
+using Heuristic = float (*)(float a, float b);
+
+constexpr Heuristic both_heuristics[] = {balance_heuristic, power_heuristic};
+
+/// The heuristic, in double.
+double weight(Heuristic heuristic, double a, double b) {
+    return static_cast<double>(heuristic(static_cast<float>(a), static_cast<float>(b)));
+}
+
+/// x^2 or another integrand on [0,1], one sample of each of two densities: MIS as in the chapter.
+struct Line {
+    double (*f)(double);
+    double (*p1)(double), (*p2)(double);
+    double (*sample1)(double), (*sample2)(double);
+
+    double first(Heuristic heuristic, double u) const {
+        double x = sample1(u);
+        return f(x) / p1(x) * weight(heuristic, p1(x), p2(x));
+    }
+    double second(Heuristic heuristic, double u) const {
+        double x = sample2(u);
+        return f(x) / p2(x) * weight(heuristic, p2(x), p1(x));
+    }
+    RunningStats both(Heuristic heuristic, int samples) const {
+        RunningStats stats;
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < samples; i++) {
+            double u1 = static_cast<double>(random.u1()), u2 = static_cast<double>(random.u1());
+            stats.add(first(heuristic, u1) + second(heuristic, u2));
+        }
+        return stats;
+    }
+    RunningStats one(Heuristic heuristic, int samples) const {
+        RunningStats stats;
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < samples; i++) {
+            double u = static_cast<double>(random.u1());
+            bool is_first = random.u1() < 0.5f;
+            stats.add(2 * (is_first ? first(heuristic, u) : second(heuristic, u)));
+        }
+        return stats;
+    }
+};
+const Line square_line = {[](double x) { return x * x; }, [](double) { return 1.0; },
+                          [](double x) { return 2 * x; }, [](double u) { return u; },
+                          [](double u) { return std::sqrt(u); }};
+/// x^-1/2 + (1-x)^-1/2 = 2 (p1 + p2).
+const Line two_poles = {[](double x) { return 1 / std::sqrt(x) + 1 / std::sqrt(1 - x); },
+                        [](double x) { return 0.5 / std::sqrt(x); },
+                        [](double x) { return 0.5 / std::sqrt(1 - x); },
+                        [](double u) { return std::pow(u * (1 - 1e-6) + 5e-7, 2); },
+                        [](double u) { return 1 - std::pow(u * (1 - 1e-6) + 5e-7, 2); }};
+/// The second density sees the left half only.
+const Line half_line = {[](double x) { return x * x; }, [](double) { return 1.0; },
+                        [](double x) { return x < 0.5 ? 2.0 : 0.0; }, [](double u) { return u; },
+                        [](double u) { return u / 2; }};
+
+/// One point of the disk overhead by area, one direction by the cosine: irradiance by MIS.
+RunningStats disk_by_both(Heuristic heuristic, double h, int samples) {
+    RunningStats stats;
+    Sampler random = random_numbers(1);
+    for (int i = 0; i < samples; i++) {
+        double r2 = static_cast<double>(random.u1()), d2 = h * h + r2;
+        double pdf_l = d2 * std::sqrt(d2) / (pi_exact * h), cos = h / std::sqrt(d2);
+        double X = cos / pdf_l * weight(heuristic, pdf_l, cos / pi_exact);
+        Vec3 w = sample_cosine_hemisphere(random.u2());
+        cos = static_cast<double>(w.z);
+        if (h * std::sqrt(1 - cos * cos) < cos) {  // meets the disk, at d = h / cos
+            pdf_l = h * h / (cos * cos * cos * pi_exact);
+            X += pi_exact * weight(heuristic, cos / pi_exact, pdf_l);
+        }
+        stats.add(X);
+    }
+    return stats;
+}
+
+/// relMSE of one sample for each pixel, over a part of the film.
+double rel_mse_of(const Film& film, int x0, int y0, int x1, int y1) {
+    double sum = 0, mean = 0, n = static_cast<double>(film.spp);
+    for (int y = y0; y < y1; y++)
+        for (int x = x0; x < x1; x++) {
+            const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
+            sum += p.m2 / (n - 1), mean += p.mean;
+        }
+    double pixels = static_cast<double>((x1 - x0) * (y1 - y0));
+    return sum / pixels / (std::pow(mean / pixels, 2) + 0.01);
+}
+
+}  // namespace
+
+TEST_SUITE("ch13 weights") {
+    TEST_CASE("identity: MIS weights sum to 1") {
+        std::vector<std::pair<float, float>> table = {
+            {1, 2},          {0, 5},           {3e19f, 1},        {3e19f, 3e19f}, {1e-23f, 1e-24f},
+            {3e38f, 1e-38f}, {3e38f, 3e38f},   {1e-38f, 1e-38f},  {infinity, 1},  {infinity, 0},
+            {0, 1e-45f},     {1e-45f, 1e-40f}, {1e-23f, infinity}};
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < 10000; i++) {
+            float a = std::pow(10.0f, 20 * random.u1() - 10);
+            table.push_back({a, std::pow(10.0f, 20 * random.u1() - 10)});
+        }
+        for (Heuristic heuristic : both_heuristics)
+            for (auto [a_here, b_here] : table) {
+                float a = a_here, b = b_here;
+                CAPTURE(a);
+                CAPTURE(b);
+                // What has density 0 draws nothing.
+                float of_a = a > 0 ? heuristic(a, b) : 0, of_b = b > 0 ? heuristic(b, a) : 0;
+                CHECK(of_a >= 0);
+                CHECK(of_b >= 0);
+                CHECK(of_a + of_b == doctest::Approx(1).epsilon(1e-6).scale(0));
+            }
+    }
+
+    TEST_CASE("truth: the weights are a / (a + b) and a^2 / (a^2 + b^2)") {
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < 1000; i++) {
+            float a = random.u1() + 0.01f, b = 3 * random.u1();
+            double x{a}, y{b};
+            CHECK(balance_heuristic(a, b) == doctest::Approx(x / (x + y)).epsilon(1e-6).scale(0));
+            CHECK(power_heuristic(a, b) ==
+                  doctest::Approx(x * x / (x * x + y * y)).epsilon(1e-6).scale(0));
+        }
+    }
+
+    TEST_CASE("failure: p^2 / (p^2 + q^2) is NaN for large and for small densities") {
+        auto naive = [](float a, float b) { return a * a / (a * a + b * b); };
+        CHECK(std::isnan(naive(3e19f, 1)));
+        CHECK(std::isnan(naive(1e-23f, 1e-24f)));
+        CHECK(power_heuristic(3e19f, 1) == 1);
+        CHECK(power_heuristic(1e-23f, 1e-24f) == doctest::Approx(1 / 1.01).epsilon(1e-6).scale(0));
+    }
+
+    TEST_CASE("truth: MIS in one dimension") {
+        struct Row {
+            const Line& line;
+            Heuristic heuristic;
+            double mean, variance;
+        };
+        for (auto [line, heuristic, mean, variance] :
+             {Row{square_line, balance_heuristic, 1.0 / 3, 0.01872105860672},
+              {square_line, power_heuristic, 1.0 / 3, 0.01817598677553},
+              {two_poles, power_heuristic, 4, 8.0 / 15},
+              {half_line, balance_heuristic, 1.0 / 3, 0.1016975308642}}) {
+            RunningStats s = line.both(heuristic, 400000);
+            check_mean(s, mean, variance, 0.01 * mean + 0.01);
+            check_variance(s, variance, 4);
+        }
+    }
+
+    TEST_CASE("truth: one sample by a coin is the mixture of both densities: variance 0.04089") {
+        RunningStats s = square_line.one(balance_heuristic, 400000);
+        check_mean(s, 1.0 / 3, 0.04088549026398, 0.01);
+        check_variance(s, 0.04088549026398, 3);
+        CHECK(s.variance() > 2 * 0.01872105860672);  // one of each is better than half of two
+    }
+
+    TEST_CASE("identity: where f is the sum of both densities, every pair of samples is exact") {
+        // Each density alone has infinite variance.
+        RunningStats both = two_poles.both(balance_heuristic, 10000);
+        RunningStats one = two_poles.one(balance_heuristic, 10000);
+        CHECK(both.mean() == doctest::Approx(4).epsilon(1e-5).scale(0));
+        CHECK(std::sqrt(both.variance()) < 1e-5);
+        CHECK(std::sqrt(one.variance()) < 1e-5);
+    }
+
+    TEST_CASE("variance: a disk overhead by area and by the cosine") {
+        struct Row {
+            double h, balance, power;
+        };
+        for (auto [h_here, balance, power] : {Row{1, 0.1718126459636, 0.1287833300175},
+                                              {0.5, 0.1781064946388, 0.2237023499149},
+                                              {0.1, 0.1088012149308, 0.09025985025283}}) {
+            const auto& h = h_here;
+            CAPTURE(h);
+            double E = pi_exact / (1 + h * h);
+            for (Heuristic heuristic : both_heuristics) {
+                double relative = heuristic == balance_heuristic ? balance : power;
+                RunningStats s = disk_by_both(heuristic, h, 400000);
+                check_mean(s, E, relative * E * E, 0.01 * E);
+                check_variance(s, relative * E * E, 20);
+            }
+        }
+    }
+
+    TEST_CASE("failure: a density per area beside one per solid angle: 0.881, 1.105, 1.318") {
+        // The light's samples weigh with the right density, the BSDF's with 1 / area.
+        for (auto [h_here, wrong] :
+             {std::pair{0.5, 0.8809532795696}, {1.0, 1.105316968821}, {2.0, 1.317990844865}}) {
+            const auto& h = h_here;
+            CAPTURE(h);
+            // Irradiance of the disk, over z = cos: 2 pi z dz from h / sqrt(1 + h^2) to 1.
+            double low = h / std::sqrt(1 + h * h), right = 0, mixed = 0, both_wrong = 0;
+            for (int i = 0; i < 10000; i++) {
+                double z = low + (1 - low) * (i + 0.5) / 10000;
+                double light = h * h / (z * z * z * pi_exact), raw = 1 / pi_exact;
+                double bsdf = z / pi_exact;
+                auto of_light = [&](double l) { return weight(balance_heuristic, l, bsdf); };
+                auto of_bsdf = [&](double l) { return weight(balance_heuristic, bsdf, l); };
+                right += z * (of_light(light) + of_bsdf(light));
+                mixed += z * (of_light(light) + of_bsdf(raw));
+                both_wrong += z * (of_light(raw) + of_bsdf(raw));
+            }
+            CHECK(mixed / right == doctest::Approx(wrong).epsilon(1e-4).scale(0));
+            CHECK(both_wrong / right == doctest::Approx(1).epsilon(1e-6).scale(0));
+        }
+    }
+}
+
+TEST_SUITE("ch13 mis") {
+    TEST_CASE("truth: irradiance of all lights, by every strategy") {
+        for (const auto& [light_here, E] : lights_of_known_irradiance) {
+            const auto& light = light_here;
+            CAPTURE(light);
+            Scene scene = floor_under(light);
+            for (Strategy strategy : all_strategies)
+                for (Heuristic heuristic : both_heuristics) {
+                    CAPTURE(static_cast<int>(strategy));
+                    bool rare = strategy == Strategy::bsdf || strategy == Strategy::one_sample;
+                    Trace trace = by({strategy, heuristic}, scene);
+                    check_bounded(irradiance(scene, trace, rare ? 60000 : 20000), E, 0.025);
+                }
+        }
+    }
+
+    TEST_CASE("truth: point and distant lights, which only aiming finds: none is lost") {
+        for (const auto& [light, E] : lights_without_size) {
+            Scene scene = floor_under(light);
+            for (Strategy strategy : {Strategy::light, Strategy::mis}) {
+                RunningStats s = irradiance(scene, by({strategy}, scene), 100);
+                CHECK(s.mean() == doctest::Approx(E).epsilon(1e-5).scale(0));
+                CHECK(s.variance() < 1e-10);
+            }
+            // One sample: twice, or nothing.
+            RunningStats s = irradiance(scene, by({Strategy::one_sample}, scene), 40000);
+            check_mean(s, E, E * E, 0.05);
+        }
+    }
+
+    TEST_CASE("truth: a light in a mirror and straight on, by every strategy, without noise") {
+        Scene mirror = light_before_mirror();
+        for (Strategy strategy : all_strategies)
+            check_light_before_mirror(mirror, by({strategy}, mirror));
+    }
+
+    TEST_CASE("failure: without lights the picture is black") {
+        Scene none = floor_without_lights();
+        CHECK(irradiance(none, by({}, none), 100).mean() == 0);
+    }
+
+    TEST_CASE("consistency: pdf_light is the density with which sample_light draws") {
+        Scene scene = floor_under("AttributeBegin " + shining + unit_square(0.5) +
+                                  "AttributeEnd AttributeBegin " + shining +
+                                  "Translate 1 2 0 Shape \"sphere\" AttributeEnd " +
+                                  "LightSource \"infinite\"\n");
+        LightTable lights = ch13::prepare(scene);
+        Hit x = origin_of(scene);
+        Sampler random = random_numbers(1);
+        int met[3] = {};
+        for (int i = 0; i < 20000; i++) {
+            float u1 = random.u1();
+            LightSample y = sample_light(scene, lights, x, u1, random.u2());
+            if (y.pdf_w == 0 || y.wi.y < 1e-3f) continue;
+            std::optional<Hit> hit = intersect(scene, spawn_ray(x, y.wi));
+            size_t light = pick_light(lights, u1);
+            int met_light = hit ? hit->light : scene.sky_light;
+            if (met_light != static_cast<int>(light)) continue;  // behind another
+            met[light]++;
+            CHECK(ch13::pdf_light(scene, lights, x, y.wi, hit) ==
+                  doctest::Approx(double{y.pdf_w}).epsilon(1e-3).scale(0));
+        }
+        for (int n : met) CHECK(n > 100);
+    }
+
+    TEST_CASE("agreement: all strategies and heuristics on rough, smooth and matt surfaces") {
+        for (std::string name : {"veach-mis", "cornell-spheres"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
+            Film mis = film_of(scene, by({}, scene), 96).film;
+            for (Strategy strategy : all_strategies) {
+                CAPTURE(static_cast<int>(strategy));
+                Trace trace = by({strategy, balance_heuristic}, scene);
+                check_agreement(hold_against(film_of(scene, trace, 128, 2).film, mis, 16), 0.2);
+            }
+        }
+    }
+
+    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 12") {
+        for (const auto& [name_here, least] :
+             std::vector<std::pair<std::string, int>>{{"cornell", 6},
+                                                      {"cornell-spheres", 8},
+                                                      {"two-lights", 4},
+                                                      {"far-and-near", 2},
+                                                      {"color-bleeding", 6},
+                                                      {"thousand-lights", 4},
+                                                      {"near-light", 2},
+                                                      {"light-in-glass", 4},
+                                                      {"horizon-sky", 2},
+                                                      {"veach-mis", 6}}) {
+            const auto& name = name_here;
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
+            Trace aimed = trace_with<ch12::trace>(ch12::prepare(scene), ch12::Strategy::light);
+            CHECK(check_classes(scene, aimed, scene, by({}, scene), 20000) >= least);
+        }
+    }
+
+    TEST_CASE("agreement: classes of path by each strategy on Veach's plates") {
+        Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
+        PathCensus mis = census_of(scene, by({}, scene), 60000, 1);
+        for (Strategy strategy : {Strategy::bsdf, Strategy::light, Strategy::one_sample}) {
+            PathCensus census = census_of(scene, by({strategy}, scene), 100000, 2);
+            CHECK(census.worst_sum < 1e-5);
+            for (auto& [name_here, part] : mis.by_class) {
+                const auto& name = name_here;
+                if (part.not_zero < 200 || census.by_class[name].not_zero < 200) continue;
+                CAPTURE(name);
+                CHECK(z_between(part.measured(mis.paths),
+                                census.by_class[name].measured(census.paths)) < 5);
+            }
+        }
+    }
+}
+
+TEST_SUITE("ch13 plates") {
+    TEST_CASE("variance: each plate and lamp: the better way's, and at most half a squared mean") {
+        // Balance heuristic, one sample of each: Var <= Var of either + mean^2 / 2. Veach 1997, 9.2
+        for (size_t plate = 0; plate < 4; plate++)
+            for (size_t lamp = 0; lamp < 4; lamp++) {
+                CAPTURE(plate);
+                CAPTURE(lamp);
+                PlateAndLamp view(plate, lamp);
+                auto variance = [&](ch13::Settings settings) {
+                    return relative_variance(view.sample(by(settings, view.scene), 40000));
+                };
+                double better = std::min(variance({Strategy::bsdf}), variance({Strategy::light}));
+                CHECK(variance({Strategy::mis, balance_heuristic}) < better + 0.5);
+                CHECK(variance({Strategy::mis, power_heuristic}) < better + 0.5);
+                CHECK(variance({Strategy::mis, power_heuristic}) < 0.3);
+            }
+    }
+
+    TEST_CASE("failure: one sample in place of two: where one way is all, half of them are lost") {
+        // A coin gives twice the truth or nothing: variance 1 of the squared mean.
+        for (auto [plate, lamp] : {std::pair<size_t, size_t>{0, 0}, {3, 3}}) {
+            PlateAndLamp view(plate, lamp);
+            Trace trace = by({Strategy::one_sample}, view.scene);
+            double variance = relative_variance(view.sample(trace, 40000));
+            CHECK(variance > 0.8);
+            CHECK(variance < 1.2);
+        }
+    }
+
+    TEST_CASE("agreement: MIS with the way that is sure, on each plate with each lamp") {
+        for (size_t plate = 0; plate < 4; plate++)
+            for (size_t lamp = 0; lamp < 4; lamp++) {
+                CAPTURE(plate);
+                CAPTURE(lamp);
+                PlateAndLamp view(plate, lamp);
+                Strategy sure = plate + lamp < 3 ? Strategy::bsdf : Strategy::light;
+                RunningStats a = view.sample(by({sure}, view.scene), 100000, 1);
+                RunningStats b = view.sample(by({}, view.scene), 100000, 2);
+                Measured alone{a.mean(), a.standard_error()}, mis{b.mean(), b.standard_error()};
+                CHECK(z_between(alone, mis) < 5);
+                CHECK(std::hypot(alone.se, mis.se) < 0.005 * mis.mean);
+            }
+    }
+
+    TEST_CASE("variance: on every plate, MIS has less noise than either strategy alone") {
+        Scene scene = scene_from("scenes/veach-mis.pbrt", 128, 8);
+        auto film = [&](Strategy strategy) {
+            return film_of(scene, by({strategy}, scene), 32).film;
+        };
+        Film mis = film(Strategy::mis), bsdf = film(Strategy::bsdf), light = film(Strategy::light);
+        for (auto [y0_here, y1] : {std::pair{57, 66}, {72, 81}, {85, 95}, {99, 110}}) {
+            const auto& y0 = y0_here;
+            CAPTURE(y0);
+            double m = rel_mse_of(mis, 16, y0, 112, y1), b = rel_mse_of(bsdf, 16, y0, 112, y1),
+                   l = rel_mse_of(light, 16, y0, 112, y1);
+            CHECK(m < b);
+            CHECK(m < l);
+        }
+    }
+}

@@ -1,0 +1,39 @@
+// Lights whose effect is known, for the chapters that look for light in several ways (12 to 14).
+#pragma once
+#include "tests/support/estimators.h"
+
+/// Lights, and their irradiance at the origin of floor_under().
+inline const std::vector<std::pair<std::string, double>> lights_of_known_irradiance = {
+    {shining + disk(1, 1), 1.570796326795},
+    {shining + unit_square(0.1), 3.04212843837},
+    {shining + "Translate 2 0 0 Shape \"sphere\"", 0.09058607370608},
+    {"AttributeBegin " + shining + unit_square(1) + "AttributeEnd AttributeBegin " + shining +
+         "Rotate 90 0 1 0 " + unit_square(1, 1.5) + "AttributeEnd\n",
+     0.7522746884541 + 0.1046370751909},
+    {"LightSource \"infinite\"", pi_exact},
+    {"LightSource \"infinite\" " + shining + unit_square(1), pi_exact}};
+inline const std::vector<std::pair<std::string, double>> lights_without_size = {
+    {"LightSource \"point\" \"point3 from\" [1 2 0]", 0.1788854382},
+    {"LightSource \"distant\" \"point3 from\" [0 3 4] \"point3 to\" [0 0 0]", 0.6}};
+
+/// A mirror ball of 0.9 that shows a light behind the camera; without noise by every way.
+inline Scene light_before_mirror() {
+    return world_of("Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] Shape \"sphere\"\n" +
+                    shining + "Translate 0 0 -9 Rotate -90 1 0 0 Scale 9 1 9 " + square(0, false));
+}
+inline void check_light_before_mirror(const Scene& mirror, const Trace& trace) {
+    RunningStats s = repeat(mirror, {{0, 0, -4}, {0, 0, 1}}, trace, 100);
+    CHECK(s.mean() == doctest::Approx(0.9).epsilon(1e-5).scale(0));
+    CHECK(s.variance() < 1e-10);
+    s = repeat(mirror, {{0, 0, -4}, {0, 0, -1}}, trace, 100);
+    CHECK(s.mean() == 1);
+    CHECK(s.variance() == 0);
+}
+
+/// floor_under() a shape that does not shine.
+inline Scene floor_without_lights() {
+    Scene none = floor_under(shining + unit_square(1));
+    none.lights.clear();
+    for (Shape& shape : none.shapes) shape.light = -1;
+    return none;
+}
