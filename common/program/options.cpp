@@ -10,6 +10,7 @@
 #include "common/base/nearest.h"
 #include "common/path/path_log.h"
 #include "common/picture/image.h"
+#include "common/program/project.h"
 
 namespace {
 
@@ -109,7 +110,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
             }
             o.scene = word;
         });
-    if (o.scene.empty()) o.scene = scene;
+    if (o.scene.empty()) o.scene = project_file(argv[0], scene);
     if (o.out.empty()) o.out = {"out/" + name + ".ppm"};
     if (o.threads == 0)
         o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
