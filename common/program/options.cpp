@@ -1,6 +1,7 @@
 #include "common/program/options.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <regex>
 #include <thread>
 
@@ -9,6 +10,7 @@
 #include "common/base/nearest.h"
 #include "common/path/path_log.h"
 #include "common/picture/image.h"
+#include "common/program/project.h"
 
 namespace {
 
@@ -88,7 +90,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     std::vector<Option> options = {
         {"spp", "N", "samples per pixel (default: as the scene says)",
          integer("spp", o.spp, 1, 1 << 30)},
-        {"time", "SECONDS", "render whole passes until the time is up",
+        {"time", "SECONDS", "end when the time is up, with the samples taken so far",
          [&](const std::string& text) { o.time = parse_positive("time", text); }},
         {"size", "WxH", "pixels", [&](const std::string& text) { parse_size(text, o); }},
         {"seed", "S", "of the random numbers (default 0)", integer("seed", o.seed, 0, 0xffffffff)},
@@ -112,7 +114,10 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     if (!takes.empty()) refuse_all_but(takes, name, options);
     options.insert(options.begin(), extra.begin(), extra.end());
     parse_options(
-        argc, argv, "[SCENE]", "Chapter " + name + " on a pbrt-v4 scene (default " + scene + ").",
+        argc, argv, "[SCENE]",
+        "Chapter " + name + " on a pbrt-v4 scene (default: the project's " + scene +
+            ").\nWrites into the folder where it is started. Ctrl-C keeps the picture so far: exit "
+            "code 3.",
         options, [&](const std::string& word) {
             if (word.empty()) throw UsageError("error: the name of the scene is empty");
             if (!o.scene.empty()) {
@@ -120,11 +125,22 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
             }
             o.scene = word;
         });
-    if (o.scene.empty()) o.scene = scene;
+    if (o.scene.empty()) o.scene = project_file(argv[0], scene);
     if (o.out.empty()) o.out = {"out/" + name + ".ppm"};
     if (o.threads == 0)
         o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     return o;
+}
+
+void check_outputs(const RenderOptions& options) {
+    std::vector<std::string> files = options.out;
+    if (!options.stats.empty()) files.push_back(options.stats);
+    if (!options.split.empty()) {
+        std::error_code none;  // found out below
+        std::filesystem::create_directories(options.split, none);
+        files.push_back(options.split + "/LE.pfm");
+    }
+    check_outputs(files, options.scene);
 }
 
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n) {

@@ -34,6 +34,9 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
                                    const std::string& scene, std::vector<Option> extra = {},
                                    const std::vector<std::string>& takes = {});
 
+/// Throws now what writing the results would throw later; see files.h. Makes the folder of --split.
+void check_outputs(const RenderOptions& options);
+
 /// What the chapters without a scene (01 to 03) understand.
 struct TableOptions {
     std::string name, command;

@@ -1,65 +1,49 @@
 #include "common/program/render.h"
 
-#include <unistd.h>
-
+#include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <csignal>
-#include <cstdio>
 #include <mutex>
 #include <tuple>
 
-#include "common/base/error.h"
 #include "common/base/parallel.h"
-#include "common/scene/camera.h"
-#include "common/scene/prepare.h"
-#include "common/scene_file/reader.h"
+#include "common/path/camera_sample.h"
+#include "common/program/explain.h"
+#include "common/program/progress.h"
+#include "common/program/results.h"
+#include "common/program/stop.h"
 
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
-
-/// While it lives, the first Ctrl-C asks for a stop after the pass; a second one ends the program.
-struct StopOnInterrupt {
-    StopOnInterrupt() {
-        stop_requested = 0;
-        std::signal(SIGINT, [](int) {
-            stop_requested = 1;
-            std::signal(SIGINT, SIG_DFL);
-        });
-    }
-    ~StopOnInterrupt() { std::signal(SIGINT, SIG_DFL); }
-};
-
-class Progress {
+/// When the render has to end before it has all samples.
+class Limit {
 public:
-    explicit Progress(bool quiet) : on_(!quiet && isatty(STDERR_FILENO)) {}
-    ~Progress() {
-        if (on_) std::fprintf(stderr, "\r\033[K");
-    }
-    void show(double share, double seconds) {
-        if (!on_ || seconds - last_ < 0.1) return;
-        last_ = seconds;
-        constexpr int width = 30;
-        std::string bar(static_cast<size_t>(std::min(1.0, share) * width), '#');
-        std::fprintf(stderr, "\r[%-*s] %3.0f %%  %.0f s left\033[K", width, bar.c_str(),
-                     100 * share, seconds / share - seconds);
+    explicit Limit(double seconds) : seconds_(seconds) {}
+    bool reached() const { return signal_.requested() || (seconds_ > 0 && elapsed() >= seconds_); }
+    bool interrupted() const { return signal_.requested(); }
+    double elapsed() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
 
 private:
-    bool on_;
-    double last_ = 0;
+    double seconds_;  // 0: no limit
+    StopOnSignal signal_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Renders the samples [first, last) of the pixels of one tile.
+/// Renders the samples [first, last) of the pixels of one tile, or fewer at the limit.
 class TileRenderer {
 public:
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
+    static constexpr int between_looks = 64;    // samples from one look at the limit to the next
 
-    TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace, Rendering& result)
+    TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                 const Limit& limit, Rendering& result)
         : scene_(scene),
           options_(options),
           trace_(trace),
+          limit_(limit),
           result_(result),
           view_(camera_view(scene.camera, scene.width, scene.height)),
           tiles_x_((scene.width + side - 1) / side) {}
@@ -67,38 +51,51 @@ public:
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
 
     void render(int tile, int first, int last) {
-        int x0 = tile % tiles_x_ * side, y0 = tile / tiles_x_ * side;
-        int x1 = std::min(x0 + side, scene_.width), y1 = std::min(y0 + side, scene_.height);
+        if (limit_.reached()) return;
         Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
         bool listen = !options_.paths.empty() || !options_.split.empty();
         PathLog log = listen ? PathLog(options_.paths) : PathLog();
         RenderStats stats;
         uint64_t rays_before = rays_traced;
-        for (int y = y0; y < y1; y++) {
-            for (int x = x0; x < x1; x++) {
-                for (int s = first; s < last; s++) add_sample(x, y, s, sampler, log, stats);
+        int taken = 0;
+        for_pixels(tile, [&](int x, int y) {
+            for (int s = first; s < last; s++) {
+                if (++taken % between_looks == 0 && limit_.reached()) return false;
+                add_sample(x, y, s, sampler, log, stats);
             }
-        }
+            return true;
+        });
         stats.rays = rays_traced - rays_before;
         stats.paths_cut = log.paths_cut();
         merge(stats);
     }
 
 private:
+    /// Calls work(x, y) for the pixels of the tile, as long as it returns true.
+    template <typename Work>
+    void for_pixels(int tile, const Work& work) {
+        int x0 = tile % tiles_x_ * side, y0 = tile / tiles_x_ * side;
+        int x1 = std::min(x0 + side, scene_.width), y1 = std::min(y0 + side, scene_.height);
+        for (int y = y0; y < y1; y++) {
+            for (int x = x0; x < x1; x++) {
+                if (!work(x, y)) return;
+            }
+        }
+    }
+
     void add_sample(int x, int y, int s, Sampler& sampler, PathLog& log, RenderStats& stats) {
         size_t pixel =
             static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
         sampler.start(static_cast<uint32_t>(pixel), static_cast<uint32_t>(s));
         log.start();
-        Vec2 u = sampler.u2();
-        Ray ray = camera_ray(view_, {static_cast<float>(x) + u.x, static_cast<float>(y) + u.y});
+        Ray ray = camera_sample(view_, x, y, sampler).ray;
         Rgb L = trace_(scene_, ray, sampler, log);
         if (is_finite(L)) {
             stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
         } else if (stats.not_finite++ == 0) {
             stats.bad_x = x, stats.bad_y = y, stats.bad_sample = s;
         }
-        result_.film.add(pixel, static_cast<uint64_t>(s), L);
+        result_.film.add(pixel, L);
         if (!options_.split.empty()) split(pixel, log);
     }
 
@@ -131,6 +128,7 @@ private:
     const Scene& scene_;
     const RenderOptions& options_;
     const Trace& trace_;
+    const Limit& limit_;
     Rendering& result_;
     CameraView view_;
     int tiles_x_;
@@ -139,69 +137,32 @@ private:
 
 }  // namespace
 
-Scene load(const RenderOptions& options) {
-    std::vector<std::string> notes;
-    Scene scene = load_scene(options.scene, &notes);
-    if (!options.quiet) {
-        for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
-    }
-    if (options.width > 0) scene.width = options.width, scene.height = options.height;
-    if (options.spp > 0) scene.spp = options.spp;
-    if (options.max_depth >= 0) scene.max_depth = options.max_depth;
-    prepare(scene, options.threads);
-    return scene;
-}
-
-void refuse_delta_lights(const Scene& scene) {
-    for (const Light& light : scene.lights) {
-        if (light.type != LightType::point && light.type != LightType::distant) continue;
-        throw InputError(scene.file + ":" + std::to_string(light.line) + ":" +
-                         std::to_string(light.column) + ": error: a " +
-                         (light.type == LightType::point ? "point" : "distant") +
-                         " light has no size, so no path finds it by chance; "
-                         "chapters from 08 on sample it");
-    }
-}
-
-void refuse_glossy(const Scene& scene) {
-    for (const Shape& shape : scene.shapes) {
-        const Material& m = scene.materials[shape.material];
-        if (!is_rough(m)) continue;
-        throw InputError(scene.file + ":" + std::to_string(m.line) + ":" +
-                         std::to_string(m.column) +
-                         ": error: rough conductors are not supported before chapter 12");
-    }
-}
-
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace) {
     Rendering result{Film(scene.width, scene.height), {}, {}};
-    TileRenderer renderer(scene, options, trace, result);
-    StopOnInterrupt stop;
+    Limit limit(options.time);
     Progress progress(options.quiet);
-    auto start = std::chrono::steady_clock::now();
-    auto elapsed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
+    TileRenderer renderer(scene, options, trace, limit, result);
 
-    // A pass takes every pixel once, or more often when they are so few that threads would idle.
+    // A pass takes every pixel once, or more often when they are so few that threads would idle;
+    // but no more often than all passes before, so that an early end does not leave pixels empty.
     int pixels = scene.width * scene.height;  // at most 2^28
-    int samples_per_pass = std::max(1, (1 << 18) / pixels);
+    int most_per_pass = std::max(1, (1 << 18) / pixels);
     int spp = options.time > 0 ? (options.spp > 0 ? options.spp : 1 << 30) : scene.spp;
-    int done = 0;
-    do {
-        int next = std::min(done + samples_per_pass, spp);
-        parallel_for(renderer.tiles(), options.threads,
-                     [&](int tile) { renderer.render(tile, done, next); });
-        done = next;
-        double seconds = elapsed();
-        if (options.time > 0 && seconds >= options.time) break;
-        double by_time = options.time > 0 ? seconds / options.time : 0;
-        progress.show(std::max(by_time, done / static_cast<double>(spp)), seconds);
-    } while (done < spp && !stop_requested);
-    result.film.spp = static_cast<uint64_t>(done);
-    for (auto& [path_class, film] : result.classes) film.spp = result.film.spp;
-    result.stats.seconds = elapsed();
-    result.stats.interrupted = stop_requested != 0;
+    for (int first = 0, last; first < spp && !limit.reached(); first = last) {
+        last = first + std::min(std::clamp(first, 1, most_per_pass), spp - first);
+        std::atomic<int> tiles = 0;
+        parallel_for(renderer.tiles(), options.threads, [&](int tile) {
+            renderer.render(tile, first, last);
+            double of_pass = static_cast<double>(++tiles) / renderer.tiles();
+            double seconds = limit.elapsed();
+            double by_time = options.time > 0 ? seconds / options.time : 0;
+            progress.show(std::max(by_time, (first + (last - first) * of_pass) / spp), seconds);
+        });
+    }
+    for (auto& [path_class, film] : result.classes) film.count_as(result.film);
+    result.stats.seconds = limit.elapsed();
+    uint64_t all = static_cast<uint64_t>(pixels) * static_cast<uint64_t>(spp);
+    result.stats.interrupted = limit.interrupted() && result.film.samples() < all;
     return result;
 }
 

@@ -1,10 +1,10 @@
-// What a program writes when it has rendered: pictures, statistics, and a summary.
-#include <cstdio>
-#include <filesystem>
+#include "common/program/results.h"
 
-#include "common/base/error.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include "common/base/files.h"
-#include "common/program/render.h"
 
 namespace {
 
@@ -29,16 +29,22 @@ std::string quoted(const std::string& text) {
 }
 
 double largest_share(const Rendering& r) {
-    double sum = r.film.mean() * static_cast<double>(r.film.spp) *
-                 static_cast<double>(r.film.pixels().size());
+    double sum = r.film.mean() * static_cast<double>(r.film.samples());
     return sum > 0 ? r.stats.largest / sum : 0;
+}
+
+/// How many of the pixels have no sample.
+double empty_share(const Film& film) {
+    auto empty = [](const PixelSum& p) { return p.n == 0; };
+    const std::vector<PixelSum>& pixels = film.pixels();
+    return static_cast<double>(std::count_if(pixels.begin(), pixels.end(), empty)) /
+           static_cast<double>(pixels.size());
 }
 
 std::string stats_json(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
     Rgb mean = r.film.mean_rgb();
-    double pixels = static_cast<double>(r.film.pixels().size());
-    double samples = pixels * static_cast<double>(r.film.spp);
+    double samples = static_cast<double>(r.film.samples());
     std::string json = "{\n";
     auto add = [&](const char* name, const std::string& value) {
         json += json.size() > 2 ? ",\n  \"" : "  \"";
@@ -50,7 +56,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     add("chapter", quoted(options.name));
     add("width", std::to_string(r.film.width));
     add("height", std::to_string(r.film.height));
-    add("spp", std::to_string(r.film.spp));
+    add("spp", number(r.film.spp()));
     add("max_depth", std::to_string(scene.max_depth));
     add("seed", std::to_string(options.seed));
     add("threads", std::to_string(options.threads));
@@ -68,20 +74,26 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     add("largest_sample", number(s.largest));
     add("largest_sample_share", number(largest_share(r)));
     add("effective_samples", number(r.film.effective_samples()));
+    add("empty_pixels_share", number(empty_share(r.film)));
     add("interrupted", s.interrupted ? "true" : "false");
     return json + "\n}\n";
 }
 
 void print_summary(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
-    double samples = static_cast<double>(r.film.pixels().size()) * static_cast<double>(r.film.spp);
-    std::printf("%s  %s  %dx%d  %llu spp%s\n", options.name.c_str(), scene.file.c_str(),
-                r.film.width, r.film.height, static_cast<unsigned long long>(r.film.spp),
-                s.interrupted ? " (interrupted)" : "");
-    if (r.film.spp < 2) {
-        std::printf("mean %.6f, standard error unknown (1 sample)\n", r.film.mean());
+    double samples = static_cast<double>(r.film.samples());
+    std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), scene.file.c_str(), r.film.width,
+                r.film.height, number(r.film.spp()).c_str(), s.interrupted ? " (interrupted)" : "");
+    double error = r.film.standard_error();
+    if (std::isnan(error)) {
+        std::printf("mean %.6f, standard error unknown%s\n", r.film.mean(),
+                    r.film.spp() > 1 ? "" : " (1 sample)");
     } else {
-        std::printf("mean %.6f +- %.6f\n", r.film.mean(), r.film.standard_error());
+        std::printf("mean %.6f +- %.6f\n", r.film.mean(), error);
+    }
+    if (double share = empty_share(r.film); share > 0) {
+        std::printf("warning: it ended before %.3g %% of the pixels had a sample: they are black\n",
+                    100 * share);
     }
     std::printf("%.2f s, %.2f M samples/s, %.2f M rays/s, %d threads\n", s.seconds,
                 samples / s.seconds / 1e6, static_cast<double>(s.rays) / s.seconds / 1e6,
@@ -109,17 +121,6 @@ void write_classes(const RenderOptions& options, const Rendering& r) {
 
 }  // namespace
 
-void check_outputs(const RenderOptions& options) {
-    std::vector<std::string> files = options.out;
-    if (!options.stats.empty()) files.push_back(options.stats);
-    if (!options.split.empty()) {
-        std::error_code none;  // found out below
-        std::filesystem::create_directories(options.split, none);
-        files.push_back(options.split + "/LE.pfm");
-    }
-    check_outputs(files, options.scene);
-}
-
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     Image image = r.film.image();
     for (const std::string& path : options.out) write_image(path, image, options.command);
@@ -128,7 +129,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
         write_file_atomically(options.stats, stats_json(scene, options, r));
     }
     if (!options.quiet) print_summary(scene, options, r);
-    if (r.stats.not_finite == 0) return 0;
+    if (r.stats.not_finite == 0) return r.stats.interrupted ? 3 : 0;
     std::fprintf(stderr, "error: %llu samples were not finite; to see one: %s --explain %d,%d,%d\n",
                  static_cast<unsigned long long>(r.stats.not_finite), options.command.c_str(),
                  r.stats.bad_x, r.stats.bad_y, r.stats.bad_sample);

@@ -51,7 +51,7 @@ const std::string shining =
 
 /// |mean - truth| in known standard errors; the largest over the pixels that the ball covers.
 double worst_pixel(const Film& film, const std::array<double, 3>& albedo, double radius) {
-    double worst = 0, n = static_cast<double>(film.spp);
+    double worst = 0, n = film.spp();
     for (int y = 0; y < film.height; y++)
         for (int x = 0; x < film.width; x++) {
             if (std::hypot(x + 0.5 - film.width / 2.0, y + 0.5 - film.height / 2.0) > radius)

@@ -440,7 +440,7 @@ TEST_SUITE("ch08 near lights") {
     TEST_CASE("variance: near-light, the picture of near-disk.pbrt") {
         auto relative_variance = [](const Film& film) {  // all pixels are alike
             double e = film.standard_error() / film.mean();
-            return e * e * static_cast<double>(film.spp) * film.width * film.height;
+            return e * e * static_cast<double>(film.samples());
         };
         Scene scene = scene_from("scenes/near-disk.pbrt", 64, 1);
         Film angle = film_of(scene, trace_by_angle, 64).film;

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "common/path/camera_sample.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
 
@@ -98,5 +99,21 @@ TEST_SUITE("camera") {
                 Vec3 truth = {(x / 10 - 1.5f) * half, (1 - y / 10) * half, 1};
                 CHECK(length(ray.d - normalize(truth)) < 1e-6f);
             }
+    }
+
+    TEST_CASE("identity: a camera sample is the ray through its pixel, at the next two numbers") {
+        Scene scene = world_of("LightSource \"infinite\" Shape \"sphere\"");
+        CameraView view = camera_view(scene.camera, 30, 20);
+        Sampler sampler = random_numbers(3), same = random_numbers(3);
+        for (auto [x, y] : {std::pair(0, 0), std::pair(29, 0), std::pair(7, 19)}) {
+            auto [ray, film] = camera_sample(view, x, y, sampler);
+            Vec2 u = same.u2();
+            CHECK(film.x == static_cast<float>(x) + u.x);
+            CHECK(film.y == static_cast<float>(y) + u.y);
+            Ray truth = camera_ray(view, film);
+            CHECK(ray.o == truth.o);
+            CHECK(ray.d == truth.d);
+        }
+        CHECK(sampler.u1() == same.u1());
     }
 }

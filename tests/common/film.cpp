@@ -3,6 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <cstring>
+#include <limits>
+
+#include "common/base/parallel.h"
 #include "common/base/stats.h"
 #include "common/path/sampler.h"
 
@@ -10,14 +14,50 @@ namespace {
 
 Rgb grey(float v) { return {v, v, v}; }
 
-/// A film of one row whose pixel x gets the samples rows[x], all of the same number.
+/// A film of one row whose pixel x gets the samples rows[x].
 Film film_of(const std::vector<std::vector<float>>& rows) {
     Film film(static_cast<int>(rows.size()), 1);
     for (size_t x = 0; x < rows.size(); x++) {
-        for (size_t s = 0; s < rows[x].size(); s++) film.add(x, s, grey(rows[x][s]));
+        for (float sample : rows[x]) film.add(x, grey(sample));
     }
-    film.spp = rows[0].size();
     return film;
+}
+
+/// Where a walk from a light happened to meet the film, and what it brought.
+struct Splat {
+    size_t pixel;
+    Rgb L;
+};
+
+/// 1e5 splats over 30 decades.
+std::vector<Splat> random_splats(size_t pixels) {
+    Sampler sampler(SamplerType::independent, 5, 1);
+    std::vector<Splat> splats;
+    for (uint32_t i = 0; i < 100000; i++) {
+        sampler.start(i, 0);
+        auto any_size = [&] { return std::pow(10.0f, 30 * sampler.u1() - 15); };
+        size_t pixel = static_cast<size_t>(sampler.u1() * static_cast<float>(pixels));
+        splats.push_back({pixel, Rgb{any_size(), any_size(), any_size()}});
+    }
+    return splats;
+}
+
+/// A film of 5 x 3 with two samples of 0.25 in each pixel, and these splats.
+Film film_with(const std::vector<Splat>& splats, int threads) {
+    Film film(5, 3, true);
+    for (size_t i = 0; i < 15; i++) film.add(i, grey(0.25f)), film.add(i, grey(0.25f));
+    constexpr int parts = 1000;
+    parallel_for(parts, threads, [&](int part) {
+        for (size_t i = static_cast<size_t>(part); i < splats.size(); i += parts) {
+            film.splat(splats[i].pixel, splats[i].L);
+        }
+    });
+    return film;
+}
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 doctest::Approx about(double x) { return doctest::Approx(x).epsilon(1e-14).scale(0); }
@@ -42,11 +82,32 @@ TEST_SUITE("film") {
 
     TEST_CASE("truth: the channels have means of their own, and the film's is their average") {
         Film film(1, 2);
-        film.add(0, 0, {1, 2, 6});
-        film.add(1, 0, {3, 2, 10});
-        film.spp = 1;
+        film.add(0, {1, 2, 6});
+        film.add(1, {3, 2, 10});
         CHECK(film.mean_rgb() == Rgb{2, 2, 8});
         CHECK(film.mean() == about(4));
+    }
+
+    TEST_CASE("truth: pixels with different numbers of samples have each the mean of their own") {
+        Film film = film_of({{0, 1, 2}, {4, 6}});
+        CHECK(film.samples() == 5);
+        CHECK(film.spp() == 2.5);
+        CHECK(film.image().at(0, 0) == grey(1));
+        CHECK(film.image().at(1, 0) == grey(5));
+        CHECK(film.mean() == about(3));
+        // Variances 1 and 2 of one sample, 1/3 and 2/2 of the pixel.
+        CHECK(film.standard_error() == about(std::sqrt(1.0 / 3 + 1) / 2));
+        CHECK(film.effective_samples() == about(13.0 * 13.0 / 57));
+        CHECK(std::isnan(film_of({{0, 1, 2}, {4}}).standard_error()));
+    }
+
+    TEST_CASE("truth: a pixel without samples is black, and not in the mean of the others") {
+        Film film = film_of({{}, {4, 6}});
+        CHECK(film.image().at(0, 0) == grey(0));
+        CHECK(film.mean() == about(5));
+        CHECK(film.standard_error() == about(1));
+        CHECK(Film(3, 2).mean() == 0);
+        CHECK(std::isnan(Film(3, 2).standard_error()));
     }
 
     TEST_CASE("truth: one sample says nothing about its error") {
@@ -68,10 +129,9 @@ TEST_SUITE("film") {
             for (uint32_t pixel = 0; pixel < 4; pixel++) {
                 for (uint32_t s = 0; s < 16; s++) {
                     sampler.start(4 * f + pixel, s);
-                    film.add(pixel, s, grey(sampler.u1() * static_cast<float>(pixel + 1)));
+                    film.add(pixel, grey(sampler.u1() * static_cast<float>(pixel + 1)));
                 }
             }
-            film.spp = 16;
             means.add(film.mean());
             variances.add(film.standard_error() * film.standard_error());
         }
@@ -89,10 +149,9 @@ TEST_SUITE("film") {
         float sum = 0;
         uint64_t n = (1 << 24) + 1000;
         for (uint64_t s = 0; s < n; s++) {
-            film.add(0, s, grey(s % 2 == 0 ? 1000.5f : 1001.5f));
+            film.add(0, grey(s % 2 == 0 ? 1000.5f : 1001.5f));
             sum += 1;
         }
-        film.spp = n;
         CHECK(film.image().at(0, 0) == grey(1001));
         double se = 0.5 / std::sqrt(static_cast<double>(n - 1));
         CHECK(film.standard_error() == doctest::Approx(se).epsilon(1e-9).scale(0));
@@ -100,13 +159,73 @@ TEST_SUITE("film") {
     }
 
     TEST_CASE("truth: parts of samples add up, however rare they are") {
-        Film film(2, 1);
+        Film whole = film_of({std::vector<float>(10, 1), std::vector<float>(10, 1)}), film(2, 1);
         film.add_part(0, grey(5));  // of one sample, in two parts
         film.add_part(0, grey(1));
-        film.spp = 10;
+        film.count_as(whole);
         CHECK(film.mean() == about(0.3));
         CHECK(film.image().at(0, 0).r == 0.6f);
         CHECK(film.image().at(1, 0).r == 0);
+    }
+
+    TEST_CASE("truth: splats add to the mean of the samples what they sum to for each sample") {
+        Film film = film_with({{0, grey(1)}, {3, grey(0.5f)}, {3, {1, 2, 3}}}, 1);
+        CHECK(film.image().at(0, 0) == grey(0.75f));
+        CHECK(film.image().at(1, 0) == grey(0.25f));
+        CHECK(film.image().at(3, 0) == Rgb{1, 1.5f, 2});
+        CHECK(film.mean() == about(0.25 + (1 + 0.5 + 2) / 2 / 15));
+        CHECK(std::isnan(film.standard_error()));  // the samples know nothing of the splats
+    }
+
+    TEST_CASE("identity: splats make the same bits in any order and on any number of threads") {
+        std::vector<Splat> splats = random_splats(15);
+        std::vector<Rgb> image = film_with(splats, 1).image().pixels;
+        double mean = film_with(splats, 1).mean();
+        for (int threads : {1, 2, 7}) {
+            std::reverse(splats.begin(), splats.end());
+            for (size_t i = 1; i < splats.size(); i++)
+                std::swap(splats[i], splats[7919 * i % (i + 1)]);
+            Film film = film_with(splats, threads);
+            CHECK(same_bits(film.image().pixels, image));
+            CHECK(film.mean() == mean);
+        }
+    }
+
+    TEST_CASE("teeth: a sum in double of the same splats depends on their order") {
+        double forwards = 0, backwards = 0;
+        std::vector<Splat> splats = random_splats(1);
+        for (size_t i = 0; i < splats.size(); i++) {
+            forwards += static_cast<double>(splats[i].L.r);
+            backwards += static_cast<double>(splats[splats.size() - 1 - i].L.r);
+        }
+        CHECK(forwards != backwards);
+    }
+
+    TEST_CASE("truth: an exact sum loses nothing, from the smallest float to the largest") {
+        constexpr float most = std::numeric_limits<float>::max();
+        constexpr float least = std::numeric_limits<float>::denorm_min();
+        for (float x : {least, 3 * least, 1e-40f, 1e-38f, 0.1f, 1.0f, 16777215.0f, 1e30f, most}) {
+            ExactSum sum;
+            for (int k = 0; k < 1000; k++) sum.add(x);
+            CHECK(sum.value() == 1000 * static_cast<double>(x));
+        }
+        ExactSum all;  // of 2^-149 + 2^-148 + ... + 2^127, and once more 2^-149
+        for (int k = -149; k < 128; k++) all.add(std::ldexp(1.0f, k));
+        all.add(least);
+        CHECK(all.value() == std::ldexp(1.0, 128));
+        ExactSum zero;
+        zero.add(0.0f), zero.add(-0.0f);
+        CHECK(zero.value() == 0);
+    }
+
+    TEST_CASE("failure: a splat that is not finite or below 0 makes its pixel NaN, and no other") {
+        for (float bad : {std::nanf(""), infinity, -infinity, -1e-40f}) {
+            Film film = film_with({{0, {1, bad, 1}}, {0, grey(1)}, {1, grey(1)}}, 2);
+            CHECK(film.image().at(0, 0).r == 1.25f);
+            CHECK(std::isnan(film.image().at(0, 0).g));
+            CHECK(film.image().at(1, 0) == grey(0.75f));
+            CHECK(std::isnan(film.mean()));
+        }
     }
 
     TEST_CASE("failure: a sample that is not finite shows in its pixel and in the mean") {

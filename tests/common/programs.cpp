@@ -17,8 +17,12 @@ using Words = std::vector<std::string>;
 const std::string spheres = "scenes/cornell-spheres.pbrt";
 const std::string path_tracer = "06_path_tracing";
 
+fs::path program_file(const std::string& program) {
+    return fs::read_symlink("/proc/self/exe").parent_path() / program;
+}
+
 Process start(const std::string& program, Words words) {
-    fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / program;
+    fs::path file = program_file(program);
     words.insert(words.begin(), "build/" + program);
     return Process([&] {
         std::vector<char*> argv;
@@ -353,7 +357,7 @@ TEST_SUITE("programs") {
                 TemporaryFolder folder;
                 Words all = words;
                 if (all.size() > 1) all.back() = folder / "a.ppm";
-                fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / path_tracer;
+                fs::path file = program_file(path_tracer);
                 Finished end = Process([&] {
                                    std::vector<char*> argv = {file.string().data()};
                                    ::close(STDOUT_FILENO);
@@ -374,30 +378,34 @@ TEST_SUITE("programs") {
         }
     }
 
-    TEST_CASE("files: an interrupt leaves a whole picture, with a note and exit code 0") {
-        TemporaryFolder folder;
-        Finished end;
-        // The signal must not come before it renders; so wait longer when it was too early.
-        for (int ms = 300; ms < 30000; ms *= 2) {
-            Process process = start(path_tracer, {"--size", "32x32", "--spp", "1000000000", "--out",
-                                                  folder / "a.pfm", "--stats", folder / "s.json"});
-            ::usleep(static_cast<useconds_t>(1000 * ms));
-            process.kill(SIGINT);
-            end = process.wait();
-            if (end.signal == 0) break;
+    TEST_CASE("files: Ctrl-C and its like leave a whole picture, with a note and exit code 3") {
+        for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
+            TemporaryFolder folder;
+            Finished end;
+            // The signal must not come before it renders; so wait longer when it was too early.
+            for (int ms = 300; ms < 30000; ms *= 2) {
+                Process process =
+                    start(path_tracer, {"--size", "32x32", "--spp", "1000000000", "--out",
+                                        folder / "a.pfm", "--stats", folder / "s.json"});
+                ::usleep(static_cast<useconds_t>(1000 * ms));
+                process.kill(signal);
+                end = process.wait();
+                if (end.signal == 0) break;
+            }
+            CHECK(end.code == 3);
+            CHECK(end.err == "");
+            CHECK(end.out.find(" (interrupted)\n") != std::string::npos);
+            auto stats = json_values(read_file(folder / "s.json"));
+            CHECK(stats.at("interrupted") == "true");
+            CHECK(std::stod(stats.at("spp")) >= 1);
+            CHECK(stats.at("empty_pixels_share") == "0");
+            Image image = read_image(folder / "a.pfm");
+            CHECK(image.width == 32);
+            // Of the Cornell box, the light among its pixels.
+            float brightest = 0;
+            for (Rgb p : image.pixels) brightest = std::max(brightest, p.r);
+            CHECK(brightest > 10);
         }
-        CHECK(end.code == 0);
-        CHECK(end.err == "");
-        CHECK(end.out.find(" (interrupted)\n") != std::string::npos);
-        auto stats = json_values(read_file(folder / "s.json"));
-        CHECK(stats.at("interrupted") == "true");
-        CHECK(std::stod(stats.at("spp")) >= 64);  // the first pass of so small a picture
-        Image image = read_image(folder / "a.pfm");
-        CHECK(image.width == 32);
-        // Of the Cornell box, the light among its pixels.
-        float brightest = 0;
-        for (Rgb p : image.pixels) brightest = std::max(brightest, p.r);
-        CHECK(brightest > 10);
     }
 
     TEST_CASE("files: a killed program leaves the picture of before") {
@@ -422,6 +430,52 @@ TEST_SUITE("programs") {
         CHECK(std::stod(stats.at("seconds")) >= 0.4);
         CHECK(std::stod(stats.at("seconds")) < 5);
         CHECK(std::stod(stats.at("spp")) >= 1);
+        CHECK(stats.at("interrupted") == "false");
+    }
+
+    TEST_CASE("truth: a render without time for its first pass says which share is missing") {
+        TemporaryFolder folder;
+        Finished end = run(path_tracer, {spheres, "--size", "1024x1024", "--time", "0.000001",
+                                         "--out", folder / "a.ppm"});
+        CHECK(end.code == 0);
+        CHECK(end.out.find("\nwarning: it ended before 100 % of the pixels had a sample") !=
+              std::string::npos);
+        CHECK(read_image(folder / "a.ppm").width == 1024);
+    }
+
+    TEST_CASE("files: from any folder the default scene is found, and out/ is made there") {
+        TemporaryFolder folder;
+        std::string program = fs::absolute(program_file(path_tracer)).string();
+        fs::create_symlink(program, folder / "linked");
+        fs::copy_file(program, folder / "copied");
+        std::string project = fs::current_path().string();
+        auto run_in = [&](const std::string& place, const std::string& command) {
+            return Process([&] {
+                       fs::current_path(place);
+                       std::string path = fs::path(program).parent_path().string() + ":/bin";
+                       ::setenv("PATH", path.c_str(), 1);
+                       std::string options = " --size 9x9 --spp 1 --max-depth 1";
+                       ::execl("/bin/sh", "sh", "-c", (command + options).c_str(), nullptr);
+                       return 127;
+                   })
+                .wait();
+        };
+        for (const std::string& command : {program, path_tracer, std::string("./linked")}) {
+            CAPTURE(command);
+            Finished end = run_in(folder.path(), command);
+            CHECK(end.code == 0);
+            CHECK(end.err == "");
+            CHECK(end.out.find("/scenes/cornell.pbrt  9x9  1 spp\n") != std::string::npos);
+            CHECK(read_image(folder / "out/06_path_tracing.ppm").width == 9);
+            fs::remove_all(folder / "out");
+        }
+        // Where the project is not above the program, it may be the working directory.
+        std::string out = " --out " + folder / "b.ppm";
+        CHECK(run_in(project, folder / "copied" + out).out.find("  scenes/cornell.pbrt  9x9") !=
+              std::string::npos);
+        Finished end = run_in(folder.path(), "./copied");
+        CHECK(end.code == 1);
+        CHECK(end.err == "scenes/cornell.pbrt: error: cannot read: No such file or directory\n");
     }
 
     TEST_CASE("identity: a path that is explained is the sample of the picture") {

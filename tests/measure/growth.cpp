@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/measure/lines.h"
 #include "tests/measure/measure.h"

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 
 namespace {

@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/picture/merging.h"
+#include "common/program/results.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/reference.h"
 

@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
+#include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/stability_cases.h"

@@ -109,7 +109,7 @@ inline int check_classes(const Scene& scene_a, Trace trace_a, const Scene& scene
 /// relMSE of one sample for each pixel: the mean over the film of variance / (mean^2 + 0.01), with
 /// the means of blocks of 8 x 8 pixels: those of single pixels are too noisy to be divided by.
 inline double rel_mse(const Film& film) {
-    double sum = 0, n = static_cast<double>(film.spp);
+    double sum = 0, n = film.spp();
     for (int y = 0; y < film.height; y += 8)
         for (int x = 0; x < film.width; x += 8) {
             Measured block = block_of(film, x, y, 8);

@@ -28,6 +28,7 @@ public:
         if (id_ == 0) {
             rlimit none = {0, 0};
             ::setrlimit(RLIMIT_CORE, &none);
+            for (int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
             std::freopen((folder_ / "out").c_str(), "w", stdout);
             std::freopen((folder_ / "err").c_str(), "w", stderr);
             int code = work();

@@ -9,6 +9,7 @@
 #include "common/base/stats.h"
 #include "common/program/render.h"
 #include "common/scene/camera.h"
+#include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 
 /// A seed's own stream of numbers, for tests that draw one by one.
@@ -85,10 +86,11 @@ inline double z_between(Measured a, Measured b) {
 
 /// The mean over a block of pixels (brightness), with the error that its own samples tell.
 inline Measured block_of(const Film& film, int x0, int y0, int side) {
-    double n = static_cast<double>(film.spp), mean = 0, squares = 0;
+    double mean = 0, squares = 0;
     for (int y = y0; y < y0 + side; y++)
         for (int x = x0; x < x0 + side; x++) {
             const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
+            double n = static_cast<double>(p.n);
             mean += p.mean;
             squares += p.m2 / (n - 1) / n;
         }

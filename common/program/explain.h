@@ -1,0 +1,8 @@
+// --explain: one path in words and as a drawing.
+#pragma once
+#include "common/path/trace.h"
+#include "common/program/options.h"
+
+/// Prints the path that makes sample options.explain_sample of one pixel, and draws it as an SVG
+/// beside the first picture. Returns the exit code.
+int explain(const Scene& scene, const RenderOptions& options, const Trace& trace);

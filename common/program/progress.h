@@ -1,0 +1,21 @@
+// The progress bar.
+#pragma once
+#include <mutex>
+
+/// Shows on a terminal how far the work is and how long it will take, and leaves no trace when it
+/// is done.
+class Progress {
+public:
+    explicit Progress(bool quiet);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// `share` of the work, in 0 to 1, took so many seconds. Any thread may say so.
+    void show(double share, double seconds);
+
+private:
+    const bool on_;
+    std::mutex mutex_;
+    double last_ = 0;  // s, when it was drawn
+};
