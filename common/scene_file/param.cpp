@@ -3,6 +3,8 @@
 #include <array>
 #include <sstream>
 
+#include "common/base/numbers.h"
+
 namespace {
 
 struct ParamType {

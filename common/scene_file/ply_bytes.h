@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "common/scene_file/lexer.h"
+#include "common/base/numbers.h"
+#include "common/base/position.h"
 
 enum class PlyFormat { ascii, little, big };
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/base/files.h"
+#include "common/base/numbers.h"
 #include "common/scene_file/named_files.h"
 #include "common/scene_file/scene_reader.h"
 

@@ -1,0 +1,13 @@
+// Numbers read from text, the same with every library and in every country.
+#pragma once
+#include <optional>
+#include <string_view>
+
+/// The number that `text` writes, rounded to the nearest double; no inf, no nan, no hexadecimal;
+/// empty when it is none. Numbers too large for a double are infinite, those too small are 0.
+///
+/// tested by  "truth: numbers are rounded to the nearest double, halves to the even one"
+std::optional<double> to_number(std::string_view text);
+
+/// The same for a whole number without point or exponent that fits an int.
+std::optional<int> to_integer(std::string_view text);
