@@ -1,15 +1,23 @@
 # Path by Path. `make help` lists what there is: the lines that start with "#:".
 SHELL     := /bin/bash
-MAKEFLAGS += --no-builtin-rules -j$(shell nproc)
+MAKEFLAGS += --no-builtin-rules -j$(shell getconf _NPROCESSORS_ONLN)
 BUILD     := build
-# These change speed alone. The last one: to pack two floats of a path costs more than it saves.
-OPT       := -O3 -march=native -mtune=generic -fno-math-errno -fno-trapping-math \
-             -fno-tree-slp-vectorize
+# OPT and CPU change speed alone. x86-64 processors differ in their instructions; and there, to pack
+# two floats of a path costs more than it saves.
+OPT       := -O3 -fno-math-errno -fno-trapping-math
+ifneq ($(filter x86_64%,$(shell $(CXX) -dumpmachine)),)
+CPU       := -march=native -mtune=generic -fno-tree-slp-vectorize
+endif
 ifdef SAN
-OPT       := -O1 -g -march=native -fsanitize=address,undefined -fno-sanitize-recover=all
+OPT       := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all
 BUILD     := build/san
 endif
-CXXFLAGS  := -std=c++20 $(OPT) -ffp-contract=off -pthread -I. -Wall -Wextra -Wshadow -Wconversion
+CXXFLAGS  := -std=c++20 $(OPT) $(CPU) -ffp-contract=off -pthread -I. -Wall -Wextra -Wshadow \
+             -Wconversion $(patsubst %,-isystem %/include,$(shell brew --prefix 2>/dev/null))
+# For another processor than this one: RUN runs programs, HOST_CXX compiles what writes scenes.
+RUN       :=
+HOST_CXX  := $(CXX)
+export RUN
 
 chapters  := $(notdir $(wildcard chapters/[0-9]*))
 numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
@@ -18,30 +26,27 @@ common    := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out common/tools/%,$(wil
 tests     := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out tests/measure/% tests/fuzz/%,$(wildcard tests/*/*.cpp)))
 made      := scenes/knot.ply scenes/thousand-lights.pbrt
 
-.PHONY: all programs test test-slow pictures readmes book diff help clean always $(numbers)
+.PHONY: all programs test host test-slow help clean always $(numbers)
 .SECONDARY .DELETE_ON_ERROR .SECONDEXPANSION:
 
 #: make              install what is missing, build, and render each chapter's picture into out/
-all: $(chapters:%=out/%.png)
-	@printf 'The pictures:\n'; printf '  %s\n' $^ $(^:.png=.ppm)
+all: $(chapters:%=out/%.png) programs
+	@printf 'The pictures:\n'; printf '  %s\n' $(chapters:%=out/%.png) $(chapters:%=out/%.ppm)
 out/%.png: $(BUILD)/% $(made)
 	@mkdir -p out
-	$< --quiet --out $@ --out out/$*.ppm
+	$(RUN) $< --quiet --out $@ --out out/$*.ppm
 
-#: make test         build, and run all tests but the slow ones
+#: make test         build, and run all tests but the slow ones; T='NAME': those so named
 test: $(BUILD)/tests programs
-	common/tools/fill_readmes --check
-	$(BUILD)/tests --test-suite-exclude='*slow*'
+	$(if $(T),,common/tools/fill_readmes --check)
+	$(RUN) $(BUILD)/tests $(if $(T),--test-case="$$T",--test-suite-exclude='*slow*')
 #: make test-slow    run the slow ones
 test-slow: $(BUILD)/tests programs
-	$(BUILD)/tests --test-suite='*slow*'
+	$(RUN) $(BUILD)/tests --test-suite='*slow*'
 
 #: make 06           build and run one chapter
 $(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $(made)
-	$<
-#: make diff CH=07   what a chapter changes of the one before
-diff:
-	@common/tools/chapter_diff '$(CH)' --color=auto
+	$(RUN) $<
 
 #: make programs     build the programs, and run nothing
 programs: $(chapters:%=$(BUILD)/%) $(tools:%=$(BUILD)/%) $(made)
@@ -53,11 +58,17 @@ $(BUILD)/%: $(BUILD)/obj/common/tools/%.o $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 $(BUILD)/make_%: $(BUILD)/obj/scenes/make_%.o $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
+ifeq ($(HOST_CXX),$(CXX))
 $(made): $(BUILD)/make_$$(basename $$(@F))
-	$< $@
+	$(RUN) $< $@
+else
+$(made): host ;
+host:
+	$(MAKE) CXX='$(HOST_CXX)' HOST_CXX='$(HOST_CXX)' BUILD=$(BUILD)/host RUN= $(made)
+endif
 $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "compile $<"
-	@$(CXX) $(CXXFLAGS) -MMD -MP -c $< -o $@
+	@$(CXX) $(CXXFLAGS) $(if $(WERROR),-Werror) -MMD -MP -c $< -o $@
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
 # Changes when the compiler or its flags do: then all is compiled again.
@@ -69,20 +80,11 @@ $(BUILD)/packages:
 	    $(CXX) -x c++ -fsyntax-only - 2>/dev/null || common/tools/install doctest-dev libstb-dev
 	@touch $@
 
-#: make pictures     render the small pictures that the READMEs show, by the commands they name
-pictures: programs
-	common/tools/make_pictures $(BUILD)
-#: make readmes      put code, diffs and what the programs print into the READMEs
-readmes: programs
-	common/tools/fill_readmes
-#: make book         all READMEs as one page: out/book.html
-book:
-	common/tools/make_book out/book.html
-include $(wildcard tests/*/rules.mk)
+include $(wildcard common/*/rules.mk tests/*/rules.mk)
 
 #: make clean        remove all that was built and rendered
 clean:
 	rm -rf build out
 #: make SAN=1 test   under the address and undefined-behaviour sanitizers; CXX=clang++ also works
 help:
-	@sed -n "s/^#: //p" Makefile tests/*/rules.mk
+	@sed -n "s/^#: //p" Makefile common/*/rules.mk tests/*/rules.mk

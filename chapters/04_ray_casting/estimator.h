@@ -310,7 +310,7 @@ inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, PathL
 ///   classes found:  LE, LDE, LS+E, LDS+E      missed:  any with two D, and LS+D...
 ///
 /// Biased: lamps are points (no soft shadows), and no light comes by way of other surfaces.
-/// source  Whitted 1980      tested by  "ch04 ray casting"
+/// source  Whitted 1980      tested by  "ch04 classes of paths"
 inline Rgb trace(const Scene& scene, Ray ray, Sampler&, PathLog& log) {
     return follow(scene, ray, {1, 1, 1}, 0, log);
 }

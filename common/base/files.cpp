@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "common/base/error.h"
 
@@ -121,18 +120,19 @@ std::string read_file(const std::string& path) {
     constexpr size_t largest = size_t{1} << 30;
     bool too_large = fs::is_regular_file(path, none) && fs::file_size(path, none) > largest;
     if (too_large) throw InputError(path + ": error: larger than 1 GiB");
-    errno = 0;
-    std::ifstream in(path, std::ios::binary);
-    if (!in) fail(path, "cannot read", errno);
+    int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) fail(path, "cannot read", errno);
 
     // Read in pieces, since a pipe has no size to ask for.
-    std::string bytes;
-    std::string piece(1 << 16, '\0');
-    while (in) {
-        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-        bytes.append(piece, 0, static_cast<size_t>(in.gcount()));
-        if (bytes.size() > largest) throw InputError(path + ": error: larger than 1 GiB");
-    }
-    if (in.bad()) fail(path, "cannot read", errno);
+    std::string bytes, piece(1 << 16, '\0');
+    ssize_t n = 0;
+    do {
+        n = ::read(fd, piece.data(), piece.size());
+        if (n > 0) bytes.append(piece, 0, static_cast<size_t>(n));
+    } while ((n > 0 && bytes.size() <= largest) || (n < 0 && errno == EINTR));
+    int error = n < 0 ? errno : 0;
+    ::close(fd);
+    if (error != 0) fail(path, "cannot read", error);
+    if (bytes.size() > largest) throw InputError(path + ": error: larger than 1 GiB");
     return bytes;
 }

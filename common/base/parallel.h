@@ -6,6 +6,21 @@
 #include <thread>
 #include <vector>
 
+/// A thread that is waited for at the end of its block: std::jthread, which not all libraries have.
+class JoinedThread {
+public:
+    template <typename Work>
+    explicit JoinedThread(const Work& work) : thread_(work) {}
+    JoinedThread(JoinedThread&&) = default;
+    ~JoinedThread() { join(); }
+    void join() {
+        if (thread_.joinable()) thread_.join();
+    }
+
+private:
+    std::thread thread_;
+};
+
 /// Calls work(i) for i = 0 .. count-1 on `threads` threads, each taking the next i when it is free.
 /// What work throws stops it all, and is thrown on to the caller.
 template <typename Work>
@@ -23,7 +38,7 @@ void parallel_for(int count, int threads, const Work& work) {
         }
     };
     {
-        std::vector<std::jthread> others;  // joined at the end of this block
+        std::vector<JoinedThread> others;  // joined at the end of this block
         for (int t = 1; t < std::min(threads, count); t++) others.emplace_back(run);
         run();
     }

@@ -339,7 +339,7 @@ private:
             a();
             b();
         } else if (idle_threads_-- > 0) {
-            std::jthread other([&] {
+            JoinedThread other([&] {
                 a();
                 idle_threads_++;
             });

@@ -1,7 +1,8 @@
 #include "common/path/path_log.h"
 
 #include <cstdio>
-#include <regex>
+
+#include "common/path/class_filter.h"
 
 namespace {
 
@@ -30,18 +31,9 @@ const char* name(MaterialType type) {
 
 }  // namespace
 
-struct ClassFilter {
-    std::regex regex;
-};
-
 PathLog::PathLog(const std::string& class_filter, bool keep_steps)
     : listening_(true), keep_steps_(keep_steps) {
-    if (class_filter.empty()) return;
-    // Take the engine that reads each letter once: the usual one tries every way in which nested
-    // stars can match, which may take years. Brackets nested by the thousand overflow its stack.
-    if (class_filter.size() > 1000) throw std::regex_error(std::regex_constants::error_space);
-    constexpr auto flags = std::regex::ECMAScript | std::regex_constants::__polynomial;
-    filter_ = std::make_shared<const ClassFilter>(ClassFilter{std::regex(class_filter, flags)});
+    if (!class_filter.empty()) filter_ = std::make_shared<const ClassFilter>(class_filter);
 }
 
 void PathLog::forget() {
@@ -116,7 +108,7 @@ bool PathLog::counts(const std::string& path_class) {
     for (const auto& [known, counted] : known_classes_) {
         if (known == path_class) return counted;
     }
-    bool counted = std::regex_match(path_class, filter_->regex);
+    bool counted = filter_->matches(path_class);
     if (known_classes_.size() < 1000) known_classes_.emplace_back(path_class, counted);
     return counted;
 }

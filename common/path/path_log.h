@@ -20,7 +20,7 @@ struct PathVertex {
     int from;
 };
 
-struct ClassFilter;
+class ClassFilter;
 
 /// trace() tells a PathLog what it does. Unless someone listens, that costs one untaken branch.
 class PathLog {
@@ -28,7 +28,7 @@ public:
     PathLog() = default;
     /// A log that listens. class_filter: a regular expression that the whole class of a path must
     /// match to count; empty: all count. keep_steps: also writes each step down as text.
-    /// Throws std::regex_error.
+    /// Throws UsageError when it is none.
     explicit PathLog(const std::string& class_filter, bool keep_steps = false);
 
     /// Forgets the path before.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "common/base/numbers.h"
 #include "common/base/position.h"
 
 namespace {
@@ -29,7 +30,7 @@ MergePart read_part(const std::string& word) {
                          word.find_first_not_of("0123456789", colon + 1) == std::string::npos;
     if (digits_follow && !std::filesystem::exists(word)) {
         part.file = word.substr(0, colon);
-        part.spp = std::stod(word.substr(colon + 1));
+        part.spp = to_number(word.substr(colon + 1)).value_or(0);
     }
     part.image = read_image(part.file);
     part.stats = StatsFile::beside(part.file);

@@ -1,9 +1,10 @@
 #include "common/picture/stats_file.h"
 
-#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "common/base/files.h"
+#include "common/base/numbers.h"
 
 std::string StatsFile::path_beside(const std::string& picture) {
     return std::filesystem::path(picture).replace_extension(".json").string();
@@ -29,11 +30,11 @@ std::vector<double> StatsFile::numbers(const std::string& name) const {
     bool is_list = *at == '[';
     if (is_list) at++;
     do {
-        char* end = nullptr;
-        double x = std::strtod(at, &end);
-        if (end == at) break;
-        list.push_back(x);
-        at = end;
+        size_t length = std::strcspn(at, " \t\r\n,]}");
+        std::optional<double> x = to_number({at, length});
+        if (!x) break;
+        list.push_back(*x);
+        at += length;
         while (*at == ' ') at++;
     } while (is_list && *at++ == ',');
     return list;

@@ -12,6 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/base/nearest.h"
+#include "common/base/numbers.h"
 #include "common/base/position.h"
 
 namespace {
@@ -129,9 +130,8 @@ size_t parse_choice(const std::string& option, const std::string& text,
 }
 
 double parse_positive(const std::string& option, const std::string& text) {
-    char* end = nullptr;
-    double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !(value > 0) || !std::isfinite(value)) {
+    double value = to_number(text).value_or(0);
+    if (!(value > 0) || !std::isfinite(value)) {
         fail_value(option, text, "a number greater than 0");
     }
     return value;

@@ -7,8 +7,8 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/nearest.h"
-#include "common/path/path_log.h"
+#include "common/base/position.h"
+#include "common/path/class_filter.h"
 #include "common/picture/image.h"
 #include "common/program/project.h"
 
@@ -52,10 +52,9 @@ SamplerType parse_sampler(const std::string& text) {
 }
 
 std::string parse_class_filter(const std::string& text) {
-    try {
-        PathLog check(text);
-    } catch (const std::regex_error&) {
-        fail_value("paths", text, "a regular expression, such as 'LD(S|D)*E'");
+    if (!ClassFilter(text).matches_some_path()) {
+        throw UsageError("error: --paths " + quote(text) +
+                         ": no path is of such a class; they are L, then any of D and S, then E");
     }
     return text;
 }

@@ -1,10 +1,9 @@
 #include "common/scene_file/lexer.h"
 
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
+#include "common/base/numbers.h"
 #include "common/base/utf8.h"
 
 namespace {
@@ -146,26 +145,4 @@ std::string Lexer::describe(const Token& token) {
         case Token::string: return "the string " + quote(token.text);
         default: return quote(token.text);
     }
-}
-
-std::optional<double> to_number(std::string_view text) {
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    bool negative = text.starts_with('-');
-    std::string_view digits = text.substr(negative ? 1 : 0);
-    if (digits.empty() || !(digits[0] == '.' || (digits[0] >= '0' && digits[0] <= '9'))) return {};
-    double value = 0;
-    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (end != text.data() + text.size()) return {};
-    if (error == std::errc::result_out_of_range)
-        return std::strtod(std::string(text).c_str(), nullptr);
-    if (error != std::errc()) return {};
-    return value;
-}
-
-std::optional<int> to_integer(std::string_view text) {
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    int value = 0;
-    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (end != text.data() + text.size() || error != std::errc()) return {};
-    return value;
 }

@@ -46,9 +46,3 @@ private:
     int line_ = 1, column_ = 1;
     Token ahead_;
 };
-
-/// The number that `text` writes, as pbrt reads it: no inf, no nan; empty when it is none.
-/// Numbers too large for a double are infinite, those too small are 0.
-std::optional<double> to_number(std::string_view text);
-/// The same for a whole number without point or exponent that fits an int.
-std::optional<int> to_integer(std::string_view text);

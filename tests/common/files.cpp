@@ -117,6 +117,7 @@ TEST_SUITE("files") {
     }
 
     TEST_CASE("files: a full device is an error") {
+        if (!exists_here("/dev/full")) return;
         TemporaryFolder folder;
         CHECK(error_of([] { write_file_atomically("/dev/full", "x"); }) ==
               "/dev/full: error: cannot write: No space left on device");
@@ -259,6 +260,7 @@ TEST_SUITE("files") {
         CHECK(error_of([&] { read_file(folder.path()); }) ==
               folder.path() + ": error: cannot read: Is a directory");
         // A file that opens but does not read: this process's memory at address 0.
+        if (!exists_here("/proc/self/mem")) return;
         CHECK(error_of([] { read_file("/proc/self/mem"); }) ==
               "/proc/self/mem: error: cannot read: Input/output error");
     }

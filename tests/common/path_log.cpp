@@ -3,7 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <functional>
 #include <regex>
+
+#include "common/path/class_filter.h"
+#include "common/path/sampler.h"
+#include "tests/support/folder.h"
 
 namespace {
 
@@ -18,6 +23,22 @@ std::string class_after(const std::string& kinds) {
     PathLog log("");
     found_after(log, kinds);
     return log.contributions().at(0).path_class;
+}
+
+using Words = std::vector<std::string>;
+
+/// What may stand between L and E, up to four letters, for an expression to match.
+Words matched(const std::string& expression) {
+    ClassFilter filter(expression);
+    Words words;
+    for (int length = 0; length <= 4; length++) {
+        for (int bits = 0; bits < 1 << length; bits++) {
+            std::string word;
+            for (int i = 0; i < length; i++) word += bits >> i & 1 ? 'S' : 'D';
+            if (filter.matches("L" + word + "E")) words.push_back(word);
+        }
+    }
+    return words;
 }
 
 }  // namespace
@@ -98,7 +119,7 @@ TEST_SUITE("path log") {
 
     TEST_CASE("failure: nested stars and long paths need neither years nor all of the stack") {
         std::string many(20000, 'D');
-        for (const char* filter : {"L(D*)*X", "L(D|D)*X", "L(D+)+X", "L(S|D|DD)*X"}) {
+        for (const char* filter : {"L(D*)*L", "L(D|D)*L", "L(D+)+L", "L(S|D|DD)*L"}) {
             PathLog log(filter);
             CHECK(found_after(log, many) == Rgb{});
         }
@@ -106,11 +127,101 @@ TEST_SUITE("path log") {
         CHECK(found_after(log, many) == Rgb{1, 1, 1});
     }
 
-    TEST_CASE("input: what is no regular expression is refused") {
-        for (const char* filter : {"(", "[", "L{", "*", "L(D)\\1E"}) {
-            CHECK_THROWS_AS(PathLog{filter}, std::regex_error);
+    TEST_CASE("input: what is no class filter is refused, with the column") {
+        auto error = [](const std::string& filter) {
+            return error_of([&] { PathLog log(filter); });
+        };
+        CHECK(error("LD(S|D") == "error: --paths \"LD(S|D\", column 3: this ( is not closed");
+        CHECK(error("L[DS") == "error: --paths \"L[DS\", column 2: this [ is not closed");
+        CHECK(error("L[]E") == "error: --paths \"L[]E\", column 2: no letter is in this [ ]");
+        CHECK(error("LD)E") == "error: --paths \"LD)E\", column 3: this ) closes nothing");
+        CHECK(error("L(*)E") ==
+              "error: --paths \"L(*)E\", column 3: nothing stands before '*' that it could repeat");
+        CHECK(error("LD**E") ==
+              "error: --paths \"LD**E\", column 4: nothing stands before '*' that it could repeat");
+        CHECK(error("LXE") ==
+              "error: --paths \"LXE\", column 2: 'X' is no letter of a path's class: "
+              "those are L, D, S and E");
+        for (const char* count : {"LD{", "LD{}E", "LD{2", "LD{3,2}E", "LD{,2}E", "LD{2,x}E"}) {
+            CHECK(error(count) == "error: --paths \"" + std::string(count) +
+                                      "\", column 3: a count is written {2}, {2,} or {2,4}");
         }
-        CHECK_THROWS_AS(PathLog{std::string(100000, '(')}, std::regex_error);
-        CHECK_THROWS_AS(PathLog{"(D?){1000000000}"}, std::regex_error);
+        CHECK(error("LD{10000}E").ends_with("column 4: a count is at most 9999"));
+        CHECK(error("((((D{99}){99}){99}){99}){99}").ends_with("when its counts are written out"));
+        CHECK(error(std::string(100000, '(')).ends_with("column 1001: the expression is too long"));
+        CHECK(error(std::string(1000, '(')).ends_with("column 1000: this ( is not closed"));
+        for (const char* other : {"L\\1E", "^LE$", "L E", "ld", "L\xc3\xa4"})
+            CHECK(error(other) != "");
+    }
+}
+
+TEST_SUITE("class filter") {
+    TEST_CASE("truth: what each sign of a class filter matches") {
+        CHECK(matched("LDSE") == Words{"DS"});
+        CHECK(matched("LD.E") == Words{"DD", "DS"});
+        CHECK(matched("LD?SE") == Words{"S", "DS"});
+        CHECK(matched("LD*SE") == Words{"S", "DS", "DDS", "DDDS"});
+        CHECK(matched("LD+SE") == Words{"DS", "DDS", "DDDS"});
+        CHECK(matched("L(D|SS)E") == Words{"D", "SS"});
+        CHECK(matched("L(DS)+E") == Words{"DS", "DSDS"});
+        CHECK(matched("L(|D)E") == Words{"", "D"});
+        CHECK(matched("L[DS]SE") == Words{"DS", "SS"});
+        CHECK(matched("L[^SE]{2}E") == Words{"DD"});
+        CHECK(matched("LD{3}E") == Words{"DDD"});
+        CHECK(matched("LD{3,}E") == Words{"DDD", "DDDD"});
+        CHECK(matched("LD{0,2}E") == Words{"", "D", "DD"});
+        CHECK(matched("LD{0}SE") == Words{"S"});
+        CHECK(matched("L(?:D|S){1}E") == Words{"D", "S"});
+        CHECK(matched("L(D{2}){2}E") == Words{"DDDD"});
+        CHECK(matched(".*SSE|LDE") ==
+              Words{"D", "SS", "DSS", "SSS", "DDSS", "SDSS", "DSSS", "SSSS"});
+    }
+
+    TEST_CASE("agreement: the library's regular expressions match the same classes") {
+        Sampler sampler(SamplerType::independent, 3, 1);
+        auto below = [&](size_t n) {
+            return static_cast<size_t>(sampler.u1() * static_cast<float>(n));
+        };
+        std::function<std::string(int)> random = [&](int depth) -> std::string {
+            const std::vector<std::string> ones = {"D", "S", ".", "[DS]", "[^D]"};
+            const std::vector<std::string> repeats = {"*", "+", "?", "{2}", "{1,}", "{0,2}"};
+            switch (depth > 0 ? below(4) : 0) {
+                case 0: return ones[below(ones.size())];
+                case 1: return random(depth - 1) + random(depth - 1);
+                case 2: return std::string("(") + random(depth - 1) + "|" + random(depth - 1) + ")";
+                default:
+                    return std::string("(") + random(depth - 1) + ")" +
+                           repeats[below(repeats.size())];
+            }
+        };
+        int matches = 0, none = 0;
+        for (uint32_t i = 0; i < 500; i++) {
+            sampler.start(0, i);
+            std::string expression = "L";
+            expression += random(4) + "E";
+            CAPTURE(expression);
+            ClassFilter filter(expression);
+            std::regex regex(expression);
+            for (const char* word :
+                 {"LE", "LDE", "LSE", "LDSE", "LSSE", "LDDSE", "LSDSDE", "LDDDDDE", "LSSSSDSE",
+                  "LEE", "LDLE", "LDEE", "DE", "LD", ""}) {
+                CAPTURE(word);
+                REQUIRE(filter.matches(word) == std::regex_match(word, regex));
+                (filter.matches(word) ? matches : none)++;
+            }
+        }
+        CHECK(matches > 1000);
+        CHECK(none > 1000);
+    }
+
+    TEST_CASE("truth: a filter that no class of path matches is known") {
+        for (const char* some :
+             {"LE", "L.*E", "LD{1000}E", "L(S|D)*E", ".*", "L[^D]*E", "(LE|LL)"}) {
+            CHECK(ClassFilter(some).matches_some_path());
+        }
+        for (const char* none :
+             {"", "L", "LD", "DE", "E", "LLE", "LEE", "L(DL)+E", "LD[LE]E", "ELDE"}) {
+            CHECK_FALSE(ClassFilter(none).matches_some_path());
+        }
     }
 }

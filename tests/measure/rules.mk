@@ -38,4 +38,4 @@ bench: $(BUILD)/bench $(BUILD)/gnuplot
 readmes: $(BUILD)/efficiency $(BUILD)/bench
 #: make teeth        plant ten mistakes, one at a time, and show the test that sees each
 teeth: $(BUILD)/tests
-	tests/teeth $(BUILD)
+	tests/teeth $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))

@@ -1,5 +1,7 @@
-// Helpers of the tests that write files: a folder that goes away, and the text of an error.
+// Helpers of the tests that write files: a folder that goes away, files of the system, and the text
+// of an error.
 #pragma once
+#include <doctest/doctest.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -37,6 +39,13 @@ public:
 private:
     std::string path_;
 };
+
+/// Whether the system has this file, such as /dev/full; says so when the test must do without.
+inline bool exists_here(const char* path) {
+    bool exists = ::access(path, F_OK) == 0;
+    if (!exists) MESSAGE("skipped: there is no " << path << " here");
+    return exists;
+}
 
 /// The text of the InputError or UsageError that `work` throws; empty when it does not.
 template <typename Work>

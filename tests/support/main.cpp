@@ -1,3 +1,42 @@
-// The one test binary: doctest's main.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+// The one test binary: doctest's main, but names of tests may hold commas, and to run no test is an
+// error.
+#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
+
+#include "tests/support/program.h"
+
+namespace {
+
+bool ran_none = false;
+
+struct Reporter : doctest::ConsoleReporter {
+    explicit Reporter(const doctest::ContextOptions& options) : ConsoleReporter(options) {}
+    void test_run_end(const doctest::TestRunStats& stats) override {
+        ConsoleReporter::test_run_end(stats);
+        ran_none = stats.numTestCasesPassingFilters == 0;
+        if (ran_none) std::fprintf(stderr, "error: no test has this name\n");
+    }
+};
+
+/// doctest takes a comma for the end of a name, unless a backslash stands before it.
+std::string escape_commas(std::string word) {
+    if (!word.starts_with("--test-case=")) return word;
+    for (size_t at = 0; (at = word.find(',', at)) != std::string::npos; at += 2) {
+        word.insert(at, 1, '\\');
+    }
+    return word;
+}
+
+}  // namespace
+
+REGISTER_REPORTER("tests", 1, Reporter);
+
+int main(int argc, char** argv) {
+    program_folder = std::filesystem::path(argv[0]).parent_path();
+    std::vector<std::string> words = {argv[0], "--reporters=tests"};
+    for (int i = 1; i < argc; i++) words.push_back(escape_commas(argv[i]));
+    std::vector<const char*> pointers;
+    for (const std::string& word : words) pointers.push_back(word.c_str());
+    int result = doctest::Context(static_cast<int>(pointers.size()), pointers.data()).run();
+    return ran_none ? 1 : result;
+}

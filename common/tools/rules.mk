@@ -1,0 +1,29 @@
+# Pages, and what looks at the text of the code.
+.PHONY: diff steps pictures readmes book tidy
+
+#: make diff CH=07   what a chapter changes of the one before
+diff:
+	@common/tools/chapter_diff '$(CH)'
+#: make steps        how large the step of each chapter is from the one before
+steps:
+	@common/tools/steps
+#: make pictures     render the small pictures that the READMEs show, by the commands they name
+pictures: programs
+	common/tools/make_pictures $(BUILD)
+#: make readmes      put code, diffs and what the programs print into the READMEs
+readmes: programs
+	common/tools/fill_readmes
+#: make book         all READMEs as one page: out/book.html
+book:
+	common/tools/make_book out/book.html
+
+# One entry for each file that is compiled, in the form that editors and clang-tidy read.
+compiled := $(sort $(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp))
+#: make compile_commands.json   tells editors how files are compiled
+compile_commands.json: $(BUILD)/flags $(compiled)
+	@printf '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CXX) $(CXXFLAGS) -c %s"}\n' \
+	    $(foreach file,$(compiled),$(file) $(file)) | sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
+#: make tidy         clang-tidy's checks, those in .clang-tidy (5 minutes)
+tidy: compile_commands.json
+	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
+	printf '%s\n' $(compiled) | xargs -n 1 -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet -p .
