@@ -7,6 +7,7 @@
 
 using Double3 = std::array<double, 3>;
 
+inline Double3 to_double3(Vec3 a) { return {double{a.x}, double{a.y}, double{a.z}}; }
 inline Vec3 to_vec3(const Double3& a) {
     return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2])};
 }
@@ -16,9 +17,13 @@ inline double dot(const Double3& a, const Double3& b) {
 inline Double3 cross(const Double3& a, const Double3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-inline Double3 subtract(const Double3& a, const Double3& b) {
+inline Double3 operator+(const Double3& a, const Double3& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Double3 operator-(const Double3& a, const Double3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
+inline Double3 operator*(double s, const Double3& a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline double length(const Double3& a) { return std::hypot(a[0], a[1], a[2]); }
 inline Double3 normalize(const Double3& a) {
     double l = length(a);
@@ -99,7 +104,7 @@ inline Transform rotation(double degrees, const Double3& axis) {
 /// World from camera for a camera at `eye` that looks at `look`: x right, y up, z forward, which
 /// is a left-handed frame. Not finite when `up` is parallel to the view.
 inline Transform look_at(const Double3& eye, const Double3& look, const Double3& up) {
-    Double3 forward = normalize(subtract(look, eye));
+    Double3 forward = normalize(look - eye);
     Double3 right = normalize(cross(normalize(up), forward));
     return {right, cross(forward, right), forward, eye};
 }

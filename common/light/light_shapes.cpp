@@ -32,25 +32,7 @@ LightPoint sample_emitter_area(const Emitter& e, Vec2 u) {
     return {};
 }
 
-/// Corners of a triangle as seen from x.
-struct Seen {
-    Vec3 a, b, c;
-    float omega;
-};
-
-Seen see(Vec3 x, Vec3 p0, Vec3 p1, Vec3 p2) {
-    Vec3 a = normalize(p0 - x), b = normalize(p1 - x), c = normalize(p2 - x);
-    return {a, b, c, triangle_solid_angle(a, b, c)};
-}
-
-/// Below this, a spherical triangle is too thin to be sampled in float: taken by area instead.
-constexpr float thinnest = 1e-4f;
-
-/// The point of the plane of e that lies from x in a direction drawn from the spherical triangle.
-Vec3 sample_seen(const Emitter& e, const Seen& seen, Vec3 x, Vec2 u) {
-    Vec3 w = sample_spherical_triangle(seen.a, seen.b, seen.c, seen.omega, u);
-    return x + dot(e.n, e.p0 - x) / dot(e.n, w) * w;
-}
+Double3 unit(const Double3& a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
 /// The number of the primitive under u of the light's running areas; u is stretched to [0,1) anew.
 uint32_t choose_by_area(const LightShape& shape, float& u) {
@@ -63,52 +45,74 @@ uint32_t choose_by_area(const LightShape& shape, float& u) {
     return static_cast<uint32_t>(i);
 }
 
-/// The two halves of a disk's bounding square, as triangles.
-std::array<std::array<Vec3, 3>, 2> square_around(const Emitter& e) {
-    Frame frame(e.n);
-    Vec3 s = e.r * frame.s, t = e.r * frame.t;
-    Vec3 a = e.p0 - s - t, b = e.p0 + s - t, c = e.p0 + s + t, d = e.p0 - s + t;
-    return {{{a, b, c}, {a, c, d}}};
-}
-
-/// Draws from two spherical triangles together as from one piece.
-LightPoint sample_two(const Emitter& e, const Seen& first, const Seen& second, Vec3 x, Vec2 u) {
-    float omega = first.omega + second.omega, share = first.omega / omega;
-    const Seen& chosen = u.x < share ? first : second;
-    u.x = u.x < share ? u.x / share : (u.x - share) / (1 - share);
-    u.x = std::min(u.x, 0x1.fffffep-1f);
-    return {sample_seen(e, chosen, x, u), e.n, e.eps, 1 / omega};
+/// The corners of a disk's bounding square, from x; c: its centre, from x. One side faces x: who
+/// stands beside the disk then stands beside the square.
+void put_square_around(const Emitter& e, const Double3& c, Double3 (&p)[4]) {
+    Double3 n = unit(to_double3(e.n)), away = c - dot(c, n) * n;
+    bool beside = dot(away, away) > 1e-12 * dot(c, c);
+    Double3 s = beside ? unit(away) : to_double3(Frame(e.n).s), t = cross(n, s);
+    s = double{e.r} * s, t = double{e.r} * t;
+    p[0] = c - s - t, p[1] = c + s - t, p[2] = c + s + t, p[3] = c - s + t;
 }
 
 /// How x can draw from the light by solid angle; `area` where it cannot, or need not.
-enum class Way : uint8_t { area, two, square, one };
+enum class Way : uint8_t { area, triangle, parallelogram, disk };
 
+/// A triangle, or a quadrangle of two, from which directions are drawn as from one piece.
 struct Plan {
     Way way = Way::area;
-    Emitter e;  // the primitive, or the first of two
-    Seen seen[2];
+    Emitter e;             // the primitive, or the first of two
+    Double3 p[4], w[4];    // corners as seen from x, one after the other; w: unit
+    double omega[2] = {};  // sr: of the triangles of corners 0 1 2 and 0 3 2
+    float pdf = 0;         // sr^-1
 };
 
+/// Looks at all corners; `share` of all points come from here.
+void look(Plan& plan, Way way, float share) {
+    auto& w = plan.w;
+    for (size_t i = 0; i < (way == Way::triangle ? 3 : 4); i++) w[i] = unit(plan.p[i]);
+    plan.omega[0] = triangle_solid_angle(w[0], w[1], w[2]);
+    if (way != Way::triangle) plan.omega[1] = triangle_solid_angle(w[0], w[3], w[2]);
+    double omega = plan.omega[0] + plan.omega[1];
+    if (!(omega > 0)) return;
+    plan.way = way;
+    plan.pdf = std::min(static_cast<float>(double{share} / omega), densest);
+}
+
+/// The point, from x, that lies in a direction drawn from a plan's triangles.
+Double3 sample_seen(const Plan& plan, Vec2 u) {
+    // Choose one of two by its solid angle; its corners are 0 1 2 or 0 3 2.
+    float first = static_cast<float>(plan.omega[0] / (plan.omega[0] + plan.omega[1]));
+    size_t i = u.x < first ? 1 : 3;
+    u.x = u.x < first ? u.x / first : (u.x - first) / (1 - first);
+    u.x = std::min(u.x, 0x1.fffffep-1f);
+
+    const auto &p = plan.p, &w = plan.w;
+    Double3 to_y = sample_spherical_triangle(w[0], w[i], w[2], plan.omega[i / 2], u);
+    Double3 n = cross(p[i] - p[0], p[2] - p[0]);
+    return dot(n, p[0]) / dot(n, to_y) * to_y;
+}
+
 /// Chooses the way for the light as a whole, or for one primitive (`index`) of a larger mesh.
+///
+/// Seen from x, and in double: neither what is near nor what is seen edge-on loses digits.
 Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
-    const Light& l = scene.lights[light];
     const LightShape& shape = scene.light_shapes[light];
-    Plan plan{Way::area, emitter_of(scene, light, index), {}};
-    float off_plane = std::abs(dot(plan.e.n, plan.e.p0 - x));
-    float eps = plan.e.eps + rounding_error(max_component(abs(x)));
-    if (!is_near(shape, x) || off_plane <= eps) return plan;  // far away, or edge-on
-    auto look = [&](size_t i, Vec3 p0, Vec3 p1, Vec3 p2) { plan.seen[i] = see(x, p0, p1, p2); };
+    Plan plan;
+    const Emitter& e = plan.e = emitter_of(scene, light, index);
+    float off_plane = std::abs(dot(e.n, e.p0 - x));
+    float eps = e.off_plane + rounding_error(dot(abs(e.n), abs(x)));
+    if (!is_near(shape, x) || off_plane <= eps) return plan;  // far away, or on the light
+    auto from_x = [&](Vec3 p) { return to_double3(p) - to_double3(x); };
     if (shape.parallelogram) {
-        Vec3 p = shape.corner + shape.e1, q = shape.corner + shape.e2;
-        look(0, shape.corner, p, q), look(1, p + shape.e2, q, p);
-        if (std::min(plan.seen[0].omega, plan.seen[1].omega) > thinnest) plan.way = Way::two;
-    } else if (plan.e.kind == Emitter::disk && l.prims == 1) {
-        auto square = square_around(plan.e);
-        for (size_t i = 0; i < 2; i++) look(i, square[i][0], square[i][1], square[i][2]);
-        if (std::min(plan.seen[0].omega, plan.seen[1].omega) > thinnest) plan.way = Way::square;
-    } else if (plan.e.kind == Emitter::triangle) {
-        look(0, plan.e.p0, plan.e.p1, plan.e.p2);
-        if (plan.seen[0].omega > thinnest) plan.way = Way::one;
+        for (size_t i = 0; i < 4; i++) plan.p[i] = from_x(shape.corners[i]);
+        look(plan, Way::parallelogram, 1);
+    } else if (e.kind == Emitter::disk && scene.lights[light].prims == 1) {
+        put_square_around(e, from_x(e.p0), plan.p);
+        look(plan, Way::disk, 1);
+    } else if (e.kind == Emitter::triangle) {
+        plan.p[0] = from_x(e.p0), plan.p[1] = from_x(e.p1), plan.p[2] = from_x(e.p2);
+        look(plan, Way::triangle, area_of(e) / shape.area);
     }
     return plan;
 }
@@ -128,10 +132,13 @@ LightPoint light_shape_details::sample_pieces(const Scene& scene, size_t light, 
 
 LightPoint light_shape_details::sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u) {
     Vec3 to_centre = e.p0 - x, w = sample_cone(sin2, u);
-    float d = length(to_centre), sin2_w = std::max(0.0f, 1 - w.z * w.z);
-    float t = d * w.z - std::sqrt(std::max(0.0f, e.r * e.r - d * d * sin2_w));
-    Vec3 n = normalize(x + t * Frame(to_centre / d).to_world(w) - e.p0);
-    return {e.p0 + e.r * n, n, e.eps, pdf_cone(sin2)};
+    float d2 = length_squared(to_centre), d = std::sqrt(d2);
+    // Where it enters: from sines, of which a narrow cone loses no digits.
+    float sin2_y = std::min((w.x * w.x + w.y * w.y) / sin2, 1.0f), cos_y = std::sqrt(1 - sin2_y);
+    float t = (d2 - e.r * e.r) / (d * w.z + e.r * cos_y);
+    Frame frame(to_centre / d);
+    Vec3 n = {t / e.r * w.x, t / e.r * w.y, -(w.z * cos_y + sin2_y * e.r / d)};
+    return {x + t * frame.to_world(w), frame.to_world(n), e.eps, pdf_cone(sin2)};
 }
 
 LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
@@ -140,21 +147,10 @@ LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Ve
     Vec2 v = u;
     uint32_t index = shape.parallelogram ? 0 : choose_by_area(shape, v.x);
     Plan way = plan(scene, light, x, index);
-    switch (way.way) {
-        case Way::area: return sample_far(scene, light, x, u);
-        case Way::two: return sample_two(way.e, way.seen[0], way.seen[1], x, u);
-        case Way::square: {
-            LightPoint y = sample_two(way.e, way.seen[0], way.seen[1], x, u);
-            if (length_squared(y.p - way.e.p0) > way.e.r * way.e.r) y.pdf = 0;
-            return y;
-        }
-        case Way::one: {
-            float share = area_of(way.e) / shape.area;
-            return {sample_seen(way.e, way.seen[0], x, v), way.e.n, way.e.eps,
-                    share / way.seen[0].omega};
-        }
-    }
-    return {};
+    if (way.way == Way::area) return sample_far(scene, light, x, u);
+    Vec3 y = x + to_vec3(sample_seen(way, v));
+    if (way.way == Way::disk && length_squared(y - way.e.p0) > way.e.r * way.e.r) return {};
+    return {y, way.e.n, way.e.eps, way.pdf};
 }
 
 float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y) {
@@ -162,11 +158,6 @@ float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y) {
     if (float sin2 = light_shape_details::sin2_of_cone(shape, x); sin2 < 1) return pdf_cone(sin2);
     uint32_t index = shape.parallelogram ? 0 : y.prim - scene.lights[light].first_prim;
     Plan way = plan(scene, light, x, index);
-    switch (way.way) {
-        case Way::area: return area_to_solid_angle(1 / shape.area, x, y.p, y.ng);
-        case Way::two:
-        case Way::square: return 1 / (way.seen[0].omega + way.seen[1].omega);
-        case Way::one: return area_of(way.e) / shape.area / way.seen[0].omega;
-    }
-    return 0;
+    if (way.way == Way::area) return area_to_solid_angle(1 / shape.area, x, y.p, y.ng);
+    return way.pdf;
 }

@@ -19,21 +19,25 @@ float pdf_area(const Scene& scene, size_t light);
 ///   sphere         the cone that it fills
 ///   two triangles  the two spherical triangles, one chosen by its solid angle
 ///   more           a triangle chosen by area, then its spherical triangle
-///   disk           its bounding square; no point where that misses the disk
+///   disk           its bounding square, one side towards x; no point where that misses the disk
 ///
 /// Where x is farther away than two radii, and inside a sphere: by area, which is then as good.
+/// Where x is on the light, but for rounding, nobody knows on which side: by area, hardly anything.
 /// source  cone: Shirley, Wang 1991; triangle: Arvo 1995
-/// tested by  "consistency: a light's samples agree with its density"
+/// tested by  "consistency: a light's samples agree with its density", "truth: squares, from near"
 inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);
 
 /// The density, in sr^-1, with which sample_solid_angle finds the point y that a ray from x met.
 float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y);
 
+/// The largest density, in sr^-1. What is smaller than 1e-36 sr is drawn as if it were that large.
+inline constexpr float densest = 1e36f;
+
 /// The same density per solid angle at x:  pdf_w = pdf_A d^2 / cos_y.      0 where y is edge-on.
 inline float area_to_solid_angle(float pdf_A, Vec3 x, Vec3 y, Vec3 n_y) {
     Vec3 to_y = y - x;
     float d2 = dot(to_y, to_y), d_cos = std::abs(dot(to_y, n_y));
-    return d_cos > 0 ? pdf_A * d2 * (std::sqrt(d2) / d_cos) : 0;
+    return d_cos > 0 ? std::min(pdf_A * d2 * (std::sqrt(d2) / d_cos), densest) : 0;
 }
 
 namespace light_shape_details {
@@ -53,8 +57,9 @@ inline LightPoint sample_far(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
 inline float sin2_of_cone(const LightShape& shape, Vec3 x) {
     const Emitter& e = shape.first;
     bool one_sphere = e.kind == Emitter::sphere && !e.inward && shape.area_up_to.empty();
-    float sin2 = one_sphere ? e.r * e.r / length_squared(x - e.p0) : 1;
-    return sin2 < 0.9999f ? sin2 : 1;
+    float d2 = length_squared(x - e.p0), touching = e.r + e.eps;
+    if (!one_sphere || d2 <= touching * touching) return 1;
+    return std::max(e.r * e.r / d2, 1 / densest);
 }
 /// The point of the sphere that x sees in a direction of its cone.
 LightPoint sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u);
@@ -66,7 +71,7 @@ LightPoint sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u);
 inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u) {
     const LightShape& shape = scene.light_shapes[light];
     if (!shape.parallelogram) return light_shape_details::sample_pieces(scene, light, u);
-    Vec3 p = shape.corner + u.x * shape.e1 + u.y * shape.e2;
+    Vec3 p = shape.corners[0] + u.x * shape.e1 + u.y * shape.e2;
     return {p, shape.first.n, shape.first.eps, 1 / shape.area};
 }
 

@@ -1,6 +1,6 @@
 // Directions into a cone or a spherical triangle, all equally likely per solid angle.
 #pragma once
-#include "common/base/vec.h"
+#include "common/geometry/transform.h"
 
 /// 1 - cos of a cone's half angle from sin^2, without cancellation for narrow cones.
 inline float one_minus_cos(float sin2) { return sin2 / (1 + std::sqrt(std::max(0.0f, 1 - sin2))); }
@@ -23,11 +23,12 @@ inline Vec2 invert_cone(float sin2, Vec3 w) {
 ///
 ///   tan(Omega / 2) = |a . (b x c)| / (1 + a.b + b.c + c.a)
 ///
-/// From differences of the corners, so that a small triangle keeps its digits.
-/// source  Van Oosterom, Strackee 1983
-inline float triangle_solid_angle(Vec3 a, Vec3 b, Vec3 c) {
-    float volume = std::abs(dot(a, cross(b - a, c - a)));
-    return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(c, a));
+/// In double: just below a triangle, and where it is seen edge-on, small differences of large
+/// numbers are what counts.
+/// source  Van Oosterom, Strackee 1983      tested by  "truth: solid angles of triangles"
+inline double triangle_solid_angle(const Double3& a, const Double3& b, const Double3& c) {
+    double volume = std::abs(dot(b, cross(a, c)));
+    return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(a, c));
 }
 
 /// A direction of the spherical triangle a, b, c of solid angle `omega`.
@@ -38,30 +39,31 @@ inline float triangle_solid_angle(Vec3 a, Vec3 b, Vec3 c) {
 /// pdf_w = 1 / omega. The corners must not lie on one great circle.
 /// source  Arvo 1995; c' from the spherical excess of two sides and the angle between them
 /// tested by  "density: spherical triangle"
-inline Vec3 sample_spherical_triangle(Vec3 a, Vec3 b, Vec3 c, float omega, Vec2 u) {
-    // The corner c' on the edge from a to c that leaves the wanted solid angle. The normals of ab
-    // and ac have alpha between them, and a cross product as long as the volume of a, b, c.
-    Vec3 n_ab = cross(a, b - a), n_ac = cross(a, c - a);
-    float volume = std::abs(dot(a, cross(b - a, c - a))), s = u.x * omega;
-    float sin_s = std::sin(s / 2), cos_s = std::cos(s / 2);
-    float both = std::sqrt(length_squared(n_ab) * length_squared(n_ac));
-    float tan_ab = std::sqrt(length_squared(b - a) / length_squared(b + a));  // tan(|ab| / 2)
-    float t = sin_s * both / (tan_ab * (volume * cos_s - dot(n_ab, n_ac) * sin_s));
-    Vec3 towards_c = normalize(c - dot(c, a) * a);
-    Vec3 c_cut = ((1 - t * t) * a + 2 * t * towards_c) / (1 + t * t);
+inline Double3 sample_spherical_triangle(const Double3& a, const Double3& b, const Double3& c,
+                                         double omega, Vec2 u) {
+    // The corner c' on the edge from a to c that leaves the wanted solid angle:
+    // tan(|ac'| / 2) = y / x, both sides of the formula above times |ab| |ac|.
+    Double3 n_ac = cross(a, c), sum_ab = a + b;
+    double volume = std::abs(dot(b, n_ac)), sin_ac = std::sqrt(dot(n_ac, n_ac)), cos_ac = dot(a, c);
+    double half = double{u.x} * omega / 2, sine = std::sin(half), cosine = std::cos(half);
+    double y = sine * sin_ac * dot(sum_ab, sum_ab) / 2;  // sum_ab^2 / 2 = 1 + cos |ab|
+    double x = volume * cosine - (dot(b, c) - cos_ac * dot(a, b)) * sine;
+    Double3 towards_c = (1 / sin_ac) * (c - cos_ac * a);
+    Double3 c_cut = (1 / (x * x + y * y)) * ((x * x - y * y) * a + 2 * x * y * towards_c);
 
     // A point between b and c', by the area of the cap around b.
-    float h = u.y * length_squared(c_cut - b) / 2;
-    Vec3 from_b = c_cut - dot(c_cut, b) * b;
-    float r = length(from_b);
-    if (r == 0) return b;
-    return (1 - h) * b + (std::sqrt(std::max(0.0f, h * (2 - h))) / r) * from_b;
+    Double3 b_to_c = c_cut - b, from_b = c_cut - dot(c_cut, b) * b;
+    double h = double{u.y} * dot(b_to_c, b_to_c) / 2, r2 = dot(from_b, from_b);
+    if (r2 == 0) return b;
+    return (1 - h) * b + std::sqrt(std::max(0.0, h * (2 - h)) / r2) * from_b;
 }
-inline float pdf_spherical_triangle(float omega) { return 1 / omega; }
-inline Vec2 invert_spherical_triangle(Vec3 a, Vec3 b, Vec3 c, float omega, Vec3 w) {
+inline double pdf_spherical_triangle(double omega) { return 1 / omega; }
+inline Vec2 invert_spherical_triangle(const Double3& a, const Double3& b, const Double3& c,
+                                      double omega, const Double3& w) {
     // The corner c' in which the arc from b through w ends.
-    Vec3 c_cut = normalize(cross(cross(b, w - b), cross(a, c - a)));
-    if (dot(c_cut, a + c) < 0) c_cut = -c_cut;
-    float u1 = triangle_solid_angle(a, b, c_cut) / omega;
-    return {u1, length_squared(w - b) / length_squared(c_cut - b)};
+    Double3 c_cut = normalize(cross(cross(b, w - b), cross(a, c - a)));
+    if (dot(c_cut, a + c) < 0) c_cut = -1 * c_cut;
+    double u1 = triangle_solid_angle(a, b, c_cut) / omega;
+    double u2 = dot(w - b, w - b) / dot(c_cut - b, c_cut - b);
+    return {static_cast<float>(u1), static_cast<float>(u2)};
 }

@@ -18,8 +18,10 @@ Emitter emitter_of(const Scene& scene, uint32_t prim) {
         const Disk& d = g.disks[i - g.spheres.size()];
         e.kind = Emitter::disk, e.p0 = d.c, e.n = d.n, e.r = d.r;
     }
-    float size = std::max(max_component(abs(e.p0)) + e.r, max_component(abs(e.p1)));
-    e.eps = rounding_error(std::max(size, max_component(abs(e.p2))));
+    Vec3 size = max(max(abs(e.p0), abs(e.p1)), abs(e.p2));  // of the numbers that make up a point
+    for (int k = 0; k < 3; k++) size[k] += e.r * std::sqrt(std::max(0.0f, 1 - e.n[k] * e.n[k]));
+    e.eps = rounding_error(max_component(size));
+    e.off_plane = rounding_error(dot(abs(e.n), size));
     return e;
 }
 
@@ -44,7 +46,8 @@ void find_parallelogram(const Geometry& g, const Light& light, LightShape& shape
             bool shared = g.positions[v1[(j + 1) % 3]] == q && g.positions[v1[(j + 2) % 3]] == p;
             if (!shared || length((p + q) - (r + s)) > 1e-5f * length(p - q)) continue;
             shape.parallelogram = true;
-            shape.corner = r, shape.e1 = p - r, shape.e2 = q - r;
+            shape.corners[0] = r, shape.corners[1] = p, shape.corners[2] = s, shape.corners[3] = q;
+            shape.e1 = p - r, shape.e2 = q - r;
         }
     }
 }

@@ -14,7 +14,8 @@ struct Emitter {
     Vec3 p0, p1, p2;
     Vec3 n;  // unit
     float r = 0;
-    float eps = 0;  // m: how far a point of it may be off
+    float eps = 0;        // m: how far a point of it may be off
+    float off_plane = 0;  // m: how far off its plane, for one that is flat
 };
 
 /// What sampling an area light needs to know of it beforehand.
@@ -23,9 +24,9 @@ struct LightShape {
     float area = 0;  // m^2, of all of them
     Vec3 centre;     // of a sphere around it, m
     float radius = 0;
-    bool flat = false;           // one triangle or disk, or a parallelogram
-    bool parallelogram = false;  // two triangles that make corner + s e1 + t e2
-    Vec3 corner, e1, e2;
+    bool flat = false;              // one triangle or disk, or a parallelogram
+    bool parallelogram = false;     // two triangles that make corners[0] + s e1 + t e2
+    Vec3 corners[4], e1, e2;        // one corner after the other; the edges from the first
     std::vector<float> area_up_to;  // running sum over its primitives, where they are more than one
 };
 

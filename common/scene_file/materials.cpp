@@ -127,7 +127,7 @@ Vec3 read_position(Params& params, const Transform& world_from_light) {
 Vec3 read_direction(Params& params, const Transform& world_from_light) {
     Double3 from = read_point(params, "from", {0, 0, 0}), to = read_point(params, "to", {0, 0, 1});
     if (from == to) fail(params.at("to"), "\"from\" and \"to\" are the same point");
-    return to_vec3(normalize(transform_vector(world_from_light, subtract(from, to))));
+    return to_vec3(normalize(transform_vector(world_from_light, from - to)));
 }
 
 void check_finite(const Params& params, Rgb L) {
