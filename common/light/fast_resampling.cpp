@@ -51,12 +51,12 @@ ManyLights many_lights(const Scene& scene, LightTable table, int M) {
 
 // The compiler turns each of these loops into vector instructions: no branches, no calls.
 
-Candidates draw_candidates(const ManyLights& lights, const Hit& x, float u) {
+Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u) {
     Candidates c;
     const int M = c.M = lights.M;
+    const double slice = 1.0 / M;
     for (int i = 0; i < M; i++) {
-        float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
-        c.light[i] = static_cast<int>(pick_light(lights.table, slice));
+        c.light[i] = static_cast<int>(pick_light(lights.table, (i + u) * slice));
     }
     const LightBounds* bounds = lights.bounds.data();
     for (int i = 0; i < M; i++) {
