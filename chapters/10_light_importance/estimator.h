@@ -79,19 +79,22 @@ inline LightTable build_light_table(const std::vector<double>& pmf) {
 }
 
 /// Chooses a light in O(1): a column, and one of the two lights in it.
-inline size_t pick_light(const LightTable& lights, float u) {
-    float at = u * static_cast<float>(lights.size());
+///
+/// u is a double, of 48 random bits: the 24 of a float are 17 numbers for each of a million
+/// columns.
+inline size_t pick_light(const LightTable& lights, double u) {
+    double at = u * static_cast<double>(lights.size());
     size_t column = std::min(static_cast<size_t>(at), lights.size() - 1);
-    bool is_own = at - static_cast<float>(column) < lights[column].own;
+    bool is_own = at - static_cast<double>(column) < double{lights[column].own};
     return is_own ? column : lights[column].other;
 }
 inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 
 /// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
 inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
-                                float u1, Vec2 u2) {
+                                double u, Vec2 u2) {
     if (lights.empty()) return {};
-    size_t light = pick_light(lights, u1);
+    size_t light = pick_light(lights, u);
     LightSample y = sample_one_light(scene, light, x, u2);
     y.pdf_w *= pmf_light(lights, light);
     return y;
@@ -106,9 +109,9 @@ inline LightTable prepare(const Scene& scene) { return build_light_table(light_p
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
-                        float u1, Vec2 u2, Rgb beta, PathLog& log) {
+                        double u, Vec2 u2, Rgb beta, PathLog& log) {
     if (x.material->type != MaterialType::diffuse) return {};
-    LightSample y = sample_light(scene, lights, x, u1, u2);
+    LightSample y = sample_light(scene, lights, x, u, u2);
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
@@ -142,11 +145,11 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler&
 
         // Aim at a light.
         Vec3 wo = -ray.d;
-        float u1 = sampler.u1();
-        L += direct_light(scene, lights, *x, wo, u1, sampler.u2(), beta, log);
+        double u = join(sampler.u2());
+        L += direct_light(scene, lights, *x, wo, u, sampler.u2(), beta, log);
 
         // Go on in one direction, and count it for all those that were not taken.
-        u1 = sampler.u1();
+        float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;

@@ -62,15 +62,14 @@ struct Reservoir {
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x.
 ///
-/// u: one number for the candidates, one from each of M slices of the table; one for the choice.
+/// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
 inline Reservoir resample_lights(const Scene& scene, const LightTable& lights, const Hit& x, int M,
-                                 Vec2 u) {
+                                 double u, float u1) {
     Reservoir kept;
     for (int i = 0; i < M; i++) {
-        float slice = (static_cast<float>(i) + u.x) / static_cast<float>(M);
-        size_t light = pick_light(lights, slice);
+        size_t light = pick_light(lights, (i + u) / M);
         float p_hat = potential(scene, light, x);
-        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u.y);
+        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u1);
     }
     return kept;
 }
@@ -86,9 +85,9 @@ inline LightTable prepare(const Scene& scene) { return build_light_table(light_p
 /// Var = Var_p / M + (1 - 1/M) Var_q: what the shadows leave, Var_q, no M takes away.
 /// source  Talbot, Cline, Egbert 2005      tested by  "truth: RIS on four lights, all tuples"
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, int M, const Hit& x, Vec3 wo,
-                        Vec2 u, Vec2 u2, Rgb beta, PathLog& log) {
+                        double u, float u1, Vec2 u2, Rgb beta, PathLog& log) {
     if (x.material->type != MaterialType::diffuse || lights.empty()) return {};
-    Reservoir kept = resample_lights(scene, lights, x, M, u);
+    Reservoir kept = resample_lights(scene, lights, x, M, u, u1);
     LightSample y = sample_one_light(scene, kept.light, x, u2);
     float W = kept.W(M);
     if (y.pdf_w == 0 || W == 0) return {};
@@ -124,11 +123,12 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, int M, Ray ray, S
 
         // Aim at one of M lights.
         Vec3 wo = -ray.d;
-        Vec2 u = sampler.u2();
-        L += direct_light(scene, lights, M, *x, wo, u, sampler.u2(), beta, log);
+        double u = join(sampler.u2());
+        float u1 = sampler.u1();
+        L += direct_light(scene, lights, M, *x, wo, u, u1, sampler.u2(), beta, log);
 
         // Go on in one direction, and count it for all those that were not taken.
-        float u1 = sampler.u1();
+        u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;

@@ -94,9 +94,9 @@ inline LightTable prepare(const Scene& scene) { return build_light_table(light_p
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
-                        float u1, Vec2 u2, Rgb beta, PathLog& log) {
+                        double u, Vec2 u2, Rgb beta, PathLog& log) {
     if (is_specular(*x.material)) return {};
-    LightSample y = sample_light(scene, lights, x, u1, u2);
+    LightSample y = sample_light(scene, lights, x, u, u2);
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
@@ -133,14 +133,14 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy
 
         // Aim at a light, if that is the way.
         Vec3 wo = -ray.d;
-        float u1 = sampler.u1();
+        double u = join(sampler.u2());
         Vec2 u2 = sampler.u2();
         if (strategy == Strategy::light) {
-            L += direct_light(scene, lights, *x, wo, u1, u2, beta, log);
+            L += direct_light(scene, lights, *x, wo, u, u2, beta, log);
         }
 
         // Go on in one direction, and count it for all those that were not taken.
-        u1 = sampler.u1();
+        float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular || strategy == Strategy::bsdf;
         if (s.pdf_w == 0) return L;

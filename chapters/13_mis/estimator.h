@@ -67,9 +67,9 @@ inline float share(const Settings& settings, float a, float b) {
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Settings& settings,
-                        const Hit& x, Vec3 wo, float u1, Vec2 u2, Rgb beta, PathLog& log) {
+                        const Hit& x, Vec3 wo, double u, Vec2 u2, Rgb beta, PathLog& log) {
     if (is_specular(*x.material) || is_black(beta)) return {};
-    LightSample y = sample_light(scene, lights, x, u1, u2);
+    LightSample y = sample_light(scene, lights, x, u, u2);
     if (y.pdf_w == 0) return {};
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = share(settings, y.pdf_w, pdf_b);
@@ -115,12 +115,12 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, const Settings& s
         // Aim at a light.
         Vec3 wo = -ray.d;
         counts = count_ways(settings.strategy, sampler.u1());
-        float u1 = sampler.u1();
+        double u = join(sampler.u2());
         Vec2 u2 = sampler.u2();
-        L += direct_light(scene, lights, settings, *x, wo, u1, u2, beta * counts.light, log);
+        L += direct_light(scene, lights, settings, *x, wo, u, u2, beta * counts.light, log);
 
         // Go on in one direction, and count it for all those that were not taken.
-        u1 = sampler.u1();
+        float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         last = *x, pdf_b = s.pdf_w, only_way = s.specular;
         if (s.pdf_w == 0) return L;

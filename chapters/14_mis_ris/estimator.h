@@ -54,15 +54,15 @@ inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t lig
     Vec3 to_y = shape.centre - x.p;
     float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
     Vec3 wi = to_y / std::sqrt(d2);
-    Densities d = densities(lights, light, d2 / shape.area, pdf_bsdf(x, wo, wi));
+    Densities d = densities(lights, light, std::min(d2 / shape.area, densest), pdf_bsdf(x, wo, wi));
     return power_heuristic(d.resampled, d.uniform, d.bsdf) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
 /// inside: candidates of which the BSDF takes care are not chosen.
 inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                            Vec2 u) {
-    Candidates c = draw_candidates(lights, x, u.x);
+                            double u, float u1) {
+    Candidates c = draw_candidates(lights, x, u);
     if (is_rough(*x.material)) {
         for (int i = 0; i < c.M; i++) {
             if (c.p_hat[i] == 0) continue;
@@ -70,7 +70,7 @@ inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const 
             c.p_hat[i] *= share, c.weight[i] *= share;
         }
     }
-    return keep_one(c, u.y);
+    return keep_one(c, u1);
 }
 
 /// Light from one point of one light, which was found in one of two ways and counts W times.
@@ -98,12 +98,14 @@ inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit&
     if (N == 1) {
         return light_from(scene, lights, x, wo, 0, 1, Way::resampled, sampler.u2(), beta, log);
     }
-    Kept best = resample_lights(scene, lights, x, wo, sampler.u2());
+    double u = join(sampler.u2());
+    Kept best = resample_lights(scene, lights, x, wo, u, sampler.u1());
     Rgb L = light_from(scene, lights, x, wo, best.light, best.W, Way::resampled, sampler.u2(), beta,
                        log);
-    float count = static_cast<float>(N);
-    size_t any = std::min(static_cast<size_t>(sampler.u1() * count), N - 1);
-    return L + light_from(scene, lights, x, wo, any, count, Way::uniform, sampler.u2(), beta, log);
+    double count = static_cast<double>(N);
+    size_t any = std::min(static_cast<size_t>(join(sampler.u2()) * count), N - 1);
+    return L + light_from(scene, lights, x, wo, any, static_cast<float>(N), Way::uniform,
+                          sampler.u2(), beta, log);
 }
 
 /// The weight of emission that the direction s, drawn at x, has met: at y, or else in the sky.

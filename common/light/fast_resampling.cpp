@@ -28,12 +28,12 @@ LightBounds bounds_of(const Scene& scene, const LightTable& table, size_t i) {
     return b;
 }
 
-/// Chapter 10's choice in integers of the width of a float, for the sake of vector instructions.
-inline int pick(const AliasColumn* table, int N, float u) {
-    float at = u * static_cast<float>(N);
+/// Chapter 10's choice with int for size_t, for the sake of vector instructions.
+inline int pick(const AliasColumn* table, int N, double u) {
+    double at = u * N;
     int column = std::min(static_cast<int>(at), N - 1);
     auto [own, other, pmf] = table[column];
-    return at - static_cast<float>(column) < own ? column : static_cast<int>(other);
+    return at - column < double{own} ? column : static_cast<int>(other);
 }
 
 /// Chapter 11's potential, as one formula for all lights, for the sake of vector instructions.
@@ -59,13 +59,13 @@ ManyLights many_lights(const Scene& scene, LightTable table, int M) {
 
 // The compiler turns each of these loops into vector instructions: no branches, no calls.
 
-Candidates draw_candidates(const ManyLights& lights, const Hit& x, float u) {
+Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u) {
     Candidates c;
     const int M = c.M = lights.M, N = static_cast<int>(lights.table.size());
+    const double slice = 1.0 / M;
     const AliasColumn* table = lights.table.data();
     for (int i = 0; i < M; i++) {
-        float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
-        c.light[i] = pick(table, N, slice);
+        c.light[i] = pick(table, N, (i + u) * slice);
     }
     const LightBounds* bounds = lights.bounds.data();
     for (int i = 0; i < M; i++) {

@@ -43,7 +43,7 @@ struct Kept {
 ///
 /// The same lights and potentials as chapter 11's, one after the other, but for rounding.
 /// tested by  "identity: candidates all at once are those of chapter 11"
-Candidates draw_candidates(const ManyLights& lights, const Hit& x, float u);
+Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u);
 
 /// Keeps each candidate with probability weight / weight_sum.      W = weight_sum / (M p_hat)
 ///

@@ -69,19 +69,22 @@ inline LightTable build_light_table(const std::vector<double>& pmf) {
 }
 
 /// Chooses a light in O(1): a column, and one of the two lights in it.
-inline size_t pick_light(const LightTable& lights, float u) {
-    float at = u * static_cast<float>(lights.size());
+///
+/// u is a double, of 48 random bits: the 24 of a float are 17 numbers for each of a million
+/// columns.
+inline size_t pick_light(const LightTable& lights, double u) {
+    double at = u * static_cast<double>(lights.size());
     size_t column = std::min(static_cast<size_t>(at), lights.size() - 1);
-    bool is_own = at - static_cast<float>(column) < lights[column].own;
+    bool is_own = at - static_cast<double>(column) < double{lights[column].own};
     return is_own ? column : lights[column].other;
 }
 inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 
 /// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
 inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
-                                float u1, Vec2 u2) {
+                                double u, Vec2 u2) {
     if (lights.empty()) return {};
-    size_t light = pick_light(lights, u1);
+    size_t light = pick_light(lights, u);
     LightSample y = sample_one_light(scene, light, x, u2);
     y.pdf_w *= pmf_light(lights, light);
     return y;

@@ -51,15 +51,14 @@ struct Reservoir {
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x.
 ///
-/// u: one number for the candidates, one from each of M slices of the table; one for the choice.
+/// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
 inline Reservoir resample_lights(const Scene& scene, const LightTable& lights, const Hit& x, int M,
-                                 Vec2 u) {
+                                 double u, float u1) {
     Reservoir kept;
     for (int i = 0; i < M; i++) {
-        float slice = (static_cast<float>(i) + u.x) / static_cast<float>(M);
-        size_t light = pick_light(lights, slice);
+        size_t light = pick_light(lights, (i + u) / M);
         float p_hat = potential(scene, light, x);
-        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u.y);
+        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u1);
     }
     return kept;
 }

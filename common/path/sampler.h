@@ -15,8 +15,18 @@ inline uint32_t hash32(uint32_t x) {
 }
 inline uint32_t hash32(uint32_t a, uint32_t b) { return hash32(a ^ hash32(b + 0x9e3779b9u)); }
 
+/// The same for 64 bits.      source  Stafford 2011, "Mix13"; Steele, Lea, Flood 2014
+inline uint64_t hash64(uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
 /// The top 24 bits as a number in [0,1). Rounding all 32 would give 1 for the largest.
 inline float to_unit_float(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
+/// Two numbers in [0,1) of 24 bits as one of 48 bits, to choose among millions.
+inline double join(Vec2 u) { return double{u.x} + 0x1p-24 * double{u.y}; }
 
 inline uint32_t reverse_bits(uint32_t x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
@@ -97,19 +107,21 @@ enum class SamplerType : uint8_t { independent, stratified, sobol };
 /// stratified   dimension pairs: the samples of a pixel fill `spp` strata, in an order of their own
 /// sobol        dimension pairs: Owen-scrambled 2-D Sobol points, in an order of their own
 ///
-/// The same (seed, pixel, sample) gives the same numbers on any machine, thread and tile order.
-/// source  PCG: O'Neill 2014; shuffled, scrambled Sobol pairs: Burley 2020
+/// The same (seed, pixel, sample) gives the same numbers on any machine, thread and tile order. The
+/// key that all of a pixel's numbers come from is a bijection of (seed, pixel): no pixel has the
+/// key of another, in no picture of any seed. source  PCG: O'Neill 2014; shuffled, scrambled Sobol
+/// pairs: Burley 2020
 class Sampler {
 public:
     Sampler(SamplerType type, uint32_t seed, uint32_t spp) : type_(type), seed_(seed), spp_(spp) {}
 
     /// Starts sample `sample` of pixel number `pixel`.
     void start(uint32_t pixel, uint32_t sample) {
-        pixel_ = hash32(pixel, seed_);
+        key_ = hash64((uint64_t{seed_} << 32 | pixel) + 0x9e3779b97f4a7c15u);  // of 0: 0
         sample_ = sample;
         reversed_sample_ = reverse_bits(sample);
         dimension_ = 0;
-        state_ = uint64_t{hash32(pixel_, sample)} << 32 | hash32(sample, pixel_ + 1);
+        state_ = hash64(key_ + sample);
     }
 
     float u1() {
@@ -123,6 +135,11 @@ public:
     }
 
 private:
+    /// Another number for each of the sets of points that the pixel's samples are taken from.
+    uint32_t key_of_set(uint32_t number) const {
+        uint32_t high = static_cast<uint32_t>(key_ >> 32), low = static_cast<uint32_t>(key_);
+        return hash32(hash32(low + 0x632be5abu * number) + high);
+    }
     uint32_t random_bits() {
         state_ = state_ * 6364136223846793005u + 1442695040888963407u;
         uint32_t bits = static_cast<uint32_t>(((state_ >> 18) ^ state_) >> 27);
@@ -130,7 +147,7 @@ private:
     }
     Vec2 independent() { return Vec2{to_unit_float(random_bits()), to_unit_float(random_bits())}; }
     Vec2 stratified() {
-        uint32_t set = hash32(pixel_, dimension_++ + (sample_ / spp_ << 16));
+        uint32_t set = key_of_set(dimension_++ + (sample_ / spp_ << 16));
         return jitter_in_stratum(permute(sample_ % spp_, spp_, set), spp_, independent());
     }
     /// The next dimension's point; its first coordinate alone for u1().
@@ -144,7 +161,7 @@ private:
     /// the loop. index is owen_scramble(sample), x owen_scramble(reverse_bits(index)).
     void draw_sobol() {
         for (uint32_t i = 0; i < at_once; i++) {
-            uint32_t set = hash32(pixel_ + 0x632be5abu * (dimension_ + i));
+            uint32_t set = key_of_set(dimension_ + i);
             uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, set));
             uint32_t x = reverse_bits(scramble_reversed(index, set * 0x9e3779b1u + 1));
             sobol_x_[i] = to_unit_float(x);
@@ -157,7 +174,7 @@ private:
 
     SamplerType type_;
     uint32_t seed_, spp_;
-    uint32_t pixel_ = 0, sample_ = 0, reversed_sample_ = 0, dimension_ = 0;
-    uint64_t state_ = 0;
+    uint32_t sample_ = 0, reversed_sample_ = 0, dimension_ = 0;
+    uint64_t key_ = 0, state_ = 0;
     float sobol_x_[at_once], sobol_y_[at_once];
 };
