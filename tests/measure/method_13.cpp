@@ -24,10 +24,10 @@ static Method one_way(const char* name, const char* label, const char* color,
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("13", "13 MIS", "#fb6a4a", {})),
-    add_method(method("13-balance", "13 MIS, balance heuristic", "#f4a6a7",
+    add_method(method("13", "13 MIS", "#bcbd22", {})),
+    add_method(method("13-balance", "13 MIS, balance heuristic", "#e7cb94",
                       {.heuristic = ch13::balance_heuristic})),
-    add_method(method("13-one-sample", "13 MIS, one sample", "#a50f15",
+    add_method(method("13-one-sample", "13 MIS, one sample", "#8c6d31",
                       {.strategy = Strategy::one_sample})),
     add_method(one_way("13-bsdf", "13, BSDF alone", "#f7b6d2", "by chance", Strategy::bsdf)),
     add_method(one_way("13-light", "13, light alone", "#c5b0d5", "by aim", Strategy::light)),

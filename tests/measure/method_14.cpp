@@ -15,7 +15,7 @@ static Method method(const char* name, const char* label, const char* color, int
 }
 
 static Method with_sobol() {
-    Method m = method("14-sobol", "14 MIS with RIS, Sobol", "#fc9272");
+    Method m = method("14-sobol", "14 MIS with RIS, Sobol", "#393b79");
     m.render = [render = m.render](const Scene& scene, RenderOptions options) {
         options.sampler = SamplerType::sobol;
         return render(scene, options);
@@ -34,14 +34,14 @@ static Trace clamped(const Scene& scene) {
 }
 
 static Method clamp() {
-    Method m = method("clamp", "14, samples clamped to 1", "#8c6d31");
+    Method m = method("clamp", "14, samples clamped to 1", "#7b4173");
     m.render = by_trace(clamped);
     m.biased = true;
     return m;
 }
 
 static Method depth_cap() {
-    Method m = method("depth-cap", "14, paths cut after 2", "#bcbd22");
+    Method m = method("depth-cap", "14, paths cut after 2", "#636363");
     m.render = [render = m.render](const Scene& scene, const RenderOptions& options) {
         Scene cut = scene;
         cut.max_depth = std::min(2, scene.max_depth);

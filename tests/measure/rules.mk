@@ -36,6 +36,6 @@ references: $(BUILD)/references $(made)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
 readmes: $(BUILD)/efficiency $(BUILD)/bench
-#: make teeth        plant ten mistakes, one at a time, and show the test that sees each
+#: make teeth        plant mistakes, one at a time, and show the test that sees each
 teeth: $(BUILD)/tests
 	tests/teeth $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))

@@ -3,7 +3,9 @@
 
 #include "chapters/06_path_tracing/estimator.h"
 #include "chapters/07_russian_roulette/estimator.h"
-#include "chapters/12_mis/estimator.h"
+#include "chapters/12_glossy/estimator.h"
+#include "chapters/13_mis/estimator.h"
+#include "chapters/14_mis_ris/estimator.h"
 #include "common/picture/image.h"
 #include "tests/support/scenes.h"
 
@@ -29,41 +31,55 @@ struct Reference {
 };
 
 /// Renders the reference's scene and holds it against the picture, block by block.
-Agreement hold_against_reference(const std::string& name, Trace trace, int spp, int block_side) {
+///
+/// make_trace  the chapter's trace, from the scene
+template <class MakeTrace>
+Agreement hold_against_reference(const std::string& name, const MakeTrace& make_trace, int spp,
+                                 int block_side) {
     Reference reference(name);
     Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
-    ch12::prepare(scene);  // the other chapters do not mind
-    Film film = film_of(scene, trace, spp).film;
+    Film film = film_of(scene, make_trace(scene), spp).film;
     return hold_against(
         128, block_side, [&](int x, int y, int side) { return block_of(film, x, y, side); },
         [&](int x, int y, int side) { return reference.block(x, y, side); });
 }
 
+// Each chapter's trace, from the scene.
+Trace six(const Scene&) { return trace_with<ch06::trace>(); }
+Trace seven(const Scene&) { return trace_with<ch07::trace>(); }
+Trace twelve(const Scene& scene) {
+    return trace_with<ch12::trace>(ch12::prepare(scene), ch12::Strategy::light);
+}
+Trace thirteen(const Scene& scene) {
+    return trace_with<ch13::trace>(ch13::prepare(scene), ch13::Settings{});
+}
+Trace fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
+
 }  // namespace
 
 TEST_SUITE("references") {
     TEST_CASE("agreement: the furnaces, with chapters 06 and 07") {
-        for (Trace trace : {Trace(ch06::trace), Trace(ch07::trace)}) {
-            check_agreement(hold_against_reference("furnace", trace, 16, 64), 0.001);
-            check_agreement(hold_against_reference("furnace-glass", trace, 4, 64), 0.001);
+        for (auto chapter : {six, seven}) {
+            check_agreement(hold_against_reference("furnace", chapter, 16, 64), 0.001);
+            check_agreement(hold_against_reference("furnace-glass", chapter, 4, 64), 0.001);
         }
     }
 
     TEST_CASE("agreement: the grey Cornell box, with chapter 07") {
-        check_agreement(hold_against_reference("cornell-grey", ch07::trace, 32, 32), 0.01);
+        check_agreement(hold_against_reference("cornell-grey", seven, 32, 32), 0.01);
     }
 }
 
 TEST_SUITE("references slow") {
     TEST_CASE("agreement: the grey Cornell box, with chapters 06 and 07") {
-        for (Trace trace : {Trace(ch06::trace), Trace(ch07::trace)}) {
-            Agreement a = hold_against_reference("cornell-grey", trace, 1024, 8);
+        for (auto chapter : {six, seven}) {
+            Agreement a = hold_against_reference("cornell-grey", chapter, 1024, 8);
             check_agreement(a, 0.002);
             CHECK(a.relative < 0.01);
         }
     }
 
-    TEST_CASE("agreement: plates, many lights, hidden and close lights, with chapter 12") {
+    TEST_CASE("agreement: plates, many lights, hidden and close lights, with chapter 14") {
         struct {
             std::string name;
             int spp;
@@ -75,25 +91,43 @@ TEST_SUITE("references slow") {
                      {"cornell-grey", 1024, 0.001}};
         for (const auto& c : cases) {
             CAPTURE(c.name);
-            Agreement a = hold_against_reference(c.name, ch12::trace, c.spp, 8);
+            Agreement a = hold_against_reference(c.name, fourteen, c.spp, 8);
             check_agreement(a, c.relative_se);
             CHECK(a.relative < 0.005);
         }
     }
 
+    TEST_CASE("agreement: plates, close lights and a box, with chapters 12 and 13") {
+        struct {
+            std::string name;
+            Trace (*chapter)(const Scene&);
+            int spp, block_side;
+            double relative_se;
+        } cases[] = {{"veach-mis", thirteen, 1024, 8, 0.004},
+                     {"tiny-close-light", thirteen, 1024, 8, 0.004},
+                     {"cornell-grey", thirteen, 512, 8, 0.002},
+                     {"veach-mis", twelve, 1024, 32, 0.02},
+                     {"cornell-grey", twelve, 512, 8, 0.002}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            Agreement a = hold_against_reference(c.name, c.chapter, c.spp, c.block_side);
+            check_agreement(a, c.relative_se);
+        }
+    }
+
     TEST_CASE("agreement: a caustic, found by chance") {
-        check_agreement(hold_against_reference("glass-caustic", ch06::trace, 4096, 32), 0.015);
+        check_agreement(hold_against_reference("glass-caustic", six, 4096, 32), 0.015);
     }
 
     TEST_CASE("agreement: lights that almost touch what they light") {
-        check_agreement(hold_against_reference("tiny-close-light", ch06::trace, 1024, 32), 0.01);
+        check_agreement(hold_against_reference("tiny-close-light", six, 1024, 32), 0.01);
     }
 
     TEST_CASE("agreement: a room with a far brighter one behind the wall") {
-        check_agreement(hold_against_reference("hidden-bright", ch07::trace, 512, 16), 0.01);
+        check_agreement(hold_against_reference("hidden-bright", seven, 512, 16), 0.01);
     }
 
     TEST_CASE("agreement: a thousand lights, found by chance") {
-        check_agreement(hold_against_reference("many-lights", ch06::trace, 512, 32), 0.01);
+        check_agreement(hold_against_reference("many-lights", six, 512, 32), 0.01);
     }
 }
