@@ -1,4 +1,5 @@
-// Directions into a cone or a spherical triangle, all equally likely per solid angle.
+// Directions into a cone or a spherical triangle, all equally likely per solid angle. What draws
+// them takes the functions of angles in double: in float their last bit differs between libraries.
 #pragma once
 #include "common/base/vec.h"
 
@@ -27,7 +28,8 @@ inline Vec2 invert_cone(float sin2, Vec3 w) {
 /// source  Van Oosterom, Strackee 1983
 inline float triangle_solid_angle(Vec3 a, Vec3 b, Vec3 c) {
     float volume = std::abs(dot(a, cross(b - a, c - a)));
-    return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(c, a));
+    float cosines = 1 + dot(a, b) + dot(b, c) + dot(c, a);
+    return 2 * static_cast<float>(std::atan2(double{volume}, double{cosines}));
 }
 
 /// A direction of the spherical triangle a, b, c of solid angle `omega`.
@@ -43,7 +45,8 @@ inline Vec3 sample_spherical_triangle(Vec3 a, Vec3 b, Vec3 c, float omega, Vec2 
     // and ac have alpha between them, and a cross product as long as the volume of a, b, c.
     Vec3 n_ab = cross(a, b - a), n_ac = cross(a, c - a);
     float volume = std::abs(dot(a, cross(b - a, c - a))), s = u.x * omega;
-    float sin_s = std::sin(s / 2), cos_s = std::cos(s / 2);
+    float sin_s = static_cast<float>(std::sin(double{s / 2}));
+    float cos_s = static_cast<float>(std::cos(double{s / 2}));
     float both = std::sqrt(length_squared(n_ab) * length_squared(n_ac));
     float tan_ab = std::sqrt(length_squared(b - a) / length_squared(b + a));  // tan(|ab| / 2)
     float t = sin_s * both / (tan_ab * (volume * cos_s - dot(n_ab, n_ac) * sin_s));
