@@ -12,17 +12,21 @@ namespace {
 
 constexpr int along = 1152, around = 64;  // 2 x 1152 x 64 = 147,456 triangles
 
+// In double, then rounded: the same with every library.
+float sine(float x) { return static_cast<float>(std::sin(double{x})); }
+float cosine(float x) { return static_cast<float>(std::cos(double{x})); }
+
 Vec3 knot(float t) {
-    float r = 1 + 0.45f * std::cos(3 * t);
-    return {r * std::cos(2 * t), 0.45f * std::sin(3 * t), r * std::sin(2 * t)};
+    float r = 1 + 0.45f * cosine(3 * t);
+    return {r * cosine(2 * t), 0.45f * sine(3 * t), r * sine(2 * t)};
 }
 
 Vec3 tube(float s, float phi) {
     float t = 2 * pi * s;
     Vec3 tangent = normalize(knot(t + 1e-3f) - knot(t - 1e-3f));
     Vec3 side = normalize(cross(tangent, {0, 1, 0})), up = cross(side, tangent);
-    float radius = 0.24f + 0.02f * std::cos(8 * phi + 40 * t);
-    return 1.15f * (knot(t) + radius * (std::cos(phi) * side + std::sin(phi) * up));
+    float radius = 0.24f + 0.02f * cosine(8 * phi + 40 * t);
+    return 1.15f * (knot(t) + radius * (cosine(phi) * side + sine(phi) * up));
 }
 
 template <typename T>

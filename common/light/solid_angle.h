@@ -1,4 +1,5 @@
-// Directions into a cone or a spherical triangle, all equally likely per solid angle.
+// Directions into a cone or a spherical triangle, all equally likely per solid angle. What draws
+// them takes the functions of angles in double: in float their last bit differs between libraries.
 #pragma once
 #include "common/geometry/transform.h"
 

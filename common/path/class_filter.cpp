@@ -203,12 +203,12 @@ ClassFilter::Places ClassFilter::at_start() const {
 }
 
 /// Where one can be after one of these letters.
-ClassFilter::Places ClassFilter::after(const Places& places, uint8_t letters) const {
+ClassFilter::Places ClassFilter::after(const Places& places, uint8_t over) const {
     Places next(steps_.size());
     for (size_t place = 0; place < steps_.size(); place++) {
         if (!places[place]) continue;
         for (const Step& step : steps_[place]) {
-            if ((step.letters & letters) != 0) add(next, step.to);
+            if ((step.letters & over) != 0) add(next, step.to);
         }
     }
     return next;

@@ -34,7 +34,7 @@ private:
     using Places = std::vector<bool>;
 
     Places at_start() const;
-    Places after(const Places& places, uint8_t letters) const;
+    Places after(const Places& places, uint8_t over) const;
     void add(Places& places, uint32_t place) const;
 
     std::vector<std::vector<Step>> steps_;  // from each place

@@ -22,11 +22,13 @@
 
 static_assert(std::endian::native == std::endian::little, "pfm rows are written as they lie");
 
+// In double, then rounded: the same with every library.
+static float power(float x, float y) { return static_cast<float>(std::pow(double{x}, double{y})); }
+
 unsigned char to_srgb8(float linear) {
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 255;
-    float code =
-        linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+    float code = linear <= 0.0031308f ? 12.92f * linear : 1.055f * power(linear, 1 / 2.4f) - 0.055f;
     return static_cast<unsigned char>(255 * code + 0.5f);
 }
 
@@ -34,7 +36,7 @@ namespace {
 
 float from_srgb8(unsigned char byte) {
     float code = static_cast<float>(byte) / 255;
-    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+    return code <= 0.04045f ? code / 12.92f : power((code + 0.055f) / 1.055f, 2.4f);
 }
 
 std::string extension(const std::string& path) {

@@ -22,7 +22,7 @@ inline CameraView camera_view(const Camera& camera, int width, int height) {
     if (aspect < 1) window = {-1, 1, -1 / aspect, 1 / aspect};
     auto [x0, x1, y0, y1] = camera.screen_window.value_or(window);
 
-    float half = std::tan(camera.fov * pi / 360);
+    float half = static_cast<float>(std::tan(double{camera.fov * pi / 360}));
     Vec3 right = half * camera.right, up = half * camera.up;
     return {camera.o, camera.forward + x0 * right + y1 * up,
             (x1 - x0) / static_cast<float>(width) * right,

@@ -1,9 +1,14 @@
 # Pages, and what looks at the text of the code.
-.PHONY: diff steps pictures readmes book tidy
+.PHONY: diff steps lint pictures readmes book tidy
 
 #: make diff CH=07   what a chapter changes of the one before
 diff:
 	@common/tools/chapter_diff '$(CH)'
+#: make lint         the rules that the text of the code keeps
+lint:
+	common/tools/check_text
+	common/tools/steps
+	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 #: make steps        how large the step of each chapter is from the one before
 steps:
 	@common/tools/steps
