@@ -64,7 +64,7 @@ $(made): $(BUILD)/make_$$(basename $$(@F))
 else
 $(made): host ;
 host:
-	$(MAKE) CXX='$(HOST_CXX)' HOST_CXX='$(HOST_CXX)' BUILD=$(BUILD)/host RUN= $(made)
+	MAKEFLAGS= $(MAKE) CXX='$(HOST_CXX)' HOST_CXX='$(HOST_CXX)' BUILD=$(BUILD)/host RUN= $(made)
 endif
 $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "compile $<"

@@ -384,7 +384,7 @@ private:
             // left right more_left more_right: the inner two change places.
             uint32_t n = std::min(right.size(), more_left.size());
             Ref* inner = &refs_[right.begin];
-            std::swap_ranges(inner, inner + n, &refs_[0] + more_left.end - n);
+            std::swap_ranges(inner, inner + n, refs_.data() + more_left.end - n);
             left.grow(more_left);
             right.grow(more_right);
             right.begin = left.end;
