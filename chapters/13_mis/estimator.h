@@ -23,73 +23,55 @@ using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 inline float balance_heuristic(float a, float b) { return 1 / (1 + b / a); }
 inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / a)); }
 
-/// Which ways of looking for light are used, and how they share it. One-sample: a coin at each
-/// vertex chooses the way, which then counts twice.
-enum class Strategy : uint8_t { bsdf, light, mis, one_sample };
+/// How the ways share. One-sample: a coin at each vertex takes one of them, which counts twice.
 struct Settings {
-    Strategy strategy = Strategy::mis;
     float (*heuristic)(float a, float b) = power_heuristic;
+    bool one_sample = false;
 };
 
 /// The table that lights are chosen from.
 inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
 
-/// The density, in sr^-1, with which sample_light() draws the direction wi from x: towards the
-/// light that a ray met at y, or else into the sky.
-inline float pdf_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wi,
-                       const std::optional<Hit>& y) {
-    size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
-    return pmf_light(lights, light) * (y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi));
-}
-
-/// What each way counts at a vertex.
-struct Counts {
-    float light, bsdf;
-};
-inline Counts count_ways(Strategy strategy, float u) {
-    switch (strategy) {
-        case Strategy::bsdf: return {0, 1};
-        case Strategy::light: return {1, 0};
-        case Strategy::mis: return {1, 1};
-        case Strategy::one_sample: return u < 0.5f ? Counts{2, 0} : Counts{0, 2};
-    }
-    return {};
-}
-/// The share of one way, of density a, beside the other, of density b: all where it is alone.
-inline float share(const Settings& settings, float a, float b) {
-    bool alone = settings.strategy == Strategy::bsdf || settings.strategy == Strategy::light;
-    return alone ? 1 : settings.heuristic(a, b);
-}
-
 /// Estimates what all lights send by way of x to wo, from one point of one light.
 ///
-///   Ld = mis_l f Le V cos / pdf_w
+///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pmf pdf_one
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Settings& settings,
                         const Hit& x, Vec3 wo, double u, Vec2 u2, Rgb beta, PathLog& log) {
-    if (is_specular(*x.material) || is_black(beta)) return {};
-    LightSample y = sample_light(scene, lights, x, u, u2);
+    if (is_specular(*x.material) || is_black(beta) || scene.lights.empty()) return {};
+    size_t light = pick_light(lights, u);
+    LightSample y = sample_one_light(scene, light, x, u2);
     if (y.pdf_w == 0) return {};
+    float pdf_l = pmf_light(lights, light) * y.pdf_w;
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
-    float mis_l = share(settings, y.pdf_w, pdf_b);
-    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w);
+    float mis_l = settings.heuristic(pdf_l, pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_b, mis_l);
+    return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
+}
+
+/// The weight of emission that the BSDF's direction wi from x has met: at y, or else in the sky.
+inline float mis_emission(const Scene& scene, const LightTable& lights, const Settings& settings,
+                          const Hit& x, Vec3 wi, float pdf_b, const std::optional<Hit>& y) {
+    size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
+    float pdf_one = y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi);
+    float pdf_l = pmf_light(lights, light) * pdf_one;
+    return settings.heuristic(pdf_b, pdf_l);
 }
 
 /// Estimates Li along the ray from one path.
 ///
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
-/// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the better way.
+/// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
 /// source  Veach, Guibas 1995      tested by  "ch13 mis"
 inline Rgb trace(const Scene& scene, const LightTable& lights, const Settings& settings, Ray ray,
                  Sampler& sampler, PathLog& log) {
     Rgb L, beta = {1, 1, 1};
     Hit last;              // the vertex before
-    Counts counts{};       // of the ways to look for light from there
     float pdf_b = 0;       // of the direction that was drawn there
+    float count_b = 1;     // how often what it meets counts
     bool only_way = true;  // nothing but this path could find what shines next
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
@@ -99,11 +81,8 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, const Settings& s
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = 1;
-            if (!only_way) {
-                float pdf_l = pdf_light(scene, lights, last, ray.d, x);
-                mis_b = counts.bsdf * share(settings, pdf_b, pdf_l);
-            }
+            float mis_b = only_way ? 1 : count_b;
+            if (!only_way) mis_b *= mis_emission(scene, lights, settings, last, ray.d, pdf_b, x);
             L += log.emitted(beta * Le * mis_b, mis_b);
         }
         if (!x) return L;
@@ -112,12 +91,13 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, const Settings& s
             return L;
         }
 
-        // Aim at a light.
+        // Aim at lights.
         Vec3 wo = -ray.d;
-        counts = count_ways(settings.strategy, sampler.u1());
+        float count_l = !settings.one_sample ? 1 : sampler.u1() < 0.5f ? 2 : 0;
+        count_b = settings.one_sample ? 2 - count_l : 1;
         double u = join(sampler.u2());
         Vec2 u2 = sampler.u2();
-        L += direct_light(scene, lights, settings, *x, wo, u, u2, beta * counts.light, log);
+        L += direct_light(scene, lights, settings, *x, wo, u, u2, beta * count_l, log);
 
         // Go on in one direction, and count it for all those that were not taken.
         float u1 = sampler.u1();

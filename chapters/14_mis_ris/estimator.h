@@ -1,11 +1,12 @@
 // Chapter 14: multiple importance sampling of many lights. Chapters 11 and 13 in one.
 //
-//   three ways find light: the best of M candidates, any light, and the BSDF; each is weighed by
-//   mis_a = a^2 / (resampled^2 + uniform^2 + bsdf^2),    a: the way's own density
+//   three ways find light: any one light, the best of M candidates, and the BSDF; each is weighed
+//   by mis_a = a^2 / (any^2 + best^2 + bsdf^2),    a: the way's own density
 #pragma once
 #include "common/light/fast_resampling.h"
 #include "common/light/pdf_one_light.h"
 #include "common/material/ggx.h"
+#include "common/path/mis.h"
 #include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
@@ -14,35 +15,49 @@ namespace ch14 {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 
+/// Chapter 13's weight for three ways: a^2 / (a^2 + b^2 + c^2). Those of one direction sum to 1.
+/// tested by  "identity: the three weights sum to 1"
+inline float mis_weight(float a, float b, float c) {
+    return 1 / (1 + (b / a) * (b / a) + (c / a) * (c / a));
+}
+
 /// The lights, and M: candidates for one shadow ray, but no more than there are lights.
 inline ManyLights prepare(const Scene& scene, int M = 64) {
     return many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
 }
 
-/// The densities, in sr^-1, with which each way finds a direction that lies on a certain light.
-struct Densities {
-    float resampled, uniform, bsdf;
-};
-
-/// The weight of a direction that was drawn with density a, and could have been drawn with b or c.
-///
-///   a^2 / (a^2 + b^2 + c^2)
-///
-/// Chapter 13's, for three ways: the three weights of a direction sum to 1.
-/// source  Veach, Guibas 1995      tested by  "identity: the three weights sum to 1"
-inline float power_heuristic(float a, float b, float c) {
-    return 1 / (1 + (b / a) * (b / a) + (c / a) * (c / a));
-}
-
-/// The densities of the three ways towards `light`, where one point of it has density pdf_one.
+/// The densities towards `light` of the ways that aim: at any light, all alike, and at the best.
 ///
 /// min(1, M pmf) is a heuristic: nobody knows how likely a light is to be the best of M candidates.
 /// It does not touch the mean: whatever positive numbers stand here, the three weights sum to 1 for
-/// each direction. Only the variance depends on how good they are.
-inline Densities densities(const ManyLights& lights, size_t light, float pdf_one, float pdf_b) {
-    float N = static_cast<float>(lights.table.size()), M = static_cast<float>(lights.M);
-    float best = std::min(1.0f, M * pmf_light(lights.table, light));
-    return {best * pdf_one, N > 1 ? pdf_one / N : 0, pdf_b};
+/// each direction. Only the variance depends on how good they are. 0: one light needs no choice.
+inline float pdf_any(const ManyLights& lights, float pdf_one) {
+    return pdf_one / static_cast<float>(lights.table.size());
+}
+inline float pdf_best(const ManyLights& lights, size_t light, float pdf_one) {
+    if (lights.table.size() == 1) return 0;
+    float M = static_cast<float>(lights.M);
+    return std::min(1.0f, M * pmf_light(lights.table, light)) * pdf_one;
+}
+
+/// Estimates what all lights send by way of x to wo, from one point of any light.
+///
+///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pdf_one / N
+///
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
+                        double u, Vec2 u2, Rgb beta, PathLog& log) {
+    if (is_specular(*x.material) || is_black(beta) || scene.lights.empty()) return {};
+    size_t N = scene.lights.size();
+    size_t light = std::min(static_cast<size_t>(u * static_cast<double>(N)), N - 1);
+    LightSample y = sample_one_light(scene, light, x, u2);
+    if (y.pdf_w == 0) return {};
+    float pdf_l = pdf_any(lights, y.pdf_w);
+    float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
+    float mis_l = mis_weight(pdf_l, pdf_best(lights, light, y.pdf_w), pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
 }
 
 /// How much of a light's potential rough metal turns to wo, and the BSDF does not find by itself:
@@ -54,8 +69,9 @@ inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t lig
     Vec3 to_y = shape.centre - x.p;
     float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
     Vec3 wi = to_y / std::sqrt(d2);
-    Densities d = densities(lights, light, std::min(d2 / shape.area, densest), pdf_bsdf(x, wo, wi));
-    return power_heuristic(d.resampled, d.uniform, d.bsdf) * average(eval_bsdf(x, wo, wi)) + 0.05f;
+    float pdf_one = std::min(d2 / shape.area, densest), pdf_b = pdf_bsdf(x, wo, wi);
+    float pdf_l = pdf_best(lights, light, pdf_one);
+    return power_heuristic(pdf_l, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
 /// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
@@ -73,48 +89,28 @@ inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const 
     return keep_one(c, u1);
 }
 
-/// Light from one point of one light, which was found in one of two ways and counts W times.
-enum class Way : uint8_t { resampled, uniform };
-inline Rgb light_from(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                      size_t light, float W, Way way, Vec2 u2, Rgb beta, PathLog& log) {
-    LightSample y = sample_one_light(scene, light, x, u2);
-    if (y.pdf_w == 0 || W == 0) return {};
+/// The same from one point of the best light.      Ld = mis_l f Le V cos / pdf_one W
+/// source  Talbot et al. 2005      tested by  "truth: irradiance of all lights"
+inline Rgb best_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo, double u,
+                      float u1, Vec2 u2, Rgb beta, PathLog& log) {
+    if (is_specular(*x.material)) return {};
+    Kept best = resample_lights(scene, lights, x, wo, u, u1);
+    LightSample y = sample_one_light(scene, best.light, x, u2);
+    if (y.pdf_w == 0 || best.W == 0) return {};
+    float pdf_l = pdf_best(lights, best.light, y.pdf_w);
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
-    Densities d = densities(lights, light, y.pdf_w, pdf_b);
-    bool best = way == Way::resampled;
-    float pdf_l = best ? d.resampled : d.uniform, pdf_other = best ? d.uniform : d.resampled;
-    float mis_l = power_heuristic(pdf_l, pdf_other, pdf_b);
-    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * W);
+    float mis_l = mis_weight(pdf_l, pdf_any(lights, y.pdf_w), pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * best.W);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
     return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
 }
 
-/// Estimates what all lights send by way of x to wo, in the two ways that aim at lights.
-/// source  Talbot et al. 2005; Veach, Guibas 1995      tested by  "truth: irradiance of all lights"
-inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                        Sampler& sampler, Rgb beta, PathLog& log) {
-    size_t N = scene.lights.size();
-    if (is_specular(*x.material) || N == 0) return {};
-    if (N == 1) {
-        return light_from(scene, lights, x, wo, 0, 1, Way::resampled, sampler.u2(), beta, log);
-    }
-    double u = join(sampler.u2());
-    Kept best = resample_lights(scene, lights, x, wo, u, sampler.u1());
-    Rgb L = light_from(scene, lights, x, wo, best.light, best.W, Way::resampled, sampler.u2(), beta,
-                       log);
-    double count = static_cast<double>(N);
-    size_t any = std::min(static_cast<size_t>(join(sampler.u2()) * count), N - 1);
-    return L + light_from(scene, lights, x, wo, any, static_cast<float>(N), Way::uniform,
-                          sampler.u2(), beta, log);
-}
-
-/// The weight of emission that the direction s, drawn at x, has met: at y, or else in the sky.
+/// The weight of emission that the BSDF's direction wi from x has met: at y, or else in the sky.
 inline float mis_emission(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wi,
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
     float pdf_one = y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi);
-    Densities d = densities(lights, light, pdf_one, pdf_b);
-    return power_heuristic(d.bsdf, d.resampled, d.uniform);
+    return mis_weight(pdf_b, pdf_any(lights, pdf_one), pdf_best(lights, light, pdf_one));
 }
 
 /// Estimates Li along the ray from one path.
@@ -148,7 +144,15 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
 
         // Aim at lights.
         Vec3 wo = -ray.d;
-        L += direct_light(scene, lights, *x, wo, sampler, beta, log);
+        bool choose = scene.lights.size() > 1;
+        double u = choose ? join(sampler.u2()) : 0;
+        Vec2 u2 = sampler.u2();
+        L += direct_light(scene, lights, *x, wo, u, u2, beta, log);
+        if (choose) {
+            double v = join(sampler.u2());
+            float v1 = sampler.u1();
+            L += best_light(scene, lights, *x, wo, v, v1, sampler.u2(), beta, log);
+        }
 
         // Go on in one direction, and count it for all those that were not taken.
         float u1 = sampler.u1();

@@ -6,18 +6,29 @@
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
 
-using ch13::balance_heuristic, ch13::power_heuristic, ch13::Strategy;
+using ch13::balance_heuristic, ch13::power_heuristic;
 
 namespace {
 
-/// The chapter's trace with these settings.
-Trace by(ch13::Settings settings, const Scene& scene) {
-    return trace_with<ch13::trace>(ch13::prepare(scene), settings);
-}
+using Heuristic = float (*)(float a, float b);
+
+/// Either way alone, which is chapter 12; both; or one of them by a coin.
+enum class Strategy { bsdf, light, mis, one_sample };
 constexpr Strategy all_strategies[] = {Strategy::bsdf, Strategy::light, Strategy::mis,
                                        Strategy::one_sample};
-
-using Heuristic = float (*)(float a, float b);
+struct Choice {
+    Strategy strategy = Strategy::mis;
+    Heuristic heuristic = power_heuristic;
+};
+Trace by(Choice choice, const Scene& scene) {
+    LightTable lights = ch13::prepare(scene);
+    if (choice.strategy == Strategy::bsdf)
+        return trace_with<ch12::trace>(lights, ch12::Strategy::bsdf);
+    if (choice.strategy == Strategy::light)
+        return trace_with<ch12::trace>(lights, ch12::Strategy::light);
+    bool one_sample = choice.strategy == Strategy::one_sample;
+    return trace_with<ch13::trace>(lights, ch13::Settings{choice.heuristic, one_sample});
+}
 
 constexpr Heuristic both_heuristics[] = {balance_heuristic, power_heuristic};
 
@@ -95,7 +106,7 @@ RunningStats disk_by_both(Heuristic heuristic, double h, int samples) {
 
 /// relMSE of one sample for each pixel, over a part of the film.
 double rel_mse_of(const Film& film, int x0, int y0, int x1, int y1) {
-    double sum = 0, mean = 0, n = static_cast<double>(film.spp);
+    double sum = 0, mean = 0, n = film.spp();
     for (int y = y0; y < y1; y++)
         for (int x = x0; x < x1; x++) {
             const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
@@ -267,7 +278,8 @@ TEST_SUITE("ch13 mis") {
         CHECK(irradiance(none, by({}, none), 100).mean() == 0);
     }
 
-    TEST_CASE("consistency: pdf_light is the density with which sample_light draws") {
+    TEST_CASE(
+        "consistency: emission is weighed by the density with which it would have been aimed at") {
         Scene scene = floor_under("AttributeBegin " + shining + unit_square(0.5) +
                                   "AttributeEnd AttributeBegin " + shining +
                                   "Translate 1 2 0 Shape \"sphere\" AttributeEnd " +
@@ -285,8 +297,9 @@ TEST_SUITE("ch13 mis") {
             int met_light = hit ? hit->light : scene.sky_light;
             if (met_light != static_cast<int>(light)) continue;  // behind another
             met[light]++;
-            CHECK(ch13::pdf_light(scene, lights, x, y.wi, hit) ==
-                  doctest::Approx(double{y.pdf_w}).epsilon(1e-3).scale(0));
+            // Of two ways with the same density each gets half.
+            float mis_b = ch13::mis_emission(scene, lights, {}, x, y.wi, y.pdf_w, hit);
+            CHECK(mis_b == doctest::Approx(0.5).epsilon(1e-3).scale(0));
         }
         for (int n : met) CHECK(n > 100);
     }
@@ -349,8 +362,8 @@ TEST_SUITE("ch13 plates") {
                 CAPTURE(plate);
                 CAPTURE(lamp);
                 PlateAndLamp view(plate, lamp);
-                auto variance = [&](ch13::Settings settings) {
-                    return relative_variance(view.sample(by(settings, view.scene), 40000));
+                auto variance = [&](Choice choice) {
+                    return relative_variance(view.sample(by(choice, view.scene), 40000));
                 };
                 double better = std::min(variance({Strategy::bsdf}), variance({Strategy::light}));
                 CHECK(variance({Strategy::mis, balance_heuristic}) < better + 0.5);

@@ -10,9 +10,12 @@
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
 
-using ch14::Densities;
-
 namespace {
+
+/// Of one direction, by each way.
+struct Densities {
+    float any, best, bsdf;
+};
 
 Trace by_eleven(const Scene& scene, int M = 16) {
     return trace_with<ch11::trace>(ch11::prepare(scene), M);
@@ -60,15 +63,15 @@ TEST_SUITE("ch14 weights") {
             table.push_back({a, b, density()});
         }
         for (const Densities& d : table) {
-            CAPTURE(d.resampled);
-            CAPTURE(d.uniform);
+            CAPTURE(d.any);
+            CAPTURE(d.best);
             CAPTURE(d.bsdf);
             double sum = 0;
-            for (auto [a, b, c] : {std::array{d.resampled, d.uniform, d.bsdf},
-                                   {d.uniform, d.resampled, d.bsdf},
-                                   {d.bsdf, d.resampled, d.uniform}}) {
+            for (auto [a, b, c] : {std::array{d.any, d.best, d.bsdf},
+                                   {d.best, d.any, d.bsdf},
+                                   {d.bsdf, d.any, d.best}}) {
                 if (a == 0) continue;  // draws nothing
-                float weight = ch14::power_heuristic(a, b, c);
+                float weight = ch14::mis_weight(a, b, c);
                 CHECK(weight >= 0);
                 CHECK(weight <= 1);
                 sum += static_cast<double>(weight);
@@ -82,13 +85,13 @@ TEST_SUITE("ch14 weights") {
         for (int i = 0; i < 1000; i++) {
             float a = random.u1() + 0.01f, b = 3 * random.u1() + 0.01f;
             float expected = ch13::power_heuristic(a, b);
-            CHECK(ch14::power_heuristic(a, 0, b) == expected);
-            CHECK(ch14::power_heuristic(a, b, 0) == expected);
+            CHECK(ch14::mis_weight(a, 0, b) == expected);
+            CHECK(ch14::mis_weight(a, b, 0) == expected);
         }
     }
 
     TEST_CASE("identity: any positive numbers for the densities keep the mean") {
-        // densities() asks the table's pmf, and nothing else does: what is drawn, and what W says
+        // pdf_best() asks the table's pmf, and nothing else does: what is drawn, and what W says
         // of it, stays as it is. Plant numbers that have nothing to do with either.
         for (const std::string& material : {paint, metal}) {
             Scene scene = three_lights(material);

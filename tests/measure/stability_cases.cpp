@@ -142,7 +142,7 @@ StabilityCase near_point_light() {
             N,
             {{{"08", "08-area", "09", "10", "11", "12", "13", "14"},
               {{Metric::relative_variance, 1e-5, false, true}}}},
-            {"06", "07", "12-bsdf", "13-bsdf"}};
+            {"06", "07", "12-bsdf"}};
 }
 
 /// A disk light behind a pane of glass: every shadow ray is blocked. Of the paths that hit it by
@@ -192,7 +192,7 @@ StabilityCase two_points(bool hidden) {
              {{"11"}, of_ris(16)},
              {{"11-m32"}, of_ris(32)},
              {{"14", "14-m16"}, {variance_of(two_opinions(other, near, 2))}}},
-            {"06", "07", "12-bsdf", "13-bsdf"}};
+            {"06", "07", "12-bsdf"}};
 }
 
 /// A level ground under a black roof: the white sky shows below the elevation whose sine is e.
