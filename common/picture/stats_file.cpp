@@ -6,6 +6,8 @@
 #include "common/base/files.h"
 #include "common/base/numbers.h"
 
+static constexpr const char* blanks = " \t\r\n";
+
 std::string StatsFile::path_beside(const std::string& picture) {
     return std::filesystem::path(picture).replace_extension(".json").string();
 }
@@ -19,7 +21,7 @@ std::optional<StatsFile> StatsFile::beside(const std::string& picture) {
 const char* StatsFile::value(const std::string& name) const {
     size_t at = json_.find("\"" + name + "\":");
     if (at == std::string::npos) return nullptr;
-    at = json_.find_first_not_of(" \t\r\n", at + name.size() + 3);
+    at = json_.find_first_not_of(blanks, at + name.size() + 3);
     return at == std::string::npos ? nullptr : json_.c_str() + at;
 }
 
@@ -30,12 +32,13 @@ std::vector<double> StatsFile::numbers(const std::string& name) const {
     bool is_list = *at == '[';
     if (is_list) at++;
     do {
+        at += std::strspn(at, blanks);
         size_t length = std::strcspn(at, " \t\r\n,]}");
         std::optional<double> x = to_number({at, length});
         if (!x) break;
         list.push_back(*x);
         at += length;
-        while (*at == ' ') at++;
+        at += std::strspn(at, blanks);
     } while (is_list && *at++ == ',');
     return list;
 }
