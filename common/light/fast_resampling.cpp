@@ -28,6 +28,14 @@ LightBounds bounds_of(const Scene& scene, const LightTable& table, size_t i) {
     return b;
 }
 
+/// Chapter 10's choice in integers of the width of a float, for the sake of vector instructions.
+inline int pick(const AliasColumn* table, int N, double u) {
+    double at = u * N;
+    int column = std::min(static_cast<int>(at), N - 1);
+    auto [own, other, pmf] = table[column];
+    return at - column < double{own} ? column : static_cast<int>(other);
+}
+
 /// Chapter 11's potential, as one formula for all lights, for the sake of vector instructions.
 inline float potential(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
@@ -53,11 +61,10 @@ ManyLights many_lights(const Scene& scene, LightTable table, int M) {
 
 Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u) {
     Candidates c;
-    const int M = c.M = lights.M;
+    const int M = c.M = lights.M, N = static_cast<int>(lights.table.size());
+    const AliasColumn* table = lights.table.data();
     const double slice = 1.0 / M;
-    for (int i = 0; i < M; i++) {
-        c.light[i] = static_cast<int>(pick_light(lights.table, (i + u) * slice));
-    }
+    for (int i = 0; i < M; i++) c.light[i] = pick(table, N, (i + u) * slice);
     const LightBounds* bounds = lights.bounds.data();
     for (int i = 0; i < M; i++) {
         const LightBounds& y = bounds[c.light[i]];
