@@ -187,7 +187,7 @@ Scene Directives::finish() {
     float exposure = exposure_.shutter * exposure_.iso / 100;
     for (Light& light : scene_.lights) {
         light.L *= exposure;
-        if (!is_finite(light.L) || is_black(light.L))
+        if (too_bright(light.L) || is_black(light.L))
             fail(file, "shutter or iso leave no usable light");
     }
     if (!has_filter_) {

@@ -130,11 +130,12 @@ Vec3 read_direction(Params& params, const Transform& world_from_light) {
     return to_vec3(normalize(transform_vector(world_from_light, from - to)));
 }
 
-void check_finite(const Params& params, Rgb L) {
-    if (!is_finite(L)) fail(params.at(), params.owner() + " is too bright for a float");
-}
-
 }  // namespace
+
+void check_brightness(const Params& params, Rgb L) {
+    if (!too_bright(L)) return;
+    fail(params.at(), params.owner() + " shines brighter than 1e15: choose a larger unit");
+}
 
 Material read_material(Params& params) {
     Material material;
@@ -165,7 +166,7 @@ AreaEmission read_area_light(Params& params) {
         emission.power = static_cast<float>(power->numbers[0]);
         if (!(emission.power > 0)) fail(power->at, "\"power\" must be greater than 0");
     }
-    check_finite(params, emission.L);
+    check_brightness(params, emission.L);
     params.finish();
     return emission;
 }
@@ -198,7 +199,7 @@ Light read_light(Params& params, const Transform& world_from_light) {
     } else {
         params.fail_type({"distant", "infinite", "point"});
     }
-    check_finite(params, light.L);
+    check_brightness(params, light.L);
     params.finish();
     return light;
 }

@@ -16,4 +16,8 @@ struct AreaEmission {
 };
 AreaEmission read_area_light(Params& params);
 
+/// Whether powers and sums of such lights may be no floats. From all sides, and 1e9 m away: 1e35 W.
+inline bool too_bright(Rgb L) { return !(is_finite(L) && max_component(L) <= 1e15f); }
+void check_brightness(const Params& params, Rgb L);
+
 Light read_light(Params& params, const Transform& world_from_light);

@@ -78,7 +78,7 @@ float area(const Geometry&, const Disk& disk) { return pi * disk.r * disk.r; }
 
 // Adds a light and returns its number.
 int add_light(const Params& params, Rgb L, bool two_sided, Scene& scene) {
-    if (!is_finite(L)) fail(params.at(), "the light of " + params.owner() + " is too bright");
+    check_brightness(params, L);
     Light light;
     light.L = L;
     light.two_sided = two_sided;

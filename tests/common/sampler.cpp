@@ -110,6 +110,62 @@ Vec2 jitter_in_square_grid(uint32_t i, uint32_t n, Vec2 u) {
             (static_cast<float>(cell / k) + u.y) / static_cast<float>(k)};
 }
 
+/// The first eight numbers of a pixel's third sample, 8 bits of each.
+uint64_t start_of_stream(SamplerType type, uint32_t seed, uint32_t pixel) {
+    Sampler sampler(type, seed, 16);
+    sampler.start(pixel, 3);
+    uint64_t bits = 0;
+    for (int i = 0; i < 8; i++) bits = bits << 8 | static_cast<uint64_t>(sampler.u1() * 256);
+    return bits;
+}
+
+/// How many pairs of these are equal.
+double equal_pairs(std::vector<uint64_t> values) {
+    std::sort(values.begin(), values.end());
+    double pairs = 0, run = 0;  // run: how many before it are equal
+    for (size_t i = 1; i < values.size(); i++) {
+        run = values[i] == values[i - 1] ? run + 1 : 0;
+        pairs += run;
+    }
+    return pairs;
+}
+
+/// The smallest tail of chi^2, in 8 x 8 cells, of all pairs of a path's first 64 numbers: each
+/// path is a pixel of its own. `change` may plant a mistake in the 64 numbers.
+template <class Change>
+std::pair<double, double> chi_square_of_all_pairs(SamplerType type, uint32_t paths, Change change) {
+    constexpr size_t scalars = 64, cells = 8;
+    std::vector<double> counts(scalars * scalars * cells * cells);
+    std::array<size_t, scalars> cell;
+    std::array<float, scalars> u;
+    for (uint32_t p = 0; p < paths; p++) {
+        Sampler sampler(type, 1, 16);
+        sampler.start(p, p % 16);
+        for (size_t i = 0; i < scalars; i += 2) {  // as trace() asks: now one, now two
+            if (i % 6 == 0) {
+                u[i] = sampler.u1(), u[i + 1] = sampler.u1();
+            } else {
+                Vec2 pair = sampler.u2();
+                u[i] = pair.x, u[i + 1] = pair.y;
+            }
+        }
+        change(u);
+        for (size_t i = 0; i < scalars; i++) cell[i] = static_cast<size_t>(u[i] * cells);
+        for (size_t i = 0; i < scalars; i++)
+            for (size_t j = i + 1; j < scalars; j++)
+                counts[((i * scalars + j) * cells + cell[i]) * cells + cell[j]]++;
+    }
+    double least = 1, all = 0;
+    for (size_t i = 0; i < scalars; i++)
+        for (size_t j = i + 1; j < scalars; j++) {
+            std::span pair(&counts[(i * scalars + j) * cells * cells], cells * cells);
+            double chi2 = chi_square(pair);
+            all += chi2;
+            least = std::min(least, chi_square_tail(chi2, cells * cells - 1));
+        }
+    return {least, all};
+}
+
 }  // namespace
 
 TEST_SUITE("sampler: bits") {
@@ -166,6 +222,86 @@ TEST_SUITE("sampler: bits") {
             CHECK(x != first(a, 4, 5));
             CHECK(x != first(b, 2, 5));  // seeds do not just shift the picture
             CHECK(x != first(a, 3, 6));
+        }
+    }
+}
+
+TEST_SUITE("sampler: keys") {
+    TEST_CASE("identity: hash64 runs backwards, so that no two inputs share a key") {
+        // x ^ (x >> s) is undone by x ^ (x >> s) ^ (x >> 2 s) ...; an odd factor by its inverse.
+        auto undo_shift = [](uint64_t x, int s) {
+            for (uint64_t part = x >> s; part != 0; part >>= s) x ^= part;
+            return x;
+        };
+        auto inverse = [](uint64_t odd) {
+            uint64_t x = odd;
+            for (int i = 0; i < 6; i++) x *= 2 - odd * x;  // Newton: each step doubles the bits
+            return x;
+        };
+        for (uint64_t i = 0; i < 1000; i++) {
+            uint64_t x = hash64(i) * (2 * i + 1), back = undo_shift(hash64(x), 31);
+            back = undo_shift(back * inverse(0x94d049bb133111ebu), 27);
+            CHECK(undo_shift(back * inverse(0xbf58476d1ce4e5b9u), 30) == x);
+        }
+    }
+
+    TEST_CASE("identity: two numbers make one of 48 bits that is never 1") {
+        CHECK(join({0, 0}) == 0);
+        CHECK(join({0, 0x1p-24f}) == 0x1p-48);
+        CHECK(join({0x1.fffffep-1f, 0x1.fffffep-1f}) == 1 - 0x1p-48);
+    }
+
+    TEST_CASE("density: seeds 92 and 267 share no numbers") {
+        // With keys hash32(pixel ^ hash of seed), pixel p ^ c of one had the numbers of pixel p of
+        // the other, and c was 8592: a picture of one was that of the other, rearranged.
+        for (SamplerType type : all_types) {
+            CAPTURE(static_cast<int>(type));
+            std::vector<uint64_t> firsts;
+            for (uint32_t seed : {92u, 267u})
+                for (uint32_t pixel = 0; pixel < 16384; pixel++)
+                    firsts.push_back(start_of_stream(type, seed, pixel));
+            CHECK(equal_pairs(firsts) == 0);
+        }
+    }
+
+    TEST_CASE("density: neighbouring seeds and pixels share no numbers in any pairing") {
+        // 12 (u - 1/2)(v - 1/2), for pixel p of one seed and p ^ c, p + c, -p of another.
+        constexpr uint32_t n = 1 << 16;
+        for (SamplerType type : all_types)
+            for (auto [a, b] : {std::pair{0u, 1u}, {92u, 267u}, {1u, 0x80000001u}}) {
+                RunningStats same, crossed, shifted, mirrored;
+                auto number = [&](uint32_t seed, uint32_t pixel) {
+                    Sampler s(type, seed, 16);
+                    s.start(pixel, 3);
+                    return double{s.u1()} - 0.5;
+                };
+                for (uint32_t p = 0; p < n; p++) {
+                    double u = number(a, p);
+                    same.add(12 * u * number(b, p));
+                    crossed.add(12 * u * number(b, p ^ 8592u));
+                    shifted.add(12 * u * number(b, p + b - a));
+                    mirrored.add(12 * u * number(b, n - p));
+                }
+                for (const RunningStats& s : {same, crossed, shifted, mirrored})
+                    check_mean(s, 0, 1, 0.035);
+            }
+    }
+}
+
+TEST_SUITE("sampler: keys slow") {
+    TEST_CASE("density: of 1000 seeds x 10^4 pixels no two streams are the same") {
+        for (SamplerType type : all_types) {
+            CAPTURE(static_cast<int>(type));
+            std::vector<uint64_t> firsts;
+            for (uint32_t seed = 0; seed < 1000; seed++)
+                for (uint32_t pixel = 0; pixel < 10000; pixel++)
+                    firsts.push_back(start_of_stream(type, seed, pixel));
+            // Chance would make 10^14 / 2 / 2^64 = 3e-6 pairs of them.
+            CHECK(equal_pairs(firsts) == 0);
+            // Of 32 of their bits, 11642 +- 108: no fewer and no more than at random.
+            for (uint64_t& x : firsts) x >>= 32;
+            double pairs = 1e7 * (1e7 - 1) / 2 * 0x1p-32;
+            CHECK(std::abs(equal_pairs(firsts) - pairs) < 5 * std::sqrt(pairs));
         }
     }
 }
@@ -264,6 +400,26 @@ TEST_SUITE("sampler: uniform and independent") {
             CHECK(chi_square_tail(chi2, 99) < 1 - 1e-6);
             check_mean(lag, 0, 1, 0.03);
         }
+    }
+
+    TEST_CASE("density: each two of the first 64 numbers of a path are independent") {
+        auto as_they_are = [](auto&) {};
+        for (SamplerType type : all_types) {
+            CAPTURE(static_cast<int>(type));
+            auto [least, all] = chi_square_of_all_pairs(type, 20000, as_they_are);
+            CHECK(least > 1e-6 / 2016);
+            // The sum over 2016 pairs: 63 for each; its variance, of pairs that share a number, is
+            // that of 64 x 7 squares 63 times each and of 2016 x 49 others.
+            double variance = 2 * (64 * 7 * 63.0 * 63 + 2016 * 49);
+            CHECK(std::abs(all - 2016 * 63) < 5 * std::sqrt(variance));
+        }
+        // The same number twice, 40 numbers apart, in 10 % of the paths.
+        int path = 0;
+        auto reuse = [&](auto& u) {
+            if (path++ % 10 == 0) u[50] = u[10];
+        };
+        auto [least, all] = chi_square_of_all_pairs(SamplerType::independent, 20000, reuse);
+        CHECK(least < 1e-6 / 2016);
     }
 
     TEST_CASE("truth: pairs of different dimensions are shuffled apart, E[xy] is 1/4") {

@@ -1,0 +1,340 @@
+// How near and how small lights may be: in every chapter that aims at lights.
+#include <cstdio>
+
+#include "common/path/trace.h"
+#include "tests/support/estimators.h"
+// In this order: names of a lower chapter must not be found by way of a higher one.
+#include "chapters/08_light_sampling/estimator.h"
+#include "chapters/09_cosine_sampling/estimator.h"
+#include "chapters/10_light_importance/estimator.h"
+#include "chapters/11_ris/estimator.h"
+#include "chapters/12_glossy/estimator.h"
+#include "chapters/13_mis/estimator.h"
+#include "chapters/14_mis_ris/estimator.h"
+// After them: it has another normalize().
+#include "common/geometry/transform.h"
+
+namespace {
+
+struct Chapter {
+    std::string name;
+    Trace trace;
+};
+
+/// The chapters that differ where there is one light: it is aimed at in the same way by 08 to 12.
+std::vector<Chapter> some_chapters(const Scene& scene) {
+    return {{"08", trace_with<ch08::trace>(ch08::LightMeasure::solid_angle)},
+            {"13", trace_with<ch13::trace>(ch13::prepare(scene), ch13::Settings())},
+            {"14", trace_with<ch14::trace>(ch14::prepare(scene))}};
+}
+std::vector<Chapter> all_chapters(const Scene& scene) {
+    std::vector<Chapter> chapters = some_chapters(scene);
+    ch13::Settings light{.strategy = ch13::Strategy::light};
+    chapters.push_back({"09", trace_with<ch09::trace>()});
+    chapters.push_back({"10", trace_with<ch10::trace>(ch10::prepare(scene))});
+    chapters.push_back({"11", trace_with<ch11::trace>(ch11::prepare(scene), 4)});
+    chapters.push_back(
+        {"12", trace_with<ch12::trace>(ch12::prepare(scene), ch12::Strategy::light)});
+    chapters.push_back({"13 light", trace_with<ch13::trace>(ch13::prepare(scene), light)});
+    return chapters;
+}
+
+/// A float with all its digits, as a scene file has it.
+std::string digits(double x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.9g", x);
+    return text;
+}
+
+/// A small white square around the origin, facing +y, under black lights of radiance 1. So small,
+/// that its points are known to better than 1e-9, however near the light is.
+Scene patch_under(const std::string& light, const std::string& transform = "") {
+    std::string patch =
+        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n"
+        "Scale 0.001 1 0.001 ";
+    Scene scene =
+        world_of(transform + patch + square(0, true) + "AttributeEnd\n" + shining + light);
+    scene.max_depth = 1;
+    return scene;
+}
+
+/// The triangles of these corners, all at height h, facing down.
+std::string triangles(const std::string& indices, double h, const std::vector<Vec2>& corners) {
+    std::string text =
+        "Shape \"trianglemesh\" \"integer indices\" [" + indices + "] \"point3 P\" [";
+    for (Vec2 p : corners) {
+        for (double x : {double{p.x}, h, double{p.y}}) text += digits(x) + " ";
+    }
+    return text + "]\n";
+}
+/// The unit square at height h, its first corner at x, z.
+std::string unit_square_at(double h, Vec2 p) {
+    float x = p.x, z = p.y;
+    return triangles("0 2 1 0 3 2", h, {{x, z}, {x, z + 1}, {x + 1, z + 1}, {x + 1, z}});
+}
+
+/// The normal of the patch.
+Vec3 up_of(const Scene& scene) { return scene.geometry.facet_normals[0]; }
+/// Sees the middle of the patch from so near that no light at this height is in between.
+Ray onto_patch(const Scene& scene, double h) {
+    const auto& p = scene.geometry.positions;
+    Vec3 middle = 0.5f * (p[0] + p[2]);
+    return {middle + static_cast<float>(h / 4) * up_of(scene), -up_of(scene)};
+}
+
+/// Lambert's formula, in double: the irradiance of the light's triangles, all above the horizon.
+///
+///   E = 1/2 sum over edges a b of  angle(a, b) n . (a x b) / |a x b|
+double irradiance_of_triangles(const Scene& scene, Vec3 x) {
+    const Geometry& g = scene.geometry;
+    Double3 n = to_double3(up_of(scene)), from = to_double3(x);
+    double E = 0;
+    for (size_t i = 2; i < g.triangles.size(); i++) {  // 0 and 1: the patch
+        for (size_t k = 0; k < 3; k++) {
+            Double3 a = to_double3(g.positions[g.triangles[i].v[k]]) - from;
+            Double3 b = to_double3(g.positions[g.triangles[i].v[(k + 1) % 3]]) - from;
+            Double3 side = cross(a, b);
+            double sine = std::sqrt(dot(side, side));
+            if (sine > 0) E += std::atan2(sine, dot(a, b)) * dot(n, side) / sine / 2;
+        }
+    }
+    return std::abs(E) / std::sqrt(dot(n, n));
+}
+
+/// The same for a disk of radius 1 at height h, its centre aside by d; without cancellation.
+double irradiance_of_disk(double h, double d) {
+    double a = h * h + d * d - 1, s = std::sqrt(a * a + 4 * h * h);
+    return pi_exact / 2 * (a > 0 ? 4 * h * h / (s * (s + a)) : 1 - a / s);
+}
+
+/// The same for a ball of radius r with its centre at c, where the horizon may cut it: the sum over
+/// rings around its centre, of which the part above the horizon is known.
+double irradiance_of_ball(Double3 c, double r) {
+    double d2 = dot(c, c), cos_w = c[1] / std::sqrt(d2), sin_w = std::sqrt(1 - cos_w * cos_w);
+    double widest = std::atan2(r, std::sqrt(d2 - r * r)), E = 0;
+    constexpr int rings = 20000;
+    for (int i = 0; i < rings; i++) {
+        double angle = widest * (i + 0.5) / rings, z = std::cos(angle), s = std::sin(angle);
+        double a = z * cos_w, b = s * sin_w;  // on the ring, the cosine is a + b cos(phi)
+        double phi = a >= b ? pi_exact : a <= -b ? 0 : std::acos(-a / b);
+        E += 2 * (a * phi + b * std::sin(phi)) * s * widest / rings;
+    }
+    return E;
+}
+
+/// The irradiance at the middle of the patch, from Sobol points: its error is what the `scrambles`
+/// of them show, far below that of as many random numbers.
+RunningStats measure(const Scene& scene, const Trace& trace, const Ray& ray, uint32_t scrambles,
+                     uint32_t points) {
+    RunningStats stats;
+    Sampler sampler(SamplerType::sobol, 1, points);
+    PathLog log;
+    for (uint32_t scramble = 0; scramble < scrambles; scramble++) {
+        double sum = 0;
+        for (uint32_t i = 0; i < points; i++) {
+            sampler.start(scramble, i);
+            sum += static_cast<double>(trace(scene, ray, sampler, log).g);
+        }
+        stats.add(pi_exact * sum / points);
+    }
+    return stats;
+}
+
+/// How much is measured: by which chapters, with how many points, and to which error.
+struct Effort {
+    std::vector<Chapter> (*chapters)(const Scene&) = some_chapters;
+    uint32_t scrambles = 512, points = 16;
+    double relative_se = 4e-3;
+    std::vector<double> heights = {1e-1, 1e-3, 1e-5, 1e-7};
+};
+Effort thorough(double relative_se) {
+    return {all_chapters, 512, 128, relative_se, {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}};
+}
+
+void check_chapters(const Scene& scene, const Ray& ray, double truth, const Effort& effort) {
+    for (const Chapter& chapter : effort.chapters(scene)) {
+        CAPTURE(chapter.name);
+        RunningStats s = measure(scene, chapter.trace, ray, effort.scrambles, effort.points);
+        check_bounded(s, truth, effort.relative_se);
+    }
+}
+
+void check_squares(const Effort& effort) {
+    for (Vec2 corner : {Vec2{-0.5f, -0.5f},       // under the middle, where the two triangles meet
+                        Vec2{-0.25f, -0.25f},     // under one diagonal
+                        Vec2{-0.25f, -0.75f},     // under the other
+                        Vec2{-0.1875f, -0.4f},    // under neither
+                        Vec2{0, -0.375f},         // under an edge
+                        Vec2{0, 0},               // under a corner
+                        Vec2{0.0078125f, -0.4f},  // beside an edge
+                        Vec2{0.125f, 0.125f}})    // beside a corner
+        for (double h : effort.heights) {
+            CAPTURE(corner.x);
+            CAPTURE(corner.y);
+            CAPTURE(h);
+            Scene scene = patch_under(unit_square_at(h, corner));
+            REQUIRE(scene.light_shapes[0].parallelogram);
+            Ray ray = onto_patch(scene, h);
+            check_chapters(scene, ray, irradiance_of_triangles(scene, {}), effort);
+        }
+}
+
+void check_triangles(const Effort& effort) {
+    // A triangle; two that are no parallelogram; one that is seen very thin.
+    const std::vector<std::pair<std::string, std::vector<Vec2>>> shapes = {
+        {"0 2 1", {{-0.3f, -0.4f}, {0.2f, 0.7f}, {0.6f, -0.2f}}},
+        {"0 2 1 0 3 2", {{-0.5f, -0.3f}, {-0.4f, 0.2f}, {0.6f, 0.7f}, {0.1f, -0.5f}}},
+        {"0 2 1", {{-1, -1e-4f}, {0, 3e-4f}, {1, -2e-4f}}}};
+    for (const auto& [indices, corners] : shapes)
+        for (double h : effort.heights) {
+            CAPTURE(corners[0].y);
+            CAPTURE(h);
+            Scene scene = patch_under(triangles(indices, h, corners));
+            check_chapters(scene, onto_patch(scene, h), irradiance_of_triangles(scene, {}), effort);
+        }
+}
+
+void check_disks(const Effort& effort) {
+    for (double d : {0.0, 0.5, 1.0, 1.0078125, 1.4})
+        for (double h : effort.heights) {
+            // Where the rim is, is known to 6e-8: right under it no better than to 6e-8 / h.
+            if (d == 1 && h < 1e-4) continue;
+            CAPTURE(d);
+            CAPTURE(h);
+            std::string place = "Translate " + digits(d) + " " + digits(h) + " 0 ";
+            Scene scene = patch_under(place + "Rotate 90 1 0 0 Shape \"disk\"\n");
+            check_chapters(scene, onto_patch(scene, h), irradiance_of_disk(h, d), effort);
+        }
+}
+
+void check_balls(const Effort& effort) {
+    for (float degrees : {0.0f, 40.0f, 100.0f})
+        for (double gap : {0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 3e-6}) {
+            CAPTURE(degrees);
+            CAPTURE(gap);
+            float a = degrees * pi / 180, d = static_cast<float>(1 + gap);
+            if (degrees > 90 && gap < 1e-3) continue;  // nearly nothing is above the horizon
+            Vec3 c = {d * std::sin(a), d * std::cos(a), 0};
+            Scene scene = patch_under("Translate " + digits(double{c.x}) + " " +
+                                      digits(double{c.y}) + " 0 Shape \"sphere\"\n");
+            double E = irradiance_of_ball(to_double3(scene.geometry.spheres[0].c), 1);
+            check_chapters(scene, onto_patch(scene, gap), E, effort);
+        }
+}
+
+void check_small_balls(const Effort& effort) {
+    Vec3 c = {7, 25, -11};
+    for (int e = 0; e <= 16; e++) {
+        CAPTURE(e);
+        std::string r = "1e-" + std::to_string(e);
+        Scene scene = patch_under("Translate 7 25 -11 Shape \"sphere\" \"float radius\" " + r);
+        double d2 = dot(to_double3(c), to_double3(c)), radius = std::stod(r);
+        double E = pi_exact * radius * radius / d2 * double{c.y} / std::sqrt(d2);
+        check_chapters(scene, onto_patch(scene, 1), E, effort);
+    }
+}
+
+/// All densities of a light, at x: of what is drawn, and of what is met.
+void check_densities(const Scene& scene, Vec3 x) {
+    Sampler random = random_numbers(1);
+    for (int i = 0; i < 100; i++) {
+        Vec2 u = i == 0 ? Vec2{} : i == 1 ? Vec2{0x1.fffffep-1f, 0x1.fffffep-1f} : random.u2();
+        LightPoint y = sample_solid_angle(scene, 0, x, u);
+        CHECK(y.pdf >= 0);
+        CHECK(y.pdf <= densest);
+        LightPoint at = sample_area(scene, 0, u);
+        Hit hit{};
+        hit.p = at.p, hit.ng = at.n, hit.prim = scene.lights[0].first_prim;
+        CHECK(pdf_solid_angle(scene, 0, x, hit) >= 0);
+        CHECK(pdf_solid_angle(scene, 0, x, hit) <= densest);
+    }
+}
+
+}  // namespace
+
+TEST_SUITE("light limits") {
+    TEST_CASE("truth: squares, from near") { check_squares({}); }
+    TEST_CASE("truth: triangles, from near") { check_triangles({}); }
+    TEST_CASE("truth: disks, from near") { check_disks({.relative_se = 1e-2}); }
+    TEST_CASE("truth: balls, from near") { check_balls({.relative_se = 1e-2}); }
+    TEST_CASE("truth: balls, from afar") { check_small_balls({all_chapters, 64, 16, 1e-4}); }
+
+    TEST_CASE("truth: a tilted light far from the origin, as near as floats can tell") {
+        // All numbers are about 1 and so known to 6e-8; a light 2e-5 above the patch, to 1 %.
+        for (double h : {1e-1, 1e-2, 1e-3, 1e-4, 2e-5}) {
+            CAPTURE(h);
+            Scene scene = patch_under(unit_square_at(h, {-0.3f, -0.45f}),
+                                      "Translate 0.3 0.4 0.7 Rotate 35 1 2 3 ");
+            Ray ray = onto_patch(scene, h);
+            std::optional<Hit> x = intersect(scene, ray);
+            REQUIRE(x);
+            check_chapters(scene, ray, irradiance_of_triangles(scene, x->p), {});
+        }
+    }
+
+    TEST_CASE("failure: on a light, but for rounding, it gives nothing by aiming, and no NaN") {
+        Sampler sampler(SamplerType::independent, 1, 1);
+        PathLog log;
+        for (std::string h : {"1e-18", "1e-38", "1e-44", "0"}) {
+            for (std::string shape : {unit_square_at(std::stod(h), {-0.3f, -0.4f}),
+                                      triangles("0 2 1", std::stod(h), {{-1, 0}, {1, -1}, {0, 2}}),
+                                      "Translate 0 " + h + " 0 Rotate 90 1 0 0 Shape \"disk\"\n",
+                                      std::string("Translate 0 1 0 Shape \"sphere\"\n")}) {
+                CAPTURE(h);
+                CAPTURE(shape);
+                Scene scene = patch_under(shape);
+                check_densities(scene, {});
+                Ray ray = onto_patch(scene, 1e-3);
+                ray.o = ray.o + 1e-3f * ray.d;
+                for (const Chapter& chapter : all_chapters(scene))
+                    for (uint32_t i = 0; i < 200; i++) {
+                        CAPTURE(chapter.name);
+                        sampler.start(0, i);
+                        CHECK(is_finite(chapter.trace(scene, ray, sampler, log)));
+                    }
+            }
+        }
+    }
+
+    TEST_CASE("failure: the smallest lights have densities that are numbers, near and far") {
+        for (std::string shape : {std::string("Shape \"sphere\" \"float radius\" 1.1e-18"),
+                                  std::string("Shape \"disk\" \"float radius\" 1.1e-18"),
+                                  "Scale 1e-9 1 1e-9 " + unit_square_at(0, {}),
+                                  "Scale 1e-13 1 1e-4 " + unit_square_at(0, {}),
+                                  triangles("0 1 2", 0, {{0, 0}, {1e-6f, 0}, {0, 1e-11f}})}) {
+            CAPTURE(shape);
+            Scene scene = patch_under(shape);
+            for (float d : {1e-19f, 2e-18f, 1e-15f, 1e-9f, 1e-3f, 1.0f, 1e3f, 1e9f})
+                for (Vec3 towards : {Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0.48f, 0.6f, 0.64f}})
+                    check_densities(scene, d * towards);
+        }
+    }
+
+    TEST_CASE("failure: the brightest and smallest lights, by every chapter: no NaN") {
+        Sampler sampler(SamplerType::independent, 1, 1);
+        PathLog log;
+        for (std::string r : {"1.1e-18", "1e-17", "1e-10", "4e8"}) {
+            std::string rough = "Material \"conductor\" \"float roughness\" 0.1 Scale 1e6 1 1e6 ";
+            std::string light =
+                "AreaLightSource \"diffuse\" \"rgb L\" [1e15 1e15 1e15] "
+                "Translate 0 2e3 0 Shape \"sphere\" \"float radius\" ";
+            Scene scene = world_of("AttributeBegin " + rough + square(0, true) + "AttributeEnd " +
+                                   light + r + " Translate 30 0 0 Shape \"sphere\"");
+            CAPTURE(r);
+            for (const Chapter& chapter : all_chapters(scene))
+                for (uint32_t i = 0; i < 200; i++) {
+                    CAPTURE(chapter.name);
+                    sampler.start(0, i);
+                    CHECK(is_finite(
+                        chapter.trace(scene, {{0, 5, -9}, {0, -0.6f, 0.8f}}, sampler, log)));
+                }
+        }
+    }
+}
+
+TEST_SUITE("light limits slow") {
+    TEST_CASE("truth: squares, from near, by every chapter") { check_squares(thorough(4e-4)); }
+    TEST_CASE("truth: triangles, from near, by every chapter") { check_triangles(thorough(4e-4)); }
+    TEST_CASE("truth: disks, from near, by every chapter") { check_disks(thorough(1e-3)); }
+    TEST_CASE("truth: balls, from near, by every chapter") { check_balls(thorough(1e-3)); }
+}

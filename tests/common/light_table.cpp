@@ -1,0 +1,80 @@
+// Choosing one of many lights: that each gets its share of the random numbers, however small.
+#include "common/light/light_table.h"
+
+#include <doctest/doctest.h>
+
+#include "common/light/fast_resampling.h"
+#include "common/path/sampler.h"
+
+namespace {
+
+/// The first u, in steps of 2^-48, of which pick_light makes this light or a later one; for a table
+/// in which the lights take u in turn.
+double first_u_of(const LightTable& table, size_t light) {
+    uint64_t low = 0, high = uint64_t{1} << 48;
+    while (low < high) {
+        uint64_t middle = (low + high) / 2;
+        bool is_before = pick_light(table, static_cast<double>(middle) * 0x1p-48) < light;
+        (is_before ? low : high) = is_before ? middle + 1 : middle;
+    }
+    return static_cast<double>(low) * 0x1p-48;
+}
+
+}  // namespace
+
+TEST_SUITE("light table") {
+    TEST_CASE("identity: each of a million lights gets its share of u, to 1e-6 of it") {
+        constexpr size_t N = 1000003;
+        LightTable table = build_light_table(std::vector<double>(N, 1.0 / N));
+        for (size_t light : {size_t{0}, size_t{1}, N / 3, N / 2, N - 2, N - 1}) {
+            double end = light + 1 < N ? first_u_of(table, light + 1) : 1;
+            CHECK(std::abs((end - first_u_of(table, light)) * N - 1) < 1e-6);
+        }
+    }
+
+    TEST_CASE("teeth: 24 bits give single ones of a million lights 4 % too little or too much") {
+        constexpr double N = 1000003;
+        int least = 100, most = 0, count = 0;
+        for (int i = 0, column = 0; i < 1 << 20; i++) {
+            int at = static_cast<int>(N * i * 0x1p-24);
+            if (at != column) {
+                least = std::min(least, count), most = std::max(most, count);
+                column = at, count = 0;
+            }
+            count++;
+        }
+        CHECK(least == 16);
+        CHECK(most == 17);
+        CHECK(16 / (0x1p24 / N) < 0.96);
+    }
+
+    TEST_CASE("identity: a light of probability 1e-10 is drawn, as often as it should be") {
+        // Column 0 is the rare light up to 2e-10, and from there on the other one.
+        LightTable table = build_light_table({1e-10, 1 - 1e-10});
+        CHECK(pick_light(table, 0) == 0);
+        uint64_t low = 0, high = uint64_t{1} << 47;
+        while (low < high) {
+            uint64_t middle = (low + high) / 2;
+            bool is_rare = pick_light(table, static_cast<double>(middle) * 0x1p-48) == 0;
+            (is_rare ? low : high) = is_rare ? middle + 1 : middle;
+        }
+        CHECK(std::abs(static_cast<double>(low) * 0x1p-48 / 1e-10 - 1) < 1e-4);
+    }
+
+    TEST_CASE("identity: of a million lights, candidates all at once are those one by one") {
+        constexpr int N = 1000003;
+        std::vector<double> pmf;
+        double sum = 0;
+        for (uint32_t i = 0; i < N; i++) sum += pmf.emplace_back(1 + hash32(i) % 1000);
+        for (double& p : pmf) p /= sum;
+        ManyLights lights{build_light_table(pmf), std::vector<LightBounds>(N), 64};
+        Sampler random(SamplerType::independent, 1, 1);
+        random.start(0, 0);
+        for (int k = 0; k < 1000; k++) {
+            double u = join(random.u2());
+            Candidates c = draw_candidates(lights, Hit(), u);
+            for (int i = 0; i < c.M; i++)
+                REQUIRE(c.light[i] == static_cast<int>(pick_light(lights.table, (i + u) / c.M)));
+        }
+    }
+}
