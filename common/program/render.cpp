@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
+#include "common/program/loading_progress.h"
 #include "common/scene/camera.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
@@ -56,7 +57,8 @@ public:
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
 
-    TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace, Rendering& result)
+    TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                 Rendering& result)
         : scene_(scene),
           options_(options),
           trace_(trace),
@@ -137,18 +139,34 @@ private:
     std::mutex mutex_;
 };
 
+/// Reads the scene, and prints the notes even when an error follows.
+Scene load_and_tell(const std::string& path, const Report& report, LoadingProgress& progress) {
+    struct Notes {
+        LoadingProgress& progress;
+        std::vector<std::string> lines = {};
+        ~Notes() {
+            progress.clear();
+            for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
+        }
+    } notes{progress};
+    return load_scene(path, &notes.lines, report);
+}
+
 }  // namespace
 
 Scene load(const RenderOptions& options) {
-    std::vector<std::string> notes;
-    Scene scene = load_scene(options.scene, &notes);
+    constexpr double pause = 10;  // s
+    LoadingProgress progress(stderr, isatty(STDERR_FILENO), pause);
+    Report report;
     if (!options.quiet) {
-        for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
+        report = [&](const std::string& what, double share) { progress.show(what, share); };
     }
+    Scene scene = options.quiet ? load_scene(options.scene, nullptr)
+                                : load_and_tell(options.scene, report, progress);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
-    prepare(scene, options.threads);
+    prepare(scene, options.threads, report);
     return scene;
 }
 
