@@ -116,7 +116,7 @@ TEST_SUITE("reader: malformed input") {
 
     TEST_CASE("input: after twenty different errors the rest is not read") {
         std::string text;
-        for (int i = 0; i < 50; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
+        for (size_t i = 0; i < 50; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
         std::string said = refuse(text);
         CHECK(std::count(said.begin(), said.end(), '\n') == 20);
         CHECK(said.ends_with("x\"\nscene.pbrt: error: so much is wrong that the rest is not read"));
