@@ -8,13 +8,14 @@
 #include <filesystem>
 
 #include "common/base/error.h"
+#include "common/base/position.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
-    throw InputError(path + ": error: " + what + ": " + std::strerror(error));
+    throw InputError(printable(path + ": error: " + what + ": " + std::strerror(error)));
 }
 
 // Writes everything and closes; 0, or the errno of the step that failed.

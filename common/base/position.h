@@ -50,18 +50,24 @@ inline std::string message_at(const Position& at, const std::string& kind,
     throw InputError(message_at(at, "error", text));
 }
 
-/// Throws `unknown KIND "word"` with the nearest of the known words, or with all of a few.
-[[noreturn]] inline void fail_unknown(const Position& at, const std::string& kind,
-                                      const std::string& word,
-                                      const std::vector<std::string>& known) {
+/// `unknown KIND "word"` with the nearest of the known words, or with all of a few.
+inline std::string unknown(const std::string& kind, const std::string& word,
+                           const std::vector<std::string>& known) {
     constexpr size_t few = 12;
     std::string text = "unknown " + kind + ' ' + quote(word), nearest = nearest_word(word, known);
     for (const std::string& name : known) {
         if (nearest.empty() && name.starts_with(word) && !word.empty()) nearest = name;
     }
-    if (!nearest.empty()) fail(at, text + ": did you mean " + quote(nearest) + '?');
-    if (known.empty() || known.size() > few) fail(at, text);
+    if (!nearest.empty()) return text + ": did you mean " + quote(nearest) + '?';
+    if (known.empty() || known.size() > few) return text;
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    fail(at, text + " (known: " + list + ')');
+    return text + " (known: " + list + ')';
+}
+
+/// Throws that a word is unknown.
+[[noreturn]] inline void fail_unknown(const Position& at, const std::string& kind,
+                                      const std::string& word,
+                                      const std::vector<std::string>& known) {
+    fail(at, unknown(kind, word, known));
 }

@@ -13,6 +13,7 @@ constexpr uint32_t small = lanes / 2;      // references that are not split any 
 constexpr uint32_t few = 2 * lanes;        // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
+constexpr uint32_t reported = 16384;       // references of a subtree whose end is reported
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
 Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
@@ -246,8 +247,8 @@ using Pairs = std::vector<Pair, PageAllocator<Pair>>;
 
 class Builder {
 public:
-    Builder(const Geometry& geometry, int threads)
-        : g_(geometry), threads_(threads), idle_threads_(threads - 1) {}
+    Builder(const Geometry& geometry, int threads, const Report& report)
+        : g_(geometry), threads_(threads), idle_threads_(threads - 1), report_(report) {}
 
     Bvh build() {
         Range all = make_refs();
@@ -329,7 +330,18 @@ private:
             std::min(left.size(), right.size()),
             [&] { left_cost = build(node.children[0], left, level + 1); },
             [&] { right_cost = build(node.children[1], right, level + 1); });
+        if (range.size() > reported) {
+            for (const Range& half : {left, right}) {
+                if (half.size() <= reported) tell(half.size());
+            }
+        }
         return share_places(node, left_cost, right_cost);
+    }
+
+    /// Reports that so many more references are in the leaves.
+    void tell(uint32_t references) {
+        double done = built_ += references;
+        if (report_) report_("building the hierarchy", done / static_cast<double>(refs_.size()));
     }
 
     /// Does both, on two threads when it is worth it and one is idle.
@@ -496,6 +508,8 @@ private:
     const Geometry& g_;
     int threads_;
     std::atomic<int> idle_threads_;
+    const Report& report_;
+    std::atomic<uint32_t> built_ = 0;  // references in finished subtrees
     Refs refs_;
     Pairs pairs_;
     std::atomic<uint32_t> next_pair_ = 0;
@@ -506,4 +520,6 @@ private:
 
 }  // namespace
 
-Bvh build_bvh(const Geometry& geometry, int threads) { return Builder(geometry, threads).build(); }
+Bvh build_bvh(const Geometry& geometry, int threads, const Report& report) {
+    return Builder(geometry, threads, report).build();
+}

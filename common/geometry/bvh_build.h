@@ -1,6 +1,7 @@
 // Builds the hierarchy of bounding boxes (chapter 05).
 #pragma once
+#include "common/base/report.h"
 #include "common/geometry/bvh.h"
 
-/// The same hierarchy for any number of threads.
-Bvh build_bvh(const Geometry& geometry, int threads);
+/// The same hierarchy for any number of threads. `report` hears how far it is.
+Bvh build_bvh(const Geometry& geometry, int threads, const Report& report = {});

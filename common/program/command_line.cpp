@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/nearest.h"
@@ -169,7 +170,9 @@ int run_program(const std::function<int()>& program) {
     } catch (const UsageError& e) {
         return report(e.what(), 2);
     } catch (const InputError& e) {
-        return report(e.what(), 1);
+        std::istringstream lines(e.what());
+        for (std::string line; std::getline(lines, line);) report(line, 1);
+        return 1;
     } catch (const std::bad_alloc&) {
         return report("error: out of memory", 1);
     } catch (const std::exception& e) {

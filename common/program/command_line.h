@@ -36,5 +36,5 @@ double parse_positive(const std::string& option, const std::string& text);
 std::string command_line(int argc, char** argv);
 
 /// Runs a program: returns its exit code, 1 after an InputError or when not all that it printed
-/// arrived, 2 after a UsageError. Errors are one line on stderr.
+/// arrived, 2 after a UsageError. Errors are lines on stderr.
 int run_program(const std::function<int()>& program);

@@ -1,32 +1,54 @@
 #include "common/program/loading.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 
-#include "common/base/error.h"
+#include "common/base/position.h"
+#include "common/program/loading_progress.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 
+namespace {
+
+/// Reads the scene, and prints the notes even when an error follows.
+Scene load_and_tell(const std::string& path, const Report& report, LoadingProgress& progress) {
+    struct Notes {
+        LoadingProgress& progress;
+        std::vector<std::string> lines = {};
+        ~Notes() {
+            progress.clear();
+            for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
+        }
+    } notes{progress};
+    return load_scene(path, &notes.lines, report);
+}
+
+}  // namespace
+
 Scene load(const RenderOptions& options) {
-    std::vector<std::string> notes;
-    Scene scene = load_scene(options.scene, &notes);
+    constexpr double pause = 10;  // s
+    LoadingProgress progress(stderr, isatty(STDERR_FILENO), pause);
+    Report report;
     if (!options.quiet) {
-        for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
+        report = [&](const std::string& what, double share) { progress.show(what, share); };
     }
+    Scene scene = options.quiet ? load_scene(options.scene, nullptr)
+                                : load_and_tell(options.scene, report, progress);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
-    prepare(scene, options.threads);
+    prepare(scene, options.threads, report);
     return scene;
 }
 
 void refuse_delta_lights(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point && light.type != LightType::distant) continue;
-        throw InputError(scene.file + ":" + std::to_string(light.line) + ":" +
-                         std::to_string(light.column) + ": error: a " +
-                         (light.type == LightType::point ? "point" : "distant") +
-                         " light has no size, so no path finds it by chance; "
-                         "chapters from 08 on sample it");
+        fail(
+            {scene.file, light.line, light.column},
+            std::string("a ") + (light.type == LightType::point ? "point" : "distant") +
+                " light has no size, so no path finds it by chance; chapters from 08 on sample it");
     }
 }
 
@@ -34,8 +56,7 @@ void refuse_glossy(const Scene& scene) {
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
         if (!is_rough(m)) continue;
-        throw InputError(scene.file + ":" + std::to_string(m.line) + ":" +
-                         std::to_string(m.column) +
-                         ": error: rough conductors are not supported before chapter 12");
+        fail({scene.file, m.line, m.column},
+             "rough conductors are not supported before chapter 12");
     }
 }

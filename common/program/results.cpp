@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/base/files.h"
+#include "common/base/percent.h"
 
 namespace {
 
@@ -99,12 +100,12 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
                 samples / s.seconds / 1e6, static_cast<double>(s.rays) / s.seconds / 1e6,
                 options.threads);
     if (s.paths_cut > 0) {
-        std::printf("depth limit %d cut %.3g %% of the paths\n", scene.max_depth,
-                    100 * static_cast<double>(s.paths_cut) / samples);
+        std::printf("depth limit %d cut %s of the paths\n", scene.max_depth,
+                    percent(static_cast<double>(s.paths_cut) / samples).c_str());
     }
     if (largest_share(r) > 0.01) {
-        std::printf("warning: one sample carries %.2g %% of the whole picture\n",
-                    100 * largest_share(r));
+        std::printf("warning: one sample carries %s of the whole picture\n",
+                    percent(largest_share(r)).c_str());
     }
     for (const std::string& path : options.out) std::printf("wrote %s\n", path.c_str());
 }

@@ -28,7 +28,7 @@ std::vector<Vec3> facet_normals(const Geometry& g) {
 
 }  // namespace
 
-void prepare(Scene& scene, int threads) {
+void prepare(Scene& scene, int threads, const Report& report) {
     // Gather all skies in the first.
     scene.sky = {};
     for (size_t i = 0; i < scene.lights.size(); i++) {
@@ -40,8 +40,9 @@ void prepare(Scene& scene, int threads) {
     }
     if (scene.sky_light >= 0) scene.lights[static_cast<size_t>(scene.sky_light)].L = scene.sky;
 
+    if (report) report("preparing lights and surfaces", 0);
     scene.radius = bounding_radius(scene.geometry);
     scene.light_shapes = light_shapes_of(scene);
     scene.geometry.facet_normals = facet_normals(scene.geometry);
-    scene.bvh = build_bvh(scene.geometry, threads);
+    scene.bvh = build_bvh(scene.geometry, threads, report);
 }

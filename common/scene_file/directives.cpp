@@ -32,8 +32,7 @@ void Directives::color_space(Lexer& lexer, const Token& word) {
     if (token.text == "srgb") return;
     for (const char* name : {"aces2065-1", "dci-p3", "rec2020"}) {
         if (token.text != name) continue;
-        notes_.push_back(message_at(lexer.at(word), "note",
-                                    "ColorSpace " + quote(name) + " is read as \"srgb\""));
+        notes_.add(lexer.at(word), "ColorSpace " + quote(name) + " is read as \"srgb\"");
         return;
     }
     fail_unknown(lexer.at(token), "ColorSpace", std::string(token.text),
@@ -41,23 +40,23 @@ void Directives::color_space(Lexer& lexer, const Token& word) {
 }
 
 void Directives::accelerator(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
+    Params params(lexer, word, notes_);
     read_accelerator(params, notes_);
 }
 
 void Directives::camera(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
-    read_camera(params, still_transform(params.at()), scene_.camera, exposure_);
+    Params params(lexer, word, notes_);
+    read_camera(params, still_transform(params), scene_.camera, exposure_);
     has_camera_ = true;
 }
 
 void Directives::film(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
+    Params params(lexer, word, notes_);
     read_film(params, scene_, exposure_, notes_);
 }
 
 void Directives::integrator(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
+    Params params(lexer, word, notes_);
     read_integrator(params, scene_, notes_);
 }
 
@@ -71,13 +70,13 @@ void Directives::option(Lexer& lexer, const Token& word) {
 }
 
 void Directives::pixel_filter(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
+    Params params(lexer, word, notes_);
     read_pixel_filter(params, notes_);
     has_filter_ = true;
 }
 
 void Directives::sampler(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
+    Params params(lexer, word, notes_);
     read_sampler(params, scene_, notes_);
 }
 
@@ -87,12 +86,15 @@ void Directives::world_begin(Lexer&, const Token&) {
 }
 
 void Directives::area_light_source(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
+    Params params(lexer, word, notes_);
     state_.emission = read_area_light(params);
 }
 
 void Directives::begin(Lexer& lexer, const Token& word) {
-    saved_.push_back({state_, lexer.at(word), std::string(word.text)});
+    constexpr size_t deepest = 1000;
+    std::string name(word.text);
+    if (saved_.size() == deepest) stop_reading(lexer.at(word), name + " more than 1000 deep");
+    saved_.push_back({state_, lexer.at(word), name});
 }
 
 void Directives::end(Lexer& lexer, const Token& word) {
@@ -108,15 +110,15 @@ void Directives::end(Lexer& lexer, const Token& word) {
 }
 
 void Directives::light_source(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
-    Light light = read_light(params, still_transform(params.at()));
+    Params params(lexer, word, notes_);
+    Light light = read_light(params, still_transform(params));
     if (!is_black(light.L)) scene_.lights.push_back(light);
 }
 
 void Directives::make_named_material(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     std::string name = lexer.unescape(token);
-    Params params(lexer, word, false);
+    Params params(lexer, word, notes_, false);
     params.read_type();
     uint32_t index = find_material(name, lexer.at(token));
     NamedMaterial& named = named_materials_[name];
@@ -126,9 +128,9 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
 }
 
 void Directives::material(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
-    state_.material = static_cast<uint32_t>(scene_.materials.size());
+    Params params(lexer, word, notes_);
     scene_.materials.push_back(read_material(params));
+    state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
 }
 
 void Directives::named_material(Lexer& lexer, const Token& word) {
@@ -141,10 +143,10 @@ void Directives::reverse_orientation(Lexer&, const Token&) {
 }
 
 void Directives::shape(Lexer& lexer, const Token& word) {
-    Params params(lexer, word);
-    ShapeState state = {still_transform(params.at()), state_.material, state_.emission,
+    Params params(lexer, word, notes_);
+    ShapeState state = {still_transform(params), state_.material, state_.emission,
                         state_.reverse_orientation};
-    read_shape(params, state, scene_, notes_);
+    read_shape(params, state, limits_, files_, scene_, notes_);
 }
 
 // The number of the named material, which may be defined after its use.
@@ -157,9 +159,11 @@ uint32_t Directives::find_material(const std::string& name, const Position& at) 
     return place->second.index;
 }
 
-// The current transform; throws where it moves while the shutter is open.
-const Transform& Directives::still_transform(const Position& at) const {
-    if (state_.start != state_.end) fail(at, "motion is not supported yet");
+// The current transform; not supported where it moves while the shutter is open.
+const Transform& Directives::still_transform(Params& params) const {
+    if (state_.start != state_.end) {
+        params.not_supported(params.at(), "motion is not supported yet");
+    }
     return state_.start;
 }
 
@@ -168,9 +172,13 @@ void Directives::check_materials() const {
     for (const auto& [name, material] : named_materials_) {
         if (material.defined) known.push_back(name);
     }
+    std::vector<std::string> wrong;
     for (const auto& [name, material] : named_materials_) {
-        if (!material.defined) fail_unknown(material.first_use, "NamedMaterial", name, known);
+        if (material.defined) continue;
+        wrong.push_back(
+            message_at(material.first_use, "error", unknown("NamedMaterial", name, known)));
     }
+    if (!wrong.empty()) throw InputError(join_lines(wrong));
 }
 
 Scene Directives::finish() {
@@ -191,8 +199,7 @@ Scene Directives::finish() {
             fail(file, "shutter or iso leave no usable light");
     }
     if (!has_filter_) {
-        notes_.push_back(
-            message_at(file, "note", "no PixelFilter: pbrt's \"gaussian\" is replaced by the box"));
+        notes_.add(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
     }
     return std::move(scene_);
 }

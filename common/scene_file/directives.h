@@ -8,12 +8,13 @@
 /// which reads what follows the directive's word.
 class Directives {
 public:
-    Directives(const std::string& path, Notes& notes) : notes_(notes) {
+    Directives(const std::string& path, const Limits& limits, const Report& report, Messages& notes)
+        : limits_(limits), files_(path, limits, report), notes_(notes) {
         scene_.file = path;
         scene_.materials.emplace_back();  // of shapes that are given none
     }
 
-    const std::string& main_file() const { return scene_.file; }
+    NamedFiles& files() { return files_; }
     bool in_world() const { return in_world_; }
     /// The scene, once all directives are read; throws for what is missing.
     Scene finish();
@@ -65,11 +66,13 @@ private:
     };
 
     uint32_t find_material(const std::string& name, const Position& at);
-    const Transform& still_transform(const Position& at) const;
+    const Transform& still_transform(Params& params) const;
     void check_materials() const;
 
     Scene scene_;
-    Notes& notes_;
+    const Limits limits_;
+    NamedFiles files_;
+    Messages& notes_;
     Exposure exposure_;
     State state_;
     std::vector<SavedState> saved_;

@@ -5,6 +5,7 @@
 
 #include "common/base/numbers.h"
 #include "common/base/utf8.h"
+#include "common/scene_file/messages.h"
 
 namespace {
 
@@ -13,8 +14,8 @@ bool ends_word(char c) { return is_blank(c) || c == '[' || c == ']' || c == '"';
 
 }  // namespace
 
-Lexer::Lexer(std::string file, std::string bytes)
-    : file_(std::move(file)), bytes_(std::move(bytes)) {
+Lexer::Lexer(std::string file, std::string bytes, const Report& report)
+    : file_(std::move(file)), bytes_(std::move(bytes)), report_(report) {
     check_encoding();
     if (bytes_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
     ahead_ = read();
@@ -29,7 +30,7 @@ void Lexer::check_encoding() const {
     for (size_t i = 0; i < bytes_.size(); column++) {
         size_t length = utf8_length(bytes_, i);
         if (length == 0) fail({file_, line, column}, "not UTF-8 text");
-        if (bytes_[i] == '\n') {
+        if (line_ends_at(i)) {
             line++;
             column = 0;
         }
@@ -43,10 +44,15 @@ Token Lexer::next() {
     return token;
 }
 
+// Of the two bytes CR LF only the second one ends the line.
+bool Lexer::line_ends_at(size_t byte) const {
+    if (bytes_[byte] == '\r') return byte + 1 == bytes_.size() || bytes_[byte + 1] != '\n';
+    return bytes_[byte] == '\n';
+}
+
 // Steps over one byte and counts lines and characters.
 void Lexer::advance() {
-    char c = bytes_[position_++];
-    if (c == '\n') {
+    if (line_ends_at(position_++)) {
         line_++;
         column_ = 1;
     } else if (position_ == bytes_.size() || (bytes_[position_] & 0xc0) != 0x80) {
@@ -73,17 +79,23 @@ void Lexer::read_string() {
     Position start = {file_, line_, column_};
     advance();
     while (position_ < bytes_.size() && bytes_[position_] != '"') {
-        if (bytes_[position_] == '\n') fail(start, "the string does not end on its line");
+        if (line_ends_at(position_)) stop_reading(start, "the string does not end on its line");
         bool escape = bytes_[position_] == '\\';
         advance();
-        if (escape && position_ < bytes_.size() && bytes_[position_] != '\n') advance();
+        if (escape && position_ < bytes_.size() && !line_ends_at(position_)) advance();
     }
-    if (position_ == bytes_.size()) fail(start, "the file ends inside a string");
+    if (position_ == bytes_.size()) stop_reading(start, "the file ends inside a string");
     advance();
 }
 
 Token Lexer::read() {
     skip_blanks_and_comments();
+    if (position_ >= next_report_) {
+        constexpr size_t step = size_t{1} << 20;
+        next_report_ = position_ + step;
+        double share = static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
+        if (report_) report_("reading " + file_, share);
+    }
     Token token;
     token.line = line_;
     token.column = column_;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/base/position.h"
+#include "common/base/report.h"
 
 struct Token {
     enum Type : uint8_t { word, string, open, close, end };
@@ -16,10 +17,11 @@ struct Token {
 /// The tokens of one file, with one token to look ahead. A token of type `end` closes the file.
 ///
 /// Blanks separate tokens; brackets and quotes also end one; # starts a comment where a token could
-/// start. Throws InputError for a file that is not UTF-8 text and for a string without its end.
+/// start. Lines end with LF, CR LF or CR. Throws InputError for a file that is not UTF-8 text, and
+/// ReadingEnds for a string without its end.
 class Lexer {
 public:
-    Lexer(std::string file, std::string bytes);
+    Lexer(std::string file, std::string bytes, const Report& report = {});
     Lexer(const Lexer&) = delete;  // tokens point into bytes_
     Lexer& operator=(const Lexer&) = delete;
 
@@ -36,13 +38,15 @@ public:
 
 private:
     void check_encoding() const;
+    bool line_ends_at(size_t byte) const;
     void advance();
     void skip_blanks_and_comments();
     void read_string();
     Token read();
 
     std::string file_, bytes_;
-    size_t position_ = 0;
+    Report report_;
+    size_t position_ = 0, next_report_ = 0;
     int line_ = 1, column_ = 1;
     Token ahead_;
 };

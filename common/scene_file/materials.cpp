@@ -33,7 +33,10 @@ float read_alpha(Params& params) {
     if (!(std::min(u, v) >= 0 && std::max(u, v) <= roughest)) {
         fail(params.at(), "roughness must be from 0 to 100");
     }
-    if (u != v) fail(params.at(), "uroughness and vroughness that differ are not supported");
+    if (u != v) {
+        params.not_supported(params.at(),
+                             "uroughness and vroughness that differ are not supported");
+    }
     return remap ? std::sqrt(u) : u;
 }
 
@@ -50,7 +53,8 @@ std::optional<Rgb> read_metal(Params& params, const std::string& name) {
     const Param* spectrum = params.find("spectrum", name);
     if (!spectrum) return {};
     if (spectrum->strings.size() != 1) {
-        fail(spectrum->at, quote(name) + " must be an rgb or the name of a metal");
+        params.not_supported(spectrum->at, quote(name) + " must be an rgb or the name of a metal");
+        return {};
     }
     std::vector<std::string> known;
     for (const std::string& symbol : metal_symbols()) {
@@ -59,7 +63,8 @@ std::optional<Rgb> read_metal(Params& params, const std::string& name) {
         if (spectrum->strings[0] == "metal-" + symbol + "-k") return ior.k;
         known.push_back("metal-" + symbol + '-' + name);
     }
-    fail_unknown(spectrum->at, "spectrum", spectrum->strings[0], known);
+    params.not_supported(spectrum->at, unknown("spectrum", spectrum->strings[0], known));
+    return {};
 }
 
 Material read_conductor(Params& params) {
@@ -91,14 +96,15 @@ Material read_dielectric(Params& params) {
     Material material;
     material.type = MaterialType::dielectric;
     if (const Param* glass = params.find("spectrum", "eta")) {
-        fail(glass->at, "glass with a spectrum for eta (dispersion) is not supported yet");
+        params.not_supported(glass->at,
+                             "glass with a spectrum for eta (dispersion) is not supported yet");
     }
     material.ior = params.number("eta", 1.5f);
     if (!(material.ior >= 1e-4f && material.ior <= 1e4f)) {
         fail(params.at("eta"), "\"eta\" must be from 1e-4 to 1e4");
     }
     if (read_alpha(params) >= smooth_below) {
-        fail(params.at(), "a rough dielectric is not supported");
+        params.not_supported(params.at(), "a rough dielectric is not supported");
     }
     return material;
 }
@@ -157,7 +163,7 @@ Material read_material(Params& params) {
 AreaEmission read_area_light(Params& params) {
     if (params.type() != "diffuse") params.fail_type({"diffuse"});
     if (params.find("string", "filename")) {
-        fail(params.at("filename"), "an image on an area light is not supported");
+        params.not_supported(params.at("filename"), "an image on an area light is not supported");
     }
     AreaEmission emission;
     emission.L = params.illuminant("L", {1, 1, 1}) * read_factor(params, "scale", 1);
@@ -190,7 +196,8 @@ Light read_light(Params& params, const Transform& world_from_light) {
     } else if (params.type() == "infinite") {
         light.type = LightType::infinite;
         if (params.find("string", "filename")) {
-            fail(params.at("filename"), "an image for the sky is not supported yet");
+            params.not_supported(params.at("filename"),
+                                 "an image for the sky is not supported yet");
         }
         light.L = params.illuminant("L", {1, 1, 1}) * scale;
         if (params.find("float", "illuminance")) {

@@ -38,8 +38,6 @@ std::vector<uint32_t> read_indices(Params& params, size_t vertices) {
 uint32_t add_vertices(const Params& params, const TriangleMesh& mesh,
                       const Transform& world_from_object, bool reverse, Geometry& geometry) {
     size_t first = geometry.positions.size();
-    constexpr size_t most = std::numeric_limits<uint32_t>::max() / 2;
-    if (first + mesh.positions.size() > most) fail(params.at(), "too many vertices");
     for (Vec3 p : mesh.positions) {
         Vec3 world = to_vec3(transform_point(world_from_object, {p.x, p.y, p.z}));
         check_extent(params, world);
@@ -93,7 +91,7 @@ TriangleMesh read_triangle_mesh(Params& params) {
 }
 
 void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& world_from_object,
-              bool reverse, uint32_t shape, Geometry& g, Notes& notes) {
+              bool reverse, uint32_t shape, Geometry& g, Messages& notes) {
     uint32_t first = add_vertices(params, mesh, world_from_object, reverse, g);
     bool mirrored = determinant(world_from_object) < 0;
     size_t left_out = 0;
@@ -114,7 +112,6 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& w
         g.triangles.push_back({{a, b, c}, shape});
     }
     if (left_out > 0) {
-        notes.push_back(message_at(params.at(), "note",
-                                   "left out triangles without area: " + std::to_string(left_out)));
+        notes.add(params.at(), "left out triangles without area: " + std::to_string(left_out));
     }
 }

@@ -19,4 +19,4 @@ TriangleMesh read_triangle_mesh(Params& params);
 ///
 /// Leaves out triangles without area, with a note. All triangles get the number `shape`.
 void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& world_from_object,
-              bool reverse, uint32_t shape, Geometry& geometry, Notes& notes);
+              bool reverse, uint32_t shape, Geometry& geometry, Messages& notes);

@@ -3,24 +3,57 @@
 #include <filesystem>
 
 #include "common/base/files.h"
+#include "common/scene_file/messages.h"
 
 namespace fs = std::filesystem;
 
-std::string find_named_file(const std::string& main_file, const Position& at,
-                            const std::string& name) {
+std::string read_scene_file(const std::string& path) {
+    std::error_code none;
+    fs::file_type type = fs::status(path, none).type();
+    bool is_device = type == fs::file_type::character || type == fs::file_type::block;
+    bool is_pipe = type == fs::file_type::fifo || type == fs::file_type::socket;
+    if (is_device) fail({path}, "cannot read: a device and no file");
+    if (is_pipe) fail({path}, "cannot read: a pipe and no file");
+    return read_file(path);
+}
+
+std::string canonical(const std::string& path) {
+    std::error_code none;
+    return fs::weakly_canonical(path, none).string();
+}
+
+NamedFiles::NamedFiles(std::string main_file, const Limits& limits, const Report& report)
+    : main_file_(std::move(main_file)), limits_(limits), report_(report) {}
+
+std::string NamedFiles::find(const Position& at, const std::string& name) const {
     fs::path path = fs::path(at.file).parent_path() / name;
-    fs::path from_main = fs::path(main_file).parent_path() / name;
+    fs::path from_main = fs::path(main_file_).parent_path() / name;
     std::error_code none;
     bool only_there = !fs::exists(path, none) && fs::exists(from_main, none);
     return (only_there ? from_main : path).string();
 }
 
-std::string read_named_file(const std::string& path, const Position& at) {
+std::string NamedFiles::read(const std::string& path, const Position& at) {
+    std::string bytes;
     try {
-        return read_file(path);
+        bytes = read_scene_file(path);
     } catch (const InputError& error) {
         // Name the place that asks for the file, before what is wrong with it.
         std::string text = error.what();
         fail(at, quote(path) + ": " + text.substr(text.find(": error: ") + 9));
     }
+    bytes_read_ += bytes.size();
+    if (bytes_read_ > limits_.file_bytes) {
+        stop_reading(at, "more than " + std::to_string(limits_.file_bytes) +
+                             " bytes are read, from all files together");
+    }
+    return bytes;
+}
+
+const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at) {
+    std::string file = canonical(path);
+    auto known = meshes_.find(file);
+    if (known != meshes_.end()) return known->second;
+    if (report_) report_("reading " + path, 0);
+    return meshes_[file] = parse_ply(path, read(path, at), limits_, report_);
 }

@@ -1,13 +1,40 @@
 // The files that a scene file names.
 #pragma once
+#include <map>
 #include <string>
 
 #include "common/base/position.h"
+#include "common/base/report.h"
+#include "common/scene_file/limits.h"
+#include "common/scene_file/ply.h"
 
-/// The path of the file that is named at a place in a scene file: relative to the file that names
-/// it, or, where there is no such file, to the main scene file, which is what pbrt does.
-std::string find_named_file(const std::string& main_file, const Position& at,
-                            const std::string& name);
+/// The bytes of a scene file; throws InputError when it cannot be read, and at once for what is no
+/// file: a device or a pipe may never end.
+std::string read_scene_file(const std::string& path);
 
-/// The bytes of the file; throws InputError at the place that names it when it cannot be read.
-std::string read_named_file(const std::string& path, const Position& at);
+/// The one name of a file that has many, such as a/../b.
+std::string canonical(const std::string& path);
+
+/// Finds and reads the files that a scene names, and counts how much is read.
+class NamedFiles {
+public:
+    NamedFiles(std::string main_file, const Limits& limits, const Report& report);
+
+    /// The path of the file that is named at a place in a scene file: relative to the file that
+    /// names it, or, where there is no such file, to the main scene file, which is what pbrt does.
+    std::string find(const Position& at, const std::string& name) const;
+
+    /// The bytes of the file; throws at the place that names it when it cannot be read, or when
+    /// more than the limit would be read in all.
+    std::string read(const std::string& path, const Position& at);
+
+    /// The mesh in a PLY file, which is read once, however often it is named.
+    const TriangleMesh& mesh(const std::string& path, const Position& at);
+
+private:
+    const std::string main_file_;
+    const Limits limits_;
+    const Report report_;
+    uint64_t bytes_read_ = 0;
+    std::map<std::string, TriangleMesh> meshes_;  // by the canonical names of their files
+};

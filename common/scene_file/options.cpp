@@ -26,8 +26,8 @@ void accept(Params& params, const std::vector<Kind>& kinds) {
     params.fail_type(known);
 }
 
-void note(Notes& notes, const Params& params, const std::string& text) {
-    notes.push_back(message_at(params.at(), "note", params.owner() + ' ' + text));
+void note(Messages& notes, const Params& params, const std::string& text) {
+    notes.add(params.at(), params.owner() + ' ' + text);
 }
 
 void place_camera(const Params& params, const Transform& world_from_camera, Camera& camera) {
@@ -76,7 +76,9 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
     read_screen(params, camera);
     float lens_radius = params.number("lensradius", 0);
     if (lens_radius < 0) fail(params.at("lensradius"), "lensradius must not be negative");
-    if (lens_radius > 0) fail(params.at("lensradius"), "lensradius > 0 is not supported yet");
+    if (lens_radius > 0) {
+        params.not_supported(params.at("lensradius"), "lensradius > 0 is not supported yet");
+    }
     params.ignore("float", {"focaldistance"});
     exposure.shutter = params.number("shutterclose", 1) - params.number("shutteropen", 0);
     if (!(exposure.shutter > 0)) {
@@ -85,7 +87,7 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
     params.finish();
 }
 
-void read_film(Params& params, Scene& scene, Exposure& exposure, Notes& notes) {
+void read_film(Params& params, Scene& scene, Exposure& exposure, Messages& notes) {
     if (params.type() != "rgb") params.fail_type({"rgb"});
     constexpr int widest = 1 << 16;
     constexpr int64_t most_pixels = 1 << 28;
@@ -98,15 +100,17 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, Notes& notes) {
     if (!(exposure.iso > 0)) fail(params.at("iso"), "iso must be greater than 0");
 
     if (params.find_exactly("float", "cropwindow", 4)) {
-        fail(params.at("cropwindow"), "cropwindow is not supported");
+        params.not_supported(params.at("cropwindow"), "cropwindow is not supported");
     }
     if (params.find_exactly("integer", "pixelbounds", 4)) {
-        fail(params.at("pixelbounds"), "pixelbounds is not supported");
+        params.not_supported(params.at("pixelbounds"), "pixelbounds is not supported");
     }
     std::string sensor = params.string("sensor", "cie1931");
-    if (sensor != "cie1931") fail_unknown(params.at("sensor"), "sensor", sensor, {"cie1931"});
+    if (sensor != "cie1931") {
+        params.not_supported(params.at("sensor"), unknown("sensor", sensor, {"cie1931"}));
+    }
     if (params.number("whitebalance", 0) != 0) {
-        fail(params.at("whitebalance"), "whitebalance is not supported");
+        params.not_supported(params.at("whitebalance"), "whitebalance is not supported");
     }
     if (params.find("float", "maxcomponentvalue")) {
         note(notes, params, "maxcomponentvalue is ignored: nothing is clamped");
@@ -117,7 +121,7 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, Notes& notes) {
     params.finish();
 }
 
-void read_pixel_filter(Params& params, Notes& notes) {
+void read_pixel_filter(Params& params, Messages& notes) {
     float radius = params.type() == "box" ? 0.5f : 0;
     if (params.type() == "box") {
         radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
@@ -130,7 +134,7 @@ void read_pixel_filter(Params& params, Notes& notes) {
     if (radius != 0.5f) note(notes, params, "is replaced by the box of one pixel");
 }
 
-void read_sampler(Params& params, Scene& scene, Notes& notes) {
+void read_sampler(Params& params, Scene& scene, Messages& notes) {
     constexpr int most = 1 << 24;
     if (params.type() == "stratified") {
         int x = params.integer("xsamples", 4, 1, 4096), y = params.integer("ysamples", 4, 1, 4096);
@@ -149,7 +153,7 @@ void read_sampler(Params& params, Scene& scene, Notes& notes) {
     if (params.type() != "independent") note(notes, params, "only sets the samples per pixel");
 }
 
-void read_integrator(Params& params, Scene& scene, Notes& notes) {
+void read_integrator(Params& params, Scene& scene, Messages& notes) {
     bool has_depth = params.type() != "ambientocclusion";
     scene.max_depth = has_depth ? params.integer("maxdepth", 5, 0, 1 << 30) : 5;
     accept(params, {{"ambientocclusion", {}, {"maxdistance"}, {}, {"cossample"}},
@@ -174,7 +178,7 @@ void read_integrator(Params& params, Scene& scene, Notes& notes) {
         note(notes, params, "only sets the depth: the program is the integrator");
 }
 
-void read_accelerator(Params& params, Notes& notes) {
+void read_accelerator(Params& params, Messages& notes) {
     accept(params, {{"bvh", {"maxnodeprims"}, {}, {"splitmethod"}, {}},
                     {"kdtree",
                      {"intersectcost", "traversalcost", "maxprims", "maxdepth"},
@@ -184,7 +188,7 @@ void read_accelerator(Params& params, Notes& notes) {
     if (params.type() != "bvh") note(notes, params, "is ignored: all programs use a BVH");
 }
 
-void read_option(const Position& at, const std::string& name, Notes& notes) {
+void read_option(const Position& at, const std::string& name, Messages& notes) {
     // Compare as pbrt does, without regard to case, dashes and underscores.
     std::string plain;
     for (char c : name) {
@@ -204,5 +208,5 @@ void read_option(const Position& at, const std::string& name, Notes& notes) {
     if (std::find(known.begin(), known.end(), plain) == known.end()) {
         fail_unknown(at, "Option", name, known);
     }
-    notes.push_back(message_at(at, "note", "Option " + quote(name) + " is ignored"));
+    notes.add(at, "Option " + quote(name) + " is ignored");
 }

@@ -13,6 +13,13 @@ const std::vector<std::string> pbrt_only = {
     "loopsubdiv",          "measured",        "mix",           "orthographic", "projection",
     "realistic",           "spectral",        "spherical",     "spot",         "subsurface",
     "thindielectric"};
+// Parameters likewise.
+const std::vector<std::string> pbrt_only_params = {"alpha", "displacement", "edgelength",
+                                                   "normalmap", "portal"};
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 std::string list(const std::vector<std::string>& words) {
     std::string text;
@@ -22,7 +29,7 @@ std::string list(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Params::Params(Lexer& lexer, const Token& directive, bool has_type)
+Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type)
     : at_(lexer.at(directive)), type_at_(at_), directive_(directive.text) {
     if (has_type) {
         Token token = lexer.next();
@@ -32,7 +39,19 @@ Params::Params(Lexer& lexer, const Token& directive, bool has_type)
         }
         type_ = lexer.unescape(token);
     }
-    while (lexer.peek().type == Token::string) params_.push_back(read_param(lexer));
+    while (lexer.peek().type == Token::string) add(read_param(lexer), notes);
+}
+
+// Of two with one name the first is forgotten, whatever its type is.
+void Params::add(Param param, Messages& notes) {
+    constexpr size_t most = 100;
+    if (params_.size() == most) fail(param.at, owner() + " has more than 100 parameters");
+    auto same_name = [&](const Param& other) { return other.name == param.name; };
+    if (std::erase_if(params_, same_name) > 0) {
+        notes.add(param.at,
+                  quote(param.name) + " of " + owner() + " is given twice: the last one counts");
+    }
+    params_.push_back(std::move(param));
 }
 
 void Params::read_type() {
@@ -43,15 +62,15 @@ void Params::read_type() {
 }
 
 void Params::fail_type(const std::vector<std::string>& known) const {
-    if (std::find(pbrt_only.begin(), pbrt_only.end(), type_) != pbrt_only.end()) {
+    if (contains(pbrt_only, type_)) {
         fail(type_at_, owner() + " is not supported (known: " + list(known) + ')');
     }
     fail_unknown(type_at_, directive_, type_, known);
 }
 
 const Position& Params::at(const std::string& name) const {
-    for (size_t i = params_.size(); i-- > 0;) {
-        if (params_[i].name == name) return params_[i].at;
+    for (const Param& param : params_) {
+        if (param.name == name) return param.at;
     }
     return at_;
 }
@@ -63,13 +82,12 @@ std::string Params::owner() const {
 const Param* Params::find(const std::string& type, const std::string& name) {
     known_types_.push_back(type);
     known_names_.push_back(name);
-    const Param* found = nullptr;
     for (Param& param : params_) {
         if (param.type != type || param.name != name) continue;
         param.used = true;
-        found = &param;
+        return &param;
     }
-    return found;
+    return nullptr;
 }
 
 const Param* Params::find_exactly(const std::string& type, const std::string& name, size_t count) {
@@ -134,23 +152,36 @@ void Params::ignore(const std::string& type, const std::vector<std::string>& nam
     for (const std::string& name : names) find(type, name);
 }
 
+void Params::not_supported(const Position& at, const std::string& text) {
+    not_supported_.push_back(message_at(at, "error", text));
+}
+
 void Params::finish() const {
+    std::vector<std::string> wrong = not_supported_;
     for (const Param& param : params_) {
-        if (param.used) continue;
-        // Say which types would do, where only the type is wrong.
-        std::string types;
-        for (size_t i = 0; i < known_names_.size(); i++) {
-            if (known_names_[i] != param.name) continue;
-            types += (types.empty() ? "" : " or ") + known_types_[i];
-        }
-        if (types.empty()) {
-            std::vector<std::string> known = known_names_;
-            std::sort(known.begin(), known.end());
-            known.erase(std::unique(known.begin(), known.end()), known.end());
-            fail_unknown(param.at, owner() + " parameter", param.name, known);
-        }
-        std::string hint = param.type == "texture" ? " (textures are not supported)" : "";
-        fail(param.at, quote(param.name) + " of " + owner() + " must be of type " + types +
-                           ", not " + param.type + hint);
+        if (!param.used) wrong.push_back(message_at(param.at, "error", what_is_wrong_with(param)));
     }
+    if (!wrong.empty()) throw InputError(join_lines(wrong));
+}
+
+// Of a parameter that nobody asked for.
+std::string Params::what_is_wrong_with(const Param& param) const {
+    // Say which types would do, where only the type is wrong.
+    std::string types;
+    for (size_t i = 0; i < known_names_.size(); i++) {
+        if (known_names_[i] != param.name) continue;
+        types += (types.empty() ? "" : " or ") + known_types_[i];
+    }
+    if (types.empty() && contains(pbrt_only_params, param.name)) {
+        return quote(param.name) + " of " + owner() + " is not supported";
+    }
+    if (types.empty()) {
+        std::vector<std::string> known = known_names_;
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        return unknown(owner() + " parameter", param.name, known);
+    }
+    std::string hint = param.type == "texture" ? " (textures are not supported)" : "";
+    return quote(param.name) + " of " + owner() + " must be of type " + types + ", not " +
+           param.type + hint;
 }

@@ -4,17 +4,18 @@
 #include <vector>
 
 #include "common/base/vec.h"
+#include "common/scene_file/messages.h"
 #include "common/scene_file/param.h"
 
 /// The parameters of one directive. A directive asks for each that it knows; finish() then refuses
-/// those that nobody asked for. Of a parameter given twice the last one counts, as in pbrt.
+/// those that nobody asked for. Of a parameter given twice the last one counts, with a note.
 ///
 /// Everything here throws InputError at the parameter for what cannot be used.
 class Params {
 public:
     /// Reads what follows `directive`: its type, such as "perspective" (where it has one), and the
     /// parameters up to a token that is none.
-    Params(Lexer& lexer, const Token& directive, bool has_type = true);
+    Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type = true);
 
     const std::string& type() const { return type_; }
     /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
@@ -42,12 +43,18 @@ public:
     const Param* find_exactly(const std::string& type, const std::string& name, size_t count);
     /// Accepts parameters that have no effect on what we render.
     void ignore(const std::string& type, const std::vector<std::string>& names);
-    /// Throws for a parameter that has not been asked for.
+    /// Remembers something that we have not, for finish() to throw: so one run names all of it.
+    void not_supported(const Position& at, const std::string& text);
+    /// Throws for what is not supported, and for parameters that have not been asked for.
     void finish() const;
 
 private:
+    void add(Param param, Messages& notes);
+    std::string what_is_wrong_with(const Param& param) const;
+
     Position at_, type_at_;
     std::string directive_, type_;
     std::vector<Param> params_;
     std::vector<std::string> known_names_, known_types_;  // what was asked for
+    std::vector<std::string> not_supported_;              // lines
 };

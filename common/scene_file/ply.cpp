@@ -110,8 +110,9 @@ std::vector<Element> read_header(PlyBytes& reader) {
     return elements;
 }
 
-// Refuses a count that the rest of the file cannot hold, before anything is allocated for it.
-void check_count(const PlyBytes& reader, const Element& element) {
+// Refuses a count that the rest of the file cannot hold, or that is beyond the limits, before
+// anything is allocated for it.
+void check_count(const PlyBytes& reader, const Element& element, const Limits& limits) {
     uint64_t bytes = 0;  // of the smallest element
     for (const Property& property : element.properties) {
         const PlyScalar& first = property.count_type ? *property.count_type : *property.type;
@@ -120,6 +121,11 @@ void check_count(const PlyBytes& reader, const Element& element) {
     if (bytes > 0 && element.count > (reader.left() + 1) / bytes) {
         fail(element.at, "the file is too short for " + std::to_string(element.count) + ' ' +
                              printable(element.name) + " elements");
+    }
+    uint64_t most = element.name == "vertex" ? limits.vertices : limits.primitives;
+    bool is_kept = element.name == "vertex" || element.name == "face";
+    if (is_kept && element.count > most) {
+        fail(element.at, "more than " + std::to_string(most) + ' ' + element.name + " elements");
     }
 }
 
@@ -153,6 +159,7 @@ void read_vertices(PlyBytes& reader, const Element& element, TriangleMesh& mesh)
 
     mesh.positions.reserve(element.count);
     for (uint64_t n = 0; n < element.count; n++) {
+        reader.report(n);
         std::array<float, 6> v = {};
         for (const Property& property : element.properties) {
             size_t slot = 0;
@@ -176,6 +183,7 @@ void read_faces(PlyBytes& reader, const Element& element, size_t vertices, Trian
         fail(element.at, "face has no list of whole numbers \"vertex_indices\"");
     }
     for (uint64_t n = 0; n < element.count; n++) {
+        reader.report(n);
         for (const Property& property : element.properties) {
             if (&property != corners) {
                 skip(reader, property);
@@ -204,11 +212,13 @@ void read_faces(PlyBytes& reader, const Element& element, size_t vertices, Trian
 
 }  // namespace
 
-TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits,
+                       const Report& report) {
+    if (bytes.empty()) fail({file}, "the file is empty");
     if (bytes.starts_with("\x1f\x8b")) {
         fail({file}, "compressed by gzip: unpack it first");
     }
-    PlyBytes reader(file, bytes);
+    PlyBytes reader(file, bytes, report);
     std::vector<Element> elements = read_header(reader);
 
     // Know how many vertices there will be, since faces may come before them.
@@ -225,7 +235,7 @@ TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
 
     TriangleMesh mesh;
     for (const Element& element : elements) {
-        check_count(reader, element);
+        check_count(reader, element, limits);
         if (&element == vertex) {
             read_vertices(reader, element, mesh);
         } else if (&element == face) {
@@ -236,5 +246,6 @@ TriangleMesh parse_ply(const std::string& file, const std::string& bytes) {
             }
         }
     }
+    if (mesh.indices.empty()) fail(face->at, "the mesh has no faces");
     return mesh;
 }

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "common/base/report.h"
 #include "common/base/vec.h"
+#include "common/scene_file/limits.h"
 
 /// A mesh in its own space.
 struct TriangleMesh {
@@ -14,10 +16,14 @@ struct TriangleMesh {
 };
 
 /// Reads the mesh from the bytes of a PLY file. A quad 0 1 2 3 becomes triangles 0 1 2 and 0 2 3;
-/// elements and properties other than x y z, nx ny nz and the faces are read over.
+/// elements and properties other than x y z, nx ny nz and the faces are read over. A mesh without
+/// vertices or faces is refused, as pbrt does.
 ///
 /// file    its name, for messages
+/// limits  a mesh beyond them is refused before there is memory for it
+/// report  hears how far it is
 /// errors  InputError "file:line:column: error: ..." for the header and an ASCII body,
 ///         "file: error: ... at byte N" for a binary one
 /// source  Turk 1994, "The PLY Polygon File Format"      tested by  "input: PLY ..."
-TriangleMesh parse_ply(const std::string& file, const std::string& bytes);
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits = {},
+                       const Report& report = {});

@@ -1,12 +1,9 @@
 #include "common/scene_file/reader.h"
 
 #include <algorithm>
-#include <filesystem>
 
-#include "common/base/files.h"
 #include "common/base/numbers.h"
 #include "common/scene_file/directives.h"
-#include "common/scene_file/named_files.h"
 
 namespace {
 
@@ -61,40 +58,83 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"WorldBegin", {Block::options, &D::world_begin}},
 };
 
-/// Reads directive by directive, in one file and in all that it includes.
+/// Reads directive by directive, in one file and in all that it includes. What is wrong with one
+/// directive does not keep it from reading the next.
 class Reader {
 public:
-    Reader(const std::string& path, Notes& notes) : directives_(path, notes) {}
+    Reader(const std::string& path, const Limits& limits, const Report& report,
+           std::vector<std::string>& notes)
+        : main_file_(path),
+          limits_(limits),
+          report_(report),
+          notes_("note", notes),
+          directives_(path, limits, report, notes_) {}
 
-    void read(const std::string& path, std::string text);
-    Scene finish() { return directives_.finish(); }
+    Scene read_scene(std::string text);
 
 private:
+    void read(const std::string& path, std::string text);
     void read_directive(Lexer& lexer, const Token& word);
     void include(Lexer& lexer, const Token& word);
 
+    const std::string main_file_;
+    const Limits limits_;
+    const Report report_;
+    Messages notes_;
+    std::vector<std::string> error_lines_;
+    Messages errors_{"error", error_lines_};
     Directives directives_;
     std::vector<std::string> open_files_;  // by their canonical names
+    std::set<std::string> options_read_;   // Camera and its like
+    uint64_t directives_read_ = 0;
     int includes_ = 0;
 };
 
-// The one name of a file that has many, such as a/../b.
-std::string canonical(const std::string& path) {
-    std::error_code none;
-    return std::filesystem::weakly_canonical(path, none).string();
+// Reads over what a directive that cannot be used leaves behind, up to what looks like the next.
+void skip_arguments(Lexer& lexer) {
+    for (; lexer.peek().type != Token::end; lexer.next()) {
+        const Token& token = lexer.peek();
+        if (token.type != Token::word) continue;
+        if (token.text[0] >= 'A' && token.text[0] <= 'Z') return;
+    }
+}
+
+Scene Reader::read_scene(std::string text) {
+    try {
+        read(main_file_, std::move(text));
+        // What is missing may be in what could not be used.
+        if (error_lines_.empty()) return directives_.finish();
+    } catch (const InputError& error) {
+        errors_.add(error);
+    }
+    throw InputError(join_lines(error_lines_));
 }
 
 void Reader::read(const std::string& path, std::string text) {
+    constexpr size_t most_errors = 20;
+    Lexer lexer(path, std::move(text), report_);
     open_files_.push_back(canonical(path));
-    Lexer lexer(path, std::move(text));
     for (Token token = lexer.next(); token.type != Token::end; token = lexer.next()) {
-        read_directive(lexer, token);
+        try {
+            read_directive(lexer, token);
+        } catch (const ReadingEnds&) {
+            throw;
+        } catch (const InputError& error) {
+            errors_.add(error);
+            if (error_lines_.size() >= most_errors) {
+                stop_reading({main_file_}, "so much is wrong that the rest is not read");
+            }
+            skip_arguments(lexer);
+        }
     }
     open_files_.pop_back();
 }
 
 void Reader::read_directive(Lexer& lexer, const Token& word) {
     Position at = lexer.at(word);
+    if (++directives_read_ > limits_.directives) {
+        stop_reading(at, "more than " + std::to_string(limits_.directives) + " directives");
+    }
     if (word.type != Token::word || to_number(word.text)) {
         fail(at, "expected a directive, not " + Lexer::describe(word));
     }
@@ -115,6 +155,9 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
     if (name == "WorldBegin" && in_world) fail(at, "a second WorldBegin");
     if (block == Block::options && in_world) fail(at, name + " must stand before WorldBegin");
     if (block == Block::world && !in_world) fail(at, name + " must stand after WorldBegin");
+    if (block == Block::options && name != "Option" && !options_read_.insert(name).second) {
+        notes_.add(at, "a second " + name + ": the last one counts");
+    }
     (directives_.*read)(lexer, word);
 }
 
@@ -123,25 +166,26 @@ void Reader::include(Lexer& lexer, const Token& word) {
     constexpr int most = 10000;
     Token token = expect_string(lexer, word, "a file name");
     Position at = lexer.at(token);
-    std::string path = find_named_file(directives_.main_file(), at, lexer.unescape(token));
+    std::string path = directives_.files().find(at, lexer.unescape(token));
     std::string file = canonical(path);
     if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
         fail(at, quote(path) + " includes itself");
     }
-    if (open_files_.size() > deepest) fail(at, "files include each other more than 100 deep");
-    if (++includes_ > most) fail(at, "more than 10000 files are included");
-    read(path, read_named_file(path, at));
+    if (open_files_.size() > deepest)
+        stop_reading(at, "files include each other more than 100 deep");
+    if (++includes_ > most) stop_reading(at, "more than 10000 files are included");
+    read(path, directives_.files().read(path, at));
 }
 
 }  // namespace
 
-Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes) {
-    Notes unread;
-    Reader reader(path, notes ? *notes : unread);
-    reader.read(path, std::move(text));
-    return reader.finish();
+Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes,
+                  const Report& report, const Limits& limits) {
+    std::vector<std::string> unread;
+    Reader reader(path, limits, report, notes ? *notes : unread);
+    return reader.read_scene(std::move(text));
 }
 
-Scene load_scene(const std::string& path, std::vector<std::string>* notes) {
-    return parse_scene(path, read_file(path), notes);
+Scene load_scene(const std::string& path, std::vector<std::string>* notes, const Report& report) {
+    return parse_scene(path, read_scene_file(path), notes, report);
 }

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "common/scene_file/mesh.h"
-#include "common/scene_file/named_files.h"
 
 namespace {
 
@@ -15,8 +14,8 @@ void check_radius(const Params& params, Vec3 c, float r) {
     check_extent(params, abs(c) + Vec3{r, r, r});
 }
 
-// The one factor by which the transform scales these axes; throws where there is none.
-double uniform_scale(const Params& params, const std::vector<Double3>& axes,
+// The one factor by which the transform scales these axes; not supported where there is none.
+double uniform_scale(Params& params, const std::vector<Double3>& axes,
                      const std::string& otherwise) {
     constexpr double tolerance = 1e-3;  // for numbers written with few digits
     double scale = length(axes[0]);
@@ -24,7 +23,9 @@ double uniform_scale(const Params& params, const std::vector<Double3>& axes,
         const Double3& next = axes[(i + 1) % axes.size()];
         bool same = std::abs(length(next) - scale) <= tolerance * scale;
         bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
-        if (!same || !right_angle) fail(params.at(), otherwise);
+        if (same && right_angle) continue;
+        params.not_supported(params.at(), otherwise);
+        break;
     }
     return scale;
 }
@@ -35,9 +36,9 @@ float read_radius(Params& params) {
     return radius;
 }
 
-// Refuses a parameter that has not the value at which the shape is whole.
+// A parameter that has not the value at which the shape is whole is not supported.
 void require(Params& params, const std::string& name, float value, const std::string& otherwise) {
-    if (params.number(name, value) != value) fail(params.at(name), otherwise);
+    if (params.number(name, value) != value) params.not_supported(params.at(name), otherwise);
 }
 
 void add_sphere(Params& params, const ShapeState& state, Scene& scene) {
@@ -67,6 +68,19 @@ void add_disk(Params& params, const ShapeState& state, Scene& scene) {
                  static_cast<uint32_t>(scene.shapes.size())};
     check_radius(params, disk.c, disk.r);
     scene.geometry.disks.push_back(disk);
+}
+
+// Stops before the scene grows beyond the limits.
+void check_room(const Params& params, const Geometry& g, size_t primitives, size_t vertices,
+                const Limits& limits) {
+    if (g.size() + primitives > limits.primitives) {
+        stop_reading(params.at(), "the scene has more than " + std::to_string(limits.primitives) +
+                                      " triangles, spheres and disks");
+    }
+    if (g.positions.size() + vertices > limits.vertices) {
+        stop_reading(params.at(),
+                     "the scene has more than " + std::to_string(limits.vertices) + " vertices");
+    }
 }
 
 float area(const Geometry& g, const Triangle& tri) {
@@ -116,10 +130,13 @@ void add_shape(const Params& params, const ShapeState& state, std::vector<Primit
 
 }  // namespace
 
-void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& notes) {
+void read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
+                Scene& scene, Messages& notes) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
+    check_room(params, g, 1, 0, limits);
     auto add = [&](const TriangleMesh& mesh) {
+        check_room(params, g, mesh.indices.size() / 3, mesh.positions.size(), limits);
         uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
         add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
     };
@@ -131,8 +148,7 @@ void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& no
         const Param* name = params.find_exactly("string", "filename", 1);
         params.finish();
         if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
-        std::string path = find_named_file(scene.file, name->at, name->strings[0]);
-        add(parse_ply(path, read_named_file(path, name->at)));
+        add(files.mesh(files.find(name->at, name->strings[0]), name->at));
     } else if (params.type() == "sphere") {
         add_sphere(params, state, scene);
     } else if (params.type() == "disk") {

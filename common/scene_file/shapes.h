@@ -1,6 +1,7 @@
 // Shapes of a pbrt-v4 scene file, put into the scene in world space.
 #pragma once
 #include "common/scene_file/materials.h"
+#include "common/scene_file/named_files.h"
 #include "common/scene_file/options.h"
 
 /// What is in force where a Shape directive stands.
@@ -17,8 +18,10 @@ struct ShapeState {
 ///   triangle  (p1-p0) x (p2-p0), whatever the transform mirrors; where there are vertex normals,
 ///             theirs; the order of the corners in the scene says the same
 ///   sphere    outwards;   disk  object space's +z, carried along as a normal
-/// and ReverseOrientation turns each to the other side.
-void read_shape(Params& params, const ShapeState& state, Scene& scene, Notes& notes);
+/// and ReverseOrientation turns each to the other side. Throws ReadingEnds when the scene grows
+/// beyond the limits.
+void read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
+                Scene& scene, Messages& notes);
 
 /// Gives each area light its range of primitives, once all are read.
 void number_light_primitives(Scene& scene);

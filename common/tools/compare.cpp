@@ -4,6 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/percent.h"
 #include "common/picture/comparison.h"
 #include "common/picture/stats_file.h"
 #include "common/program/command_line.h"
@@ -83,8 +84,9 @@ void print(const CompareOptions& o, const Comparison& c) {
     bool known = !std::isnan(se);
     if (!known) se = c.standard_error;
     bool same = std::abs(difference) <= 1e-6 * std::abs(c.mean_b);  // rounding
-    std::printf("A - B  %.3g (%.3g %%), %s standard errors by %s\n", difference,
-                100 * difference / c.mean_b, digits(same ? 0 : difference / se, 3).c_str(),
+    std::printf("A - B  %.3g (%s), %s standard errors by %s\n", difference,
+                percent(difference / c.mean_b).c_str(),
+                digits(same ? 0 : difference / se, 3).c_str(),
                 known ? "the files beside both" : "the differences of pixels within blocks");
     if (o.trim > 0) std::printf("without the worst %g %% of the pixels:\n", o.trim);
     std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);

@@ -133,11 +133,17 @@ TEST_SUITE("ply") {
         CHECK(mesh.indices == std::vector<uint32_t>{2, 1, 0});
     }
 
-    TEST_CASE("input: a mesh without faces is empty") {
-        TriangleMesh mesh = parse_ply(
-            "mesh.ply", replaced(replaced(ascii_square, "face 1", "face 0"), "4 0 1 2 3\n", ""));
-        CHECK(mesh.positions.size() == 4);
-        CHECK(mesh.indices.empty());
+    TEST_CASE("input: a mesh beyond the limits is refused before there is memory for it") {
+        Limits limits;
+        limits.vertices = 3;
+        auto refuse_beyond = [&] {
+            return error_of([&] { parse_ply("mesh.ply", ascii_square, limits); });
+        };
+        CHECK(refuse_beyond() == "mesh.ply:5:9: error: more than 3 vertex elements");
+        limits.vertices = 4;
+        CHECK(refuse_beyond() == "");
+        limits.primitives = 0;
+        CHECK(refuse_beyond() == "mesh.ply:12:9: error: more than 0 face elements");
     }
 
     TEST_CASE("input: every malformed PLY is refused with its message and place") {

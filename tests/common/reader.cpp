@@ -134,6 +134,30 @@ TEST_SUITE("reader: language") {
                   .max_depth == 5);
         CHECK(!parse_options("Camera \"perspective\" \"float frameaspectratio\" 2")
                    .camera.frame_aspect);
+        // Of another type too: the light is a black body of luminance 1, then one of radiance 2.
+        const std::string kelvin = "\"blackbody L\" 5000 ", rgb = "\"rgb L\" [2 2 2] ";
+        Rgb last_kelvin = parse_world("LightSource \"infinite\" " + rgb + kelvin + "Shape \"disk\"")
+                              .lights.back()
+                              .L;
+        CHECK(last_kelvin.r != last_kelvin.b);
+        CHECK(parse_world("LightSource \"infinite\" " + kelvin + rgb + "Shape \"disk\"")
+                  .lights.back()
+                  .L == Rgb{2, 2, 2});
+    }
+
+    TEST_CASE("input: what is given twice is noted") {
+        std::vector<std::string> notes;
+        parse(
+            "PixelFilter \"box\" Camera \"perspective\" \"float fov\" 9 \"float fov\" 45\n"
+            "  Camera \"perspective\" Option \"seed\" 1 Option \"seed\" 2\n"
+            "WorldBegin LightSource \"point\" Shape \"sphere\" Shape \"sphere\"",
+            &notes);
+        CHECK(notes ==
+              std::vector<std::string>{
+                  "scene.pbrt:1:54: note: \"fov\" of Camera \"perspective\" is given twice: "
+                  "the last one counts",
+                  "scene.pbrt:2:3: note: a second Camera: the last one counts",
+                  "scene.pbrt:2:31: note: Option \"seed\" is ignored"});
     }
 
     TEST_CASE("input: escapes in a name mean what they say") {

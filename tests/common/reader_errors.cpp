@@ -1,6 +1,8 @@
 // Scenes and files that the reader must refuse, each with its own line.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -100,6 +102,59 @@ TEST_SUITE("reader: malformed input") {
             CHECK(refuse(scene.substr(0, length)) != "");
         }
         CHECK(refuse(scene) == "");
+    }
+
+    TEST_CASE("input: lines end with LF, CR LF or CR, in messages too") {
+        for (const std::string end : {"\n", "\r\n", "\r"}) {
+            CHECK(refuse("# one" + end + end + "  Camra \"perspective\"" + end) ==
+                  "scene.pbrt:3:3: error: unknown directive \"Camra\": did you mean \"Camera\"?");
+            CHECK(refuse("# one" + end + "# \xff") == "scene.pbrt:2:3: error: not UTF-8 text");
+            CHECK(refuse("Camera \"perspec" + end + "tive\"") ==
+                  "scene.pbrt:1:8: error: the string does not end on its line");
+        }
+    }
+
+    TEST_CASE("input: after twenty different errors the rest is not read") {
+        std::string text;
+        for (size_t i = 0; i < 50; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
+        std::string said = refuse(text);
+        CHECK(std::count(said.begin(), said.end(), '\n') == 20);
+        CHECK(said.ends_with("x\"\nscene.pbrt: error: so much is wrong that the rest is not read"));
+        // The same one counts once.
+        text.clear();
+        for (int i = 0; i < 50; i++) text += "Textur\n";
+        CHECK(refuse(text + "Shap") ==
+              "scene.pbrt:1:1: error: unknown directive \"Textur\"\n"
+              "scene.pbrt:51:1: error: unknown directive \"Shap\": did you mean \"Shape\"?");
+    }
+
+    TEST_CASE("input: notes are told although an error follows") {
+        std::vector<std::string> notes;
+        const std::string text = "Sampler \"halton\"\nCamera \"perspective\"\nShape \"spere\"";
+        CHECK(error_of([&] { parse_scene("scene.pbrt", text, &notes); }) != "");
+        CHECK(notes ==
+              std::vector<std::string>{"scene.pbrt:1:1: note: Sampler \"halton\" only sets "
+                                       "the samples per pixel"});
+    }
+
+    TEST_CASE("files: a device and a pipe are refused at once, as a scene and as a mesh") {
+        TemporaryFolder folder;
+        std::string pipe = folder / "pipe";
+        REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+        const std::string device_text = "cannot read: a device and no file",
+                          pipe_text = "cannot read: a pipe and no file";
+        CHECK(refuse_file("/dev/zero") == "/dev/zero: error: " + device_text);
+        CHECK(refuse_file("/dev/null") == "/dev/null: error: " + device_text);
+        CHECK(refuse_file(pipe) == pipe + ": error: " + pipe_text);
+        for (const std::string what : {"Include ", "Shape \"plymesh\" \"string filename\" "}) {
+            std::string before = "Camera \"perspective\" WorldBegin " + what;
+            size_t named = std::min(before.find("\"string"), before.size());
+            std::string at = "scene.pbrt:1:" + std::to_string(named + 1);
+            CHECK(refuse(before + "\"/dev/zero\"") ==
+                  at + ": error: \"/dev/zero\": " + device_text);
+            CHECK(refuse(before + '"' + pipe + '"') ==
+                  at + ": error: \"" + pipe + "\": " + pipe_text);
+        }
     }
 
     TEST_CASE("files: a missing file, a folder and a huge file have their own messages") {

@@ -11,16 +11,23 @@ struct MalformedCase {
 };
 
 /// Reads a table: lines up to one that starts with => are the input, the rest of that line is the
-/// message. Lines that start with ## are for the reader; [world] stands before inputs for a world.
+/// message, and so are the lines after it that start with => too. Lines that start with ## are for
+/// the reader; [world] stands before inputs for a world.
 inline std::vector<MalformedCase> read_malformed_cases(const std::string& path) {
     std::vector<MalformedCase> cases;
     std::string text = read_file(path);
     MalformedCase next;
+    bool more = false;  // of the last message
     for (size_t start = 0; start < text.size();) {
         size_t end = text.find('\n', start);
         std::string line = text.substr(start, end - start);
         start = end + 1;
         if (line.starts_with("##") || line.empty()) continue;
+        if (line.starts_with("=> ") && more) {
+            cases.back().message += '\n' + line.substr(3);
+            continue;
+        }
+        more = line.starts_with("=> ");
         if (line == "[world]") {
             next.in_world = true;
         } else if (line.starts_with("=> ")) {
