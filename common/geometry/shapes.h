@@ -1,7 +1,6 @@
 // taught by chapter 04
 // The tests of a ray against each kind of primitive, and against all of them in turn.
 #pragma once
-#include <bit>
 #include <optional>
 
 #include "common/geometry/geometry.h"
@@ -19,13 +18,11 @@ struct Shear {
 };
 
 inline Shear shear_to_ray(const Vec3& d) {
-    // Without the sign, the bits of floats are in their order, and integers compare faster.
-    auto size = [&](int axis) { return std::bit_cast<uint32_t>(d[axis]) << 1; };
-    uint32_t x = size(0), y = size(1), z = size(2);
-    int is_z = z >= std::max(x, y), is_y = !is_z & (y >= x);
-    int kz = is_y + 2 * is_z;
-    static constexpr int after[] = {1, 2, 0, 1};
-    int kx = after[kz], ky = after[kz + 1];
+    Vec3 size = abs(d);
+    int kz = 0;
+    if (size.y >= size.x) kz = 1;
+    if (size.z >= std::max(size.x, size.y)) kz = 2;
+    int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
     return {kx, ky, kz, d[kx] / d[kz], d[ky] / d[kz], 1 / d[kz]};
 }
 

@@ -273,24 +273,4 @@ TEST_SUITE("ch04 classes of paths") {
 }
 
 TEST_SUITE("ch04 shapes") {
-    TEST_CASE("identity: the fast shear of common/ is the plain one, bit for bit") {
-        std::vector<Vec3> directions;
-        constexpr float values[] = {0.0f, -0.0f, 1, -1, 0.5f, -2, 1e-30f, 1e30f};
-        for (float x : values)
-            for (float y : values)
-                for (float z : values) directions.push_back({x, y, z});
-        Sampler sampler = random_numbers(1);
-        for (int i = 0; i < 100000; i++) directions.push_back(uniform_direction(sampler.u2()));
-        for (const Vec3& d : directions) {
-            ch04::Shear plain = ch04::shear_to_ray(d);
-            Shear fast = shear_to_ray(d);
-            REQUIRE(plain.kx == fast.kx);
-            REQUIRE(plain.ky == fast.ky);
-            REQUIRE(plain.kz == fast.kz);
-            if (d == Vec3{}) continue;  // no direction: NaN
-            REQUIRE(plain.sx == fast.sx);
-            REQUIRE(plain.sy == fast.sy);
-            REQUIRE(plain.sz == fast.sz);
-        }
-    }
 }

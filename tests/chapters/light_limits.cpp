@@ -29,13 +29,11 @@ std::vector<Chapter> some_chapters(const Scene& scene) {
 }
 std::vector<Chapter> all_chapters(const Scene& scene) {
     std::vector<Chapter> chapters = some_chapters(scene);
-    ch13::Settings light{.strategy = ch13::Strategy::light};
     chapters.push_back({"09", trace_with<ch09::trace>()});
     chapters.push_back({"10", trace_with<ch10::trace>(ch10::prepare(scene))});
     chapters.push_back({"11", trace_with<ch11::trace>(ch11::prepare(scene), 4)});
     chapters.push_back(
         {"12", trace_with<ch12::trace>(ch12::prepare(scene), ch12::Strategy::light)});
-    chapters.push_back({"13 light", trace_with<ch13::trace>(ch13::prepare(scene), light)});
     return chapters;
 }
 

@@ -51,6 +51,7 @@ const std::vector<Promoted> promoted = {
      {"ggx_D", "ggx_lambda", "sample_ggx_normal", "pdf_ggx_normal", "invert_ggx_normal",
       "eval_rough_conductor", "pdf_rough_conductor", "sample_rough_conductor", "eval_bsdf",
       "pdf_bsdf", "sample_bsdf"}},
+    {"13", "common/path/mis.h", {"balance_heuristic", "power_heuristic"}},
 };
 
 /// The name that a definition gives which starts with this line.

@@ -198,7 +198,7 @@ TEST_SUITE("class filter") {
         for (uint32_t i = 0; i < 500; i++) {
             sampler.start(0, i);
             std::string expression = "L";
-            expression += random(4) + "E";
+            expression += random(3) + "E";
             CAPTURE(expression);
             ClassFilter filter(expression);
             std::regex regex(expression);
