@@ -24,7 +24,7 @@ float pdf_area(const Scene& scene, size_t light);
 /// Where x is farther away than two radii, and inside a sphere: by area, which is then as good.
 /// Where x is on the light, but for rounding, nobody knows on which side: by area, hardly anything.
 /// source  cone: Shirley, Wang 1991; triangle: Arvo 1995
-/// tested by  "consistency: a light's samples agree with its density", "truth: squares, from near"
+/// tested by  "consistency: a light's samples agree with its density", "truth: squares from near"
 inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);
 
 /// The density, in sr^-1, with which sample_solid_angle finds the point y that a ray from x met.

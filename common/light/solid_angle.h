@@ -26,7 +26,8 @@ inline Vec2 invert_cone(float sin2, Vec3 w) {
 ///
 /// In double: just below a triangle, and where it is seen edge-on, small differences of large
 /// numbers are what counts.
-/// source  Van Oosterom, Strackee 1983      tested by  "truth: solid angles of triangles"
+/// source  Van Oosterom, Strackee 1983
+/// tested by  "truth: solid angles of triangles and rectangles"
 inline double triangle_solid_angle(const Double3& a, const Double3& b, const Double3& c) {
     double volume = std::abs(dot(b, cross(a, c)));
     return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(a, c));

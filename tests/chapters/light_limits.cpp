@@ -251,11 +251,11 @@ void check_densities(const Scene& scene, Vec3 x) {
 }  // namespace
 
 TEST_SUITE("light limits") {
-    TEST_CASE("truth: squares, from near") { check_squares({}); }
-    TEST_CASE("truth: triangles, from near") { check_triangles({}); }
-    TEST_CASE("truth: disks, from near") { check_disks({.relative_se = 1e-2}); }
-    TEST_CASE("truth: balls, from near") { check_balls({.relative_se = 1e-2}); }
-    TEST_CASE("truth: balls, from afar") { check_small_balls({all_chapters, 64, 16, 1e-4}); }
+    TEST_CASE("truth: squares from near") { check_squares({}); }
+    TEST_CASE("truth: triangles from near") { check_triangles({}); }
+    TEST_CASE("truth: disks from near") { check_disks({.relative_se = 1e-2}); }
+    TEST_CASE("truth: balls from near") { check_balls({.relative_se = 1e-2}); }
+    TEST_CASE("truth: balls from afar") { check_small_balls({all_chapters, 64, 16, 1e-4}); }
 
     TEST_CASE("truth: a tilted light far from the origin, as near as floats can tell") {
         // All numbers are about 1 and so known to 6e-8; a light 2e-5 above the patch, to 1 %.
@@ -331,8 +331,8 @@ TEST_SUITE("light limits") {
 }
 
 TEST_SUITE("light limits slow") {
-    TEST_CASE("truth: squares, from near, by every chapter") { check_squares(thorough(4e-4)); }
-    TEST_CASE("truth: triangles, from near, by every chapter") { check_triangles(thorough(4e-4)); }
-    TEST_CASE("truth: disks, from near, by every chapter") { check_disks(thorough(1e-3)); }
-    TEST_CASE("truth: balls, from near, by every chapter") { check_balls(thorough(1e-3)); }
+    TEST_CASE("truth: squares from near by every chapter") { check_squares(thorough(4e-4)); }
+    TEST_CASE("truth: triangles from near by every chapter") { check_triangles(thorough(4e-4)); }
+    TEST_CASE("truth: disks from near by every chapter") { check_disks(thorough(1e-3)); }
+    TEST_CASE("truth: balls from near by every chapter") { check_balls(thorough(1e-3)); }
 }
