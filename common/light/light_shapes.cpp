@@ -138,7 +138,8 @@ LightPoint light_shape_details::sample_sphere(const Emitter& e, Vec3 x, float si
     float t = (d2 - e.r * e.r) / (d * w.z + e.r * cos_y);
     Frame frame(to_centre / d);
     Vec3 n = {t / e.r * w.x, t / e.r * w.y, -(w.z * cos_y + sin2_y * e.r / d)};
-    return {x + t * frame.to_world(w), frame.to_world(n), e.eps, pdf_cone(sin2)};
+    float eps = e.eps + rounding_error(d);  // as far as t and the direction are rounded
+    return {x + t * frame.to_world(w), frame.to_world(n), eps, pdf_cone(sin2)};
 }
 
 LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u) {

@@ -5,19 +5,17 @@
 Emitter emitter_of(const Scene& scene, uint32_t prim) {
     const Geometry& g = scene.geometry;
     Emitter e;
-    size_t i = prim;
-    if (i < g.triangles.size()) {
-        const auto& v = g.triangles[i].v;
-        e.p0 = g.positions[v[0]], e.p1 = g.positions[v[1]], e.p2 = g.positions[v[2]];
-        e.n = normalize(cross(e.p1 - e.p0, e.p2 - e.p0));
-    } else if ((i -= g.triangles.size()) < g.spheres.size()) {
-        const Sphere& s = g.spheres[i];
-        e.kind = Emitter::sphere, e.p0 = s.c, e.r = s.r;
-        e.inward = scene.shapes[s.shape].reverse;
-    } else {
-        const Disk& d = g.disks[i - g.spheres.size()];
-        e.kind = Emitter::disk, e.p0 = d.c, e.n = d.n, e.r = d.r;
-    }
+    visit(
+        g, prim,
+        [&](const Triangle& t) {
+            e.p0 = g.positions[t.v[0]], e.p1 = g.positions[t.v[1]], e.p2 = g.positions[t.v[2]];
+            e.n = normalize(cross(e.p1 - e.p0, e.p2 - e.p0));
+        },
+        [&](const Sphere& s) {
+            e.kind = Emitter::sphere, e.p0 = s.c, e.r = s.r;
+            e.inward = scene.shapes[s.shape].reverse;
+        },
+        [&](const Disk& d) { e.kind = Emitter::disk, e.p0 = d.c, e.n = d.n, e.r = d.r; });
     Vec3 size = max(max(abs(e.p0), abs(e.p1)), abs(e.p2));  // of the numbers that make up a point
     for (int k = 0; k < 3; k++) size[k] += e.r * std::sqrt(std::max(0.0f, 1 - e.n[k] * e.n[k]));
     e.eps = rounding_error(max_component(size));

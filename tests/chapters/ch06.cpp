@@ -328,7 +328,7 @@ TEST_SUITE("ch06 path tracing") {
     TEST_CASE("failure: a small light is missed by all, and 0 +- 0 is reported") {
         Scene scene = floor_under(
             shining + "Translate 0 1 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" 0.01");
-        RunningStats s = repeat(scene, onto_floor, 1000);  // each hits with probability 5e-5
+        RunningStats s = repeat(scene, onto_floor, 1000, 3);  // each hits with probability 5e-5
         CHECK(s.mean() == 0);
         CHECK(s.standard_error() == 0);
         RunningStats many = repeat(scene, onto_floor, 2000000, 2);

@@ -253,7 +253,7 @@ TEST_SUITE("ch11 potential") {
                 Sampler random = random_numbers(1);
                 const LightShape& shape_of_light = scene.light_shapes[0];
                 int gave = 0, not_by_centre = 0;
-                for (int i = 0; i < 20000; i++) {
+                for (int i = 0; i < 40000; i++) {
                     Hit x{};
                     float distance = 0.1f * std::pow(1000.0f, random.u1());
                     x.p = distance * uniform_direction(random.u2());

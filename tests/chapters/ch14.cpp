@@ -144,13 +144,12 @@ TEST_SUITE("ch14 candidates") {
                 x.n = x.ng = uniform_direction(random.u2());
                 ManyLights lights = many_lights(scene, table, 1 + k % 70);
                 int M = lights.M;
-                float u = random.u1();
+                double u = join(random.u2());
                 Candidates c = draw_candidates(lights, x, u);
                 REQUIRE(c.M == M);
                 for (int i = 0; i < M; i++) {
                     size_t light = static_cast<size_t>(c.light[i]);
-                    float slice = (static_cast<float>(i) + u) / static_cast<float>(M);
-                    REQUIRE(light == pick_light(table, slice));
+                    REQUIRE(light == pick_light(table, (i + u) * (1.0 / M)));
                     float p_hat = ch11::potential(scene, light, x);
                     REQUIRE(std::abs(c.p_hat[i] - p_hat) <= 1e-5f * p_hat);
                     float weight = p_hat / pmf_light(table, light);
