@@ -144,7 +144,7 @@ std::vector<std::string> row_of(const StabilityCase& c, const Method& method, co
 }
 
 /// All rows, and the verdict of each method on each scene.
-struct Report {
+struct Verdicts {
     Table rows{{"scene", "method", "mean", "bias (s.e.)", "coverage %", "largest %", "effective %",
                 "fireflies", "not finite", "cut %", "verdict"},
                {}};
@@ -180,7 +180,7 @@ struct Report {
     }
 };
 
-void judge_case(const StabilityCase& c, const MeasureOptions& o, Report& report) {
+void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdicts) {
     Scene scene = parse_scene(c.name, c.scene, nullptr);
     prepare(scene, 1);
     for (const StabilityCase::Expected& expected : c.expected) {
@@ -189,13 +189,13 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Report& report)
                 throw InputError("error: " + method.name + " refuses " + c.name);
             Observed seen = observe(method, scene, c, o);
             Verdict verdict = judge(seen, c, expected.predictions);
-            report.add(c, method, verdict, row_of(c, method, seen, verdict));
+            verdicts.add(c, method, verdict, row_of(c, method, seen, verdict));
         }
     }
     for (const Method& method : methods_named(c.refuse)) {
         Verdict verdict{can_render(method, scene) ? "FAILS" : "refuses"};
-        report.add(c, method, verdict,
-                   {c.name, method.name, "-", "-", "-", "-", "-", "-", "-", "-", verdict.text()});
+        verdicts.add(c, method, verdict,
+                     {c.name, method.name, "-", "-", "-", "-", "-", "-", "-", "-", verdict.text()});
     }
 }
 
@@ -224,14 +224,14 @@ int main(int argc, char** argv) {
             "predicts. 200 runs of one pixel each. Anything else makes it fail. WORD: only the "
             "scenes with this in their name.",
             {.spp = 0, .runs = 200});
-        Report report;
+        Verdicts verdicts;
         for (const StabilityCase& c : stability_cases()) {
-            if (wanted(c, o.words)) judge_case(c, o, report);
+            if (wanted(c, o.words)) judge_case(c, o, verdicts);
         }
-        std::printf("%s\n", markdown(report.rows).c_str());
+        std::printf("%s\n", markdown(verdicts.rows).c_str());
         std::printf(legend, o.runs);
-        std::printf("\n%s", markdown(report.matrix()).c_str());
-        write_table(o.out, "stability", report.rows);
-        return report.failures == 0 ? 0 : 1;
+        std::printf("\n%s", markdown(verdicts.matrix()).c_str());
+        write_table(o.out, "stability", verdicts.rows);
+        return verdicts.failures == 0 ? 0 : 1;
     });
 }
