@@ -10,7 +10,7 @@ constexpr uint8_t every_letter = 15;
 /// The bit of a letter; 0 for what is none.
 uint8_t letter_bit(char c) {
     size_t i = letters.find(c);
-    return i == std::string_view::npos ? 0 : static_cast<uint8_t>(1 << i);
+    return static_cast<uint8_t>(i == std::string_view::npos ? 0 : 1 << i);
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
