@@ -22,8 +22,9 @@ export RUN
 chapters  := $(notdir $(wildcard chapters/[0-9]*))
 numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
-common    := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out common/tools/%,$(wildcard common/*/*.cpp)))
-tests     := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out tests/measure/% tests/fuzz/%,$(wildcard tests/*/*.cpp)))
+objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)/*/*.cpp)))
+common    := $(call objects,common,common/tools/%)
+tests     := $(call objects,tests,tests/measure/% tests/fuzz/%)
 made      := scenes/knot.ply scenes/thousand-lights.pbrt
 
 .PHONY: all programs test host test-slow help clean always $(numbers)

@@ -272,5 +272,4 @@ TEST_SUITE("ch04 classes of paths") {
     }
 }
 
-TEST_SUITE("ch04 shapes") {
-}
+TEST_SUITE("ch04 shapes") {}
