@@ -18,7 +18,6 @@ CXXFLAGS  := -std=c++20 $(OPT) $(CPU) -ffp-contract=off -pthread -I. -Wall -Wext
 RUN       :=
 HOST_CXX  := $(CXX)
 export RUN
-
 chapters  := $(notdir $(wildcard chapters/[0-9]*))
 numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
