@@ -11,12 +11,10 @@ LightBounds bounds_of(const Scene& scene, const LightTable& table, size_t i) {
     b.centre = light.p;
     if (light.type == LightType::area) {
         const LightShape& shape = scene.light_shapes[i];
-        b.centre = shape.centre, b.radius2 = shape.radius * shape.radius;
+        b.centre = shape.centre, b.radius = shape.radius;
         b.power *= shape.area;
-        b.least_cos_x = 0.02f;
-        if (shape.flat) {
-            b.n = shape.first.n, b.back = light.two_sided ? -1.0f : 1, b.least_cos_y = 0.02f;
-        }
+        if (shape.flat)
+            b.n = shape.first.n, b.back = light.two_sided ? -1.0f : 1, b.least_cos_y = 0;
     } else if (light.type == LightType::distant) {
         b.has_place = 0;
     } else if (light.type == LightType::infinite) {  // all around
@@ -39,12 +37,13 @@ inline int pick(const AliasColumn* table, int N, double u) {
 /// Chapter 11's potential, as one formula for all lights, for the sake of vector instructions.
 inline float potential(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
-    float d2 = std::max(dot(to_y, to_y), 1e-30f), inv_d = 1 / std::sqrt(d2);
+    float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));
+    float inv_d = 1 / std::sqrt(d2), least = y.radius * inv_d;
     float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d;
     float least_x = y.least_cos_x, least_y = y.least_cos_y;  // copies: std::max of y's own numbers
-    cos_x = std::max(cos_x, least_x);                        // would be branches
-    cos_y = std::max(std::max(cos_y, y.back * cos_y), least_y);
-    return y.power * cos_x * cos_y / std::max(d2, float{y.radius2});
+    cos_x = std::max(cos_x, std::max(least, least_x));       // would be branches
+    cos_y = std::max(std::max(cos_y, y.back * cos_y), std::max(least, least_y));
+    return y.power * cos_x * cos_y / d2;
 }
 
 }  // namespace

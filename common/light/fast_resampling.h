@@ -9,8 +9,8 @@ struct LightBounds {
     float has_place = 1;    // 0: distant and infinite lights
     Vec3 n;                 // unit, of a flat light; else 0
     float back = 1;         // -1: a flat light that shines to both sides
-    float radius2 = 0;      // m^2, of a sphere around it
-    float least_cos_x = 0;  // what its cosines count as at least: 1 where they do not count
+    float radius = 0;       // m, of a sphere around it
+    float least_cos_x = 0;  // 1: this cosine does not count
     float least_cos_y = 1;
     float power = 0;    // L A or what corresponds to it
     float inv_pmf = 0;  // 1 / its probability in the table

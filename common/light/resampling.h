@@ -8,7 +8,8 @@
 ///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
 ///
 /// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
-/// count as 0.02 at least, and d as its radius. So p_hat is 0 only where the light gives nothing.
+/// count as radius / d at least, and d as its radius. So p_hat is 0 only where the light gives
+/// nothing, and no point gives much more than p_hat says.
 inline float potential(const Scene& scene, size_t i, const Hit& x) {
     const Light& light = scene.lights[i];
     const LightShape& shape = scene.light_shapes[i];
@@ -16,13 +17,12 @@ inline float potential(const Scene& scene, size_t i, const Hit& x) {
     if (light.type == LightType::infinite) return pi * L;
     if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
     Vec3 to_y = (light.type == LightType::area ? shape.centre : light.p) - x.p;
-    float d = std::max(length(to_y), 1e-15f);  // not 0, even where x is the centre
-    float cos_x = dot(to_y, x.n) / d, cos_y = 1;
+    float d = std::max({length(to_y), shape.radius, 1e-15f});  // not 0, even in a point light
+    float cos_x = dot(to_y, x.n) / d, cos_y = 1, least = shape.radius / d;
     if (light.type == LightType::point) return L * std::max(0.0f, cos_x) / (d * d);
     if (shape.flat) cos_y = -dot(to_y, shape.first.n) / d;
     if (light.two_sided) cos_y = std::abs(cos_y);
-    float d2 = std::max(d * d, shape.radius * shape.radius);
-    return L * shape.area * std::max(0.02f, cos_x) * std::max(0.02f, cos_y) / d2;
+    return L * shape.area * std::max(least, cos_x) * std::max(least, cos_y) / (d * d);
 }
 
 /// The light kept among the candidates so far.

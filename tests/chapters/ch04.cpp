@@ -271,5 +271,3 @@ TEST_SUITE("ch04 classes of paths") {
         CHECK(look(scene, {0, 0, 0}, {1, 2, 3}).L == Rgb{0.5f, 1, 2});
     }
 }
-
-TEST_SUITE("ch04 shapes") {}

@@ -300,6 +300,22 @@ TEST_SUITE("ch14 mis ris") {
         CHECK(fourteen < eleven / 3);
     }
 
+    TEST_CASE("failure: near a light no sample is much brighter than the light") {
+        // Where potentials misjudge near lights, a few samples weigh ten times too much.
+        for (std::string name :
+             {"scenes/near-light", "tests/pictures/references/tiny-close-light"}) {
+            CAPTURE(name);
+            Scene scene = scene_from(name + ".pbrt", 64, 8);
+            float brightest = 0;
+            for (const Light& light : scene.lights)
+                brightest = std::max(brightest, max_component(light.L));
+            for (const Trace& trace : {by_eleven(scene), by_fourteen(scene)}) {
+                Rendering r = film_of(scene, trace, 64);
+                CHECK(r.stats.largest < 1.5 * double{brightest});
+            }
+        }
+    }
+
     TEST_CASE(
         "variance: a bright light behind a wall: the even way finds what potential misjudges") {
         Scene scene = scene_from("scenes/hidden-light.pbrt", 32, 8);
