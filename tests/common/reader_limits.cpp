@@ -8,6 +8,7 @@
 #include "common/scene_file/reader.h"
 #include "tests/support/folder.h"
 #include "tests/support/process.h"
+#include "tests/support/program.h"
 
 namespace {
 
@@ -159,7 +160,12 @@ TEST_SUITE("reader: large scenes") {
                               "Sampler \"halton\"\nTexture \"a\" \"float\" \"constant\"\nCamra");
         for (const char* quiet : {"--quiet", "--spp=1"}) {
             Process program([&] {
-                return ::execl("build/06_path_tracing", "06", scene.c_str(), quiet, nullptr);
+                std::vector<std::string> words = program_words("06_path_tracing");
+                words.insert(words.end(), {scene, quiet});
+                std::vector<char*> argv;
+                for (std::string& word : words) argv.push_back(word.data());
+                argv.push_back(nullptr);
+                return ::execvp(argv[0], argv.data());
             });
             Finished end = program.wait();
             CHECK(end.code == 1);
