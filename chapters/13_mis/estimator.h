@@ -91,17 +91,19 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, const Settings& s
             return L;
         }
 
-        // Aim at lights.
+        // Draw the direction to go on in.
         Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+
+        // Aim at lights.
         float count_l = !settings.one_sample ? 1 : sampler.u1() < 0.5f ? 2 : 0;
         count_b = settings.one_sample ? 2 - count_l : 1;
         double u = join(sampler.u2());
         Vec2 u2 = sampler.u2();
         L += direct_light(scene, lights, settings, *x, wo, u, u2, beta * count_l, log);
 
-        // Go on in one direction, and count it for all those that were not taken.
-        float u1 = sampler.u1();
-        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        // Go on in that direction, and count it for all those that were not taken.
         last = *x, pdf_b = s.pdf_w, only_way = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);

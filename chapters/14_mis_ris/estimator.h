@@ -142,8 +142,12 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
             return L;
         }
 
-        // Aim at lights.
+        // Draw the direction to go on in.
         Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+
+        // Aim at lights.
         bool choose = scene.lights.size() > 1;
         double u = choose ? join(sampler.u2()) : 0;
         Vec2 u2 = sampler.u2();
@@ -154,9 +158,7 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
             L += best_light(scene, lights, *x, wo, v, v1, sampler.u2(), beta, log);
         }
 
-        // Go on in one direction, and count it for all those that were not taken.
-        float u1 = sampler.u1();
-        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        // Go on in that direction, and count it for all those that were not taken.
         last = *x, pdf_b = s.pdf_w, only_way = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);

@@ -138,7 +138,7 @@ private:
     /// Another number for each of the sets of points that the pixel's samples are taken from.
     uint32_t key_of_set(uint32_t number) const {
         uint32_t high = static_cast<uint32_t>(key_ >> 32), low = static_cast<uint32_t>(key_);
-        return hash32(hash32(low + 0x632be5abu * number) + high);
+        return hash32(low + 0x632be5abu * number) ^ high;
     }
     uint32_t random_bits() {
         state_ = state_ * 6364136223846793005u + 1442695040888963407u;
