@@ -38,16 +38,18 @@ inline std::string disk(double R, double h, double x = 0) {
 }
 
 /// The green channel of one ray, over and over.
-inline RunningStats repeat(const Scene& scene, const Ray& ray, Trace trace, int paths,
+inline RunningStats repeat(const Scene& scene, const Ray& ray, const Trace& trace, int paths,
                            uint32_t seed = 1, double scale = 1) {
-    RunningStats stats;
-    Sampler sampler(SamplerType::independent, seed, 1);
-    PathLog log;
-    for (int i = 0; i < paths; i++) {
-        sampler.start(0, static_cast<uint32_t>(i));
-        stats.add(scale * static_cast<double>(trace(scene, ray, sampler, log).g));
-    }
-    return stats;
+    return in_blocks<RunningStats>(paths, [&](int first, int last) {
+        RunningStats stats;
+        Sampler sampler(SamplerType::independent, seed, 1);
+        PathLog log;
+        for (int i = first; i < last; i++) {
+            sampler.start(0, static_cast<uint32_t>(i));
+            stats.add(scale * static_cast<double>(trace(scene, ray, sampler, log).g));
+        }
+        return stats;
+    });
 }
 
 /// Samples of the irradiance at the origin of floor_under().

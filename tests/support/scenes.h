@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "common/base/files.h"
+#include "common/base/parallel.h"
 #include "common/base/stats.h"
 #include "common/program/render.h"
 #include "common/scene/camera.h"
@@ -150,6 +151,11 @@ struct PathSum {
         squares += x * x;
         not_zero += x != 0;
     }
+    void merge(const PathSum& b) {
+        sum += b.sum;
+        squares += b.squares;
+        not_zero += b.not_zero;
+    }
     Measured measured(double n) const {
         double mean = sum / n;
         return {mean, std::sqrt((squares / n - mean * mean) / (n - 1))};
@@ -163,15 +169,39 @@ struct PathCensus {
     std::map<std::string, PathSum> by_class;
     std::map<size_t, PathSum> by_length;  // scattering events
     double worst_sum = 0;                 // largest relative difference of parts and whole
+
+    void merge(const PathCensus& b) {
+        all.merge(b.all);
+        for (const auto& [name, sum] : b.by_class) by_class[name].merge(sum);
+        for (const auto& [length, sum] : b.by_length) by_length[length].merge(sum);
+        worst_sum = std::max(worst_sum, b.worst_sum);
+    }
 };
 
-inline PathCensus census_of(const Scene& scene, Trace trace, int paths, uint32_t seed) {
+/// Joins part_of(first, last), a Result, of the numbers below `count`: in blocks on all processors,
+/// joined in their order, so that the result is the same on any number of them.
+template <class Result, class Part>
+Result in_blocks(int count, const Part& part_of) {
+    constexpr int block = 2048;
+    std::vector<Result> parts(static_cast<size_t>((count + block - 1) / block));
+    parallel_for(static_cast<int>(parts.size()),
+                 static_cast<int>(std::thread::hardware_concurrency()), [&](int b) {
+                     parts[static_cast<size_t>(b)] =
+                         part_of(b * block, std::min(count, (b + 1) * block));
+                 });
+    Result all;
+    for (const Result& part : parts) all.merge(part);
+    return all;
+}
+
+/// The paths [first, last) of a census.
+inline PathCensus part_of_census(const Scene& scene, const Trace& trace, int first, int last,
+                                 uint32_t seed) {
     PathCensus census;
-    census.paths = paths;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, seed, 1);
     PathLog log("");
-    for (int i = 0; i < paths; i++) {
+    for (int i = first; i < last; i++) {
         sampler.start(0, static_cast<uint32_t>(i));
         log.start();
         Vec2 u = sampler.u2();
@@ -191,5 +221,13 @@ inline PathCensus census_of(const Scene& scene, Trace trace, int paths, uint32_t
         for (auto [name, y] : by_class) census.by_class[name].add(y);
         for (auto [length, y] : by_length) census.by_length[length].add(y);
     }
+    return census;
+}
+
+inline PathCensus census_of(const Scene& scene, const Trace& trace, int paths, uint32_t seed) {
+    PathCensus census = in_blocks<PathCensus>(paths, [&](int first, int last) {
+        return part_of_census(scene, trace, first, last, seed);
+    });
+    census.paths = paths;
     return census;
 }
