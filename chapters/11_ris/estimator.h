@@ -19,8 +19,8 @@ using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
 ///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
 ///
 /// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
-/// count as radius / d at least, and d as its radius. So p_hat is 0 only where the light gives
-/// nothing, and no point gives much more than p_hat says.
+/// count as radius / d at least, and d as its radius, unless all of it lies behind the surface or
+/// turns its back. So p_hat is 0 only where the light gives nothing, and no point gives much more.
 inline float potential(const Scene& scene, size_t i, const Hit& x) {
     const Light& light = scene.lights[i];
     const LightShape& shape = scene.light_shapes[i];
@@ -33,6 +33,7 @@ inline float potential(const Scene& scene, size_t i, const Hit& x) {
     if (light.type == LightType::point) return L * std::max(0.0f, cos_x) / (d * d);
     if (shape.flat) cos_y = -dot(to_y, shape.first.n) / d;
     if (light.two_sided) cos_y = std::abs(cos_y);
+    if (cos_x < -least || cos_y < -least) return 0;
     return L * shape.area * std::max(least, cos_x) * std::max(least, cos_y) / (d * d);
 }
 

@@ -40,10 +40,12 @@ inline float potential(const LightBounds& y, const Hit& x) {
     float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));
     float inv_d = 1 / std::sqrt(d2), least = y.radius * inv_d;
     float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d;
+    cos_y = std::max(cos_y, y.back * cos_y);
     float least_x = y.least_cos_x, least_y = y.least_cos_y;  // copies: std::max of y's own numbers
-    cos_x = std::max(cos_x, std::max(least, least_x));       // would be branches
-    cos_y = std::max(std::max(cos_y, y.back * cos_y), std::max(least, least_y));
-    return y.power * cos_x * cos_y / d2;
+    least_x = std::max(least, least_x);                      // would be branches
+    float seen = (cos_x < -1.00001f * least_x) | (cos_y < -least) ? 0.0f : 1.0f;
+    cos_x = std::max(cos_x, least_x), cos_y = std::max(cos_y, std::max(least, least_y));
+    return seen * y.power * cos_x * cos_y / d2;
 }
 
 }  // namespace

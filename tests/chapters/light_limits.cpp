@@ -146,7 +146,7 @@ struct Effort {
     std::vector<double> heights = {1e-1, 1e-3, 1e-5, 1e-7};
 };
 Effort thorough(double relative_se) {
-    return {all_chapters, 512, 128, relative_se, {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}};
+    return {all_chapters, 600, 128, relative_se, {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}};
 }
 
 void check_chapters(const Scene& scene, const Ray& ray, double truth, const Effort& effort) {
