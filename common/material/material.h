@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "common/base/vec.h"
+#include "common/material/glass.h"
 
 enum class MaterialType : uint8_t { diffuse, conductor, dielectric };
 
@@ -12,7 +13,8 @@ struct Material {
     Rgb eta, k;                            // conductor: complex index of refraction eta + i k
     float alpha = 0;                       // conductor: GGX roughness; 0: a perfect mirror
     float ior = 1.5f;                      // dielectric: index inside over index outside
-    int line = 0, column = 0;              // where the scene file makes it, for messages
+    const Glass* glass = nullptr;  // dielectric: which disperses; then ior is that at 587.6 nm
+    int line = 0, column = 0;      // where the scene file makes it, for messages
 };
 
 /// Whether light that arrives from one direction leaves in one direction (or two) only.

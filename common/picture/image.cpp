@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include "common/base/files.h"
 #include "common/base/position.h"
@@ -15,6 +16,11 @@
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wunused-function"
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#include <stb/stb_image.h>
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb/stb_image_write.h>
@@ -171,6 +177,23 @@ Image decode_ppm(Header header) {
     return image;
 }
 
+Image decode_png(const std::string& path, const std::string& bytes) {
+    auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    int size = static_cast<int>(std::min(bytes.size(), size_t{INT32_MAX})), width, height, channels;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
+        int64_t{width} * height > int64_t{1} << 28)
+        fail({path}, "a damaged .png picture, or one of more than 2^28 pixels");
+    std::unique_ptr<unsigned char, void (*)(void*)> codes(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+    if (!codes) fail({path}, "a damaged .png picture");
+    Image image(width, height);
+    for (size_t i = 0; i < image.pixels.size(); i++) {
+        const unsigned char* code = codes.get() + 3 * i;
+        image.pixels[i] = {from_srgb8(code[0]), from_srgb8(code[1]), from_srgb8(code[2])};
+    }
+    return image;
+}
+
 Image decode_pfm(Header header, size_t channels) {
     int width = header.side(), height = header.side();
     float scale = header.number();
@@ -210,12 +233,14 @@ void write_image(const std::string& path, const Image& image, const std::string&
     fail({path}, "a picture's name must end in .ppm, .pfm or .png");
 }
 
-Image read_image(const std::string& path) {
-    std::string bytes = read_file(path);
+Image read_image(const std::string& path) { return decode_image(path, read_file(path)); }
+
+Image decode_image(const std::string& path, const std::string& bytes) {
+    if (bytes.starts_with("\x89PNG")) return decode_png(path, bytes);
     Header header{path, bytes};
     std::string_view magic = header.word();
     if (magic == "P6") return decode_ppm(header);
     if (magic == "PF") return decode_pfm(header, 3);
     if (magic == "Pf") return decode_pfm(header, 1);
-    header.fail("not a .ppm (P6) or .pfm picture");
+    header.fail("not a .ppm (P6), .pfm or .png picture");
 }

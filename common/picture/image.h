@@ -32,6 +32,9 @@ void write_image(const std::string& path, const Image& image, const std::string&
 /// Whether write_image knows the extension of `path`.
 bool is_image_path(const std::string& path);
 
-/// Reads a .ppm (P6, maxval 255; back to linear) or a .pfm (one or three channels, either byte
-/// order). Throws InputError for anything else, and for a file that is damaged.
+/// Reads a .ppm (P6, maxval 255) or a .png (8 bits), both back to linear, or a .pfm (one or three
+/// channels, either byte order). Throws InputError for anything else, and for a file that is
+/// damaged.
 Image read_image(const std::string& path);
+/// The same from the bytes of the file `path`.
+Image decode_image(const std::string& path, const std::string& bytes);

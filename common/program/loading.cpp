@@ -26,7 +26,7 @@ Scene load_and_tell(const std::string& path, const Report& report, LoadingProgre
 
 }  // namespace
 
-Scene load(const RenderOptions& options) {
+Scene load(const RenderOptions& options, bool has_distribution) {
     constexpr double pause = 10;  // s
     LoadingProgress progress(stderr, isatty(STDERR_FILENO), pause);
     Report report;
@@ -35,6 +35,7 @@ Scene load(const RenderOptions& options) {
     }
     Scene scene = options.quiet ? load_scene(options.scene, nullptr)
                                 : load_and_tell(options.scene, report, progress);
+    if (!has_distribution) refuse_distribution(scene);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
@@ -58,5 +59,25 @@ void refuse_glossy(const Scene& scene) {
         if (!is_rough(m)) continue;
         fail({scene.file, m.line, m.column},
              "rough conductors are not supported before chapter 12");
+    }
+}
+
+void refuse_distribution(const Scene& scene) {
+    const Camera& camera = scene.camera;
+    if (camera.lens_radius > 0) {
+        fail({scene.file, camera.line, camera.column},
+             "chapters before 15 have a pinhole: lensradius must be 0");
+    }
+    for (const Shape& shape : scene.shapes) {
+        const Material& m = scene.materials[shape.material];
+        if (m.glass == nullptr) continue;
+        char eta[32];
+        std::snprintf(eta, sizeof eta, "%.5g", double{m.ior});
+        fail({scene.file, m.line, m.column}, std::string("in chapters before 15 glass does not ") +
+                                                 "disperse: try \"float eta\" " + eta);
+    }
+    if (scene.sky_image) {
+        fail({scene.file, scene.sky_image->line, scene.sky_image->column},
+             "in chapters before 15 the sky has no picture");
     }
 }

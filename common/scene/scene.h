@@ -8,6 +8,7 @@
 #include "common/geometry/geometry.h"
 #include "common/material/material.h"
 #include "common/scene/light_shape.h"
+#include "common/scene/sky_image.h"
 
 enum class LightType : uint8_t { area, point, distant, infinite };
 
@@ -38,6 +39,10 @@ struct Camera {
     float fov = 90;                                     // degrees across the shorter side
     std::optional<float> frame_aspect;                  // width over height, else that of the film
     std::optional<std::array<float, 4>> screen_window;  // x0 x1 y0 y1, else [-1,1] on the shorter
+    float lens_radius = 0;                              // 0: a pinhole
+    float focal_distance =
+        1e6f;                  // to the plane that is sharp, along the axis; both in camera units
+    int line = 0, column = 0;  // where the scene file sets it up, for messages
 };
 
 struct Scene {
@@ -50,6 +55,7 @@ struct Scene {
     float radius = 0;                      // m, of a sphere around all primitives
     int sky_light = -1;                    // the infinite light among them; -1: none
     Rgb sky;                               // what all infinite lights send from any direction
+    std::optional<SkyImage> sky_image;     // what the sky sends beside that
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel

@@ -111,6 +111,11 @@ void Directives::end(Lexer& lexer, const Token& word) {
 
 void Directives::light_source(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
+    if (params.type() == "infinite" && params.find("string", "filename")) {
+        if (scene_.sky_image) fail(params.at(), "a second picture of the sky");
+        scene_.sky_image = read_sky_image(params, still_transform(params), files_);
+        return;
+    }
     Light light = read_light(params, still_transform(params));
     if (!is_black(light.L)) scene_.lights.push_back(light);
 }
@@ -188,7 +193,8 @@ Scene Directives::finish() {
     if (!in_world_) fail(file, "no WorldBegin");
     if (!has_camera_) fail(file, "no Camera");
     if (scene_.geometry.size() == 0) fail(file, "no Shape");
-    if (scene_.lights.empty()) fail(file, "no light: the picture would be black");
+    if (scene_.lights.empty() && !scene_.sky_image)
+        fail(file, "no light: the picture would be black");
     number_light_primitives(scene_);
 
     // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.
@@ -198,6 +204,11 @@ Scene Directives::finish() {
         if (too_bright(light.L) || is_black(light.L))
             fail(file, "shutter or iso leave no usable light");
     }
+    if (scene_.sky_image)
+        for (Rgb& L : scene_.sky_image->pixels) {
+            L *= exposure;
+            if (too_bright(L)) fail(file, "shutter or iso leave no usable light");
+        }
     if (!has_filter_) {
         notes_.add(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
     }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "common/picture/image.h"
 #include "common/scene_file/spectra.h"
 
 namespace {
@@ -92,14 +93,31 @@ Material read_conductor(Params& params) {
     return material;
 }
 
+// "spectrum eta" of a dielectric, the name of a measured glass.
+void read_glass(Params& params, Material& material) {
+    const Param* spectrum = params.find("spectrum", "eta");
+    if (!spectrum) return;
+    if (spectrum->strings.size() != 1) {
+        params.not_supported(spectrum->at, "\"eta\" must be a float or the name of a glass");
+        return;
+    }
+    std::vector<std::string> known;
+    for (const Glass& glass : all_glasses()) {
+        if (spectrum->strings[0] == glass.name) {
+            material.glass = &glass;
+            material.ior = index_of_refraction(glass, 0.5875618);
+            return;
+        }
+        known.push_back(glass.name);
+    }
+    params.not_supported(spectrum->at, unknown("spectrum", spectrum->strings[0], known));
+}
+
 Material read_dielectric(Params& params) {
     Material material;
     material.type = MaterialType::dielectric;
-    if (const Param* glass = params.find("spectrum", "eta")) {
-        params.not_supported(glass->at,
-                             "glass with a spectrum for eta (dispersion) is not supported yet");
-    }
     material.ior = params.number("eta", 1.5f);
+    read_glass(params, material);
     if (!(material.ior >= 1e-4f && material.ior <= 1e4f)) {
         fail(params.at("eta"), "\"eta\" must be from 1e-4 to 1e4");
     }
@@ -177,6 +195,41 @@ AreaEmission read_area_light(Params& params) {
     return emission;
 }
 
+SkyImage read_sky_image(Params& params, const Transform& world_from_light, NamedFiles& files) {
+    SkyImage sky;
+    sky.line = params.at().line;
+    sky.column = params.at().column;
+    sky.x = to_vec3(normalize(world_from_light.x));
+    sky.y = to_vec3(normalize(world_from_light.y));
+    sky.z = to_vec3(normalize(world_from_light.z));
+    if (std::max({std::abs(dot(sky.x, sky.y)), std::abs(dot(sky.y, sky.z)),
+                  std::abs(dot(sky.z, sky.x))}) > 1e-4f) {
+        fail(params.at(), "the sky's picture may be turned and mirrored, but not sheared");
+    }
+    float scale = read_factor(params, "scale", 1);
+    Position at = params.at("filename");
+    std::string path = files.find(at, params.string("filename", ""));
+    Image image = decode_image(path, files.read(path, at));
+    if (image.width != image.height && image.width != 2 * image.height) {
+        fail(at, quote(path) +
+                     " must be a square (equal areas), or twice as wide as high (longitude " +
+                     "and latitude)");
+    }
+    sky.map = image.width == image.height ? SkyImage::Map::square : SkyImage::Map::wide;
+    sky.width = image.width, sky.height = image.height;
+    double sum = 0;
+    for (Rgb& L : image.pixels) {
+        L *= scale;
+        if (!(std::min({L.r, L.g, L.b}) >= 0) || too_bright(L))
+            fail(at, quote(path) + " has a pixel that is negative, not a number, or above 1e15");
+        sum += static_cast<double>(average(L));
+    }
+    if (sum == 0) fail(at, quote(path) + " is black");
+    sky.pixels = std::move(image.pixels);
+    params.finish();
+    return sky;
+}
+
 Light read_light(Params& params, const Transform& world_from_light) {
     Light light;
     light.line = params.at().line;
@@ -195,10 +248,6 @@ Light read_light(Params& params, const Transform& world_from_light) {
         light.L = params.illuminant("L", {1, 1, 1}) * scale * read_factor(params, "illuminance", 1);
     } else if (params.type() == "infinite") {
         light.type = LightType::infinite;
-        if (params.find("string", "filename")) {
-            params.not_supported(params.at("filename"),
-                                 "an image for the sky is not supported yet");
-        }
         light.L = params.illuminant("L", {1, 1, 1}) * scale;
         if (params.find("float", "illuminance")) {
             light.L *= read_factor(params, "illuminance", 0) / pi;

@@ -4,6 +4,7 @@
 
 #include "common/geometry/transform.h"
 #include "common/scene/scene.h"
+#include "common/scene_file/named_files.h"
 #include "common/scene_file/params.h"
 
 Material read_material(Params& params);
@@ -19,5 +20,8 @@ AreaEmission read_area_light(Params& params);
 /// Whether powers and sums of such lights may be no floats. From all sides, and 1e9 m away: 1e35 W.
 inline bool too_bright(Rgb L) { return !(is_finite(L) && max_component(L) <= 1e15f); }
 void check_brightness(const Params& params, Rgb L);
+
+/// The picture that an infinite light names: square or twice as wide as high, see SkyImage.
+SkyImage read_sky_image(Params& params, const Transform& world_from_light, NamedFiles& files);
 
 Light read_light(Params& params, const Transform& world_from_light);

@@ -66,6 +66,19 @@ void read_screen(Params& params, Camera& camera) {
     }
 }
 
+void read_lens(Params& params, Camera& camera) {
+    camera.lens_radius = params.number("lensradius", 0);
+    camera.focal_distance = params.number("focaldistance", 1e6f);
+    if (!(camera.lens_radius >= 0 && camera.lens_radius <= 1e6f)) {
+        fail(params.at("lensradius"), "lensradius must be from 0 to 1e6");
+    }
+    if (!(camera.focal_distance >= 1e-6f && camera.focal_distance <= 1e9f)) {
+        fail(params.at("focaldistance"), "focaldistance must be from 1e-6 to 1e9");
+    }
+    camera.line = params.at().line;
+    camera.column = params.at().column;
+}
+
 }  // namespace
 
 void read_camera(Params& params, const Transform& camera_from_world, Camera& camera,
@@ -74,12 +87,7 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
     camera = {};
     place_camera(params, inverse(camera_from_world), camera);
     read_screen(params, camera);
-    float lens_radius = params.number("lensradius", 0);
-    if (lens_radius < 0) fail(params.at("lensradius"), "lensradius must not be negative");
-    if (lens_radius > 0) {
-        params.not_supported(params.at("lensradius"), "lensradius > 0 is not supported yet");
-    }
-    params.ignore("float", {"focaldistance"});
+    read_lens(params, camera);
     exposure.shutter = params.number("shutterclose", 1) - params.number("shutteropen", 0);
     if (!(exposure.shutter > 0)) {
         fail(params.at("shutterclose"), "shutterclose must be after shutteropen");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/vec.h"
+#include "common/material/glass.h"
 
 /// The color of a black body, as linear sRGB with luminance 1.
 ///
@@ -28,3 +29,8 @@ struct MetalIor {
 /// source  measured spectra (Palik 1985), averaged over the sRGB primaries' color matching curves
 std::optional<MetalIor> metal_ior(const std::string& symbol);
 std::vector<std::string> metal_symbols();
+
+/// pbrt's measured glasses, such as "glass-BK7".
+///
+/// pbrt calls Schott's SF5, SF10 and SF11 F5, F10 and F11.      source  Schott's data sheets
+const std::vector<Glass>& all_glasses();

@@ -1,0 +1,48 @@
+// What the eye sees of light of one wavelength.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "common/base/vec.h"
+
+/// The CIE 1931 observer of 2 degrees: x, y, z from 380 nm on, every 10 nm.      source  CIE 015
+inline constexpr double observer_first_nm = 380, observer_step_nm = 10;
+inline constexpr std::array<std::array<double, 3>, 41> observer = {{
+    {0.001368, 0.000039, 0.006450}, {0.004243, 0.000120, 0.020050}, {0.014310, 0.000396, 0.067850},
+    {0.043510, 0.001210, 0.207400}, {0.134380, 0.004000, 0.645600}, {0.283900, 0.011600, 1.385600},
+    {0.348280, 0.023000, 1.747060}, {0.336200, 0.038000, 1.772110}, {0.290800, 0.060000, 1.669200},
+    {0.195360, 0.090980, 1.287640}, {0.095640, 0.139020, 0.812950}, {0.032010, 0.208020, 0.465180},
+    {0.004900, 0.323000, 0.272000}, {0.009300, 0.503000, 0.158200}, {0.063270, 0.710000, 0.078250},
+    {0.165500, 0.862000, 0.042160}, {0.290400, 0.954000, 0.020300}, {0.433450, 0.994950, 0.008750},
+    {0.594500, 0.995000, 0.003900}, {0.762100, 0.952000, 0.002100}, {0.916300, 0.870000, 0.001650},
+    {1.026300, 0.757000, 0.001100}, {1.062200, 0.631000, 0.000800}, {1.002600, 0.503000, 0.000340},
+    {0.854450, 0.381000, 0.000190}, {0.642400, 0.265000, 0.000050}, {0.447900, 0.175000, 0.000020},
+    {0.283500, 0.107000, 0.000000}, {0.164900, 0.061000, 0.000000}, {0.087400, 0.032000, 0.000000},
+    {0.046770, 0.017000, 0.000000}, {0.022700, 0.008210, 0.000000}, {0.011359, 0.004102, 0.000000},
+    {0.005790, 0.002091, 0.000000}, {0.002899, 0.001047, 0.000000}, {0.001440, 0.000520, 0.000000},
+    {0.000690, 0.000249, 0.000000}, {0.000332, 0.000120, 0.000000}, {0.000166, 0.000060, 0.000000},
+    {0.000083, 0.000030, 0.000000}, {0.000042, 0.000015, 0.000000},
+}};
+
+/// CIE XYZ as linear sRGB; what lies outside of it is cut off at 0.      source  IEC 61966-2-1
+inline std::array<double, 3> srgb_from_xyz(double X, double Y, double Z) {
+    return {std::max(0.0, 3.2406 * X - 1.5372 * Y - 0.4986 * Z),
+            std::max(0.0, -0.9689 * X + 1.8758 * Y + 0.0415 * Z),
+            std::max(0.0, 0.0557 * X - 0.2040 * Y + 1.0570 * Z)};
+}
+
+/// What each row of the observer has of all that the eye sees of white light, in linear sRGB: each
+/// channel sums to 1.
+inline std::vector<Rgb> shares_of_white() {
+    std::vector<Rgb> shares;
+    Rgb sum;
+    for (auto [x, y, z] : observer) {
+        std::array<double, 3> rgb = srgb_from_xyz(x, y, z);
+        shares.push_back(
+            {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
+        sum += shares.back();
+    }
+    for (Rgb& share : shares) share = {share.r / sum.r, share.g / sum.g, share.b / sum.b};
+    return shares;
+}

@@ -1,0 +1,49 @@
+#include "common/scene/sky_image.h"
+
+namespace {
+
+/// The unit sphere from the unit square, equal areas for equal areas: the middle half (a diamond)
+/// is the half above, folded out at the corners is the half below.      source  Clarberg 2008
+Vec3 sphere_from_square(Vec2 uv) {
+    float a = 2 * uv.x - 1, b = 2 * uv.y - 1;
+    float inside = 1 - (std::abs(a) + std::abs(b));  // of the diamond; below 0 outside
+    float r = 1 - std::abs(inside);
+    float phi = (r == 0 ? 1 : (std::abs(b) - std::abs(a)) / r + 1) * (pi / 4);
+    float sine = r * std::sqrt(2 - r * r);
+    return {std::copysign(sine * std::cos(phi), a), std::copysign(sine * std::sin(phi), b),
+            std::copysign(1 - r * r, inside)};
+}
+
+Vec2 square_from_sphere(Vec3 w) {
+    float r = std::sqrt(std::max(0.0f, 1 - std::abs(w.z)));
+    float b = r * (2 / pi) * std::atan2(std::abs(w.y), std::abs(w.x)), a = r - b;
+    if (w.z < 0) {
+        float inner = a;
+        a = 1 - b, b = 1 - inner;
+    }
+    return {(std::copysign(a, w.x) + 1) / 2, (std::copysign(b, w.y) + 1) / 2};
+}
+
+}  // namespace
+
+Vec3 direction_of(const SkyImage& sky, Vec2 uv) {
+    Vec3 w;
+    if (sky.map == SkyImage::Map::square) {
+        w = sphere_from_square(uv);
+    } else {
+        float theta = pi * uv.y, phi = 2 * pi * uv.x;
+        w = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+    }
+    return normalize(w.x * sky.x + w.y * sky.y + w.z * sky.z);
+}
+
+Vec2 point_of(const SkyImage& sky, Vec3 wi) {
+    Vec3 w = {dot(wi, sky.x), dot(wi, sky.y), dot(wi, sky.z)};
+    if (sky.map == SkyImage::Map::square) return square_from_sphere(w);
+    float phi = std::atan2(w.y, w.x), sine = std::sqrt(w.x * w.x + w.y * w.y);
+    return {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi), std::atan2(sine, w.z) / pi};
+}
+
+float solid_angle_per_area(const SkyImage& sky, Vec2 uv) {
+    return sky.map == SkyImage::Map::square ? 4 * pi : 2 * pi * pi * std::sin(pi * uv.y);
+}
