@@ -1,4 +1,4 @@
-// Chapter 15: the other dimensions. A pixel is also a mean over the lens and over wavelengths, and
+// Chapter 15: the other dimensions. A pixel is a mean over lens, time and wavelength as well, and
 // the sky is a picture: of each a path draws one more value, in proportion to what it may bring.
 #pragma once
 #include "common/material/observer.h"
@@ -27,7 +27,7 @@ inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
 
 /// A wavelength, and what a path of it counts for in each channel.
 struct Wavelength {
-    float micrometres;
+    float micrometres = 0;  // 0: none yet
     Rgb weight;
 };
 
@@ -44,42 +44,44 @@ inline Wavelength sample_wavelength(const std::vector<Rgb>& shares, float u) {
     return {static_cast<float>(nm / 1000), shares[i] / p};
 }
 
-/// What is prepared for a scene: its lights, the pixels of its sky, and white light.
+/// What is prepared for a scene: its lights, for each pixel of its sky the share of light that is
+/// in those before it (and 1), and white light.
 struct Prepared {
     ManyLights lights;
-    LightTable sky;
+    std::vector<double> sky;
     std::vector<Rgb> white = shares_of_white();
 };
 inline Prepared prepare(const Scene& scene, int M = 64) {
-    std::vector<double> pmf;
-    double sum = 0;
+    Prepared prepared = {many_lights(scene, build_light_table(light_pmf(scene, 0)), M), {0}};
+    std::vector<double>& sky = prepared.sky;
     for (size_t i = 0; scene.sky_image && i < scene.sky_image->pixels.size(); i++) {
         float area = solid_angle_per_area(*scene.sky_image, scene.sky_image->middle_of(i));
-        pmf.push_back(double{average(scene.sky_image->pixels[i]) * area});
-        sum += pmf.back();
+        sky.push_back(sky.back() + double{average(scene.sky_image->pixels[i]) * area});
     }
-    for (double& p : pmf) p /= sum;
-    return {many_lights(scene, build_light_table(light_pmf(scene, 0)), M), build_light_table(pmf)};
+    double sum = sky.back();
+    for (double& share : sky) share /= sum;
+    return prepared;
 }
 
-/// The density of the direction of the sky's point uv, in a pixel of probability pmf.
+/// The density of direction uv of the sky.      pdf_w = pmf pixels / (solid angle per area)
+inline float pdf_sky_image(const SkyImage& sky, const std::vector<double>& shares, Vec2 uv) {
+    size_t i = sky.pixel_at(uv);
+    double pmf = shares[i + 1] - shares[i], pixels = static_cast<double>(sky.pixels.size());
+    return static_cast<float>(pmf * pixels) / solid_angle_per_area(sky, uv);
+}
+
+/// Estimates what the picture of the sky sends by way of x to wo, from a point in one of its
+/// pixels.
 ///
-///   pdf_w = pmf pixels / (solid angle per area)
-inline float pdf_sky_image(const SkyImage& sky, const LightTable& table, Vec2 uv) {
-    float pmf = pmf_light(table, sky.pixel_at(uv)), pixels = static_cast<float>(table.size());
-    return pmf * pixels / solid_angle_per_area(sky, uv);
-}
-
-/// Estimates what the picture of the sky sends by way of x to wo, from one of its pixels, chosen by
-/// brightness.      Ld = mis_l f Le V cos / pdf_l
-/// tested by  "truth: skies of known irradiance"
-inline Rgb sky_light(const Scene& scene, const LightTable& table, const Hit& x, Vec3 wo, double u,
-                     Vec2 u2, Rgb beta, PathLog& log) {
+///   Ld = mis_l f Le V cos / pdf_l      tested by  "truth: skies of known irradiance"
+inline Rgb sky_light(const Scene& scene, const std::vector<double>& shares, const Hit& x, Vec3 wo,
+                     double u, Vec2 u2, Rgb beta, PathLog& log) {
     if (is_specular(*x.material) || is_black(beta)) return {};
     const SkyImage& sky = *scene.sky_image;
-    Vec2 uv = sky.point_in(pick_light(table, u), u2);
+    auto chosen = std::upper_bound(shares.begin() + 1, shares.end() - 1, u) - shares.begin() - 1;
+    Vec2 uv = sky.point_in(static_cast<size_t>(chosen), u2);
     Vec3 wi = direction_of(sky, uv);
-    float pdf_l = pdf_sky_image(sky, table, uv), pdf_b = pdf_bsdf(x, wo, wi);
+    float pdf_l = pdf_sky_image(sky, shares, uv), pdf_b = pdf_bsdf(x, wo, wi);
     float mis_l = power_heuristic(pdf_l, pdf_b);
     Rgb Ld = eval_bsdf(x, wo, wi) * sky.at(uv) * (mis_l * dot(wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, wi))) return {};
@@ -95,13 +97,16 @@ inline Rgb sky_light(const Scene& scene, const LightTable& table, const Hit& x, 
 inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler& sampler,
                  PathLog& log) {
     const ManyLights& lights = prepared.lights;
-    if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
+    const Camera& camera = scene.camera;
+    if (camera.lens_radius > 0) ray = through_lens(camera, ray, sampler.u2());
+    if (!scene.movers.empty())
+        ray.time = std::lerp(camera.shutter_open, camera.shutter_close, sampler.u1());
     Rgb L, beta = {1, 1, 1};
-    float micrometres = 0;  // of the path's light; 0: white
-    Material glass;         // as this light sees it
-    Hit last;               // the vertex before
-    float pdf_b = 0;        // of the direction that was drawn there
-    bool only_way = true;   // nothing but this path could find what shines next
+    Wavelength light;      // that the path is of, once it has met such glass
+    Material glass;        // as this light sees it
+    Hit last;              // the vertex before
+    float pdf_b = 0;       // of the direction that was drawn there
+    bool only_way = true;  // nothing but this path could find what shines next
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
@@ -127,13 +132,12 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
 
         // Glass that disperses: from the first on, the path has one wavelength.
         if (x->material->glass != nullptr) {
-            if (micrometres == 0) {
-                Wavelength drawn = sample_wavelength(prepared.white, sampler.u1());
-                micrometres = drawn.micrometres;
-                beta *= drawn.weight;
+            if (light.micrometres == 0) {
+                light = sample_wavelength(prepared.white, sampler.u1());
+                beta *= light.weight;
             }
             glass = *x->material;
-            glass.ior = index_of_refraction(*glass.glass, double{micrometres});
+            glass.ior = index_of_refraction(*glass.glass, double{light.micrometres});
             x->material = &glass;
         }
 

@@ -10,6 +10,7 @@ struct Ray {
     Vec3 o;
     Vec3 d;
     float t_max = infinity;
+    float time = 0;  // of shapes that move
 };
 
 // `shape` is the index into Scene::shapes of the directive that made the primitive.
@@ -41,6 +42,13 @@ struct Geometry {
         return static_cast<uint32_t>(triangles.size() + spheres.size() + disks.size());
     }
 };
+
+struct Box {
+    Vec3 low = {infinity, infinity, infinity}, high = {-infinity, -infinity, -infinity};
+};
+
+/// The box around all vertices, spheres and disks (with all of the sphere around a disk).
+Box bounds_of(const Geometry& g);
 
 /// Calls the one of the three functions that fits primitive number `prim`, with that primitive;
 /// they return the same type.

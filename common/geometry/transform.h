@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <concepts>
 
 #include "common/base/vec.h"
 
@@ -25,7 +26,9 @@ inline Double3 operator-(const Double3& a, const Double3& b) {
 }
 inline Double3 operator*(double s, const Double3& a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline double length(const Double3& a) { return std::hypot(a[0], a[1], a[2]); }
-inline Double3 normalize(const Double3& a) {
+/// A template, so that normalize({x, y, z}) is that of a Vec3.
+template <std::same_as<Double3> T>
+T normalize(const T& a) {
     double l = length(a);
     return {a[0] / l, a[1] / l, a[2] / l};
 }

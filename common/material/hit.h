@@ -9,6 +9,7 @@ struct Hit {
     Vec3 ng;     // geometric normal, unit
     float eps;   // m: how far p may be off the surface
     float t;     // in lengths of the ray's d
+    float time;  // the ray's
     bool front;  // came from the side of the normal: where it shines, outside of glass
     const Material* material;
     int light;      // into Scene::lights; -1: does not shine

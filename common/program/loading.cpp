@@ -76,6 +76,10 @@ void refuse_distribution(const Scene& scene) {
         fail({scene.file, m.line, m.column}, std::string("in chapters before 15 glass does not ") +
                                                  "disperse: try \"float eta\" " + eta);
     }
+    if (!scene.movers.empty()) {
+        fail({scene.file, scene.movers[0].line, scene.movers[0].column},
+             "in chapters before 15 nothing moves");
+    }
     if (scene.sky_image) {
         fail({scene.file, scene.sky_image->line, scene.sky_image->column},
              "in chapters before 15 the sky has no picture");

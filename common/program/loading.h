@@ -17,6 +17,6 @@ void refuse_delta_lights(const Scene& scene);
 /// have not got.
 void refuse_glossy(const Scene& scene);
 
-/// Throws InputError when the scene has what chapter 15 is about: a lens, glass that disperses, or
-/// a picture for the sky.
+/// Throws InputError when the scene has what chapter 15 is about: a lens, shapes that move, glass
+/// that disperses, or a picture for the sky.
 void refuse_distribution(const Scene& scene);

@@ -46,8 +46,8 @@ inline uint32_t finish(const Disk& disk, Vec3 p, Hit& x) {
 
 /// Fills in x, the point where the ray meets the primitive that was found. In its place: a copy
 /// would have to wait until all parts are in memory.
-inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
-    const Geometry& g = scene.geometry;
+inline void make_hit(const Scene& scene, const Geometry& g, const Ray& ray, const PrimHit& found,
+                     Hit& x) {
     // Work out the point and its normals on the shape that was hit.
     uint32_t shape = visit(
         g, found.prim,
@@ -68,9 +68,14 @@ inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, H
     if (dot(ray.d, x.n) >= 0) x.n = x.ng;  // a smoothed normal that looks away cannot be used
 
     x.t = found.t;
+    x.time = ray.time;
     x.material = &scene.materials[scene.shapes[shape].material];
     x.light = scene.shapes[shape].light;
     x.prim = found.prim;
+}
+
+inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
+    make_hit(scene, scene.geometry, ray, found, x);
 }
 
 /// The nearest surface along the ray, if there is one.
@@ -79,19 +84,21 @@ inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
     PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
     std::optional<Hit> x;
     if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
+    if (!scene.movers.empty()) intersect_movers(scene, ray, x);
     return x;
 }
 
 /// Whether anything lies on the ray before t_max.
 inline bool occluded(const Scene& scene, const Ray& ray) {
     rays_traced++;
-    return any_hit(scene.bvh, scene.geometry, ray);
+    if (any_hit(scene.bvh, scene.geometry, ray)) return true;
+    return !scene.movers.empty() && occluded_by_movers(scene, ray);
 }
 
 /// A ray from x in direction wi that starts just off the surface, on the side it leaves to.
 inline Ray spawn_ray(const Hit& x, Vec3 wi, float t_max = infinity) {
     float side = dot(wi, x.ng) < 0 ? -x.eps : x.eps;
-    return {x.p + side * x.ng, wi, t_max};
+    return {x.p + side * x.ng, wi, t_max, x.time};
 }
 
 /// Le at x towards where the ray came from.

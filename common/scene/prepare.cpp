@@ -4,18 +4,6 @@
 
 namespace {
 
-/// Half the diagonal of the box around all primitives.
-float bounding_radius(const Geometry& g) {
-    Vec3 low = {infinity, infinity, infinity}, high = -low;
-    auto add = [&](Vec3 p, float r) {
-        low = min(low, p - Vec3{r, r, r}), high = max(high, p + Vec3{r, r, r});
-    };
-    for (Vec3 p : g.positions) add(p, 0);
-    for (const Sphere& s : g.spheres) add(s.c, s.r);
-    for (const Disk& d : g.disks) add(d.c, d.r);
-    return g.size() > 0 ? length(high - low) / 2 : 0;
-}
-
 std::vector<Vec3> facet_normals(const Geometry& g) {
     std::vector<Vec3> normals;
     normals.reserve(g.triangles.size());
@@ -41,7 +29,15 @@ void prepare(Scene& scene, int threads, const Report& report) {
     if (scene.sky_light >= 0) scene.lights[static_cast<size_t>(scene.sky_light)].L = scene.sky;
 
     if (report) report("preparing lights and surfaces", 0);
-    scene.radius = bounding_radius(scene.geometry);
+    Box box = bounds_of(scene.geometry);
+    for (Mover& mover : scene.movers) {
+        mover.geometry.facet_normals = facet_normals(mover.geometry);
+        mover.bvh = build_bvh(mover.geometry, threads);
+        mover.box = box_over_time(mover);
+        box.low = min(box.low, mover.box.low), box.high = max(box.high, mover.box.high);
+    }
+    bool empty = scene.geometry.size() == 0 && scene.movers.empty();
+    scene.radius = empty ? 0 : length(box.high - box.low) / 2;
     scene.light_shapes = light_shapes_of(scene);
     scene.geometry.facet_normals = facet_normals(scene.geometry);
     scene.bvh = build_bvh(scene.geometry, threads, report);

@@ -8,6 +8,7 @@
 #include "common/geometry/geometry.h"
 #include "common/material/material.h"
 #include "common/scene/light_shape.h"
+#include "common/scene/mover.h"
 #include "common/scene/sky_image.h"
 
 enum class LightType : uint8_t { area, point, distant, infinite };
@@ -41,8 +42,9 @@ struct Camera {
     std::optional<std::array<float, 4>> screen_window;  // x0 x1 y0 y1, else [-1,1] on the shorter
     float lens_radius = 0;                              // 0: a pinhole
     float focal_distance =
-        1e6f;                  // to the plane that is sharp, along the axis; both in camera units
-    int line = 0, column = 0;  // where the scene file sets it up, for messages
+        1e6f;  // to the plane that is sharp, along the axis; both in camera units
+    float shutter_open = 0, shutter_close = 1;  // s; shapes move from 0 to 1
+    int line = 0, column = 0;                   // where the scene file sets it up, for messages
 };
 
 struct Scene {
@@ -56,6 +58,7 @@ struct Scene {
     int sky_light = -1;                    // the infinite light among them; -1: none
     Rgb sky;                               // what all infinite lights send from any direction
     std::optional<SkyImage> sky_image;     // what the sky sends beside that
+    std::vector<Mover> movers;             // shapes that move; they do not shine
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel

@@ -149,9 +149,19 @@ void Directives::reverse_orientation(Lexer&, const Token&) {
 
 void Directives::shape(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
-    ShapeState state = {still_transform(params), state_.material, state_.emission,
-                        state_.reverse_orientation};
+    ShapeState state = {state_.start, state_.material, state_.emission, state_.reverse_orientation};
+    if (state_.start == state_.end) {
+        read_shape(params, state, limits_, files_, scene_, notes_);
+        return;
+    }
+    if (state.emission) params.not_supported(params.at(), "a shape that moves cannot shine");
+    constexpr size_t most = 1000;
+    if (scene_.movers.size() == most) fail(params.at(), "more than 1000 shapes that move");
+    Mover& mover = scene_.movers.emplace_back(state_.start, state_.end);
+    mover.line = params.at().line, mover.column = params.at().column;
+    std::swap(scene_.geometry, mover.geometry);
     read_shape(params, state, limits_, files_, scene_, notes_);
+    std::swap(scene_.geometry, mover.geometry);
 }
 
 // The number of the named material, which may be defined after its use.
@@ -167,7 +177,7 @@ uint32_t Directives::find_material(const std::string& name, const Position& at) 
 // The current transform; not supported where it moves while the shutter is open.
 const Transform& Directives::still_transform(Params& params) const {
     if (state_.start != state_.end) {
-        params.not_supported(params.at(), "motion is not supported yet");
+        params.not_supported(params.at(), "only shapes can move");
     }
     return state_.start;
 }
@@ -192,7 +202,7 @@ Scene Directives::finish() {
     check_materials();
     if (!in_world_) fail(file, "no WorldBegin");
     if (!has_camera_) fail(file, "no Camera");
-    if (scene_.geometry.size() == 0) fail(file, "no Shape");
+    if (scene_.geometry.size() == 0 && scene_.movers.empty()) fail(file, "no Shape");
     if (scene_.lights.empty() && !scene_.sky_image)
         fail(file, "no light: the picture would be black");
     number_light_primitives(scene_);

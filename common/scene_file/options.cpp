@@ -88,7 +88,9 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
     place_camera(params, inverse(camera_from_world), camera);
     read_screen(params, camera);
     read_lens(params, camera);
-    exposure.shutter = params.number("shutterclose", 1) - params.number("shutteropen", 0);
+    camera.shutter_open = params.number("shutteropen", 0);
+    camera.shutter_close = params.number("shutterclose", 1);
+    exposure.shutter = camera.shutter_close - camera.shutter_open;
     if (!(exposure.shutter > 0)) {
         fail(params.at("shutterclose"), "shutterclose must be after shutteropen");
     }

@@ -1,0 +1,93 @@
+#include "common/scene/mover.h"
+
+#include "common/scene/intersect.h"
+
+namespace {
+
+/// Whether the ray comes through the box before t_max.
+bool meets(const Ray& ray, Vec3 low, Vec3 high) {
+    float near = 0, far = ray.t_max;
+    for (int axis = 0; axis < 3; axis++) {
+        float inv = 1 / ray.d[axis];
+        float a = (low[axis] - ray.o[axis]) * inv, b = (high[axis] - ray.o[axis]) * inv;
+        near = std::max(near, std::min(a, b));  // NaN, on a face: leaves near and far alone
+        far = std::min(far, std::max(a, b));
+    }
+    return near <= far;
+}
+
+/// The ray as the mover sees it, whose primitives stay where they are at time 0.
+Ray carried_back(const Ray& ray, const Transform& world_from_start) {
+    Transform back = inverse(world_from_start);
+    return {to_vec3(transform_point(back, to_double3(ray.o))),
+            to_vec3(transform_vector(back, to_double3(ray.d))), ray.t_max, ray.time};
+}
+
+/// What was met, carried to where it is at the ray's time.
+void carry_on(const Transform& t, Hit& x) {
+    float before = max_component(abs(x.p));
+    x.p = to_vec3(transform_point(t, to_double3(x.p)));
+    x.n = to_vec3(normalize(transform_normal(t, to_double3(x.n))));
+    x.ng = to_vec3(normalize(transform_normal(t, to_double3(x.ng))));
+    double stretch = std::max({length(t.x), length(t.y), length(t.z)});
+    x.eps = static_cast<float>(stretch) * (x.eps + rounding_error(before)) +
+            rounding_error(max_component(abs(x.p)));
+    x.prim = PrimHit::none;
+}
+
+}  // namespace
+
+Box box_over_time(const Mover& mover) {
+    // Where the corners of its box come to: along straight lines, or somewhere on a sphere, since
+    // turning keeps a point at its distance from the object's origin, which goes straight.
+    Box box = bounds_of(mover.geometry);
+    Double3 low = {1e30, 1e30, 1e30}, high = -1 * low;
+    auto add = [&](const Double3& p, double r) {
+        for (size_t i = 0; i < 3; i++) {
+            low[i] = std::min(low[i], p[i] - r), high[i] = std::max(high[i], p[i] + r);
+        }
+    };
+    Double3 origins[] = {mover.motion.at(0).o, mover.motion.at(1).o};
+    for (int corner = 0; corner < 8; corner++) {
+        Double3 p =
+            to_double3({corner & 1 ? box.low.x : box.high.x, corner & 2 ? box.low.y : box.high.y,
+                        corner & 4 ? box.low.z : box.high.z});
+        for (int end = 0; end < 2; end++) {
+            Double3 moved = transform_point(mover.world_from_start(end), p);
+            double r = length(moved - origins[end]);
+            if (!mover.motion.turns()) add(moved, 0);
+            if (mover.motion.turns()) add(origins[0], r), add(origins[1], r);
+        }
+    }
+    for (size_t i = 0; i < 3; i++) {
+        double slack =
+            1e-5 * (high[i] - low[i]) + 1e-6 * std::max(std::abs(high[i]), std::abs(low[i]));
+        box.low[static_cast<int>(i)] = static_cast<float>(low[i] - slack);
+        box.high[static_cast<int>(i)] = static_cast<float>(high[i] + slack);
+    }
+    return box;
+}
+
+void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
+    Ray rest = ray;
+    if (x) rest.t_max = x->t;
+    for (const Mover& mover : scene.movers) {
+        if (!meets(rest, mover.box.low, mover.box.high)) continue;
+        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
+        Ray back = carried_back(rest, world_from_start);
+        PrimHit found = closest_hit(mover.bvh, mover.geometry, back);
+        if (found.prim == PrimHit::none) continue;
+        make_hit(scene, mover.geometry, back, found, x.emplace());
+        carry_on(world_from_start, *x);
+        rest.t_max = found.t;
+    }
+}
+
+bool occluded_by_movers(const Scene& scene, const Ray& ray) {
+    for (const Mover& mover : scene.movers) {
+        if (!meets(ray, mover.box.low, mover.box.high)) continue;
+        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
+        if (any_hit(mover.bvh, mover.geometry, carried_back(ray, world_from_start))) return true;
+    }
+    return false;
+}
