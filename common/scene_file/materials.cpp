@@ -209,6 +209,7 @@ SkyImage read_sky_image(Params& params, const Transform& world_from_light, Named
     float scale = read_factor(params, "scale", 1);
     Position at = params.at("filename");
     std::string path = files.find(at, params.string("filename", ""));
+    params.finish();
     Image image = decode_image(path, files.read(path, at));
     if (image.width != image.height && image.width != 2 * image.height) {
         fail(at, quote(path) +
@@ -226,7 +227,6 @@ SkyImage read_sky_image(Params& params, const Transform& world_from_light, Named
     }
     if (sum == 0) fail(at, quote(path) + " is black");
     sky.pixels = std::move(image.pixels);
-    params.finish();
     return sky;
 }
 

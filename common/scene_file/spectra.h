@@ -32,5 +32,5 @@ std::vector<std::string> metal_symbols();
 
 /// pbrt's measured glasses, such as "glass-BK7".
 ///
-/// pbrt calls Schott's SF5, SF10 and SF11 F5, F10 and F11.      source  Schott's data sheets
+/// F5, F10 and F11 are Schott's SF5, N-SF10 and N-SF11.      source  Schott's data sheets
 const std::vector<Glass>& all_glasses();

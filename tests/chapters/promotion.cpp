@@ -52,6 +52,10 @@ const std::vector<Promoted> promoted = {
       "eval_rough_conductor", "pdf_rough_conductor", "sample_rough_conductor", "eval_bsdf",
       "pdf_bsdf", "sample_bsdf"}},
     {"13", "common/path/mis.h", {"balance_heuristic", "power_heuristic"}},
+    {"14",
+     "common/path/many_lights.h",
+     {"mis_weight", "pdf_any", "pdf_best", "direct_light", "lobe_share", "resample_lights",
+      "best_light", "mis_emission"}},
 };
 
 /// The name that a definition gives which starts with this line.

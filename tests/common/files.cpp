@@ -396,14 +396,33 @@ TEST_SUITE("pictures on disk") {
         CHECK(png_crc(chunk) != right);
     }
 
+    TEST_CASE("identity: a PNG that was written is read again, and no byte may be missing") {
+        TemporaryFolder folder;
+        Image image(5, 3);
+        for (size_t i = 0; i < image.pixels.size(); i++) {
+            float x = static_cast<float>(i) / 15;
+            image.pixels[i] = {x, x * x, 1 - x};
+        }
+        write_image(folder / "a.png", image, "a comment");
+        write_image(folder / "a.ppm", image, "");
+        CHECK(read_image(folder / "a.png").pixels == read_image(folder / "a.ppm").pixels);
+        std::string png = read_file(folder / "a.png");
+        size_t end_of_pixels = png.find("IEND") - 8;
+        for (size_t size = 8; size < end_of_pixels; size++) {
+            CAPTURE(size);
+            write_file_atomically(folder / "b.png", png.substr(0, size));
+            CHECK_THROWS_AS(read_image(folder / "b.png"), InputError);
+        }
+    }
+
     TEST_CASE("input: damaged pictures are errors") {
         TemporaryFolder folder;
         struct {
             std::string bytes, error;
         } cases[] = {
-            {"", "not a .ppm (P6) or .pfm picture"},
-            {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6) or .pfm picture"},
-            {"\x89PNG\r\n\x1a\n", "not a .ppm (P6) or .pfm picture"},
+            {"", "not a .ppm (P6), .pfm or .png picture"},
+            {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6), .pfm or .png picture"},
+            {"\x89PNG\r\n\x1a\n", "a damaged .png picture, or one of more than 2^28 pixels"},
             {"P6", "a damaged header"},
             {"P6\n4", "a damaged header"},
             {"P6\nx 4\n255\n", "a damaged header"},
