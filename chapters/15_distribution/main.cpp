@@ -5,13 +5,20 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         int M = 64;
+        bool centre = false;
         Option candidates = {
             "m", "M", "light candidates, at most one per light (default 64)",
             [&](const std::string& text) {
                 M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
             }};
-        RenderOptions options =
-            parse_render_options(argc, argv, "15_distribution", "scenes/bokeh.pbrt", {candidates});
+        Option pixel = {"pixel", "area|centre",
+                        "mean over each pixel (default), or its middle alone",
+                        [&](const std::string& text) {
+                            centre = parse_choice("pixel", text, {"area", "centre"}) == 1;
+                        }};
+        RenderOptions options = parse_render_options(argc, argv, "15_distribution",
+                                                     "scenes/bokeh.pbrt", {candidates, pixel});
+        options.pixel_centre = centre;
         Scene scene = load(options, true);
         return render(scene, options, trace_with<ch15::trace>(ch15::prepare(scene, M)));
     });

@@ -26,7 +26,7 @@ int explain(const Scene& scene, const RenderOptions& options, const Trace& trace
     sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
     PathLog log(options.paths, true);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    auto [ray, film] = camera_sample(view, x, y, sampler);
+    auto [ray, film] = camera_sample(view, x, y, sampler, options.pixel_centre);
     Rgb L = trace(scene, ray, sampler, log);
 
     std::printf(

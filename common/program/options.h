@@ -26,6 +26,7 @@ struct RenderOptions {
     std::string paths;  // regular expression; empty: all
     std::string split;  // folder; empty: none
     bool quiet = false;
+    bool pixel_centre = false;  // chapter 15: see camera_sample.h
 };
 
 /// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.

@@ -88,7 +88,7 @@ private:
             static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
         sampler.start(static_cast<uint32_t>(pixel), static_cast<uint32_t>(s));
         log.start();
-        Ray ray = camera_sample(view_, x, y, sampler).ray;
+        Ray ray = camera_sample(view_, x, y, sampler, options_.pixel_centre).ray;
         Rgb L = trace_(scene_, ray, sampler, log);
         if (is_finite(L)) {
             stats.largest = std::max(stats.largest, static_cast<double>(average(L)));

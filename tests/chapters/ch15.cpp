@@ -5,6 +5,8 @@
 
 #include "chapters/14_mis_ris/estimator.h"
 #include "chapters/15_distribution/estimator.h"
+#include "common/base/error.h"
+#include "common/program/loading.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/estimators.h"
 
@@ -58,6 +60,71 @@ TEST_SUITE("ch15 distribution") {
                 CHECK(a.pixels == b.pixels);
             }
         }
+    }
+}
+
+TEST_SUITE("ch15 pixel") {
+    constexpr int size = 128;
+
+    /// Whether the zone plate is white at this point of the film, in pixels: 401 rings of equal
+    /// area, out to 1.5 times half the picture.
+    bool is_white(double x, double y) {
+        double r = std::hypot(x - size / 2, y - size / 2) / (size / 2);
+        return static_cast<int>(401 * r * r / 2.25) % 2 == 0;
+    }
+    double mean_of_pixel(int x, int y) {
+        int white = 0, n = 64;
+        for (int i = 0; i < n * n; i++)
+            white += is_white(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n);
+        return static_cast<double>(white) / (n * n);
+    }
+
+    Image zone_plate(SamplerType type, int spp, bool centre = false) {
+        Scene scene = scene_from("scenes/zone-plate.pbrt", size, 0);
+        scene.spp = spp;
+        RenderOptions options;
+        options.sampler = type, options.threads = 2, options.quiet = true;
+        options.pixel_centre = centre;
+        return render_film(scene, options, by_fifteen(scene)).film.image();
+    }
+
+    TEST_CASE("variance: pixels of a zone plate: chance, then strata, then Sobol points") {
+        // Where rings are wider than a pixel.
+        auto error_of = [](const Image& image) {
+            double sum = 0, n = 0;
+            for (int y = 52; y < 76; y++)
+                for (int x = 52; x < 76; x++, n++)
+                    sum += std::pow(double{image.at(x, y).g} - mean_of_pixel(x, y), 2);
+            return sum / n;
+        };
+        double independent = error_of(zone_plate(SamplerType::independent, 64));
+        double stratified = error_of(zone_plate(SamplerType::stratified, 64));
+        double sobol = error_of(zone_plate(SamplerType::sobol, 64));
+        CAPTURE(stratified);
+        CHECK(independent < 0.25 / 64);
+        CHECK(stratified < 0.5 * independent);
+        CHECK(sobol < 0.5 * independent);
+    }
+
+    TEST_CASE("failure: the middles of pixels alone see rings that are not there") {
+        // Where rings are narrower than a pixel, the mean of 4 x 4 pixels is nearly one half.
+        Image area = zone_plate(SamplerType::sobol, 64);
+        Image centre = zone_plate(SamplerType::sobol, 1, true);
+        auto off = [](const Image& image) {
+            double worst = 0;
+            for (int y = 0; y < size; y += 4)
+                for (int x = 0; x < size; x += 4) {
+                    if (std::hypot(x - 62, y - 62) < 20) continue;
+                    double sum = 0;
+                    for (int i = 0; i < 16; i++) sum += double{image.at(x + i % 4, y + i / 4).g};
+                    worst = std::max(worst, std::abs(sum / 16 - 0.5));
+                }
+            return worst;
+        };
+        CHECK(off(area) < 0.1);
+        CHECK(off(centre) > 0.4);
+        // More samples of the same point change nothing.
+        CHECK(zone_plate(SamplerType::sobol, 4, true).pixels == centre.pixels);
     }
 }
 
@@ -595,5 +662,39 @@ TEST_SUITE("ch15 sky") {
             }
         };
         CHECK(check_classes(scene, Trace(by_chance), scene, by_fifteen(scene), 100000) >= 6);
+    }
+}
+
+TEST_SUITE("ch15 distribution") {
+    TEST_CASE("input: chapters before 15 refuse what only 15 can render, at its place") {
+        std::string ball = " Shape \"sphere\"", sky = "LightSource \"infinite\" ";
+        struct {
+            std::string text, error;
+        } cases[] = {
+            {"Camera \"perspective\" \"float lensradius\" 1 WorldBegin " + sky + ball,
+             "test.pbrt:1:1: error: chapters before 15 have a pinhole: lensradius must be 0"},
+            {"Camera \"perspective\" WorldBegin " + sky +
+                 "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"" + ball,
+             "test.pbrt:1:56: error: in chapters before 15 glass does not disperse: try \"float "
+             "eta\" 1.5168"},
+            {"Camera \"perspective\" WorldBegin " + sky + "ActiveTransform EndTime Scale 1 2 1" +
+                 ball,
+             "test.pbrt:1:92: error: in chapters before 15 nothing moves"},
+            {"Camera \"perspective\" WorldBegin LightSource \"infinite\" \"string filename\" "
+             "\"scenes/sky.pfm\"" +
+                 ball,
+             "test.pbrt:1:33: error: in chapters before 15 the sky has no picture"},
+            {"Camera \"perspective\" WorldBegin " + sky + ball, ""}};
+        for (const auto& c : cases) {
+            CAPTURE(c.text);
+            Scene scene = scene_of(c.text);
+            std::string said;
+            try {
+                refuse_distribution(scene);
+            } catch (const InputError& error) {
+                said = error.what();
+            }
+            CHECK(said == c.error);
+        }
     }
 }

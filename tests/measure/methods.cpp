@@ -26,6 +26,7 @@ std::vector<std::string> scenes_in(const char* folder) {
 
 bool add_method(Method method) {
     auto& methods = registry();
+    if (!method.has_distribution) method.refuse.push_back(refuse_distribution);
     auto before = [](const Method& a, const Method& b) { return a.name < b.name; };
     methods.insert(std::upper_bound(methods.begin(), methods.end(), method, before), method);
     return true;

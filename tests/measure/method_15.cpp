@@ -1,0 +1,23 @@
+#include "chapters/15_distribution/estimator.h"
+#include "tests/measure/methods.h"
+
+static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
+    auto render =
+        by_trace([](const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); });
+    return {.name = name,
+            .label = label,
+            .color = color,
+            .finds_light = "both ways",
+            .scenes = {"sky", "bokeh", "moving-ball"},
+            .render =
+                [=](const Scene& scene, RenderOptions options) {
+                    if (sampler != SamplerType::independent) options.sampler = sampler;
+                    return render(scene, options);
+                },
+            .has_distribution = true};
+}
+
+[[maybe_unused]] static const bool added[] = {
+    add_method(method("15", "15 lens, time, color, sky", "#17becf", SamplerType::independent)),
+    add_method(method("15-sobol", "15, Sobol", "#9edae5", SamplerType::sobol)),
+};
