@@ -43,7 +43,7 @@ inline std::string darts_notes(uint64_t n, uint32_t seed) {
            digits(static_cast<double>(sum_in_float(1, hits)), 8) + "\n";
 }
 
-/// Left: the darts. Right: the running estimates of 16 runs against log N, and pi +- 1 and 2
+/// Left: the darts. Right: the running estimates of 8 runs against log N, and pi +- 1 and 2
 /// standard errors.
 inline Image darts_picture(uint64_t n, uint32_t seed) {
     constexpr int size = 360;

@@ -115,6 +115,31 @@ TEST_SUITE("ch04 lamps") {
               irradiance(floor_under(shining + square(2, false)), 0));
     }
 
+    TEST_CASE("identity: a bent normal sees no lamp below the surface, and none behind itself") {
+        // The floor's normals lean towards +x: one ball is before them, but below the floor; one is
+        // above the floor, but behind them. A third is both before and above.
+        for (auto [ball, L] :
+             {std::pair{"4 -1.5 0", 0.0}, {"-4 1.5 0", 0.0}, {"4 1.5 0", 0.0525884}}) {
+            Scene scene = world_of(
+                "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n"
+                "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\""
+                " [-50 0 -50  -50 0 50  50 0 50  50 0 -50]"
+                " \"normal N\" [.8 .6 0  .8 .6 0  .8 .6 0  .8 .6 0] AttributeEnd\n" +
+                shining + "Translate " + ball + " Shape \"sphere\"\n");
+            CHECK(std::abs(static_cast<double>(look(scene, {0, 1, 0}, {0, 0, 0}).L.g) - L) < 1e-6);
+        }
+    }
+
+    TEST_CASE("truth: what is just below a lamp hides it, what is just behind it does not, in 04") {
+        for (float gap : {1e-4f, -1e-4f}) {
+            Scene scene = floor_under("AttributeBegin " + shining +
+                                      "Translate 0 2 0 Rotate 90 1 0 0 Shape \"disk\""
+                                      " AttributeEnd Translate 0 " +
+                                      std::to_string(2 - gap) + " 0 " + square(0, false));
+            CHECK((irradiance(scene, 0) == 0) == (gap > 0));
+        }
+    }
+
     TEST_CASE("teeth: a lamp without one of its factors is rejected") {
         Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
         Hit x = *intersect(scene, {{1, 1, 0}, {0, -1, 0}});

@@ -4,6 +4,7 @@
 #include "chapters/05_bvh/estimator.h"
 #include "common/path/sampler.h"
 #include "tests/support/gates.h"
+#include "tests/support/meshes.h"
 
 namespace {
 
@@ -74,6 +75,69 @@ TEST_SUITE("ch05 bvh") {
         }
         CHECK(hits > 5000);
         CHECK(hits < 19000);
+    }
+
+    TEST_CASE("brute: rays in planes, along edges and through corners, along all three axes") {
+        // 27 cubes side by side, of thirds, which no float holds exactly; every ray along an axis
+        // through their corners and the middles of their edges and sides, both ways, from outside
+        // and from inside.
+        Scene scene;
+        Geometry& g = scene.geometry;
+        auto third = [](int i) { return static_cast<float>(i) / 3; };
+        for (int i = 0; i < 27; i++) {
+            int x = i % 3, y = i / 3 % 3, z = i / 9;
+            add_box(g, {third(x), third(y), third(z)}, {third(x + 1), third(y + 1), third(z + 1)});
+        }
+        std::vector<ch05::Finder> finders = all_finders(scene);
+        int missed = 0;
+        for (int axis = 0; axis < 3; axis++) {
+            CAPTURE(axis);
+            for (int k = 0; k < 7 * 7 * 8; k++) {
+                Ray ray;
+                ray.o[(axis + 1) % 3] = static_cast<float>(k % 7) / 6;
+                ray.o[(axis + 2) % 3] = static_cast<float>(k / 7 % 7) / 6;
+                int from = k / 49 / 2;  // outside; and on a side
+                ray.o[axis] = from == 0 ? -1 : third(from - 1);
+                ray.d = Vec3{k % 2 == 0 ? 0.0f : -0.0f, 0.0f, -0.0f};
+                ray.d[axis] = 1;
+                if (k / 49 % 2 == 1) ray.d[axis] = -1, ray.o[axis] = 1 - ray.o[axis];
+                PrimHit truth = linear_scan(g, ray);
+                missed += truth.prim == PrimHit::none;
+                for (const ch05::Finder& finder : finders) {
+                    CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
+                    ch05::Work work;
+                    PrimHit hit = find(finder, g, ray, work);
+                    CHECK(hit.prim == truth.prim);
+                    CHECK(hit.t == truth.t);
+                }
+            }
+        }
+        CHECK(missed == 0);
+    }
+
+    TEST_CASE("brute: no step loses a ray at the edges and corners of a closed mesh") {
+        Scene scene;
+        scene.geometry = closed_mesh(2);
+        const Geometry& g = scene.geometry;
+        std::vector<ch05::Finder> finders = all_finders(scene);
+        Sampler sampler(SamplerType::independent, 8, 1);
+        for (uint32_t i = 0; i < 10000; i++) {
+            sampler.start(i, 0);
+            const Triangle& t = g.triangles[i % g.triangles.size()];
+            Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]];
+            Vec3 from = 0.2f * random_point(sampler);
+            Vec3 at = i % 4 == 0 ? a : a + sampler.u1() * (b - a);
+            Ray ray = {from, at - from};
+            PrimHit truth = linear_scan(g, ray);
+            REQUIRE(truth.prim != PrimHit::none);
+            for (const ch05::Finder& finder : finders) {
+                CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
+                ch05::Work work;
+                PrimHit hit = find(finder, g, ray, work);
+                CHECK(hit.prim == truth.prim);
+                CHECK(hit.t == truth.t);
+            }
+        }
     }
 
     TEST_CASE("variance: each step does less work than the one before") {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <tuple>
+#include <utility>
 
 #include "chapters/10_light_importance/estimator.h"
 #include "chapters/11_ris/estimator.h"
@@ -69,6 +70,22 @@ MeanVariance resampled(size_t M, const Four& pmf, const Four& target) {
         follow({}, lights, 0, probability, pmf, target, sums);
     });
     return {sums.first, sums.second - sums.first * sums.first};
+}
+
+/// The mean of f W where candidates are drawn one after the other and none twice, but are weighed
+/// as if each had been drawn from all four.
+double mean_without_replacement(size_t M) {
+    Sums sums;
+    for_each_tuple(M, p, [&](const std::vector<size_t>& lights, double) {
+        double probability = 1, left = 1;
+        Four chance = p;
+        for (size_t light : lights) {
+            probability *= chance[light] / left;
+            left -= std::exchange(chance[light], 0);
+        }
+        if (probability > 0) follow({}, lights, 0, probability, p, p_hat, sums);
+    });
+    return sums.first;
 }
 
 /// The mean of weight(lights, k, sum of target/p) f over all tuples, k kept by its `choice` share.
@@ -196,6 +213,12 @@ TEST_SUITE("ch11 reservoir") {
         auto W = [](size_t i, double, double sum) { return sum / (4 * p_hat[i]); };
         CHECK(mean_of(4, by_target, W) == is(12.20114435));
         CHECK(mean_of(4, by_ratio, W) == is(13));
+    }
+
+    TEST_CASE("failure: candidates none of which comes twice make 13 into 14.69 and 25.6") {
+        CHECK(mean_without_replacement(1) == is(13));
+        CHECK(mean_without_replacement(2) == is(7403.0 / 504));
+        CHECK(mean_without_replacement(4) == is(205.0 / 8));
     }
 
     TEST_CASE("failure: a source or a target of 0 where there is light: missing, for every M") {

@@ -6,6 +6,7 @@
 #include "chapters/10_light_importance/estimator.h"
 #include "chapters/12_glossy/estimator.h"
 #include "common/base/error.h"
+#include "tests/support/ggx_truth.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
 
@@ -268,6 +269,40 @@ TEST_SUITE("ch12 rough metal") {
         double mean = 1 - std::log(2), variance = 3 - 4 * std::log(2) - mean * mean;
         check_mean(s, mean, variance, 0.01);
         check_variance(s, variance, 3);
+    }
+
+    TEST_CASE(
+        "truth: the share of a white sky that rough metal reflects, by quadrature in double") {
+        CHECK(RoughMetal{0.5, 0.2, 3.9}.albedo(pi_exact / 3) ==
+              doctest::Approx(0.66274).epsilon(1e-5).scale(0));
+        for (auto [alpha_here, eta, k] :
+             {std::tuple{0.1, 0.2, 3.9}, {0.5, 0.2, 3.9}, {1.0, 1.5, 2.0}}) {
+            const auto& alpha = alpha_here;
+            CAPTURE(alpha);
+            Material material = rough(static_cast<float>(alpha));
+            material.eta.g = static_cast<float>(eta), material.k.g = static_cast<float>(k);
+            Hit x = metal(material);
+            for (double degrees : {0.0, 45.0, 60.0, 80.0}) {
+                CAPTURE(degrees);
+                double truth = RoughMetal{alpha, eta, k}.albedo(degrees * pi_exact / 180, 0, 400);
+                Vec3 wo = at(degrees);
+                // By the metal's own samples, and by even ones, which know nothing of its density.
+                RunningStats own, even;
+                Sampler random = random_numbers(1);
+                for (int i = 0; i < 40000; i++) {
+                    float u1 = random.u1();
+                    BsdfSample s = ch12::sample_bsdf(x, wo, u1, random.u2());
+                    own.add(s.pdf_w == 0 ? 0 : double{s.f.g * dot(s.wi, x.n) / s.pdf_w});
+                    Vec3 wi = sample_uniform_hemisphere(random.u2());
+                    even.add(double{ch12::eval_bsdf(x, wo, wi).g * wi.z * 2 * pi});
+                }
+                CHECK(std::abs(own.mean() - truth) < 5 * own.standard_error() + 2e-4);
+                CHECK(own.standard_error() < 0.004);
+                if (alpha < 0.5) continue;  // too narrow for even samples
+                CHECK(std::abs(even.mean() - truth) < 5 * even.standard_error() + 2e-4);
+                CHECK(even.standard_error() < 0.03);
+            }
+        }
     }
 
     TEST_CASE("furnace: a ball of nearly smooth metal shows what a smooth one reflects") {

@@ -97,6 +97,25 @@ TEST_SUITE("intersect shapes") {
         }
     }
 
+    TEST_CASE("truth: tiny balls are met just before the ray's origin, and from inside") {
+        Sampler random = random_numbers(1);
+        for (float r : {1e-7f, 1e-5f, 1e-3f, 1.0f})
+            for (int i = 0; i < 200; i++) {
+                CAPTURE(r);
+                Vec3 d = uniform_direction(random.u2());
+                float length_of_d = i % 2 == 0 ? 1 : 1e-3f;  // t counts lengths of d
+                Ray ray = {{0, 0, 0}, length_of_d * d};
+                for (float centre : {0.5f, 1.001f, 1.5f, 3.0f}) {  // in radii
+                    auto t = intersect_sphere(ray, centre * r * d, r);
+                    REQUIRE(t);
+                    float truth = centre < 1 ? centre + 1 : centre - 1;
+                    CHECK(std::abs(*t * length_of_d / r - truth) < 1e-5f);
+                    CHECK_FALSE(intersect_sphere({ray.o, ray.d, 0.99f * *t}, centre * r * d, r));
+                }
+                CHECK_FALSE(intersect_sphere(ray, -1.5f * r * d, r));
+            }
+    }
+
     TEST_CASE("truth: a disk is hit up to its rim, from both sides, and never edge-on") {
         Vec3 c = {1, 2, 3}, n = {0, 0, 1};
         CHECK(*intersect_disk({{1, 2, 0}, {0, 0, 1}}, c, n, 2) == 3);
@@ -205,12 +224,32 @@ TEST_SUITE("intersect hits") {
         Hit x = look({0.25f, 0.25f, 0}, {0, 0, -1});
         CHECK(length(x.n - normalize({-0.5f, 0, 1})) < 1e-6f);
         CHECK(x.ng == Vec3{0, 0, 1});
+        // Where no two weights are alike, each normal has its own.
+        x = look({0.5f, 0.2f, 0}, {0, 0, -1});
+        CHECK(length(x.n - normalize({0.4f, 0, 1})) < 1e-6f);
+        x = look({0.2f, 0.5f, 0}, {0, 0, -1});
+        CHECK(length(x.n - normalize({-0.2f, 0, 1})) < 1e-6f);
         x = look({0.25f, 0.25f, 0}, {0, 0, 1});  // from behind
         CHECK(length(x.n - normalize({0.5f, 0, -1})) < 1e-6f);
         CHECK(x.ng == Vec3{0, 0, -1});
         // From far to the right, the normal that leans left would look away.
         x = look({0.01f, 0.01f, 0}, normalize({-1, 0, -0.3f}));
         CHECK(x.n == x.ng);
+    }
+
+    TEST_CASE("identity: a ray leaves on the side of the surface to which it goes") {
+        Sampler random = random_numbers(1);
+        int bent = 0;
+        for (int i = 0; i < 1000; i++) {
+            Hit x{};
+            x.eps = 0.01f;
+            x.ng = uniform_direction(random.u2());
+            x.n = normalize(x.ng + 0.9f * uniform_direction(random.u2()));
+            Vec3 wi = uniform_direction(random.u2());
+            CHECK(dot(spawn_ray(x, wi).o, x.ng) * dot(wi, x.ng) > 0);
+            bent += dot(wi, x.ng) * dot(wi, x.n) < 0;  // a mirror may send a path there
+        }
+        CHECK(bent > 50);
     }
 
     TEST_CASE("truth: a hit lies on its surface to within its eps, and eps is small") {

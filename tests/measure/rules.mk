@@ -5,7 +5,7 @@ comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))
 
-.PHONY: chart stability agree efficiency compare references bench teeth
+.PHONY: chart stability agree efficiency compare references bench teeth break
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
@@ -36,6 +36,12 @@ references: $(BUILD)/references $(made)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
 readmes: $(BUILD)/efficiency $(BUILD)/bench
-#: make teeth        plant mistakes, one at a time, and show the test that sees each
-teeth: $(BUILD)/tests
-	tests/teeth $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))
+# What a test program consists of beside the test itself.
+harness := $(common) $(BUILD)/obj/tests/support/main.o
+teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
+#: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=08: a page's)
+teeth: $(harness) $(made)
+	@$(teeth)
+#: make break CH=08 N=2   plant the second mistake of that page's "Break it", and show its test red
+break: $(harness) $(made)
+	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=08 N=2' >&2; exit 1)
