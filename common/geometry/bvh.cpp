@@ -181,6 +181,13 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
                 current = pop();
             } else if ((hits & (hits - 1)) == 0) {
                 current = node.child[std::countr_zero(hits)];
+            } else if (any) {
+                // Any hit will do: no order but that of the lanes, in which the builder puts last
+                // what is likeliest to stop a ray.
+                store(compress(load(node.child), hits), stack + size);
+                store(compress(enter, hits), stack_enter + size);
+                size += std::popcount(hits) - 1;
+                current = node.child[31 - std::countl_zero(hits)];
             } else {
                 // Put them on the stack from far to near, and go on with the nearest.
                 Ints order = lanes_of(node.far_first[octant]);

@@ -426,14 +426,26 @@ private:
         right = {front, end, box[0], centers[0]};
     }
 
+    /// The children of a wide node, those last that are likeliest to stop a ray, and soonest: what
+    /// is large and holds little, such as walls.
+    static Gathered by_worth(Node& root) {
+        Gathered children;
+        children.add(root, lanes, 7);
+        auto worth = [](const Node* node) {
+            return node->box.area() / std::sqrt(static_cast<float>(node->end - node->begin));
+        };
+        std::stable_sort(children.node.begin(), children.node.begin() + children.size,
+                         [&](const Node* a, const Node* b) { return worth(a) < worth(b); });
+        return children;
+    }
+
     /// Numbers the wide nodes and the leaves below a node, depth first: all that one thread has to
     /// do alone before many can write them. Returns the BvhNode::child of the node.
     uint32_t number(Node& root) {
         if (root.fits_a_block()) return add_leaf({root.begin, root.end});
         auto index = static_cast<uint32_t>(wide_.size());
         wide_.push_back(&root);
-        Gathered children;
-        children.add(root, lanes, 7);
+        Gathered children = by_worth(root);
         for (uint32_t i = 0; i < children.size; i++) {
             children.node[i]->lane = static_cast<uint8_t>(i);
             children.node[i]->number = number(*children.node[i]);
@@ -443,8 +455,7 @@ private:
 
     /// Writes the boxes of the children, their numbers, and for each octant their order.
     void fill_node(Node& root, BvhNode& node) {
-        Gathered children;
-        children.add(root, lanes, 7);
+        Gathered children = by_worth(root);
         for (uint32_t i = 0; i < lanes; i++) {
             const Node* child = i < children.size ? children.node[i] : nullptr;
             Box box = child ? child->box : Box{};

@@ -153,25 +153,21 @@ inline Geometry thin_diagonals(uint32_t n) {
     return g;
 }
 
-/// A closed mesh around the origin: an octahedron whose faces are cut in four, again and again,
-/// with corners moved in and out.
-inline Geometry closed_mesh(int cuts) {
+/// A closed mesh around the origin: an octahedron whose edges are cut in two, again and again, at
+/// the point cut_at(a, b).
+template <typename CutAt>
+Geometry closed_mesh(int cuts, const CutAt& cut_at) {
     Geometry g;
     g.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (uint32_t x : {0u, 1u})
         for (uint32_t y : {2u, 3u})
             for (uint32_t z : {4u, 5u}) g.triangles.push_back({{x, y, z}, 0});
-    Sampler random(SamplerType::independent, 3, 1);
-    random.start(0, 0);
     for (int cut = 0; cut < cuts; cut++) {
         std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
         auto middle = [&](uint32_t a, uint32_t b) {
             auto [found, added] =
                 middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(g.positions.size()));
-            if (added) {
-                Vec3 m = normalize(g.positions[a] + g.positions[b]);
-                g.positions.push_back((0.8f + 0.4f * random.u1()) * m);
-            }
+            if (added) g.positions.push_back(cut_at(g.positions[a], g.positions[b]));
             return found->second;
         };
         std::vector<Triangle> finer;
@@ -188,4 +184,14 @@ inline Geometry closed_mesh(int cuts) {
         g.triangles = finer;
     }
     return g;
+}
+
+/// The same with corners moved in and out.
+inline Geometry closed_mesh(int cuts) {
+    Sampler random(SamplerType::independent, 3, 1);
+    random.start(0, 0);
+    return closed_mesh(cuts, [&](Vec3 a, Vec3 b) {
+        Vec3 m = normalize(a + b);
+        return (0.8f + 0.4f * random.u1()) * m;
+    });
 }
