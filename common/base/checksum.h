@@ -9,7 +9,7 @@
 /// A change within eight bytes that are hashed together, such as one flipped bit, always changes
 /// it: each step is a bijection. No protection against those who want to deceive.
 ///
-///   h = rotate((h ^ word) odd)      for each 8 bytes, the last ones filled up with 0
+///   h = mix(h ^ word)      for each 8 bytes, the last ones filled up with 0
 ///
 /// tested by  "teeth: any flipped bit changes the checksum, and so does any cut"
 class Checksum {
@@ -33,13 +33,14 @@ public:
         Checksum end = *this;
         end.step(word_);
         end.step(length_);
-        end.step(0), end.step(0);  // so that the last bytes reach all bits
         return end.sum_;
     }
 
 private:
     void step(uint64_t word) {
-        sum_ = std::rotl((sum_ ^ word) * 0x9e3779b97f4a7c15u, 29) + 0x632be59bd9b4e019u;
+        sum_ = (sum_ ^ word) * 0x9e3779b97f4a7c15u;
+        sum_ = (sum_ ^ sum_ >> 32) * 0xd6e8feb86659fd93u;
+        sum_ ^= sum_ >> 29;
     }
     uint64_t sum_ = 0x243f6a8885a308d3u, word_ = 0, length_ = 0;
     int waiting_ = 0;  // bytes in word_

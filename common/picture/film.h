@@ -18,6 +18,8 @@ public:
         : width(w),
           height(h),
           pixels_(static_cast<size_t>(w) * static_cast<size_t>(h)),
+          audit_shift_(static_cast<int>(
+              std::bit_width(std::clamp<size_t>(pixels_.size() / 64, 1, 128)) - 1)),
           splats_(takes_splats ? 3 * pixels_.size() : 0) {}
 
     /// Adds the next sample of a pixel. Two threads must not add to one pixel.
@@ -41,20 +43,19 @@ public:
     }
 
     /// From now on some pixels are audited: they take each of their samples a second time, with
-    /// random numbers of another key. One pixel of 128, or of fewer so that there are 64.
+    /// random numbers of another key. One pixel of 128, or of fewer so that there are 64 or more.
     ///
     /// Samples of one pixel may depend on each other, as stratified ones do; then their spread does
     /// not tell the error of their mean. Two sets of samples tell: of the means A and B of both,
     /// (A - B)^2 / 2 is on the mean the variance of one.
-    void start_audit() { audits_.resize(pixels_.size() / pixels_for_one_audit()); }
+    void start_audit() { audits_.resize(pixels_.size() >> audit_shift_); }
     bool has_audits() const { return !audits_.empty(); }
     bool is_audited(size_t pixel) const {
-        if (!has_audits()) return false;
-        size_t audit = pixel / pixels_for_one_audit();
+        size_t audit = pixel >> audit_shift_;
         return audit < audits_.size() && audited_pixel(audit) == pixel;
     }
     /// Adds the sample that goes with the last one of this pixel.
-    void audit(size_t pixel, Rgb L) { audits_[pixel / pixels_for_one_audit()].add(L); }
+    void audit(size_t pixel, Rgb L) { audits_[pixel >> audit_shift_].add(L); }
 
     /// Adds the samples of another film of the same size, which has audits if this has.
     void add(const Film& other);
@@ -106,13 +107,12 @@ private:
     Channels mean_of(size_t pixel, double spp) const;
     Channels mean_channels() const;
 
-    /// Of so many pixels, one behind the other, one is audited.
-    size_t pixels_for_one_audit() const { return std::clamp<size_t>(pixels_.size() / 64, 1, 128); }
     size_t audited_pixel(size_t audit) const {
-        size_t pixels = pixels_for_one_audit();
-        return audit * pixels + hash32(static_cast<uint32_t>(audit)) % pixels;
+        size_t one_of = hash32(static_cast<uint32_t>(audit)) & ((1u << audit_shift_) - 1);
+        return (audit << audit_shift_) + one_of;
     }
 
     std::vector<PixelSum> pixels_, audits_;
+    int audit_shift_;  // one of 2^audit_shift_ pixels, one behind the other, is audited
     std::vector<ExactSum> splats_;  // r, g and b of each pixel; none for a film without
 };

@@ -90,10 +90,12 @@ private:
 std::string FilmReader::read_text() {
     std::string text;
     while (!text.ends_with("\n\n")) {
+        bool begins = text.starts_with(first_line) ||
+                      (!text.empty() && std::string_view(first_line).starts_with(text));
         char c;
-        if (text.size() == std::strlen(first_line) && text != first_line) refuse("not a film");
         if (text.size() > longest_label) refuse_label();
-        if (read_some(&c, 1) == 0) refuse(text.empty() ? "not a film" : "the film is cut short");
+        if (!begins && !text.empty()) refuse("not a film");
+        if (read_some(&c, 1) == 0) refuse(begins ? "the film is cut short" : "not a film");
         text += c;
     }
     checksum_.add(text);

@@ -45,9 +45,8 @@ SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
     if (!fits) throw UsageError("error: --film: a film holds at most 2^28 samples of a pixel");
     bool endless = o.time > 0 && o.spp == 0 && o.parts == 1;
     if (endless) return {o.seed, 0, PixelSum::most};
-    auto first_of = [&](int part) {
-        return static_cast<uint32_t>(int64_t{scene.spp} * part / o.parts);
-    };
+    int spp = o.time > 0 && o.spp > 0 ? o.spp : scene.spp;
+    auto first_of = [&](int part) { return static_cast<uint32_t>(int64_t{spp} * part / o.parts); };
     return {o.seed, first_of(o.part - 1), first_of(o.part)};
 }
 

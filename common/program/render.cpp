@@ -156,6 +156,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Tr
     Rendering result{Film(scene.width, scene.height), {}, {}};
     if (options.sampler != SamplerType::independent) result.film.start_audit();
     continue_film(scene, options, result);
+    uint32_t done = options.film.empty() ? 0 : fewest_samples(result.film);
     Limit limit(options.time);
     FilmClock clock(scene, options);
     Progress progress(options.quiet);
@@ -166,7 +167,6 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Tr
     SampleRange wanted = wanted_samples(scene, options);
     uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
     uint32_t most_per_pass = std::max(1u, (1u << 18) / pixels), spp = wanted.last - wanted.first;
-    uint32_t done = fewest_samples(result.film);
     while (done < spp && !limit.reached()) {
         uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
         std::atomic<int> tiles = 0;

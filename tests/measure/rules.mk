@@ -39,3 +39,10 @@ readmes: $(BUILD)/efficiency $(BUILD)/bench
 #: make teeth        plant mistakes, one at a time, and show the test that sees each
 teeth: $(BUILD)/tests
 	tests/teeth $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))
+#: make kills        kill renders with a film at 200 random moments: the same bytes (5 minutes)
+kills: $(BUILD)/14_mis_ris
+	tests/kills $(BUILD)
+#: make parts        render parts by GNU parallel and Slurm: the same bytes as one run
+parts: $(BUILD)/14_mis_ris $(BUILD)/merge
+	tests/parts $(BUILD)
+.PHONY: kills parts
