@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         RenderOptions options =
             parse_render_options(argc, argv, "04_ray_casting", "scenes/cornell-spheres.pbrt");
+        options.search = LightSearch::direct;
         Scene scene = load(options);
         refuse_glossy(scene);
         return render(scene, options, ch04::trace);

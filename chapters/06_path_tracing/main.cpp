@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         RenderOptions options =
             parse_render_options(argc, argv, "06_path_tracing", "scenes/cornell.pbrt");
+        options.search = LightSearch::by_chance;
         Scene scene = load(options);
         refuse_glossy(scene);
         refuse_delta_lights(scene);

@@ -9,7 +9,8 @@ int main(int argc, char** argv) {
                            [&](const std::string& text) {
                                measure = static_cast<ch08::LightMeasure>(
                                    parse_choice("light-by", text, {"area", "solid-angle"}));
-                           }};
+                           },
+                           "solid-angle"};
         RenderOptions options = parse_render_options(argc, argv, "08_light_sampling",
                                                      "scenes/cornell.pbrt", {light_by});
         Scene scene = load(options);

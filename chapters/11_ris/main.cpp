@@ -8,7 +8,8 @@ int main(int argc, char** argv) {
         Option candidates = {"m", "M", "light candidates for each shadow ray (default 16)",
                              [&](const std::string& text) {
                                  M = static_cast<int>(parse_integer("m", text, 1, 1024));
-                             }};
+                             },
+                             "16"};
         RenderOptions options =
             parse_render_options(argc, argv, "11_ris", "scenes/thousand-lights.pbrt", {candidates});
         Scene scene = load(options);

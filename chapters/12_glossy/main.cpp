@@ -10,11 +10,15 @@ int main(int argc, char** argv) {
             [&](const std::string& text) {
                 strategy =
                     static_cast<ch12::Strategy>(parse_choice("strategy", text, {"bsdf", "light"}));
-            }};
+            },
+            "light"};
         RenderOptions options =
             parse_render_options(argc, argv, "12_glossy", "scenes/veach-mis.pbrt", {ways});
         Scene scene = load(options);
-        if (strategy == ch12::Strategy::bsdf) refuse_delta_lights(scene);
+        if (strategy == ch12::Strategy::bsdf) {
+            refuse_delta_lights(scene);
+            options.search = LightSearch::by_chance;
+        }
         return render(scene, options, trace_with<ch12::trace>(ch12::prepare(scene), strategy));
     });
 }

@@ -10,11 +10,13 @@ int main(int argc, char** argv) {
              [&](const std::string& text) {
                  bool power = parse_choice("heuristic", text, {"balance", "power"}) == 1;
                  settings.heuristic = power ? ch13::power_heuristic : ch13::balance_heuristic;
-             }},
+             },
+             "power"},
             {"ways", "N", "at each vertex: both (default), or one-sample: one of them, by a coin",
              [&](const std::string& text) {
                  settings.one_sample = parse_choice("ways", text, {"both", "one-sample"}) == 1;
-             }},
+             },
+             "both"},
         };
         RenderOptions options =
             parse_render_options(argc, argv, "13_mis", "scenes/veach-mis.pbrt", extra);

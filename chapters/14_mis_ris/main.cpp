@@ -9,7 +9,8 @@ int main(int argc, char** argv) {
             "m", "M", "light candidates, at most one per light (default 64)",
             [&](const std::string& text) {
                 M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
-            }};
+            },
+            "64"};
         RenderOptions options = parse_render_options(argc, argv, "14_mis_ris",
                                                      "scenes/thousand-lights.pbrt", {candidates});
         Scene scene = load(options);

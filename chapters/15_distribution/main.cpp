@@ -10,12 +10,14 @@ int main(int argc, char** argv) {
             "m", "M", "light candidates, at most one per light (default 64)",
             [&](const std::string& text) {
                 M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
-            }};
+            },
+            "64"};
         Option pixel = {"pixel", "area|centre",
                         "mean over each pixel (default), or its middle alone",
                         [&](const std::string& text) {
                             centre = parse_choice("pixel", text, {"area", "centre"}) == 1;
-                        }};
+                        },
+                        "area"};
         RenderOptions options = parse_render_options(argc, argv, "15_distribution",
                                                      "scenes/bokeh.pbrt", {candidates, pixel});
         options.pixel_centre = centre;

@@ -1,11 +1,14 @@
 #include "common/base/files.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <random>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/position.h"
@@ -16,21 +19,6 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
     throw InputError(printable(path + ": error: " + what + ": " + std::strerror(error)));
-}
-
-// Writes everything and closes; 0, or the errno of the step that failed.
-int write_and_close(int fd, std::string_view bytes) {
-    int error = 0;
-    while (!bytes.empty() && error == 0) {
-        ssize_t n = ::write(fd, bytes.data(), bytes.size());
-        if (n >= 0) {
-            bytes.remove_prefix(static_cast<size_t>(n));
-        } else if (errno != EINTR) {
-            error = errno;
-        }
-    }
-    if (::close(fd) != 0 && error == 0) error = errno;
-    return error;
 }
 
 // A device or a pipe: it cannot be replaced, only written to.
@@ -52,46 +40,82 @@ std::string follow_links(const std::string& path) {
     return file.string();
 }
 
-std::string temporary_beside(const std::string& target) {
-    return target + ".part." + std::to_string(::getpid());
-}
-
-// Opens the new file beside `target`.
-int open_temporary(const std::string& path, const std::string& target) {
-    std::error_code none;
-    if (fs::is_directory(target, none)) fail(path, "cannot write", EISDIR);
-    int fd =
-        ::open(temporary_beside(target).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (fd < 0) fail(path, "cannot write", errno);
-    return fd;
+// A name beside `target` that nobody can guess; short enough, however long that of the target is.
+std::string name_beside(const std::string& target) {
+    constexpr size_t longest = 200;
+    constexpr const char* letters = "abcdefghijklmnopqrstuvwxyz234567";
+    fs::path file = target;
+    std::random_device random;
+    std::string name = file.filename().string().substr(0, longest) + ".part-";
+    for (int i = 0; i < 12; i++) name += letters[random() % 32];
+    return file.replace_filename(name).string();
 }
 
 }  // namespace
 
-void write_file_atomically(const std::string& path, std::string_view bytes) {
+NewFile::NewFile(const std::string& path) : path_(path) {
     if (is_device(path)) {
-        int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-        if (fd < 0) fail(path, "cannot write", errno);
-        if (int error = write_and_close(fd, bytes)) fail(path, "cannot write", error);
+        fd_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        if (fd_ < 0) fail(path, "cannot write", errno);
         return;
     }
-    std::string target = follow_links(path), temporary = temporary_beside(target);
-    int error = write_and_close(open_temporary(path, target), bytes);
-    if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-    if (error != 0) {
-        ::unlink(temporary.c_str());
-        fail(path, "cannot write", error);
+    target_ = follow_links(path);
+    struct stat old = {};
+    bool is_there = ::stat(target_.c_str(), &old) == 0;
+    if (is_there && S_ISDIR(old.st_mode)) fail(path, "cannot write", EISDIR);
+    if (!is_there && errno == ENAMETOOLONG) fail(path, "cannot write", errno);
+    for (int tries = 0; fd_ < 0 && (tries == 0 || (errno == EEXIST && tries < 10)); tries++) {
+        temporary_ = name_beside(target_);
+        // O_EXCL: a file of its own, never one that is there, nor one that a link names.
+        fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    if (fd_ < 0) {
+        temporary_.clear();
+        fail(path, "cannot write", errno);
+    }
+    if (is_there) (void)!::fchmod(fd_, old.st_mode & 07777);  // some file systems have no modes
+}
+
+NewFile::~NewFile() {
+    if (fd_ >= 0) ::close(fd_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void NewFile::write(std::string_view bytes) {
+    while (!bytes.empty()) {
+        ssize_t n = ::write(fd_, bytes.data(), bytes.size());
+        if (n < 0 && errno != EINTR) fail(path_, "cannot write", errno);
+        if (n > 0) bytes.remove_prefix(static_cast<size_t>(n));
     }
 }
 
-void check_writable(const std::string& path) {
-    if (is_device(path)) {
-        if (::access(path.c_str(), W_OK) != 0) fail(path, "cannot write", errno);
-        return;
+void NewFile::write_through() {
+    // A device, and some file systems, cannot.
+    if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP) {
+        fail(path_, "cannot write", errno);
     }
-    std::string target = follow_links(path);
-    ::close(open_temporary(path, target));
-    ::unlink(temporary_beside(target).c_str());
+}
+
+void NewFile::commit() {
+    int fd = std::exchange(fd_, -1);
+    if (::close(fd) != 0) fail(path_, "cannot write", errno);
+    if (temporary_.empty()) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot write", errno);
+    temporary_.clear();
+}
+
+void write_file_atomically(const std::string& path, std::string_view bytes) {
+    NewFile file(path);
+    file.write(bytes);
+    file.commit();
+}
+
+void check_writable(const std::string& path) {
+    if (!is_device(path)) {
+        NewFile never_committed(path);
+    } else if (::access(path.c_str(), W_OK) != 0) {
+        fail(path, "cannot write", errno);
+    }
 }
 
 bool same_file(const std::string& a, const std::string& b) {

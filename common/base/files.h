@@ -4,6 +4,29 @@
 #include <string_view>
 #include <vector>
 
+/// A file that is written beside its place, under a fresh name, and put there when it is whole;
+/// until then what was there stays. It gets the mode of the file whose place it takes. A device or
+/// pipe is written to directly. What fails throws InputError; without commit() nothing is left
+/// behind.
+class NewFile {
+public:
+    explicit NewFile(const std::string& path);
+    ~NewFile();
+    NewFile(const NewFile&) = delete;
+    NewFile& operator=(const NewFile&) = delete;
+
+    void write(std::string_view bytes);
+    /// Waits until what was written is on the disk: then it is there after a power failure too.
+    void write_through();
+    /// Puts the file in its place.
+    void commit();
+
+private:
+    std::string path_;                // as named, for messages
+    std::string target_, temporary_;  // after all links; beside it. Empty for a device
+    int fd_ = -1;
+};
+
 /// Writes `bytes` to a new file beside `path` and renames it over `path`: a full disk or a kill
 /// leaves what was there before. A device or pipe is written to directly.
 /// Throws InputError when anything fails.

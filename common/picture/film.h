@@ -4,18 +4,12 @@
 #include <vector>
 
 #include "common/base/exact_sum.h"
+#include "common/path/sampler.h"
 #include "common/picture/image.h"
+#include "common/picture/pixel_sum.h"
 
-/// The samples of one pixel so far: their number, their sum, and Welford's mean and squares of
-/// their brightness (the average of the channels).
-struct PixelSum {
-    double r = 0, g = 0, b = 0;
-    double mean = 0, m2 = 0;
-    uint64_t n = 0;
-};
-
-/// Adds up samples. All sums are in double: in float, one of 2^24 equal samples no longer counts.
-/// Each pixel counts its own samples, and has the mean of those.
+/// Adds up samples, in sums that do not depend on their order. Each pixel counts its own samples,
+/// and has the mean of those.
 class Film {
 public:
     int width, height;
@@ -24,28 +18,16 @@ public:
         : width(w),
           height(h),
           pixels_(static_cast<size_t>(w) * static_cast<size_t>(h)),
+          audit_shift_(static_cast<int>(
+              std::bit_width(std::clamp<size_t>(pixels_.size() / 64, 1, 128)) - 1)),
           splats_(takes_splats ? 3 * pixels_.size() : 0) {}
 
     /// Adds the next sample of a pixel. Two threads must not add to one pixel.
-    void add(size_t pixel, Rgb L) {
-        add_part(pixel, L);
-        PixelSum& p = pixels_[pixel];
-        p.n++;
-        double y =
-            (static_cast<double>(L.r) + static_cast<double>(L.g) + static_cast<double>(L.b)) / 3;
-        double delta = y - p.mean;
-        p.mean += delta / static_cast<double>(p.n);
-        p.m2 += delta * (y - p.mean);
-    }
+    void add(size_t pixel, Rgb L) { pixels_[pixel].add(L); }
 
     /// Adds what part of a sample brings, as often as it has parts: to the sums alone, so that the
     /// film knows its mean but not its error. How many samples there were, count_as() tells.
-    void add_part(size_t pixel, Rgb L) {
-        PixelSum& p = pixels_[pixel];
-        p.r += static_cast<double>(L.r);
-        p.g += static_cast<double>(L.g);
-        p.b += static_cast<double>(L.b);
-    }
+    void add_part(size_t pixel, Rgb L) { pixels_[pixel].add_part(L); }
     /// This film holds parts of all the samples of `whole`.
     void count_as(const Film& whole) {
         for (size_t i = 0; i < pixels_.size(); i++) pixels_[i].n = whole.pixels_[i].n;
@@ -60,6 +42,24 @@ public:
         splats_[3 * pixel + 2].add(L.b);
     }
 
+    /// From now on some pixels are audited: they take each of their samples a second time, with
+    /// random numbers of another key. One pixel of 128, or of fewer so that there are 64 or more.
+    ///
+    /// Samples of one pixel may depend on each other, as stratified ones do; then their spread does
+    /// not tell the error of their mean. Two sets of samples tell: of the means A and B of both,
+    /// (A - B)^2 / 2 is on the mean the variance of one.
+    void start_audit() { audits_.resize(pixels_.size() >> audit_shift_); }
+    bool has_audits() const { return !audits_.empty(); }
+    bool is_audited(size_t pixel) const {
+        size_t audit = pixel >> audit_shift_;
+        return audit < audits_.size() && audited_pixel(audit) == pixel;
+    }
+    /// Adds the sample that goes with the last one of this pixel.
+    void audit(size_t pixel, Rgb L) { audits_[pixel >> audit_shift_].add(L); }
+
+    /// Adds the samples of another film of the same size, which has audits if this has.
+    void add(const Film& other);
+
     /// What each pixel has, as a picture; black where it has nothing yet.
     Image image() const;
 
@@ -69,8 +69,21 @@ public:
 
     /// Standard error of mean(), from the variance within the pixels; unknown (NaN) where a pixel
     /// has one sample alone, and for a film that takes splats.
-    /// Exact for independent samples, too large for stratified and Sobol ones.
+    ///
+    ///   SE^2 = r sum over the pixels of v,   v = sum (Y - mean)^2 / (n - 1) / n
+    ///   r    = sum of (A - B)^2 / 2 over the audited pixels / sum of v over them
+    ///
+    /// r is 1 without audits, for samples that are independent of each other.
+    /// tested by  "consistency: the reported error is the spread over seeds, with each sampler"
     double standard_error() const;
+
+    /// What standard_error() rests on: the more the better.
+    struct ErrorBasis {
+        double pixels = 0;   // (sum v)^2 / sum v^2: how many pixels carry the error
+        double audits = 0;   // the same of the audited pixels; 0 without audits
+        double squares = 0;  // sum (Y - mean)^2 over all samples
+    };
+    ErrorBasis error_basis() const;
 
     /// (sum x)^2 / sum x^2 over all samples of the film: how many samples really carry it.
     double effective_samples() const;
@@ -82,6 +95,10 @@ public:
     }
 
     const std::vector<PixelSum>& pixels() const { return pixels_; }
+    /// The sums of the pixels and of the audits, to be written and read; see film_file.h.
+    std::vector<PixelSum>& pixels() { return pixels_; }
+    std::vector<PixelSum>& audits() { return audits_; }
+    const std::vector<PixelSum>& audits() const { return audits_; }
 
 private:
     struct Channels {
@@ -90,6 +107,12 @@ private:
     Channels mean_of(size_t pixel, double spp) const;
     Channels mean_channels() const;
 
-    std::vector<PixelSum> pixels_;
+    size_t audited_pixel(size_t audit) const {
+        size_t one_of = hash32(static_cast<uint32_t>(audit)) & ((1u << audit_shift_) - 1);
+        return (audit << audit_shift_) + one_of;
+    }
+
+    std::vector<PixelSum> pixels_, audits_;
+    int audit_shift_;  // one of 2^audit_shift_ pixels, one behind the other, is audited
     std::vector<ExactSum> splats_;  // r, g and b of each pixel; none for a film without
 };

@@ -7,9 +7,11 @@
 
 /// One option, `--name ARGUMENT` (or `--name` alone where argument is empty). `set` gets the
 /// argument's text and throws UsageError when it cannot be used. Without help --help leaves it out.
+/// An option that changes what is rendered names in `value` what it is without being set.
 struct Option {
     std::string name, argument, help;
     std::function<void(const std::string&)> set;
+    std::string value = {};
 };
 
 /// Reads the command line. Words that belong to no option go to `set_positional`. Prints the

@@ -9,6 +9,7 @@
 #include "common/base/files.h"
 #include "common/base/position.h"
 #include "common/path/class_filter.h"
+#include "common/picture/film_file.h"
 #include "common/picture/image.h"
 #include "common/program/project.h"
 
@@ -44,6 +45,45 @@ void parse_explain(const std::string& text, RenderOptions& options) {
     options.explain_x = std::stoi(match[1]);
     options.explain_y = std::stoi(match[2]);
     options.explain_sample = match[3].matched ? std::stoi(match[3]) : 0;
+}
+
+void parse_film(const std::string& text, RenderOptions& options) {
+    if (!text.ends_with(film_ending)) fail_value("film", text, "a .film file");
+    options.film = text;
+}
+
+void parse_part(const std::string& text, RenderOptions& options) {
+    std::smatch match;
+    if (std::regex_match(text, match, std::regex("(\\d{1,9})/(\\d{1,9})"))) {
+        options.part = std::stoi(match[1]), options.parts = std::stoi(match[2]);
+        if (options.part >= 1 && options.part <= options.parts) return;
+    }
+    fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
+}
+
+/// Throws for what cannot be done together.
+void check_together(const RenderOptions& o) {
+    if (o.film.empty()) {
+        if (o.parts > 1) {
+            throw UsageError("error: --part needs --film, or its samples could not be merged");
+        }
+        return;
+    }
+    const char* split = "error: --split and --film: a film keeps the whole alone, no classes";
+    const char* explain = "error: --explain and --film: a film keeps no paths";
+    if (!o.split.empty()) throw UsageError(split);
+    if (o.explain) throw UsageError(explain);
+}
+
+/// Remembers the values of a chapter's own options.
+void remember_values(std::vector<Option>& extra, RenderOptions& options) {
+    for (size_t i = 0; i < extra.size(); i++) {
+        options.own.push_back({extra[i].name, extra[i].value});
+        extra[i].set = [set = extra[i].set, i, &options](const std::string& text) {
+            set(text);
+            options.own[i].second = text;
+        };
+    }
 }
 
 SamplerType parse_sampler(const std::string& text) {
@@ -108,9 +148,16 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
          [&](const std::string& text) { o.paths = parse_class_filter(text); }},
         {"split", "DIR", "write one picture for each class of path",
          [&](const std::string& text) { o.split = text; }},
+        {"film", "FILE.film", "keep the sums: go on where the film stopped, also after kill -9",
+         [&](const std::string& text) { parse_film(text, o); }},
+        {"film-every", "SECONDS", "how often the film is written (default 60)",
+         [&](const std::string& text) { o.film_every = parse_positive("film-every", text); }},
+        {"part", "K/N", "take the K-th of N parts of the samples; build/merge adds their films",
+         [&](const std::string& text) { parse_part(text, o); }},
         {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
     };
     if (!takes.empty()) refuse_all_but(takes, name, options);
+    remember_values(extra, o);
     options.insert(options.begin(), extra.begin(), extra.end());
     parse_options(
         argc, argv, "[SCENE]",
@@ -125,6 +172,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
             o.scene = word;
         });
     if (o.scene.empty()) o.scene = project_file(argv[0], scene);
+    check_together(o);
     if (o.out.empty()) o.out = {"out/" + name + ".ppm"};
     if (o.threads == 0)
         o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -133,6 +181,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
 
 void check_outputs(const RenderOptions& options) {
     std::vector<std::string> files = options.out;
+    if (!options.film.empty()) files.push_back(options.film);
     if (!options.stats.empty()) files.push_back(options.stats);
     if (!options.split.empty()) {
         std::error_code none;  // found out below

@@ -7,6 +7,13 @@
 #include "common/path/sampler.h"
 #include "common/program/command_line.h"
 
+/// How a chapter finds light, which decides what it can tell about its error.
+enum class LightSearch : uint8_t {
+    aims,       // at lights, and also meets by chance those that it cannot aim at
+    by_chance,  // never aims
+    direct      // only aims, and follows mirrors and glass; other light it leaves out
+};
+
 /// What every chapter that renders a scene understands.
 struct RenderOptions {
     std::string name;     // of the chapter, such as "06_path_tracing"
@@ -23,8 +30,14 @@ struct RenderOptions {
     std::string stats;  // JSON file; empty: none
     bool explain = false;
     int explain_x = 0, explain_y = 0, explain_sample = 0;
-    std::string paths;  // regular expression; empty: all
-    std::string split;  // folder; empty: none
+    std::string paths;        // regular expression; empty: all
+    std::string split;        // folder; empty: none
+    std::string film;         // keeps the sums; empty: none
+    double film_every = 60;   // s, from one writing of the film to the next
+    int part = 1, parts = 1;  // which samples: the part-th of so many parts, from 1
+    LightSearch search = LightSearch::aims;
+    /// The chapter's own options, with their values.
+    std::vector<std::pair<std::string, std::string>> own = {};
     bool quiet = false;
     bool pixel_centre = false;  // chapter 15: see camera_sample.h
 };

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <tuple>
 
 #include "common/base/parallel.h"
 #include "common/path/camera_sample.h"
 #include "common/program/explain.h"
+#include "common/program/film_keeping.h"
 #include "common/program/progress.h"
 #include "common/program/results.h"
 #include "common/program/stop.h"
@@ -31,7 +31,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Renders the samples [first, last) of the pixels of one tile, or fewer at the limit.
+/// Renders the samples of the pixels of one tile, or fewer at the limit.
 class TileRenderer {
 public:
     static constexpr int side = 16;             // pixels
@@ -39,35 +39,43 @@ public:
     static constexpr int between_looks = 64;    // samples from one look at the limit to the next
 
     TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace,
-                 const Limit& limit, Rendering& result)
+                 const Limit& limit, const FilmClock& clock, Rendering& result)
         : scene_(scene),
           options_(options),
           trace_(trace),
           limit_(limit),
+          clock_(clock),
           result_(result),
+          first_(wanted_samples(scene, options).first),
           view_(camera_view(scene.camera, scene.width, scene.height)),
           tiles_x_((scene.width + side - 1) / side) {}
 
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
 
-    void render(int tile, int first, int last) {
-        if (limit_.reached()) return;
+    /// Takes samples until each pixel has `count` of them; none while the film waits to be saved.
+    void render(int tile, uint32_t count) {
+        if (limit_.reached() || clock_.due()) return;
         Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
         bool listen = !options_.paths.empty() || !options_.split.empty();
-        PathLog log = listen ? PathLog(options_.paths) : PathLog();
+        PathLog log = listen ? PathLog(options_.paths) : PathLog(), audit_log = log;
         RenderStats stats;
         uint64_t rays_before = rays_traced;
         int taken = 0;
         for_pixels(tile, [&](int x, int y) {
-            for (int s = first; s < last; s++) {
+            size_t pixel =
+                static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
+            bool audited = result_.film.is_audited(pixel);
+            for (uint32_t s = result_.film.pixels()[pixel].n; s < count; s++) {
                 if (++taken % between_looks == 0 && limit_.reached()) return false;
-                add_sample(x, y, s, sampler, log, stats);
+                add_sample({x, y, pixel, first_ + s}, sampler, log, stats);
+                if (audited) audit({x, y, pixel, first_ + s}, sampler, audit_log);
             }
             return true;
         });
         stats.rays = rays_traced - rays_before;
         stats.paths_cut = log.paths_cut();
-        merge(stats);
+        std::lock_guard lock(mutex_);
+        result_.stats.add(stats);
     }
 
 private:
@@ -83,20 +91,34 @@ private:
         }
     }
 
-    void add_sample(int x, int y, int s, Sampler& sampler, PathLog& log, RenderStats& stats) {
-        size_t pixel =
-            static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
-        sampler.start(static_cast<uint32_t>(pixel), static_cast<uint32_t>(s));
+    struct Place {
+        int x, y;
+        size_t pixel;
+        uint32_t sample;
+    };
+
+    Rgb trace(const Place& at, uint32_t key, Sampler& sampler, PathLog& log) {
+        sampler.start(static_cast<uint32_t>(at.pixel) | key, at.sample);
         log.start();
-        Ray ray = camera_sample(view_, x, y, sampler, options_.pixel_centre).ray;
-        Rgb L = trace_(scene_, ray, sampler, log);
+        Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
+        return trace_(scene_, ray, sampler, log);
+    }
+
+    void add_sample(const Place& at, Sampler& sampler, PathLog& log, RenderStats& stats) {
+        Rgb L = trace(at, 0, sampler, log);
         if (is_finite(L)) {
             stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
-        } else if (stats.not_finite++ == 0) {
-            stats.bad_x = x, stats.bad_y = y, stats.bad_sample = s;
+        } else {
+            stats.add_not_finite(options_.seed, static_cast<int>(at.sample), at.y, at.x);
         }
-        result_.film.add(pixel, L);
-        if (!options_.split.empty()) split(pixel, log);
+        result_.film.add(at.pixel, L);
+        if (!options_.split.empty()) split(at.pixel, log);
+    }
+
+    /// The same sample again, with numbers of another key: no pixel's number has this bit.
+    void audit(const Place& at, Sampler& sampler, PathLog& log) {
+        constexpr uint32_t another_key = 1u << 31;
+        result_.film.audit(at.pixel, trace(at, another_key, sampler, log));
     }
 
     void split(size_t pixel, const PathLog& log) {
@@ -110,58 +132,60 @@ private:
         }
     }
 
-    void merge(const RenderStats& stats) {
-        std::lock_guard lock(mutex_);
-        RenderStats& all = result_.stats;
-        all.rays += stats.rays;
-        all.paths_cut += stats.paths_cut;
-        all.largest = std::max(all.largest, stats.largest);
-        auto place = [](const RenderStats& s) {
-            return std::tuple(s.bad_sample, s.bad_y, s.bad_x);
-        };
-        if (stats.not_finite > 0 && (all.not_finite == 0 || place(stats) < place(all))) {
-            all.bad_x = stats.bad_x, all.bad_y = stats.bad_y, all.bad_sample = stats.bad_sample;
-        }
-        all.not_finite += stats.not_finite;
-    }
-
     const Scene& scene_;
     const RenderOptions& options_;
     const Trace& trace_;
     const Limit& limit_;
+    const FilmClock& clock_;
     Rendering& result_;
+    uint32_t first_;  // number of a pixel's first sample
     CameraView view_;
     int tiles_x_;
     std::mutex mutex_;
 };
 
+uint32_t fewest_samples(const Film& film) {
+    uint32_t fewest = film.pixels()[0].n;
+    for (const PixelSum& p : film.pixels()) fewest = std::min(fewest, p.n);
+    return fewest;
+}
+
 }  // namespace
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace) {
     Rendering result{Film(scene.width, scene.height), {}, {}};
+    if (options.sampler != SamplerType::independent) result.film.start_audit();
+    continue_film(scene, options, result);
+    uint32_t done = options.film.empty() ? 0 : fewest_samples(result.film);
     Limit limit(options.time);
+    FilmClock clock(scene, options);
     Progress progress(options.quiet);
-    TileRenderer renderer(scene, options, trace, limit, result);
+    TileRenderer renderer(scene, options, trace, limit, clock, result);
 
     // A pass takes every pixel once, or more often when they are so few that threads would idle;
     // but no more often than all passes before, so that an early end does not leave pixels empty.
-    int pixels = scene.width * scene.height;  // at most 2^28
-    int most_per_pass = std::max(1, (1 << 18) / pixels);
-    int spp = options.time > 0 ? (options.spp > 0 ? options.spp : 1 << 30) : scene.spp;
-    for (int first = 0, last; first < spp && !limit.reached(); first = last) {
-        last = first + std::min(std::clamp(first, 1, most_per_pass), spp - first);
+    SampleRange wanted = wanted_samples(scene, options);
+    uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
+    uint32_t most_per_pass = std::max(1u, (1u << 18) / pixels), spp = wanted.last - wanted.first;
+    while (done < spp && !limit.reached()) {
+        uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
         std::atomic<int> tiles = 0;
         parallel_for(renderer.tiles(), options.threads, [&](int tile) {
-            renderer.render(tile, first, last);
+            renderer.render(tile, next);
             double of_pass = static_cast<double>(++tiles) / renderer.tiles();
             double seconds = limit.elapsed();
             double by_time = options.time > 0 ? seconds / options.time : 0;
-            progress.show(std::max(by_time, (first + (last - first) * of_pass) / spp), seconds);
+            progress.show(std::max(by_time, (done + (next - done) * of_pass) / spp), seconds);
         });
+        if (clock.due()) {
+            clock.save(result);  // and go on with the same pass
+        } else {
+            done = next;
+        }
     }
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
-    uint64_t all = static_cast<uint64_t>(pixels) * static_cast<uint64_t>(spp);
+    uint64_t all = uint64_t{pixels} * spp;
     result.stats.interrupted = limit.interrupted() && result.film.samples() < all;
     return result;
 }

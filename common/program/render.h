@@ -4,20 +4,16 @@
 #include <string>
 
 #include "common/path/trace.h"
-#include "common/picture/film.h"
+#include "common/picture/film_file.h"
 #include "common/program/loading.h"
 #include "common/program/options.h"
 #include "common/scene/scene.h"
 
 /// What happened while a picture was rendered.
-struct RenderStats {
-    double seconds = 0;  // without loading
-    uint64_t rays = 0;
-    uint64_t paths_cut = 0;   // ended by the depth limit
-    uint64_t not_finite = 0;  // samples that were NaN or infinite, as their pixels are then
-    int bad_x = 0, bad_y = 0, bad_sample = 0;  // one of them
-    double largest = 0;                        // the largest sample (average of the channels)
-    bool interrupted = false;                  // by a signal, before all samples were taken
+struct RenderStats : SampleCounts {
+    double seconds = 0;                            // without loading
+    uint64_t samples_before = 0, rays_before = 0;  // of the film that it went on from
+    bool interrupted = false;                      // by a signal, before all samples were taken
 };
 
 struct Rendering {
@@ -29,7 +25,8 @@ struct Rendering {
 
 /// Renders in passes over the whole picture, until scene.spp samples a pixel, or options.time, or
 /// a signal (stop.h). These two end it at once: then some pixels have more samples than others,
-/// none where the first pass did not come. The same pixels for any number of threads.
+/// none where the first pass did not come. The same pixels for any number of threads. Goes on from
+/// options.film, and writes it now and then.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace);
 
 /// All that a chapter's program does with its scene: renders it, or explains one path of it, and

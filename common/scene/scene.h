@@ -48,7 +48,8 @@ struct Camera {
 };
 
 struct Scene {
-    std::string file;  // as named by the user, for messages
+    std::string file;             // as named by the user, for messages
+    uint64_t files_checksum = 0;  // of the bytes of all files that it was read from
     Geometry geometry;
     std::vector<Shape> shapes;
     std::vector<Material> materials;

@@ -43,6 +43,7 @@ std::string NamedFiles::read(const std::string& path, const Position& at) {
         fail(at, quote(path) + ": " + text.substr(text.find(": error: ") + 9));
     }
     bytes_read_ += bytes.size();
+    checksum_.add(bytes);
     if (bytes_read_ > limits_.file_bytes) {
         stop_reading(at, "more than " + std::to_string(limits_.file_bytes) +
                              " bytes are read, from all files together");

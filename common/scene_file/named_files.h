@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "common/base/checksum.h"
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/scene_file/limits.h"
@@ -28,6 +29,10 @@ public:
     /// more than the limit would be read in all.
     std::string read(const std::string& path, const Position& at);
 
+    /// Of all bytes that were read, in the order in which the scene names the files. The main file
+    /// is read elsewhere, and added by who reads it.
+    Checksum& checksum() { return checksum_; }
+
     /// The mesh in a PLY file, which is read once, however often it is named.
     const TriangleMesh& mesh(const std::string& path, const Position& at);
 
@@ -36,5 +41,6 @@ private:
     const Limits limits_;
     const Report report_;
     uint64_t bytes_read_ = 0;
+    Checksum checksum_;
     std::map<std::string, TriangleMesh> meshes_;  // by the canonical names of their files
 };

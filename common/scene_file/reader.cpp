@@ -101,9 +101,15 @@ void skip_arguments(Lexer& lexer) {
 
 Scene Reader::read_scene(std::string text) {
     try {
+        Checksum& checksum = directives_.files().checksum();
+        checksum.add(text);
         read(main_file_, std::move(text));
         // What is missing may be in what could not be used.
-        if (error_lines_.empty()) return directives_.finish();
+        if (error_lines_.empty()) {
+            Scene scene = directives_.finish();
+            scene.files_checksum = checksum.value();
+            return scene;
+        }
     } catch (const InputError& error) {
         errors_.add(error);
     }

@@ -1,41 +1,99 @@
-// merge OUT IN...: averages renders of one scene with different seeds by their sample counts.
+// merge OUT FILM...: adds the films of parts of one render, or of renders with different seeds.
 #include <cstdio>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/picture/merging.h"
+#include "common/base/json.h"
+#include "common/picture/film_file.h"
 #include "common/program/command_line.h"
+#include "common/program/warnings.h"
+
+namespace {
+
+struct MergeOptions {
+    std::string out, stats, command;
+    std::vector<std::string> films;
+};
+
+MergeOptions parse(int argc, char** argv) {
+    MergeOptions o;
+    o.command = command_line(argc, argv);
+    std::vector<std::string> words;
+    parse_options(argc, argv, "OUT FILM...",
+                  "Adds films of one scene, by one chapter with the same options: parts of one "
+                  "render, or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or "
+                  ".png picture of all their samples.\nParts make the same bytes as the whole, in "
+                  "any order. The same samples twice are refused.",
+                  {{"stats", "FILE.json", "write samples, mean and standard error",
+                    [&](const std::string& text) { o.stats = text; }}},
+                  [&](const std::string& word) { words.push_back(word); });
+    if (words.size() < 2) {
+        throw UsageError("error: name what to write, and the films to add; --help says how");
+    }
+    o.out = words[0];
+    o.films.assign(words.begin() + 1, words.end());
+    if (!is_image_path(o.out) && !o.out.ends_with(film_ending)) {
+        throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
+    }
+    std::vector<std::string> written = {o.out};
+    if (!o.stats.empty()) written.push_back(o.stats);
+    for (const std::string& film : o.films) check_outputs(written, film);
+    return o;
+}
+
+std::string stats_json(const LabeledFilm& sum) {
+    const auto& [label, film] = sum;
+    JsonObject json;
+    std::vector<std::string> options, samples;
+    for (const auto& [name, value] : label.options) options.push_back(name + " " + value);
+    for (const SampleRange& r : label.samples) {
+        samples.push_back("seed " + std::to_string(r.seed) + ": " + std::to_string(r.first) +
+                          " to " + std::to_string(r.last - 1));
+    }
+    json.add("options", options);
+    json.add("samples", samples);
+    json.add("spp", film.spp());
+    json.add("rays", label.counts.rays);
+    json.add("mean", film.mean());
+    json.add("standard_error", film.standard_error());
+    json.add("samples_not_finite", label.counts.not_finite);
+    json.add("warnings", warnings_of(film, label.counts));
+    return json.text();
+}
+
+void print_summary(const MergeOptions& o, const LabeledFilm& sum) {
+    const auto& [label, film] = sum;
+    std::printf("%zu films  %dx%d  %s spp\nmean %.6f +- %.6f\n", o.films.size(), film.width,
+                film.height, json_number(film.spp()).c_str(), film.mean(), film.standard_error());
+    for (const std::string& line : warnings_of(film, label.counts)) {
+        std::printf("warning: %s\n", line.c_str());
+    }
+    std::printf("wrote %s\n", o.out.c_str());
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        std::vector<std::string> words;
-        parse_options(argc, argv, "OUT IN...",
-                      "Averages the renders IN of one scene with different seeds: the picture OUT "
-                      "of all their samples. Each IN is a .pfm with its --stats beside it "
-                      "(NAME.json), or FILE:SPP.",
-                      {}, [&](const std::string& word) { words.push_back(word); });
-        if (words.size() < 2) {
-            throw UsageError(
-                "error: name the picture to write, and those to read; --help says how");
+        MergeOptions o = parse(argc, argv);
+        LabeledFilm sum = read_film(o.films[0]);
+        for (size_t i = 1; i < o.films.size(); i++) {
+            add_film(sum, o.films[i], read_film(o.films[i]));
         }
-        std::string out = words[0], stats_path = StatsFile::path_beside(out);
-        if (!is_image_path(out)) throw UsageError("error: OUT is a .pfm, .ppm or .png file");
-        check_writable(out);
-        std::vector<MergePart> parts;
-        for (size_t i = 1; i < words.size(); i++) {
-            parts.push_back(read_part(words[i]));
-            if (!same_file(parts.back().file, out)) continue;
-            throw UsageError("error: '" + out + "' is also a part, and would be overwritten");
+        if (is_image_path(o.out)) {
+            write_image(o.out, sum.film.image(), o.command);
+        } else {
+            write_film(o.out, sum.label, sum.film);
         }
-        check_parts(parts);
-
-        Image image = merged_image(parts);
-        write_image(out, image, command_line(argc, argv));
-        std::printf("wrote %s\n", out.c_str());
-        std::string stats = merged_stats(parts, image);
-        if (stats.empty()) return 0;
-        write_file_atomically(stats_path, stats);
-        std::printf("wrote %s\n", stats_path.c_str());
-        return 0;
+        if (!o.stats.empty()) write_file_atomically(o.stats, stats_json(sum));
+        print_summary(o, sum);
+        const SampleCounts& counts = sum.label.counts;
+        if (counts.not_finite == 0) return 0;
+        std::fprintf(stderr,
+                     "error: %llu samples were not finite; to see one, render with --seed %u "
+                     "--explain %d,%d,%d\n",
+                     static_cast<unsigned long long>(counts.not_finite), counts.bad_seed,
+                     counts.bad_x, counts.bad_y, counts.bad_sample);
+        return 1;
     });
 }

@@ -188,7 +188,7 @@ TEST_SUITE("ch04 mirrors and glass") {
         Rendering r = film_of(scene, ch04::trace, 4);
         CHECK(r.film.mean() < 1.000001);
         CHECK(r.film.mean() > 0.998);
-        for (const PixelSum& p : r.film.pixels()) CHECK(p.mean > 0.99);
+        for (const PixelSum& p : r.film.pixels()) CHECK(p.mean() > 0.99);
     }
 
     TEST_CASE("failure: a ray that glass reflects for ever ends at the depth limit, and says so") {

@@ -57,7 +57,7 @@ double worst_pixel(const Film& film, const std::array<double, 3>& albedo, double
             if (std::hypot(x + 0.5 - film.width / 2.0, y + 0.5 - film.height / 2.0) > radius)
                 continue;
             const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
-            std::array<double, 3> sums = {p.r, p.g, p.b};
+            std::array<double, 3> sums = {p.r(), p.g(), p.b()};
             for (size_t c = 0; c < 3; c++) {
                 double se = albedo[c] / std::sqrt(3 * n);  // one path: variance a^2 / 3
                 worst = std::max(worst, std::abs(sums[c] / n - albedo[c]) / se);
@@ -211,7 +211,7 @@ TEST_SUITE("ch06 path tracing") {
         CHECK(worst_pixel(r.film, {0.8, 0.5, 0.2}, 10.5) < 5);  // the ball's radius is 11.35 pixels
         for (int corner : {0, 31}) {
             const PixelSum& p = r.film.pixels()[static_cast<size_t>(corner)];
-            CHECK(p.mean == 1);  // beside it there is sky
+            CHECK(p.mean() == 1);  // beside it there is sky
         }
     }
 
@@ -262,7 +262,7 @@ TEST_SUITE("ch06 path tracing") {
         Film film = film_of(closed_sphere(0.5, 25), ch06::trace, 64).film;
         double worst = 0;
         for (const PixelSum& p : film.pixels()) {
-            worst = std::max(worst, std::abs(p.mean - 2) / std::sqrt(0.5 / 64));
+            worst = std::max(worst, std::abs(p.mean() - 2) / std::sqrt(0.5 / 64));
         }
         CHECK(worst < 5.5);  // kurtosis 4, 1024 pixels
     }

@@ -276,7 +276,7 @@ TEST_SUITE("ch07 russian roulette") {
         Film film = film_of(scene_from("scenes/furnace.pbrt", 32, 100), ch07::trace, 256).film;
         for (int y = 9; y < 23; y++)
             for (int x = 9; x < 23; x++) {
-                double mean = film.pixels()[static_cast<size_t>(32 * y + x)].mean;
+                double mean = film.pixels()[static_cast<size_t>(32 * y + x)].mean();
                 CHECK(std::abs(mean - 0.8) < 5 * 0.8 / std::sqrt(3.0 * 256));
             }
         Film glass =

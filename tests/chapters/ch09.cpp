@@ -161,8 +161,8 @@ TEST_SUITE("ch09 cosine sampling") {
         for (int y = 10; y < 22; y++)
             for (int x = 10; x < 22; x++) {
                 const PixelSum& p = film.pixels()[static_cast<size_t>(32 * y + x)];
-                CHECK(p.mean == doctest::Approx(0.8).epsilon(1e-5).scale(0));
-                CHECK(p.m2 < 1e-8);
+                CHECK(p.mean() == doctest::Approx(0.8).epsilon(1e-5).scale(0));
+                CHECK(p.m2() < 1e-8);
             }
     }
 

@@ -320,8 +320,8 @@ TEST_SUITE("ch12 rough metal") {
         for (int y = 10; y < 22; y++)
             for (int x = 10; x < 22; x++) {
                 size_t i = static_cast<size_t>(32 * y + x);
-                CHECK(rough.pixels()[i].mean ==
-                      doctest::Approx(smooth.pixels()[i].mean).epsilon(0.005).scale(0));
+                CHECK(rough.pixels()[i].mean() ==
+                      doctest::Approx(smooth.pixels()[i].mean()).epsilon(0.005).scale(0));
             }
     }
 }
@@ -365,7 +365,7 @@ TEST_SUITE("ch12 glossy") {
             Film ten = film_of(scene, trace_with<ch10::trace>(ch10::prepare(scene)), 4).film;
             Film twelve = film_of(scene, by(Strategy::light, scene), 4).film;
             for (size_t i = 0; i < ten.pixels().size(); i++)
-                REQUIRE(ten.pixels()[i].mean == twelve.pixels()[i].mean);
+                REQUIRE(ten.pixels()[i].mean() == twelve.pixels()[i].mean());
         }
     }
 

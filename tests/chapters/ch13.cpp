@@ -110,7 +110,7 @@ double rel_mse_of(const Film& film, int x0, int y0, int x1, int y1) {
     for (int y = y0; y < y1; y++)
         for (int x = x0; x < x1; x++) {
             const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
-            sum += p.m2 / (n - 1), mean += p.mean;
+            sum += p.m2() / (n - 1), mean += p.mean();
         }
     double pixels = static_cast<double>((x1 - x0) * (y1 - y0));
     return sum / pixels / (std::pow(mean / pixels, 2) + 0.01);

@@ -6,8 +6,7 @@
 #include "common/base/error.h"
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
-#include "common/picture/film.h"
-#include "common/picture/merging.h"
+#include "common/picture/stats_file.h"
 #include "tests/measure/agreement.h"
 #include "tests/measure/spread.h"
 
@@ -28,31 +27,6 @@ Image noisy(Image image, float sigma, uint32_t seed) {
         image.pixels[i] += Rgb{x, x, x};
     }
     return image;
-}
-
-/// Samples first .. last-1 of a made-up render, all pixels of them.
-Image render_samples(uint32_t seed, uint64_t spp, Film& whole) {
-    Film film(5, 3);
-    Sampler sampler(SamplerType::independent, seed, 1);
-    for (uint64_t s = 0; s < spp; s++) {
-        for (size_t i = 0; i < film.pixels().size(); i++) {
-            sampler.start(static_cast<uint32_t>(i), static_cast<uint32_t>(s));
-            Rgb L = {sampler.u1(), 10 * sampler.u1(), 1e-3f * sampler.u1()};
-            film.add(i, L);
-            whole.add(i, L);
-        }
-    }
-    return film.image();
-}
-
-MergePart part_of(Image image, double spp, const std::string& json) {
-    return {"part.pfm", std::move(image), spp, StatsFile(json)};
-}
-
-std::string json_of(const std::string& scene, int depth, int seed) {
-    return "{\n  \"scene\": \"" + scene + "\",\n  \"max_depth\": " + std::to_string(depth) +
-           ",\n  \"seed\": " + std::to_string(seed) +
-           ",\n  \"mean\": 0.5,\n  \"standard_error\": 0.1\n}\n";
 }
 
 }  // namespace
@@ -139,46 +113,7 @@ TEST_SUITE("comparison") {
     }
 }
 
-TEST_SUITE("merging") {
-    TEST_CASE("identity: merged renders equal one long run") {
-        Film whole(5, 3);
-        std::vector<MergePart> parts;
-        for (uint32_t seed : {1u, 2u, 3u}) {
-            uint64_t spp = 10 * seed + 7;
-            parts.push_back({"", render_samples(seed, spp, whole), static_cast<double>(spp), {}});
-        }
-        Image merged = merged_image(parts), long_run = whole.image();
-        for (size_t i = 0; i < merged.pixels.size(); i++) {
-            Rgb a = merged.pixels[i], b = long_run.pixels[i];
-            CHECK(std::abs(a.r / b.r - 1) < 2e-7f);
-            CHECK(std::abs(a.g / b.g - 1) < 2e-7f);
-            CHECK(std::abs(a.b / b.b - 1) < 2e-7f);
-        }
-    }
-
-    TEST_CASE("truth: the standard error of the whole, from those of its parts") {
-        std::vector<MergePart> parts = {part_of(grey(1, 1, 1), 10, json_of("s", 8, 1)),
-                                        part_of(grey(1, 1, 1), 30, json_of("s", 8, 2))};
-        StatsFile whole(merged_stats(parts, grey(1, 1, 1)));
-        CHECK(whole.number("spp") == 40);
-        CHECK(whole.numbers("seeds") == std::vector<double>{1, 2});
-        CHECK(*whole.number("standard_error") ==
-              doctest::Approx(std::hypot(10 * 0.1, 30 * 0.1) / 40).epsilon(1e-8).scale(0));
-        CHECK(*whole.number("mean") == doctest::Approx(0.5).epsilon(1e-8).scale(0));
-        parts[1].stats.reset();
-        CHECK(merged_stats(parts, grey(1, 1, 1)).empty());
-    }
-
-    TEST_CASE("teeth: parts of other scenes, sizes, depths, or with the same seed are refused") {
-        MergePart first = part_of(grey(2, 2, 1), 1, json_of("s", 8, 1));
-        auto with = [&](MergePart second) { check_parts({first, std::move(second)}); };
-        CHECK_NOTHROW(with(part_of(grey(2, 2, 1), 1, json_of("s", 8, 2))));
-        CHECK_THROWS_AS(with(part_of(grey(2, 2, 1), 1, json_of("s", 8, 1))), InputError);
-        CHECK_THROWS_AS(with(part_of(grey(2, 2, 1), 1, json_of("s", 9, 2))), InputError);
-        CHECK_THROWS_AS(with(part_of(grey(2, 2, 1), 1, json_of("t", 8, 2))), InputError);
-        CHECK_THROWS_AS(with(part_of(grey(2, 3, 1), 1, json_of("s", 8, 2))), InputError);
-    }
-
+TEST_SUITE("measuring") {
     TEST_CASE("input: statistics read back") {
         StatsFile stats(
             "{\n \"mean\": 1.5e-3, \"scene\": \"a \\\"b\\\": c\",\"none\": null,"

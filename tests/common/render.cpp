@@ -207,7 +207,7 @@ TEST_SUITE("render loop") {
         Rendering r = render_film(scene, quiet_options(), noise_with_signal(SIGINT, 3 * 4096 - 1));
         uint64_t fewest = 1 << 20, most = 0;
         for (const PixelSum& p : r.film.pixels()) {
-            fewest = std::min(fewest, p.n), most = std::max(most, p.n);
+            fewest = std::min<uint64_t>(fewest, p.n), most = std::max<uint64_t>(most, p.n);
         }
         CHECK(fewest >= 1);
         CHECK(most <= 4);
@@ -264,7 +264,7 @@ TEST_SUITE("render loop") {
         CHECK(mean == doctest::Approx(r.film.mean()).epsilon(1e-6).scale(0));
         for (size_t i = 0; i < whole.pixels.size(); i++) {
             double sum = 0;
-            for (const auto& [name, film] : r.classes) sum += film.pixels()[i].g / 4;
+            for (const auto& [name, film] : r.classes) sum += film.pixels()[i].g() / 4;
             // trace() sums in float: half a unit in the last place for each of its 20 additions.
             CHECK(std::abs(sum - static_cast<double>(whole.pixels[i].g)) < 20 * 0x1p-24 * sum);
         }

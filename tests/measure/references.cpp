@@ -6,8 +6,8 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/picture/merging.h"
-#include "common/program/results.h"
+#include "common/base/json.h"
+#include "common/program/film_keeping.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/reference.h"
 
@@ -15,35 +15,29 @@ namespace {
 
 std::string part_path(const Method& method, const Scene& scene, const MeasureOptions& o, int seed) {
     std::filesystem::path name = reference_path(scene_name(scene.file), method.name);
-    return o.out + "/" + name.filename().string() + "." + std::to_string(seed) + ".pfm";
+    return o.out + "/" + name.filename().string() + "." + std::to_string(seed) + film_ending;
 }
 
 /// One part, from the folder when it was rendered before.
-MergePart render_part(const Method& method, const Scene& scene, const MeasureOptions& o,
-                      const std::string& command, int seed) {
-    std::string path = part_path(method, scene, o, seed);
-    if (!StatsFile::beside(path)) {
-        RenderOptions options;
-        options.name = method.name;
-        options.command = command;
-        options.scene = scene.file;
-        options.threads = o.threads;
-        options.sampler = o.sampler;
-        options.seed = static_cast<uint32_t>(seed);
-        options.quiet = true;
-        options.out = {path};
-        options.stats = StatsFile::path_beside(path);
-        Rendering r = method.render(scene, options);
-        if (r.stats.interrupted) throw InputError("error: interrupted; run it again to go on");
-        write_results(scene, options, r);
-    }
-    return read_part(path);
+LabeledFilm render_part(const Method& method, const Scene& scene, const MeasureOptions& o,
+                        int seed) {
+    RenderOptions options;
+    options.name = method.name;
+    options.threads = o.threads;
+    options.sampler = o.sampler;
+    options.seed = static_cast<uint32_t>(seed);
+    options.quiet = true;
+    options.film = part_path(method, scene, o, seed);
+    Rendering r = method.render(scene, options);
+    save_film(scene, options, r);
+    if (r.stats.interrupted) throw InputError("error: interrupted; run it again to go on");
+    return read_film(options.film);
 }
 
 /// How many samples a part takes: a power of two, as the parts before it, or what o.seconds allow.
 int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int first_seed) {
     std::string first = part_path(method, scene, o, first_seed);
-    if (StatsFile::beside(first)) return static_cast<int>(read_part(first).spp);
+    if (std::filesystem::exists(first)) return static_cast<int>(read_film(first).film.spp());
     constexpr int trial = 16;
     double seconds = render_once(method, scene, o, trial, 0).stats.seconds / trial;
     return std::max(
@@ -84,23 +78,31 @@ std::vector<std::string> two_best(Scene& scene, const MeasureOptions& o) {
 /// first_seed  other for each method: the same numbers would make the same errors
 void make_reference(const Method& method, const Scene& scene, const MeasureOptions& o,
                     const std::string& command, int first_seed) {
-    std::vector<MergePart> parts;
+    LabeledFilm sum = render_part(method, scene, o, first_seed);
     Spread spread;
-    for (int seed = first_seed; seed < first_seed + o.runs; seed++) {
-        parts.push_back(render_part(method, scene, o, command, seed));
-        spread.add(parts.back().image);
+    spread.add(sum.film.image());
+    for (int seed = first_seed + 1; seed < first_seed + o.runs; seed++) {
+        LabeledFilm part = render_part(method, scene, o, seed);
+        add_film(sum, part_path(method, scene, o, seed), part);
+        spread.add(part.film.image());
     }
-    check_parts(parts);
-    Image image = merged_image(parts);
+    Image image = sum.film.image();
     double rel_mse = spread.rel_mse(image) / o.runs, rmse = std::sqrt(spread.mse() / o.runs);
     std::string path = reference_path(scene_name(scene.file), method.name);
     if (!(rmse < INFINITY)) throw InputError(path + ".pfm: error: samples were not finite");
-    std::string stats = merged_stats(parts, image);
-    stats.insert(stats.rfind("\n}"),
-                 ",\n  \"rmse\": " + digits(rmse) + ",\n  \"rel_mse\": " + digits(rel_mse));
+    JsonObject stats;
+    stats.add("scene", scene.file);
+    stats.add("chapter", method.name);
+    stats.add("spp", sum.film.spp());
+    stats.add("max_depth", scene.max_depth);
+    stats.add("first_seed", first_seed);
+    stats.add("mean", sum.film.mean());
+    stats.add("standard_error", sum.film.standard_error());
+    stats.add("rmse", rmse);
+    stats.add("rel_mse", rel_mse);
     std::filesystem::create_directories(reference_folder);
     write_image(path + ".pfm", image, command);
-    write_file_atomically(path + ".json", stats);
+    write_file_atomically(path + ".json", stats.text());
     std::printf("%s.pfm  %d spp, rmse %.2g, relMSE %.2g\n", path.c_str(), o.runs * scene.spp, rmse,
                 rel_mse);
     std::fflush(stdout);

@@ -92,8 +92,8 @@ inline Measured block_of(const Film& film, int x0, int y0, int side) {
         for (int x = x0; x < x0 + side; x++) {
             const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
             double n = static_cast<double>(p.n);
-            mean += p.mean;
-            squares += p.m2 / (n - 1) / n;
+            mean += p.mean();
+            squares += p.m2() / (n - 1) / n;
         }
     double pixels = static_cast<double>(side) * side;
     return {mean / pixels, std::sqrt(squares) / pixels};

@@ -1,0 +1,40 @@
+// The film of a render on disk: written now and then, and gone on from.
+#pragma once
+#include <chrono>
+
+#include "common/picture/film_file.h"
+#include "common/program/render.h"
+
+/// The samples that the options ask for: all of a pixel, or their part of them. With --time and no
+/// --spp the last one is out of reach. Throws UsageError when there are more parts than samples.
+SampleRange wanted_samples(const Scene& scene, const RenderOptions& options);
+
+/// Goes on from the film that the options name, when there is one. Throws InputError when it is of
+/// other options, or of other samples than those that are wanted.
+void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering);
+
+/// Writes the film that the options name, if any. Throws InputError.
+void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+
+/// Says when the film is to be written next, and writes it.
+class FilmClock {
+public:
+    FilmClock(const Scene& scene, const RenderOptions& options)
+        : scene_(scene), options_(options) {}
+
+    /// Any thread may ask.
+    bool due() const {
+        return !options_.film.empty() && Clock::now() - last_ >= Seconds(options_.film_every);
+    }
+    /// While nobody adds to the film. A film that cannot be written now is reported, and tried
+    /// again next time: the render goes on.
+    void save(const Rendering& rendering);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    using Seconds = std::chrono::duration<double>;
+
+    const Scene& scene_;
+    const RenderOptions& options_;
+    Clock::time_point last_ = Clock::now();
+};

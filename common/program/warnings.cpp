@@ -1,0 +1,120 @@
+#include "common/program/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/percent.h"
+#include "common/light/light_table.h"
+
+namespace {
+
+constexpr double too_much = 0.01;    // of a picture, in one sample
+constexpr double few_samples = 100;  // that carry a picture: below, intervals are too short
+constexpr double few_pixels = 30, few_audits = 16;  // that the error rests on
+constexpr double few_hits = 1000;                   // of a light that is met by chance
+
+bool is_receiver(const Material& m) {
+    return !is_specular(m) && !(m.type == MaterialType::diffuse && is_black(m.reflectance));
+}
+
+/// How often a light is met, about: in a closed room each patch of the wall is met in proportion to
+/// its area, and the scene has at most the walls of the sphere around it.
+double expected_hits(const Scene& scene, size_t light, double samples) {
+    double radius = static_cast<double>(scene.radius);
+    return samples * static_cast<double>(scene.light_shapes[light].area) /
+           (4 * std::numbers::pi * radius * radius);
+}
+
+/// Whether a light that matters is so small that chance meets it too rarely.
+bool has_rare_light(const Scene& scene, double samples) {
+    double all = 0;
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        all += static_cast<double>(light_power(scene, i));
+    }
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        bool matters = static_cast<double>(light_power(scene, i)) > 0.01 * all;
+        bool is_area = scene.lights[i].type == LightType::area;
+        if (matters && is_area && expected_hits(scene, i, samples) < few_hits) return true;
+    }
+    return false;
+}
+
+/// Light that this way of looking for it leaves out, or meets by chance.
+void add_missed_light(const Scene& scene, const RenderOptions& options, double samples,
+                      std::vector<std::string>& lines) {
+    if (options.search == LightSearch::by_chance) {
+        if (has_rare_light(scene, samples)) {
+            lines.push_back(
+                "lights are met only by chance here, and one is so small that it is "
+                "rarely met: the error may not know of it");
+        }
+        return;
+    }
+    auto any_material = [&](auto is) {
+        return std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                           [&](const Shape& s) { return is(scene.materials[s.material]); });
+    };
+    auto any_light = [&](auto is) {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [&](const Light& light) { return is(light.type); });
+    };
+    if (!any_material(is_specular) || !any_material(is_receiver)) return;
+    auto is_area = [](LightType type) { return type == LightType::area; };
+    auto is_delta = [](LightType type) {
+        return type == LightType::point || type == LightType::distant;
+    };
+    const std::string light = "light that reaches a surface by way of mirrors or glass ";
+    if (options.search == LightSearch::direct) {
+        lines.push_back(light + "is left out, as is light from surface to surface");
+    } else if (any_light(is_delta)) {
+        lines.push_back(light + "from a point or distant light is left out: nothing can meet it");
+    }
+    if (options.search == LightSearch::aims && (any_light(is_area) || scene.sky_image)) {
+        lines.push_back(light + "is met only by chance: the error may not know of it");
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts) {
+    std::vector<std::string> lines;
+    double samples = static_cast<double>(film.samples());
+    const std::vector<PixelSum>& pixels = film.pixels();
+    auto empty =
+        std::count_if(pixels.begin(), pixels.end(), [](const PixelSum& p) { return p.n == 0; });
+    if (empty > 0) {
+        lines.push_back("it ended before " +
+                        percent(static_cast<double>(empty) / static_cast<double>(pixels.size())) +
+                        " of the pixels had a sample: they are black");
+    }
+    double sum = film.mean() * samples;
+    if (sum > 0 && counts.largest > too_much * sum) {
+        lines.push_back("one sample carries " + percent(counts.largest / sum) +
+                        " of the whole picture");
+    }
+    double effective = film.effective_samples();
+    if (effective > 0 && effective < few_samples) {
+        lines.push_back("as few as " + std::to_string(std::lround(effective)) +
+                        " samples carry the picture: the error is larger than it says");
+    }
+    Film::ErrorBasis basis = film.error_basis();
+    bool one_in_many = basis.pixels < few_pixels && basis.squares > 0 &&
+                       counts.largest * counts.largest > too_much * basis.squares;
+    if (one_in_many && effective >= few_samples) {
+        lines.push_back("a few bright samples make the error: it is larger than it says");
+    }
+    if (film.has_audits() && basis.squares > 0 && basis.audits < few_audits) {
+        lines.push_back(
+            "few pixels tell the error of samples that depend on each other: it may be "
+            "half or twice as large");
+    }
+    return lines;
+}
+
+std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
+                                     const Rendering& r) {
+    std::vector<std::string> lines = warnings_of(r.film, r.stats);
+    add_missed_light(scene, options, static_cast<double>(r.film.samples()), lines);
+    return lines;
+}

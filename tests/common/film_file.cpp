@@ -1,0 +1,272 @@
+// Films on disk: the same bytes in any order, and nothing wrong is ever added.
+#include "common/picture/film_file.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <numeric>
+
+#include "common/base/checksum.h"
+#include "common/base/files.h"
+#include "tests/support/folder.h"
+
+namespace {
+
+/// Numbers of all sizes, some below 0, some 0.
+float any_float(Sampler& sampler) {
+    float u = sampler.u1();
+    if (u < 0.1f) return 0;
+    float x = std::pow(10.0f, 60 * sampler.u1() - 30);
+    return u < 0.2f ? -x : x;
+}
+
+std::vector<Rgb> random_samples(uint32_t seed, uint32_t count) {
+    Sampler sampler(SamplerType::independent, seed, 1);
+    std::vector<Rgb> samples;
+    for (uint32_t i = 0; i < count; i++) {
+        sampler.start(0, i);
+        samples.push_back({any_float(sampler), any_float(sampler), any_float(sampler)});
+    }
+    return samples;
+}
+
+bool same_bits(const PixelSum& a, const PixelSum& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+PixelSum sum_of(const std::vector<Rgb>& samples) {
+    PixelSum sum;
+    for (Rgb L : samples) sum.add(L);
+    return sum;
+}
+
+/// Samples first to last - 1 of a made-up render of 5 x 3 pixels.
+LabeledFilm film_of(uint32_t first, uint32_t last, uint32_t seed = 1) {
+    LabeledFilm f{{}, Film(5, 3)};
+    f.film.start_audit();
+    f.label.options = {{"chapter", "06"}, {"scene", "abc"}, {"paths", ""}, {"m", "16"}};
+    f.label.samples = {{seed, first, last}};
+    Sampler sampler(SamplerType::independent, seed, 1);
+    for (uint32_t s = first; s < last; s++) {
+        for (uint32_t i = 0; i < 15; i++) {
+            sampler.start(i, s);
+            f.film.add(i, {any_float(sampler), any_float(sampler), any_float(sampler)});
+            f.film.audit(i, {sampler.u1(), 1, 1});
+            f.label.counts.rays++;
+        }
+    }
+    return f;
+}
+
+std::string bytes_of(const LabeledFilm& f) {
+    TemporaryFolder folder;
+    write_film(folder / "a.film", f.label, f.film);
+    return read_file(folder / "a.film");
+}
+
+std::string refusal(const std::string& bytes) {
+    TemporaryFolder folder;
+    write_file_atomically(folder / "a.film", bytes);
+    std::string error = error_of([&] { read_film(folder / "a.film"); });
+    std::string where = folder / "a.film" + ": error: ";
+    CHECK(error.find('\n') == std::string::npos);
+    return error.starts_with(where) ? error.substr(where.size()) : error;
+}
+
+}  // namespace
+
+TEST_SUITE("film") {
+    TEST_CASE("identity: a pixel's sums have the same bits in any order and any grouping") {
+        for (uint32_t seed = 0; seed < 20; seed++) {
+            std::vector<Rgb> samples = random_samples(seed, 300);
+            PixelSum whole = sum_of(samples);
+            for (size_t i = 1; i < samples.size(); i++) {
+                std::swap(samples[i], samples[7919 * i % (i + 1)]);
+            }
+            CHECK(same_bits(sum_of(samples), whole));
+            // In groups of 1, 2, 3 ..., added to the sum of the others from either side.
+            PixelSum left, right;
+            for (size_t begin = 0, size = 1; begin < samples.size(); begin += size++) {
+                size_t end = std::min(samples.size(), begin + size);
+                auto at = [&](size_t i) {
+                    return samples.begin() + static_cast<std::ptrdiff_t>(i);
+                };
+                PixelSum group = sum_of({at(begin), at(end)});
+                left.add(group);
+                group.add(right);
+                right = group;
+            }
+            CHECK(same_bits(left, whole));
+            CHECK(same_bits(right, whole));
+        }
+    }
+
+    TEST_CASE("truth: a pixel's sums are those of exact numbers, to the digits of double") {
+        // The sum of 2^k over many decades, and what is left when the largest goes away.
+        for (int spread : {10, 50, 100}) {
+            PixelSum sum;
+            long double exact = 0;
+            for (int k = -spread; k <= spread; k++) {
+                float x = std::ldexp(1.0f, k);
+                sum.add(Rgb{x, 3 * x, -x});
+                exact += static_cast<long double>(x);
+            }
+            double r = static_cast<double>(exact), tiny = 1e-15;
+            CHECK(sum.r() == doctest::Approx(r).epsilon(tiny).scale(0));
+            CHECK(sum.g() == doctest::Approx(3 * r).epsilon(tiny).scale(0));
+            CHECK(sum.b() == doctest::Approx(-r).epsilon(tiny).scale(0));
+        }
+        for (float x : {1e-38f, 1e-20f, 0.1f, 1.0f, 1e20f, 3e38f}) {
+            PixelSum sum;
+            for (int i = 0; i < 1000; i++) sum.add(Rgb{x, x, x});
+            double exact = 1000 * static_cast<double>(x);
+            CHECK(sum.r() == exact);
+            CHECK(sum.mean() == doctest::Approx(exact / 1000).epsilon(1e-15).scale(0));
+            CHECK(sum.m2() <= 1e-15 * exact * exact);
+        }
+    }
+
+    TEST_CASE("failure: what is not finite makes its channel NaN for good, in any order") {
+        for (float bad : {std::nanf(""), infinity, -infinity}) {
+            PixelSum first, last;
+            first.add(Rgb{1, bad, 2}), first.add(Rgb{1e3f, 5, 1e-3f});
+            last.add(Rgb{1e3f, 5, 1e-3f}), last.add(Rgb{1, bad, 2});
+            CHECK(same_bits(first, last));
+            CHECK(first.r() == 1001);
+            CHECK(std::isnan(first.g()));
+            CHECK(std::isnan(first.m2()));
+            PixelSum added = sum_of({{4, 4, 4}}), other = added;
+            added.add(first), first.add(other);
+            CHECK(same_bits(added, first));
+            CHECK(std::isnan(added.g()));
+            CHECK(added.b() > 5.9);
+        }
+    }
+
+    TEST_CASE("teeth: any flipped bit changes the checksum, and so does any cut") {
+        auto sum_of_bytes = [](std::string_view bytes, size_t piece) {
+            Checksum sum;
+            for (; !bytes.empty(); bytes.remove_prefix(std::min(piece, bytes.size()))) {
+                sum.add(bytes.substr(0, piece));
+            }
+            return sum.value();
+        };
+        std::string bytes;
+        for (int i = 0; i < 61; i++) bytes += static_cast<char>(i * i);
+        std::set<uint64_t> seen = {sum_of_bytes(bytes, 1000)};
+        for (size_t piece = 1; piece < 20; piece++) {
+            CHECK(sum_of_bytes(bytes, piece) == *seen.begin());
+        }
+        for (size_t bit = 0; bit < 8 * bytes.size(); bit++) {
+            std::string flipped = bytes;
+            flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ 1 << bit % 8);
+            CHECK(seen.insert(sum_of_bytes(flipped, 1000)).second);
+        }
+        for (size_t length = 0; length < bytes.size(); length++) {
+            CHECK(seen.insert(sum_of_bytes(bytes.substr(0, length), 1000)).second);
+        }
+        CHECK(seen.insert(sum_of_bytes(bytes + '\0', 1000)).second);
+    }
+}
+
+TEST_SUITE("film files") {
+    TEST_CASE("identity: a film is read back as it was written") {
+        LabeledFilm f = film_of(3, 9, 4294967295u);
+        f.label.counts.add_not_finite(7, 3, 2, 1);
+        f.label.counts.largest = 1e-300;
+        f.label.options[2].second = "L(D | S)*E";
+        std::string bytes = bytes_of(f);
+        TemporaryFolder folder;
+        write_file_atomically(folder / "a.film", bytes);
+        LabeledFilm read = read_film(folder / "a.film");
+        CHECK(read.label.options == f.label.options);
+        CHECK(read.label.samples == f.label.samples);
+        CHECK(read.label.counts.rays == 90);
+        CHECK(read.label.counts.bad_y == 2);
+        CHECK(bytes_of(read) == bytes);
+    }
+
+    TEST_CASE("identity: films of parts, added in any order, have the bytes of the whole") {
+        LabeledFilm whole = film_of(0, 31);
+        std::vector<uint32_t> order(31), ends = {0, 1, 2, 7, 8, 20, 31};
+        std::vector<size_t> parts = {0, 1, 2, 3, 4, 5};
+        do {
+            LabeledFilm sum = film_of(ends[parts[0]], ends[parts[0] + 1]);
+            for (size_t i = 1; i < 6; i++) {
+                add_film(sum, "part", film_of(ends[parts[i]], ends[parts[i] + 1]));
+            }
+            REQUIRE(bytes_of(sum) == bytes_of(whole));
+        } while (std::next_permutation(parts.begin(), parts.end()) && parts[0] < 2);
+        // Other seeds are other samples.
+        LabeledFilm a = film_of(0, 5, 1), b = film_of(2, 6, 9);
+        add_film(a, "b", film_of(2, 6, 9));
+        add_film(b, "a", film_of(0, 5, 1));
+        CHECK(bytes_of(a) == bytes_of(b));
+        CHECK(a.label.samples == std::vector<SampleRange>{{1, 0, 5}, {9, 2, 6}});
+    }
+
+    TEST_CASE("teeth: the same samples twice, and other options, are refused and change nothing") {
+        LabeledFilm sum = film_of(4, 9);
+        std::string before = bytes_of(sum);
+        auto with = [&](const LabeledFilm& part) {
+            std::string error = error_of([&] { add_film(sum, "b.film", part); });
+            CHECK(bytes_of(sum) == before);
+            return error;
+        };
+        CHECK(with(film_of(4, 9)) == "b.film: error: sample 4 of seed 1 would count twice");
+        CHECK(with(film_of(0, 5)) == "b.film: error: sample 4 of seed 1 would count twice");
+        CHECK(with(film_of(8, 20)) == "b.film: error: sample 8 of seed 1 would count twice");
+        CHECK(with(film_of(6, 7)) == "b.film: error: sample 6 of seed 1 would count twice");
+        LabeledFilm other = film_of(9, 12);
+        other.label.options[3].second = "17";
+        CHECK(with(other) == "b.film: error: its m is \"17\", here it is \"16\"");
+        other.label.options[1].second = "xyz";
+        CHECK(with(other) == "b.film: error: a film of another scene: its files are not the same");
+        other.label.options.pop_back();
+        CHECK(with(other) == "b.film: error: a film of another scene: its files are not the same");
+        other = film_of(9, 12);
+        other.label.options.pop_back();
+        CHECK(with(other) == "b.film: error: a film by another version of the program");
+    }
+
+    TEST_CASE("teeth: a film with any bit flipped, or cut anywhere, is refused") {
+        std::string bytes = bytes_of(film_of(0, 2));
+        for (size_t bit = 0; bit < 8 * bytes.size(); bit += bit < 4000 ? 1 : 37) {
+            std::string flipped = bytes;
+            flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ 1 << bit % 8);
+            REQUIRE(refusal(flipped) != "");
+        }
+        for (size_t length = 0; length < bytes.size(); length += 3) {
+            std::string error = refusal(bytes.substr(0, length));
+            bool right = error == "the film is cut short" || error == "not a film";
+            REQUIRE(right);
+        }
+        CHECK(refusal(bytes + "x") == "the film is damaged: its checksum is wrong");
+        CHECK(refusal("PF\n1 1\n-1\nxxxxxxxxxxxx") == "not a film");
+        CHECK(refusal("") == "not a film");
+        std::string far = bytes;
+        far[far.size() / 2] = static_cast<char>(far[far.size() / 2] ^ 4);
+        CHECK(refusal(far) == "the film is damaged: its checksum is wrong");
+    }
+
+    TEST_CASE("input: a film whose label lies is refused, though its checksum is right") {
+        std::string bytes = bytes_of(film_of(0, 2));
+        auto with = [&](const std::string& from, const std::string& to) {
+            std::string changed = bytes.substr(0, bytes.size() - 8);
+            changed.replace(changed.find(from), from.size(), to);
+            Checksum sum;
+            sum.add(changed);
+            uint64_t value = sum.value();
+            return refusal(changed.append(reinterpret_cast<const char*>(&value), 8));
+        };
+        const std::string bad = "a film whose label cannot be read";
+        CHECK(with("samples 0 2 1", "samples 0 2 1") == "");
+        CHECK(with("samples 0 2 1", "samples 2 2 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 1 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 x 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 2") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 4000000000 1") == bad);
+        CHECK(with("size 5 3 1", "size 65536 65536 1") == bad);
+        CHECK(with("size 5 3 1", "size 0 3 1") == bad);
+        CHECK(with("size 5 3 1", "size 60000 3000 1") == "the film is cut short");
+        CHECK(with("counts", "count") == bad);
+    }
+}
