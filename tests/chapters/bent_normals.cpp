@@ -105,9 +105,9 @@ TEST_SUITE("bent normals") {
         // Of what the leaning normal would face, the floor itself hides a part.
         for (double angle : {0.3, 0.9}) {
             Scene scene = leaning_floor(angle, white, "LightSource \"infinite\"");
-            for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-                CAPTURE(name);
-                RunningStats s = irradiance(scene, trace, 20000);
+            for (const Chapter& chapter : every_chapter(scene)) {
+                CAPTURE(chapter.name);
+                RunningStats s = irradiance(scene, chapter.trace, 20000);
                 check_bounded(s, pi_exact * (1 + std::cos(angle)) / 2, 0.01);
             }
         }
@@ -132,9 +132,10 @@ TEST_SUITE("bent normals") {
             Scene scene = world_of("AttributeBegin " + white + mesh("0 1 2", corners, normals) +
                                    "AttributeEnd\n" + shining + ball_at(3 * to_ball));
             scene.max_depth = 1;
-            for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-                CAPTURE(name);
-                check_bounded(irradiance(scene, trace, by_chance ? 20000 : 2000), E, 0.05);
+            for (const Chapter& chapter : every_chapter(scene)) {
+                CAPTURE(chapter.name);
+                check_bounded(irradiance(scene, chapter.trace, chapter.by_chance ? 20000 : 2000), E,
+                              0.05);
             }
         }
     }
@@ -151,9 +152,9 @@ TEST_SUITE("bent normals") {
         scene.max_depth = 2;
         double cos = static_cast<double>(dot(leaning(0.9), normalize(image)));
         double E = pi_exact * 0.25 / static_cast<double>(dot(image, image)) * std::abs(cos);
-        for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-            CAPTURE(name);
-            check_bounded(irradiance(scene, trace, 60000), E, 0.12);
+        for (const Chapter& chapter : every_chapter(scene)) {
+            CAPTURE(chapter.name);
+            check_bounded(irradiance(scene, chapter.trace, 60000), E, 0.12);
         }
     }
 
@@ -164,10 +165,10 @@ TEST_SUITE("bent normals") {
             for (const std::string& material : {white, rough_metal("0.5")}) {
                 Scene scene = leaning_floor(0.9, material, shining + ball_at(ball));
                 bool matt = material == white;
-                for (const auto& [name, trace, by_chance] :
+                for (const Chapter& chapter :
                      matt ? every_chapter(scene) : glossy_chapters(scene)) {
-                    CAPTURE(name);
-                    RunningStats s = irradiance(scene, trace, 5000);
+                    CAPTURE(chapter.name);
+                    RunningStats s = irradiance(scene, chapter.trace, 5000);
                     CHECK(s.mean() == 0);
                     CHECK(s.variance() == 0);
                 }
@@ -214,9 +215,9 @@ TEST_SUITE("bent normals") {
                 Scene scene = leaning_floor(angle, rough_metal(std::to_string(alpha)),
                                             "LightSource \"infinite\"");
                 double truth = RoughMetal{alpha, 0.2, 3.9}.albedo(angle, angle);
-                for (const auto& [name, trace, by_chance] : glossy_chapters(scene)) {
-                    CAPTURE(name);
-                    RunningStats s = repeat(scene, onto_origin, trace, 40000);
+                for (const Chapter& chapter : glossy_chapters(scene)) {
+                    CAPTURE(chapter.name);
+                    RunningStats s = repeat(scene, onto_origin, chapter.trace, 40000);
                     CHECK(std::abs(s.mean() - truth) < 5 * s.standard_error() + 3e-4);
                     CHECK(s.standard_error() < 0.01);
                 }
@@ -224,12 +225,14 @@ TEST_SUITE("bent normals") {
     }
 
     TEST_CASE("truth: a lamp whose normals lean lights as a flat one does, near and far") {
-        for (auto [h, E] : {std::pair{1.0f, 0.7522746884541}, {1.5f, 0.3874136329362}}) {
+        for (auto [h_here, E] : {std::pair{1.0f, 0.7522746884541}, {1.5f, 0.3874136329362}}) {
+            const auto& h = h_here;
             CAPTURE(h);
             Scene scene = floor_under(bent_lamp(h));
-            for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-                CAPTURE(name);
-                check_bounded(irradiance(scene, trace, by_chance ? 100000 : 10000), E, 0.05);
+            for (const Chapter& chapter : every_chapter(scene)) {
+                CAPTURE(chapter.name);
+                check_bounded(irradiance(scene, chapter.trace, chapter.by_chance ? 100000 : 10000),
+                              E, 0.05);
             }
         }
     }
@@ -237,8 +240,8 @@ TEST_SUITE("bent normals") {
     TEST_CASE("identity: the side that shines is that of the surface, not of the bent normal") {
         Scene scene = floor_under(bent_lamp(1));
         scene.max_depth = 0;
-        for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-            CAPTURE(name);
+        for (const Chapter& chapter : every_chapter(scene)) {
+            CAPTURE(chapter.name);
             int leans_away = 0;
             Sampler random = random_numbers(1);
             for (int i = 0; i < 500; i++) {
@@ -248,7 +251,7 @@ TEST_SUITE("bent normals") {
                 if (std::abs(d.y) < 0.1f) continue;
                 Ray ray = {at - 0.5f * d, d};
                 leans_away += intersect(scene, ray)->n == intersect(scene, ray)->ng;
-                CHECK(repeat(scene, ray, trace, 1).mean() == (d.y > 0 ? 1 : 0));
+                CHECK(repeat(scene, ray, chapter.trace, 1).mean() == (d.y > 0 ? 1 : 0));
             }
             CHECK(leans_away > 50);
         }
@@ -272,13 +275,13 @@ TEST_SUITE("bent normals") {
         Scene metal = balls(rough_metal("0.3"));
         Trace matt_09 = trace_with<ch09::trace>();
         Trace metal_13 = trace_with<ch13::trace>(ch13::prepare(metal), ch13::Settings());
-        for (const auto& [name, trace, by_chance] : every_chapter(matt)) {
-            CAPTURE(name);
-            CHECK(check_classes(matt, trace, matt, matt_09, 20000) >= 4);
+        for (const Chapter& chapter : every_chapter(matt)) {
+            CAPTURE(chapter.name);
+            CHECK(check_classes(matt, chapter.trace, matt, matt_09, 20000) >= 4);
         }
-        for (const auto& [name, trace, by_chance] : glossy_chapters(metal)) {
-            CAPTURE(name);
-            CHECK(check_classes(metal, trace, metal, metal_13, 20000) >= 4);
+        for (const Chapter& chapter : glossy_chapters(metal)) {
+            CAPTURE(chapter.name);
+            CHECK(check_classes(metal, chapter.trace, metal, metal_13, 20000) >= 4);
         }
     }
 }

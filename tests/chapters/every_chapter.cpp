@@ -67,10 +67,10 @@ TEST_SUITE("every chapter") {
             Scene scene =
                 floor_under(two_sided(at(0, h, 0) + "Scale 0.5 1 0.5 " + square(0, true)) +
                             two_sided(at(0, h + 1, 0) + "Scale 0.2 1 0.2 " + square(0, true)));
-            for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-                if (by_chance && h > 5) continue;  // hardly ever met
-                CAPTURE(name);
-                RunningStats s = irradiance(scene, trace, by_chance ? 60000 : 4000);
+            for (const Chapter& chapter : every_chapter(scene)) {
+                if (chapter.by_chance && h > 5) continue;  // hardly ever met
+                CAPTURE(chapter.name);
+                RunningStats s = irradiance(scene, chapter.trace, chapter.by_chance ? 60000 : 4000);
                 check_bounded(s, irradiance_of_square(h), 0.06);
             }
         }
@@ -87,9 +87,9 @@ TEST_SUITE("every chapter") {
         for (const std::string& lights :
              {sky + overhead + aside, overhead + sky + aside, aside + overhead + sky}) {
             scene = floor_under(lights);
-            for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-                CAPTURE(name);
-                check_bounded(irradiance(scene, trace, 20000), E, 0.02);
+            for (const Chapter& chapter : every_chapter(scene)) {
+                CAPTURE(chapter.name);
+                check_bounded(irradiance(scene, chapter.trace, 20000), E, 0.02);
             }
         }
     }
@@ -103,9 +103,10 @@ TEST_SUITE("every chapter") {
                 Scene scene =
                     floor_under("Scale " + scale + scale + scale + lamp("1", unit_square(1)) +
                                 at(0, 1 - gap, 0) + "Scale 0.6 1 0.6 " + square(0, false));
-                for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-                    CAPTURE(name);
-                    RunningStats s = irradiance(scene, trace, by_chance ? 20000 : 2000);
+                for (const Chapter& chapter : every_chapter(scene)) {
+                    CAPTURE(chapter.name);
+                    RunningStats s =
+                        irradiance(scene, chapter.trace, chapter.by_chance ? 20000 : 2000);
                     if (gap > 0) {
                         CHECK(s.mean() == 0);
                     } else {
@@ -128,9 +129,9 @@ TEST_SUITE("every chapter") {
         for (bool behind_pane : {true, false}) {
             Scene scene = pane_before_half_a_sky(behind_pane);
             double truth = behind_pane ? (1 - R) / (1 + R) : 2 * R / (1 + R);
-            for (const auto& [name, trace, by_chance] : every_chapter(scene)) {
-                CAPTURE(name);
-                check_bounded(repeat(scene, ray, trace, 40000), truth, 0.02);
+            for (const Chapter& chapter : every_chapter(scene)) {
+                CAPTURE(chapter.name);
+                check_bounded(repeat(scene, ray, chapter.trace, 40000), truth, 0.02);
             }
         }
     }

@@ -1,25 +1,11 @@
 // How near and how small lights may be: in every chapter that aims at lights.
 #include <cstdio>
 
-#include "common/path/trace.h"
-#include "tests/support/estimators.h"
-// In this order: names of a lower chapter must not be found by way of a higher one.
-#include "chapters/08_light_sampling/estimator.h"
-#include "chapters/09_cosine_sampling/estimator.h"
-#include "chapters/10_light_importance/estimator.h"
-#include "chapters/11_ris/estimator.h"
-#include "chapters/12_glossy/estimator.h"
-#include "chapters/13_mis/estimator.h"
-#include "chapters/14_mis_ris/estimator.h"
-// After them: it has another normalize().
+#include "tests/support/chapters.h"
+// After the chapters: it has another normalize().
 #include "common/geometry/transform.h"
 
 namespace {
-
-struct Chapter {
-    std::string name;
-    Trace trace;
-};
 
 /// The chapters that differ where there is one light: it is aimed at in the same way by 08 to 12.
 std::vector<Chapter> some_chapters(const Scene& scene) {
