@@ -12,7 +12,7 @@ namespace {
 constexpr double too_much = 0.01;    // of a picture, in one sample
 constexpr double few_samples = 100;  // that carry a picture: below, intervals are too short
 constexpr double few_pixels = 30, few_audits = 16;  // that the error rests on
-constexpr double few_hits = 1000;                   // of a light that is met by chance
+constexpr double few_hits = 50;                     // of a light that is met by chance
 
 bool is_receiver(const Material& m) {
     return !is_specular(m) && !(m.type == MaterialType::diffuse && is_black(m.reflectance));
@@ -100,7 +100,7 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
     }
     Film::ErrorBasis basis = film.error_basis();
     bool one_in_many = basis.pixels < few_pixels && basis.squares > 0 &&
-                       counts.largest * counts.largest > too_much * basis.squares;
+                       counts.largest * counts.largest > 0.05 * basis.squares;
     if (one_in_many && effective >= few_samples) {
         lines.push_back("a few bright samples make the error: it is larger than it says");
     }

@@ -5,6 +5,7 @@
 
 #include "chapters/07_russian_roulette/estimator.h"
 #include "chapters/08_light_sampling/estimator.h"
+#include "common/program/warnings.h"
 #include "tests/support/estimators.h"
 
 using ch08::LightMeasure;
@@ -491,5 +492,43 @@ TEST_SUITE("ch08 pictures") {
         double before = rel_mse(film_of(scene, ch07::trace, 512).film);
         double now = rel_mse(film_of(scene, trace_by_angle, 128).film);
         CHECK(now < before / 20);
+    }
+
+    TEST_CASE("failure: where intervals do not cover the truth, a warning says so") {
+        // A lamp of radius 3 mm in the middle of a glass ball: its light goes straight through,
+        // less 4 % at each surface, and aiming at it meets the glass. A dim sky lights the floor as
+        // well.
+        auto room = [](bool in_glass) {
+            std::string lamp =
+                "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1e6 1e6 1e6] Material "
+                "\"diffuse\" \"rgb reflectance\" [0 0 0] Translate 0 1 0 Shape \"sphere\" "
+                "\"float radius\" 0.003 AttributeEnd\n";
+            std::string glass =
+                "AttributeBegin Material \"dielectric\" Translate 0 1 0 "
+                "Shape \"sphere\" \"float radius\" 0.4 AttributeEnd\n";
+            Scene scene = scene_of(
+                "LookAt 0 0.3 -2  0 0 0  0 1 0 Camera \"perspective\" WorldBegin\n"
+                "LightSource \"infinite\" \"rgb L\" [0.02 0.02 0.02]\n" +
+                lamp + (in_glass ? glass : "") + square(0, true));
+            scene.width = scene.height = 32, scene.max_depth = 6;
+            return scene;
+        };
+        Scene scene = room(true);
+        Rendering seen = film_of(scene, trace_by_angle, 64),
+                  truth = film_of(room(false), trace_by_angle, 64);
+        double mean = seen.film.mean(), se = seen.film.standard_error();
+        CAPTURE(mean);
+        CAPTURE(se);
+        CAPTURE(truth.film.mean());
+        CHECK(0.9 * truth.film.mean() > 2 * mean);
+        CHECK(0.9 * truth.film.mean() - mean > 100 * se);
+        auto told = [](const Scene& s, const Rendering& r) {
+            std::vector<std::string> lines = warnings_of(s, RenderOptions{}, r);
+            return std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+                return line.find("is met only by chance") != std::string::npos;
+            });
+        };
+        CHECK(told(scene, seen));
+        CHECK_FALSE(told(room(false), truth));
     }
 }

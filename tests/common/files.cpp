@@ -223,6 +223,24 @@ TEST_SUITE("files") {
         }
     }
 
+    TEST_CASE("files: a new file has the mode of the old one, and no link leads it astray") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "f", "x");
+        for (mode_t mode : {0600u, 0644u, 0660u}) {
+            ::chmod((folder / "f").c_str(), mode);
+            write_file_atomically(folder / "f", "y");
+            struct stat file = {};
+            REQUIRE(::stat((folder / "f").c_str(), &file) == 0);
+            CHECK((file.st_mode & 0777) == mode);
+        }
+        // The name that could once be guessed.
+        write_file_atomically(folder / "precious", "p");
+        fs::create_symlink("precious", folder / "f.part." + std::to_string(::getpid()));
+        write_file_atomically(folder / "f", "z");
+        CHECK(read_file(folder / "precious") == "p");
+        CHECK(read_file(folder / "f") == "z");
+    }
+
     TEST_CASE("files: a pipe is written to and not replaced") {
         TemporaryFolder folder;
         REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "common/base/stats.h"
 #include "common/path/camera_sample.h"
 #include "common/program/results.h"
 #include "tests/support/process.h"
@@ -144,6 +145,41 @@ TEST_SUITE("render loop") {
             CHECK(calls == c.width * c.height * c.spp);
             CHECK(r.film.spp() == c.spp);
             for (Rgb p : r.film.image().pixels) CHECK(p == Rgb{1, 1, 1});
+        }
+    }
+
+    TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler") {
+        // Smooth in two dimensions, rough in a third: what stratification gains is in between.
+        auto smooth = [](const Scene&, Ray, Sampler& sampler, PathLog&) {
+            Vec2 u = sampler.u2(), v = sampler.u2();
+            float L = u.x * u.x + u.y + (v.x + v.y < 0.3f ? 1.0f : 0.0f);
+            return Rgb{L, 2 * L, L / 2};
+        };
+        Scene scene = empty_scene(64, 32, 16);
+        for (SamplerType type : samplers) {
+            RunningStats means, squares;
+            double covered = 0, naive_squares = 0;
+            constexpr uint32_t seeds = 200;
+            for (uint32_t seed = 0; seed < seeds; seed++) {
+                RenderOptions options = quiet_options();
+                options.sampler = type;
+                options.seed = seed;
+                Film film = render_film(scene, options, smooth).film;
+                double se = film.standard_error(), naive = 0;
+                for (const PixelSum& p : film.pixels()) naive += p.m2() / 15 / 16;
+                naive_squares += naive / 2048 / 2048 / seeds;
+                means.add(film.mean());
+                squares.add(se * se);
+                double truth = 3.5 / 3 * (1.0 / 3 + 0.5 + 0.045);
+                covered += std::abs(film.mean() - truth) < 1.96 * se;
+            }
+            CAPTURE(static_cast<int>(type));
+            double ratio = std::sqrt(squares.mean() / means.variance());
+            CHECK(ratio > 1 / 1.25);  // the spread of 200 has a standard error of 5 %
+            CHECK(ratio < 1.25);
+            CHECK(covered / seeds > 0.95 - 5 * std::sqrt(0.95 * 0.05 / seeds));
+            double naive_ratio = std::sqrt(naive_squares / means.variance());
+            CHECK((naive_ratio > 1.5) == (type != SamplerType::independent));  // why it is audited
         }
     }
 
