@@ -49,39 +49,76 @@ static double variance_of_mean(const PixelSum& p) {
     return p.m2() / (n - 1) / n;
 }
 
+void Film::start_audit() {
+    audited_.clear();
+    for (PixelSum& p : pixels_) p.is_audited = false;
+    for (bool at_edges : {false, true}) {
+        std::vector<size_t> some;
+        for (size_t i = 0; i < pixels_.size(); i++) {
+            if (pixels_[i].is_edge == at_edges) some.push_back(i);
+        }
+        size_t one_of = std::clamp<size_t>(some.size() / 64, 1, 128);
+        for (size_t first = 0; first < some.size(); first += one_of) {
+            size_t size = std::min(one_of, some.size() - first);
+            size_t chosen = hash32(static_cast<uint32_t>(first)) % size;
+            audited_.push_back(some[first + chosen]);
+        }
+    }
+    std::sort(audited_.begin(), audited_.end());
+    for (size_t pixel : audited_) pixels_[pixel].is_audited = true;
+    audits_.assign(audited_.size(), {});
+}
+
+/// What pixels of one kind, at edges or elsewhere, say about the error of the whole.
+struct Film::ErrorPart {
+    double v = 0, v2 = 0;                         // sums of v and v^2 over the pixels
+    double found = 0, audited = 0, audited2 = 0;  // over the audited ones: (A - B)^2 / 2, v, v^2
+
+    double r() const { return audited > 0 ? found / audited : 1; }
+};
+
+std::array<Film::ErrorPart, 2> Film::error_parts() const {
+    std::array<ErrorPart, 2> parts;
+    for (const PixelSum& p : pixels_) {
+        if (p.n < 2) continue;
+        double v = variance_of_mean(p);
+        parts[p.is_edge].v += v, parts[p.is_edge].v2 += v * v;
+    }
+    for (size_t i = 0; i < audits_.size(); i++) {
+        const PixelSum &p = pixels_[audited_[i]], &again = audits_[i];
+        if (p.n < 2) continue;
+        ErrorPart& part = parts[p.is_edge];
+        double difference = p.mean() - again.mean();
+        double v = (variance_of_mean(p) + variance_of_mean(again)) / 2;
+        part.found += difference * difference / 2;
+        part.audited += v, part.audited2 += v * v;
+    }
+    return parts;
+}
+
 double Film::standard_error() const {
     if (!splats_.empty()) return std::nan("");
-    double sum = 0, seen = 0;
+    double seen = 0, sum = 0;
     for (const PixelSum& p : pixels_) {
-        if (p.n == 0) continue;
         if (p.n == 1) return std::nan("");
-        sum += variance_of_mean(p);
-        seen++;
+        seen += p.n > 0;
     }
-    double found = 0, expected = 0;
-    for (size_t i = 0; i < audits_.size(); i++) {
-        const PixelSum &p = pixels_[audited_pixel(i)], &again = audits_[i];
-        if (p.n == 0) continue;
-        double difference = p.mean() - again.mean();
-        found += difference * difference / 2;
-        expected += (variance_of_mean(p) + variance_of_mean(again)) / 2;
-    }
-    if (expected > 0) sum *= found / expected;
+    for (const ErrorPart& part : error_parts()) sum += part.r() * part.v;
     return seen > 0 ? std::sqrt(sum) / seen : std::nan("");
 }
 
 Film::ErrorBasis Film::error_basis() const {
     ErrorBasis basis;
-    double sum = 0, squares = 0, audited = 0, audited_squares = 0;
-    for (size_t i = 0; i < pixels_.size(); i++) {
-        if (pixels_[i].n < 2) continue;
-        double v = variance_of_mean(pixels_[i]);
-        basis.squares += pixels_[i].m2();
-        sum += v, squares += v * v;
-        if (is_audited(i)) audited += v, audited_squares += v * v;
+    double sum = 0, squares = 0, of_audits = 0;
+    for (const ErrorPart& part : error_parts()) {
+        double share = part.r() * part.v;
+        sum += share, squares += part.r() * part.r() * part.v2;
+        if (part.audited > 0)
+            of_audits += share * share * part.audited2 / part.audited / part.audited;
     }
+    for (const PixelSum& p : pixels_) basis.squares += p.n < 2 ? 0 : p.m2();
     if (squares > 0) basis.pixels = sum * sum / squares;
-    if (audited_squares > 0) basis.audits = audited * audited / audited_squares;
+    if (of_audits > 0) basis.audits = sum * sum / of_audits;
     return basis;
 }
 

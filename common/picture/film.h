@@ -1,5 +1,7 @@
 // The film: sums of samples, pixel by pixel, and what they say about their own error.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,8 +20,6 @@ public:
         : width(w),
           height(h),
           pixels_(static_cast<size_t>(w) * static_cast<size_t>(h)),
-          audit_shift_(static_cast<int>(
-              std::bit_width(std::clamp<size_t>(pixels_.size() / 64, 1, 128)) - 1)),
           splats_(takes_splats ? 3 * pixels_.size() : 0) {}
 
     /// Adds the next sample of a pixel. Two threads must not add to one pixel.
@@ -43,19 +43,22 @@ public:
     }
 
     /// From now on some pixels are audited: they take each of their samples a second time, with
-    /// random numbers of another key. One pixel of 128, or of fewer so that there are 64 or more.
+    /// random numbers of another key.
     ///
     /// Samples of one pixel may depend on each other, as stratified ones do; then their spread does
     /// not tell the error of their mean. Two sets of samples tell: of the means A and B of both,
-    /// (A - B)^2 / 2 is on the mean the variance of one.
-    void start_audit() { audits_.resize(pixels_.size() >> audit_shift_); }
+    /// (A - B)^2 / 2 is on the mean the variance of one. Of the pixels at the edges of lamps, which
+    /// are few and may carry most of the error, and of all others, each: one of 128, or of fewer so
+    /// that there are 64 or more. Called once all edges are marked.
+    void mark_edge(size_t pixel) { pixels_[pixel].is_edge = true; }
+    void start_audit();
     bool has_audits() const { return !audits_.empty(); }
-    bool is_audited(size_t pixel) const {
-        size_t audit = pixel >> audit_shift_;
-        return audit < audits_.size() && audited_pixel(audit) == pixel;
-    }
+    bool is_audited(size_t pixel) const { return pixels_[pixel].is_audited; }
     /// Adds the sample that goes with the last one of this pixel.
-    void audit(size_t pixel, Rgb L) { audits_[pixel >> audit_shift_].add(L); }
+    void audit(size_t pixel, Rgb L) {
+        auto place = std::lower_bound(audited_.begin(), audited_.end(), pixel);
+        audits_[static_cast<size_t>(place - audited_.begin())].add(L);
+    }
 
     /// Adds the samples of another film of the same size, which has audits if this has.
     void add(const Film& other);
@@ -73,8 +76,9 @@ public:
     ///   SE^2 = r sum over the pixels of v,   v = sum (Y - mean)^2 / (n - 1) / n
     ///   r    = sum of (A - B)^2 / 2 over the audited pixels / sum of v over them
     ///
-    /// r is 1 without audits, for samples that are independent of each other.
-    /// tested by  "consistency: the reported error is the spread over seeds, with each sampler"
+    /// for the pixels at edges and for the others, each. r is 1 without audits, for samples that
+    /// are independent of each other. tested by  "consistency: the reported error is the spread
+    /// over seeds, with each sampler"
     double standard_error() const;
 
     /// What standard_error() rests on: the more the better.
@@ -104,15 +108,12 @@ private:
     struct Channels {
         double r = 0, g = 0, b = 0;
     };
+    struct ErrorPart;
+    std::array<ErrorPart, 2> error_parts() const;  // elsewhere, at edges
     Channels mean_of(size_t pixel, double spp) const;
     Channels mean_channels() const;
 
-    size_t audited_pixel(size_t audit) const {
-        size_t one_of = hash32(static_cast<uint32_t>(audit)) & ((1u << audit_shift_) - 1);
-        return (audit << audit_shift_) + one_of;
-    }
-
     std::vector<PixelSum> pixels_, audits_;
-    int audit_shift_;  // one of 2^audit_shift_ pixels, one behind the other, is audited
+    std::vector<size_t> audited_;   // the pixels that the audits belong to, in order
     std::vector<ExactSum> splats_;  // r, g and b of each pixel; none for a film without
 };

@@ -170,8 +170,8 @@ LabeledFilm FilmReader::read() {
         refuse("the film is cut short");
     }
     Film film(width_, height_);
-    if (has_audits_) film.start_audit();
     read_sums(film.pixels());
+    if (has_audits_) film.start_audit();
     read_sums(film.audits());
     uint64_t written = 0;
     char more;

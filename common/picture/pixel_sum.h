@@ -48,6 +48,7 @@ struct PixelSum {
 
     double bins[3][sums] = {};
     uint8_t top_channels = 2, top_squares = 2;
+    bool is_edge = false, is_audited = false;  // see Film::start_audit()
     uint32_t n = 0;
 
     /// Adds a sample.

@@ -9,6 +9,7 @@
 #include "common/path/camera_sample.h"
 #include "common/program/explain.h"
 #include "common/program/film_keeping.h"
+#include "common/program/lamp_edges.h"
 #include "common/program/progress.h"
 #include "common/program/results.h"
 #include "common/program/stop.h"
@@ -154,7 +155,10 @@ uint32_t fewest_samples(const Film& film) {
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace) {
     Rendering result{Film(scene.width, scene.height), {}, {}};
-    if (options.sampler != SamplerType::independent) result.film.start_audit();
+    if (options.sampler != SamplerType::independent) {
+        mark_lamp_edges(scene, options.threads, result.film);
+        result.film.start_audit();
+    }
     continue_film(scene, options, result);
     uint32_t done = options.film.empty() ? 0 : fewest_samples(result.film);
     Limit limit(options.time);

@@ -9,6 +9,7 @@
 #include "common/scene_file/reader.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/stability_cases.h"
+#include "tests/measure/stability_coverage.h"
 
 namespace {
 
@@ -208,9 +209,9 @@ constexpr const char* legend =
     "fails as predicted; \"refuses\": says that it cannot render the scene.\n";
 
 /// Whether the name contains one of the words.
-bool wanted(const StabilityCase& c, const std::vector<std::string>& words) {
+bool wanted(const std::string& name, const std::vector<std::string>& words) {
     return words.empty() || std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-               return c.name.find(word) != std::string::npos;
+               return name.find(word) != std::string::npos;
            });
 }
 
@@ -222,16 +223,20 @@ int main(int argc, char** argv) {
             argc, argv, "[WORD...]",
             "Every method on scenes on which some fail: whether each holds, or fails as theory "
             "predicts. 200 runs of one pixel each. Anything else makes it fail. WORD: only the "
-            "scenes with this in their name.",
+            "scenes with this in their name. At the end, or for the word coverage: whether "
+            "reported "
+            "errors are the real ones, for every chapter and sampler.",
             {.spp = 0, .runs = 200});
         Verdicts verdicts;
         for (const StabilityCase& c : stability_cases()) {
-            if (wanted(c, o.words)) judge_case(c, o, verdicts);
+            if (wanted(c.name, o.words)) judge_case(c, o, verdicts);
         }
         std::printf("%s\n", markdown(verdicts.rows).c_str());
         std::printf(legend, o.runs);
         std::printf("\n%s", markdown(verdicts.matrix()).c_str());
         write_table(o.out, "stability", verdicts.rows);
-        return verdicts.failures == 0 ? 0 : 1;
+        bool coverage = wanted("coverage", o.words);
+        int not_covered = coverage ? show_coverage(o) : 0;
+        return verdicts.failures + not_covered == 0 ? 0 : 1;
     });
 }
