@@ -32,7 +32,6 @@ Transform rotation_of(Transform m) {
 /// source  Shepperd 1978: from the largest of the four, so that none is divided by a small one
 Quaternion quaternion_of(const Transform& r) {
     double xx = r.x[0], yy = r.y[1], zz = r.z[2], w2 = 1 + xx + yy + zz;
-    Quaternion q;
     if (w2 >= 1) {
         double s = 2 * std::sqrt(w2);
         return {s / 4, {(r.y[2] - r.z[1]) / s, (r.z[0] - r.x[2]) / s, (r.x[1] - r.y[0]) / s}};

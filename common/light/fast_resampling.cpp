@@ -43,7 +43,7 @@ inline float potential(const LightBounds& y, const Hit& x) {
     cos_y = std::max(cos_y, y.back * cos_y);
     float least_x = y.least_cos_x, least_y = y.least_cos_y;  // copies: std::max of y's own numbers
     least_x = std::max(least, least_x);                      // would be branches
-    float seen = (cos_x < -1.00001f * least_x) | (cos_y < -least) ? 0.0f : 1.0f;
+    float seen = ((cos_x < -1.00001f * least_x) | (cos_y < -least)) ? 0.0f : 1.0f;
     cos_x = std::max(cos_x, least_x), cos_y = std::max(cos_y, std::max(least, least_y));
     return seen * y.power * cos_x * cos_y / d2;
 }
