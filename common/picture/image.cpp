@@ -180,8 +180,9 @@ Image decode_ppm(Header header) {
 Image decode_png(const std::string& path, const std::string& bytes) {
     auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     int size = static_cast<int>(std::min(bytes.size(), size_t{INT32_MAX})), width, height, channels;
+    constexpr int64_t most = 1032;  // times smaller is what the format can make of it
     if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
-        int64_t{width} * height > int64_t{1} << 28)
+        int64_t{width} * height > std::min(int64_t{1} << 28, 8 * most * int64_t{size}))
         fail({path}, "a damaged .png picture, or one of more than 2^28 pixels");
     std::unique_ptr<unsigned char, void (*)(void*)> codes(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);

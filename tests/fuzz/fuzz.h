@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/path/sampler.h"
+#include "common/picture/image.h"
 #include "common/scene_file/ply.h"
 #include "common/scene_file/reader.h"
 
@@ -133,7 +134,7 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
     const std::string folder = "tests/fuzz/corpus/";
     std::vector<std::pair<std::string, std::string>> corpus;
     for (const char* name : {"features.pbrt", "part.pbrt", "square-ascii.ply", "square-little.ply",
-                             "square-big.ply"}) {
+                             "square-big.ply", "sky.pfm", "sky.png"}) {
         corpus.emplace_back(folder + name, read_file(folder + name));
     }
     for (const char* name : {"furnace", "veach-mis", "tiny-close-light"}) {
@@ -153,6 +154,8 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
         try {
             if (path.ends_with(".ply")) {
                 parse_ply(path, bytes);
+            } else if (!path.ends_with(".pbrt")) {
+                decode_image(path, bytes);
             } else {
                 check_scene(parse_scene(path, bytes, nullptr));
             }
