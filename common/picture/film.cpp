@@ -57,7 +57,7 @@ void Film::start_audit() {
         for (size_t i = 0; i < pixels_.size(); i++) {
             if (pixels_[i].is_edge == at_edges) some.push_back(i);
         }
-        size_t one_of = std::clamp<size_t>(some.size() / 64, 1, 128);
+        size_t one_of = std::clamp<size_t>(some.size() / 64, 1, 256);
         for (size_t first = 0; first < some.size(); first += one_of) {
             size_t size = std::min(one_of, some.size() - first);
             size_t chosen = hash32(static_cast<uint32_t>(first)) % size;

@@ -48,7 +48,7 @@ public:
     /// Samples of one pixel may depend on each other, as stratified ones do; then their spread does
     /// not tell the error of their mean. Two sets of samples tell: of the means A and B of both,
     /// (A - B)^2 / 2 is on the mean the variance of one. Of the pixels at the edges of lamps, which
-    /// are few and may carry most of the error, and of all others, each: one of 128, or of fewer so
+    /// are few and may carry most of the error, and of all others, each: one of 256, or of fewer so
     /// that there are 64 or more. Called once all edges are marked.
     void mark_edge(size_t pixel) { pixels_[pixel].is_edge = true; }
     void start_audit();
