@@ -98,7 +98,8 @@ private:
         uint32_t sample;
     };
 
-    [[gnu::always_inline]] Rgb trace(const Place& at, uint32_t key, Sampler& sampler, PathLog& log) {
+    [[gnu::always_inline]] Rgb trace(const Place& at, uint32_t key, Sampler& sampler,
+                                     PathLog& log) {
         sampler.start(static_cast<uint32_t>(at.pixel) | key, at.sample);
         log.start();
         Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
