@@ -3,6 +3,13 @@
 #include "common/path/sampler.h"
 #include "common/scene/camera.h"
 
+/// Starts sample `number` of a pixel. Half 1 of the samples, and audits, have random numbers of
+/// their own: of a key that is no pixel's.
+inline void start_sample(Sampler& sampler, size_t pixel, int half, uint32_t number) {
+    constexpr uint32_t another_key = 1u << 31;
+    sampler.start(static_cast<uint32_t>(pixel) | (half == 1 ? another_key : 0), number);
+}
+
 struct CameraSample {
     Ray ray;
     Vec2 film;  // the point that the ray goes through, in pixels from the top left

@@ -4,6 +4,11 @@ Film::Channels Film::mean_of(size_t pixel, double spp) const {
     const PixelSum& p = pixels_[pixel];
     double n = static_cast<double>(std::max<uint64_t>(p.n, 1));
     Channels c = {p.r() / n, p.g() / n, p.b() / n};
+    if (has_halves_ && audits_[pixel].n > 0) {
+        const PixelSum& b = audits_[pixel];
+        double m = b.n;
+        c = {(c.r + b.r() / m) / 2, (c.g + b.g() / m) / 2, (c.b + b.b() / m) / 2};
+    }
     if (splats_.empty()) return c;
     const ExactSum* splats = &splats_[3 * pixel];
     return {c.r + splats[0].value() / spp, c.g + splats[1].value() / spp,
@@ -34,6 +39,15 @@ Image Film::image() const {
     return image;
 }
 
+Image Film::counts() const {
+    Image image(width, height);
+    for (size_t i = 0; i < pixels_.size(); i++) {
+        float n = static_cast<float>(count_of(i));
+        image.pixels[i] = {n, n, n};
+    }
+    return image;
+}
+
 Rgb Film::mean_rgb() const {
     Channels c = mean_channels();
     return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
@@ -47,6 +61,11 @@ double Film::mean() const {
 static double variance_of_mean(const PixelSum& p) {
     double n = p.n;
     return p.m2() / (n - 1) / n;
+}
+
+void Film::start_halves() {
+    has_halves_ = true;
+    audits_.assign(pixels_.size(), {});
 }
 
 void Film::start_audit() {
@@ -79,12 +98,13 @@ struct Film::ErrorPart {
 
 std::array<Film::ErrorPart, 2> Film::error_parts() const {
     std::array<ErrorPart, 2> parts;
-    for (const PixelSum& p : pixels_) {
-        if (p.n < 2) continue;
-        double v = variance_of_mean(p);
+    for (size_t i = 0; i < pixels_.size(); i++) {
+        const PixelSum& p = pixels_[i];
+        double v = p.n < 2 ? 0 : variance_of_mean(p);
+        if (has_halves_ && audits_[i].n >= 2) v = (v + variance_of_mean(audits_[i])) / 4;
         parts[p.is_edge].v += v, parts[p.is_edge].v2 += v * v;
     }
-    for (size_t i = 0; i < audits_.size(); i++) {
+    for (size_t i = 0; i < audited_.size(); i++) {
         const PixelSum &p = pixels_[audited_[i]], &again = audits_[i];
         if (p.n < 2) continue;
         ErrorPart& part = parts[p.is_edge];
@@ -99,11 +119,16 @@ std::array<Film::ErrorPart, 2> Film::error_parts() const {
 double Film::standard_error() const {
     if (!splats_.empty()) return std::nan("");
     double seen = 0, sum = 0;
-    for (const PixelSum& p : pixels_) {
-        if (p.n == 1) return std::nan("");
-        seen += p.n > 0;
+    for (size_t i = 0; i < pixels_.size(); i++) {
+        if (count_of(i) == 1) return std::nan("");
+        seen += pixels_[i].n > 0;
+        if (!has_halves_) continue;
+        double difference = pixels_[i].mean() - audits_[i].mean();
+        sum += difference * difference / 4;
     }
-    for (const ErrorPart& part : error_parts()) sum += part.r() * part.v;
+    if (!has_halves_) {
+        for (const ErrorPart& part : error_parts()) sum += part.r() * part.v;
+    }
     return seen > 0 ? std::sqrt(sum) / seen : std::nan("");
 }
 
@@ -117,6 +142,9 @@ Film::ErrorBasis Film::error_basis() const {
             of_audits += share * share * part.audited2 / part.audited / part.audited;
     }
     for (const PixelSum& p : pixels_) basis.squares += p.n < 2 ? 0 : p.m2();
+    if (has_halves_) {
+        for (const PixelSum& p : audits_) basis.squares += p.n < 2 ? 0 : p.m2();
+    }
     if (squares > 0) basis.pixels = sum * sum / squares;
     if (of_audits > 0) basis.audits = sum * sum / of_audits;
     return basis;
@@ -124,9 +152,11 @@ Film::ErrorBasis Film::error_basis() const {
 
 double Film::effective_samples() const {
     double sum = 0, squares = 0;
-    for (const PixelSum& p : pixels_) {
-        sum += p.n * p.mean();
-        squares += p.sum_of_squares();
+    for (int half = 0; half <= has_halves_; half++) {
+        for (const PixelSum& p : this->half(half)) {
+            sum += p.n * p.mean();
+            squares += p.sum_of_squares();
+        }
     }
     return squares > 0 ? sum * sum / squares : 0;
 }
@@ -138,6 +168,6 @@ void Film::add(const Film& other) {
 
 uint64_t Film::samples() const {
     uint64_t sum = 0;
-    for (const PixelSum& p : pixels_) sum += p.n;
+    for (size_t i = 0; i < pixels_.size(); i++) sum += count_of(i);
     return sum;
 }

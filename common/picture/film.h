@@ -22,15 +22,25 @@ public:
           pixels_(static_cast<size_t>(w) * static_cast<size_t>(h)),
           splats_(takes_splats ? 3 * pixels_.size() : 0) {}
 
+    /// From now on each pixel has two halves, 0 and 1, that count their samples each. The picture
+    /// is the mean of both halves' means, and they tell the error: (A - B)^2 / 4 is on the mean the
+    /// variance of (A + B) / 2. For samples that are shared out unevenly, as in chapter 16: each
+    /// half's mean is then without bias if the other half alone decided on the number of samples.
+    void start_halves();
+    bool has_halves() const { return has_halves_; }
+    const std::vector<PixelSum>& half(int number) const { return number == 0 ? pixels_ : audits_; }
+
     /// Adds the next sample of a pixel. Two threads must not add to one pixel.
-    void add(size_t pixel, Rgb L) { pixels_[pixel].add(L); }
+    void add(size_t pixel, Rgb L, int half = 0) { sum_of(pixel, half).add(L); }
 
     /// Adds what part of a sample brings, as often as it has parts: to the sums alone, so that the
     /// film knows its mean but not its error. How many samples there were, count_as() tells.
-    void add_part(size_t pixel, Rgb L) { pixels_[pixel].add_part(L); }
-    /// This film holds parts of all the samples of `whole`.
+    void add_part(size_t pixel, Rgb L, int half = 0) { sum_of(pixel, half).add_part(L); }
+    /// This film holds parts of all the samples of `whole`, and has halves if that has.
     void count_as(const Film& whole) {
         for (size_t i = 0; i < pixels_.size(); i++) pixels_[i].n = whole.pixels_[i].n;
+        for (size_t i = 0; has_halves_ && i < audits_.size(); i++)
+            audits_[i].n = whole.audits_[i].n;
     }
 
     /// Adds what a path from a light brings to a pixel that it happens to meet, from any thread.
@@ -52,7 +62,7 @@ public:
     /// that there are 64 or more. Called once all edges are marked.
     void mark_edge(size_t pixel) { pixels_[pixel].is_edge = true; }
     void start_audit();
-    bool has_audits() const { return !audits_.empty(); }
+    bool has_audits() const { return !audits_.empty() && !has_halves_; }
     bool is_audited(size_t pixel) const { return pixels_[pixel].is_audited; }
     /// Adds the sample that goes with the last one of this pixel.
     void audit(size_t pixel, Rgb L) {
@@ -65,6 +75,9 @@ public:
 
     /// What each pixel has, as a picture; black where it has nothing yet.
     Image image() const;
+
+    /// How many samples each pixel has, in all three channels.
+    Image counts() const;
 
     /// Mean over channels and the pixels that have samples.
     double mean() const;
@@ -92,6 +105,10 @@ public:
     /// (sum x)^2 / sum x^2 over all samples of the film: how many samples really carry it.
     double effective_samples() const;
 
+    /// The samples of a pixel, of both halves.
+    uint64_t count_of(size_t pixel) const {
+        return pixels_[pixel].n + (has_halves_ ? uint64_t{audits_[pixel].n} : 0);
+    }
     /// All samples; samples per pixel, on the mean.
     uint64_t samples() const;
     double spp() const {
@@ -111,9 +128,11 @@ private:
     struct ErrorPart;
     std::array<ErrorPart, 2> error_parts() const;  // elsewhere, at edges
     Channels mean_of(size_t pixel, double spp) const;
+    PixelSum& sum_of(size_t pixel, int half) { return half == 0 ? pixels_[pixel] : audits_[pixel]; }
     Channels mean_channels() const;
 
-    std::vector<PixelSum> pixels_, audits_;
+    std::vector<PixelSum> pixels_, audits_;  // the audits may be a second half
+    bool has_halves_ = false;
     std::vector<size_t> audited_;   // the pixels that the audits belong to, in order
     std::vector<ExactSum> splats_;  // r, g and b of each pixel; none for a film without
 };

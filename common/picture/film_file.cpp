@@ -20,6 +20,9 @@ namespace {
 constexpr const char* first_line = "film of path-by-path, version 1";
 constexpr size_t longest_label = 1 << 20;  // bytes
 
+/// 0: the pixels alone; 1: with audits; 2: with a second half of each pixel.
+int kind_of(const Film& film) { return film.has_halves() ? 2 : film.has_audits(); }
+
 /// The lines of text at the beginning, up to the empty one.
 std::string text_of(const FilmLabel& label, const Film& film) {
     std::ostringstream text;
@@ -34,7 +37,7 @@ std::string text_of(const FilmLabel& label, const Film& film) {
     text << "counts " << c.rays << ' ' << c.paths_cut << ' ' << c.not_finite << ' ' << c.bad_seed
          << ' ' << c.bad_sample << ' ' << c.bad_y << ' ' << c.bad_x << ' '
          << std::bit_cast<uint64_t>(c.largest) << '\n';
-    text << "size " << film.width << ' ' << film.height << ' ' << film.has_audits() << "\n\n";
+    text << "size " << film.width << ' ' << film.height << ' ' << kind_of(film) << "\n\n";
     return text.str();
 }
 
@@ -83,8 +86,7 @@ private:
     int fd_ = -1;
     Checksum checksum_;
     FilmLabel label_;
-    int width_ = 0, height_ = 0;
-    bool has_audits_ = false;
+    int width_ = 0, height_ = 0, kind_ = 0;
 };
 
 std::string FilmReader::read_text() {
@@ -125,7 +127,7 @@ void FilmReader::read_line(const std::string& line) {
             c.bad_x >> largest;
         c.largest = std::bit_cast<double>(largest);
     } else if (kind == "size") {
-        words >> width_ >> height_ >> has_audits_;
+        words >> width_ >> height_ >> kind_;
     } else if (line != first_line) {
         refuse_label();
     }
@@ -149,6 +151,7 @@ void FilmReader::check(const Film& film) const {
         most += r.last - r.first;
     }
     if (most > PixelSum::most) refuse_label();
+    if (film.has_halves()) most = PixelSum::most;  // they are shared out as the chapter likes
     for (const std::vector<PixelSum>* sums : {&film.pixels(), &film.audits()}) {
         for (const PixelSum& p : *sums) {
             if (p.n > most || !p.has_valid_tops()) refuse_label();
@@ -161,7 +164,7 @@ LabeledFilm FilmReader::read() {
     for (std::string line; std::getline(text, line) && !line.empty();) read_line(line);
     bool is_size = width_ > 0 && height_ > 0 && width_ <= 65536 && height_ <= 65536 &&
                    int64_t{width_} * height_ <= 1 << 28;
-    if (!is_size) refuse_label();
+    if (!is_size || kind_ < 0 || kind_ > 2) refuse_label();
     // Ask first whether there are so many bytes: a label alone must not take all memory.
     struct stat file = {};
     uint64_t least =
@@ -171,7 +174,8 @@ LabeledFilm FilmReader::read() {
     }
     Film film(width_, height_);
     read_sums(film.pixels());
-    if (has_audits_) film.start_audit();
+    if (kind_ == 1) film.start_audit();
+    if (kind_ == 2) film.start_halves();
     read_sums(film.audits());
     uint64_t written = 0;
     char more;
@@ -261,7 +265,7 @@ void check_options(const std::string& path, const FilmLabel& label,
 void add_film(LabeledFilm& sum, const std::string& path, const LabeledFilm& part) {
     check_options(path, part.label, sum.label.options);
     bool same_size = part.film.width == sum.film.width && part.film.height == sum.film.height &&
-                     part.film.has_audits() == sum.film.has_audits();
+                     kind_of(part.film) == kind_of(sum.film);
     if (!same_size) fail({path}, "a film by another version of the program");
     sum.label.samples = joined(sum.label.samples, part.label.samples, path);
     sum.label.counts.add(part.label.counts);

@@ -21,16 +21,24 @@ inline std::vector<Ray> pixel_rays(const Scene& scene, size_t stride) {
     return rays;
 }
 
-/// work(ray) of every pixel, from black (none) by blue, green and red to white (`most`).
+/// The numbers in the red channel as colours, from black (none) by blue, green and red to white
+/// (`most` or more).
+inline Image heat_map(Image numbers, float most) {
+    for (Rgb& pixel : numbers.pixels) {
+        float h = 4 * pixel.r / most;
+        auto ramp = [&](float from) { return std::clamp(h - from, 0.0f, 1.0f); };
+        pixel = {ramp(2), ramp(1) - ramp(2) + ramp(3), ramp(0) - ramp(1) + ramp(3)};
+    }
+    return numbers;
+}
+
+/// work(ray) of every pixel, in these colours.
 template <class Work>
 Image heat_map(const Scene& scene, float most, const Work& work) {
     Image image(scene.width, scene.height);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     for (int i = 0; i < scene.width * scene.height; i++) {
-        float h = 4 * work(pixel_ray(scene, view, i)) / most;
-        auto ramp = [&](float from) { return std::clamp(h - from, 0.0f, 1.0f); };
-        image.at(i % scene.width, i / scene.width) = {ramp(2), ramp(1) - ramp(2) + ramp(3),
-                                                      ramp(0) - ramp(1) + ramp(3)};
+        image.at(i % scene.width, i / scene.width).r = work(pixel_ray(scene, view, i));
     }
-    return image;
+    return heat_map(std::move(image), most);
 }

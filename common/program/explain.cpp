@@ -8,7 +8,7 @@
 #include "common/path/camera_sample.h"
 #include "common/program/path_drawing.h"
 
-int explain(const Scene& scene, const RenderOptions& options, const Trace& trace) {
+int explain(const Scene& scene, const RenderOptions& options, const Trace& trace, bool halves) {
     int x = options.explain_x, y = options.explain_y, s = options.explain_sample;
     if (x >= scene.width || y >= scene.height) {
         throw UsageError("error: pixel " + std::to_string(x) + "," + std::to_string(y) +
@@ -16,14 +16,15 @@ int explain(const Scene& scene, const RenderOptions& options, const Trace& trace
                          std::to_string(scene.height));
     }
 
-    if (options.time == 0 && s >= scene.spp) {
+    if (options.time == 0 && s >= scene.spp && !halves) {
         throw UsageError("error: sample " + std::to_string(s) + " is not one of the " +
                          std::to_string(scene.spp) + " of a pixel; they count from 0");
     }
 
     // Trace the sample just as render_film does, with a log that listens.
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
-    sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
+    uint32_t number = static_cast<uint32_t>(halves ? s / 2 : s);
+    start_sample(sampler, static_cast<size_t>(y * scene.width + x), halves ? s % 2 : 0, number);
     PathLog log(options.paths, true);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     auto [ray, film] = camera_sample(view, x, y, sampler, options.pixel_centre);

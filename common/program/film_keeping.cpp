@@ -64,6 +64,7 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
                                  ", which do not begin what is asked for: " + text_of(wanted));
     }
     rendering.film = std::move(found.film);
+    for (const SampleRange& r : found.label.samples) rendering.begun = r.last - r.first;
     static_cast<SampleCounts&>(rendering.stats) = found.label.counts;
     rendering.stats.rays_before = rendering.stats.rays;
     rendering.stats.samples_before = rendering.film.samples();
@@ -74,6 +75,7 @@ void save_film(const Scene& scene, const RenderOptions& options, const Rendering
     FilmLabel label{film_options(scene, options), {}, rendering.stats};
     uint32_t most = 0, first = wanted_samples(scene, options).first;
     for (const PixelSum& p : rendering.film.pixels()) most = std::max(most, p.n);
+    if (rendering.film.has_halves() && most > 0) most = rendering.begun;
     if (most > 0) label.samples = {{options.seed, first, first + most}};
     write_film(options.film, label, rendering.film);
 }

@@ -75,11 +75,13 @@ void check_together(const RenderOptions& o) {
     if (o.explain) throw UsageError(explain);
 }
 
-/// Remembers the values of a chapter's own options.
+/// Remembers the values of a chapter's own options that change what is rendered.
 void remember_values(std::vector<Option>& extra, RenderOptions& options) {
-    for (size_t i = 0; i < extra.size(); i++) {
-        options.own.push_back({extra[i].name, extra[i].value});
-        extra[i].set = [set = extra[i].set, i, &options](const std::string& text) {
+    for (Option& option : extra) {
+        if (option.value.empty()) continue;
+        size_t i = options.own.size();
+        options.own.push_back({option.name, option.value});
+        option.set = [set = option.set, i, &options](const std::string& text) {
             set(text);
             options.own[i].second = text;
         };
@@ -113,6 +115,11 @@ void refuse_all_but(const std::vector<std::string>& takes, const std::string& pr
 }
 
 }  // namespace
+
+std::string parse_picture(const std::string& option, const std::string& text) {
+    if (!is_image_path(text)) fail_value(option, text, "a .ppm, .pfm or .png file");
+    return text;
+}
 
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
                                    const std::string& scene, std::vector<Option> extra,
@@ -183,6 +190,7 @@ void check_outputs(const RenderOptions& options) {
     std::vector<std::string> files = options.out;
     if (!options.film.empty()) files.push_back(options.film);
     if (!options.stats.empty()) files.push_back(options.stats);
+    if (!options.map.empty()) files.push_back(options.map);
     if (!options.split.empty()) {
         std::error_code none;  // found out below
         std::filesystem::create_directories(options.split, none);

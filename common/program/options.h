@@ -40,6 +40,7 @@ struct RenderOptions {
     std::vector<std::pair<std::string, std::string>> own = {};
     bool quiet = false;
     bool pixel_centre = false;  // chapter 15: see camera_sample.h
+    std::string map;            // chapter 16: picture of how many samples each pixel has
 };
 
 /// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.
@@ -47,6 +48,9 @@ struct RenderOptions {
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
                                    const std::string& scene, std::vector<Option> extra = {},
                                    const std::vector<std::string>& takes = {});
+
+/// The name of a picture, or UsageError.
+std::string parse_picture(const std::string& option, const std::string& text);
 
 /// Throws now what writing the results would throw later; see files.h. Makes the folder of --split.
 void check_outputs(const RenderOptions& options);

@@ -40,21 +40,24 @@ public:
     static constexpr int between_looks = 64;    // samples from one look at the limit to the next
 
     TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace,
-                 const Limit& limit, const FilmClock& clock, Rendering& result)
+                 const Allocation& allocation, const Limit& limit, const FilmClock& clock,
+                 Rendering& result, uint32_t first)
         : scene_(scene),
           options_(options),
           trace_(trace),
+          allocation_(allocation),
           limit_(limit),
           clock_(clock),
           result_(result),
-          first_(wanted_samples(scene, options).first),
+          first_(first),
           view_(camera_view(scene.camera, scene.width, scene.height)),
           tiles_x_((scene.width + side - 1) / side) {}
 
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
 
-    /// Takes samples until each pixel has `count` of them; none while the film waits to be saved.
-    void render(int tile, uint32_t count) {
+    /// Takes samples until each pixel has those up to `end`, the number of a sample; none while the
+    /// film waits to be saved.
+    void render(int tile, uint32_t end) {
         if (limit_.reached() || clock_.due()) return;
         Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
         bool listen = !options_.paths.empty() || !options_.split.empty();
@@ -66,10 +69,13 @@ public:
             size_t pixel =
                 static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
             bool audited = result_.film.is_audited(pixel);
-            for (uint32_t s = result_.film.pixels()[pixel].n; s < count; s++) {
-                if (++taken % between_looks == 0 && limit_.reached()) return false;
-                add_sample({x, y, pixel, first_ + s}, sampler, log, stats);
-                if (audited) audit({x, y, pixel, first_ + s}, sampler, audit_log);
+            for (int half = 0; half < halves(); half++) {
+                auto [s, last] = samples(pixel, half, end);
+                for (; s < last; s++) {
+                    if (++taken % between_looks == 0 && limit_.reached()) return false;
+                    add_sample({x, y, pixel, half, s}, sampler, log, stats);
+                    if (audited) audit({x, y, pixel, half, s}, sampler, audit_log);
+                }
             }
             return true;
         });
@@ -80,6 +86,16 @@ public:
     }
 
 private:
+    int halves() const { return allocation_.pilot > 0 ? 2 : 1; }
+
+    /// The numbers of the next sample of a pixel's half, and of the one after the last up to `end`.
+    std::pair<uint32_t, uint32_t> samples(size_t pixel, int half, uint32_t end) const {
+        uint32_t done = result_.film.half(half)[pixel].n;
+        if (allocation_.pilot == 0) return {first_ + done, end};
+        uint32_t first = first_ == 0 ? 0 : allocation_.samples(pixel, half, first_);
+        return {first + done, allocation_.samples(pixel, half, end)};
+    }
+
     /// Calls work(x, y) for the pixels of the tile, as long as it returns true.
     template <typename Work>
     void for_pixels(int tile, const Work& work) {
@@ -95,52 +111,54 @@ private:
     struct Place {
         int x, y;
         size_t pixel;
-        uint32_t sample;
+        int half;
+        uint32_t sample;  // of the half
     };
 
-    [[gnu::always_inline]] Rgb trace(const Place& at, uint32_t key, Sampler& sampler,
-                                     PathLog& log) {
-        sampler.start(static_cast<uint32_t>(at.pixel) | key, at.sample);
+    [[gnu::always_inline]] Rgb trace(const Place& at, int half, Sampler& sampler, PathLog& log) {
+        start_sample(sampler, at.pixel, half, at.sample);
         log.start();
         Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
         return trace_(scene_, ray, sampler, log);
     }
 
     void add_sample(const Place& at, Sampler& sampler, PathLog& log, RenderStats& stats) {
-        Rgb L = trace(at, 0, sampler, log);
+        Rgb L = trace(at, at.half, sampler, log);
         if (is_finite(L)) {
             stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
         } else {
-            stats.add_not_finite(options_.seed, static_cast<int>(at.sample), at.y, at.x);
+            int number = static_cast<int>(at.sample) * halves() + at.half;
+            stats.add_not_finite(options_.seed, number, at.y, at.x);
         }
-        result_.film.add(at.pixel, L);
-        if (!options_.split.empty()) split(at.pixel, log);
+        result_.film.add(at.pixel, L, at.half);
+        if (!options_.split.empty()) split(at, log);
     }
 
-    /// The same sample again, with numbers of another key: no pixel's number has this bit.
+    /// The same sample again, with numbers of another key.
     void audit(const Place& at, Sampler& sampler, PathLog& log) {
-        constexpr uint32_t another_key = 1u << 31;
-        result_.film.audit(at.pixel, trace(at, another_key, sampler, log));
+        result_.film.audit(at.pixel, trace(at, 1, sampler, log));
     }
 
-    void split(size_t pixel, const PathLog& log) {
+    void split(const Place& at, const PathLog& log) {
         for (const auto& [path_class, L] : log.contributions()) {
             // Keep all long paths together: their classes double with every letter.
             bool is_long = path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
             auto [film, added] = result_.classes.try_emplace(is_long ? "longer" : path_class,
                                                              scene_.width, scene_.height);
-            film->second.add_part(pixel, L);
+            if (added && result_.film.has_halves()) film->second.start_halves();
+            film->second.add_part(at.pixel, L, at.half);
         }
     }
 
     const Scene& scene_;
     const RenderOptions& options_;
     const Trace& trace_;
+    const Allocation& allocation_;
     const Limit& limit_;
     const FilmClock& clock_;
     Rendering& result_;
-    uint32_t first_;  // number of a pixel's first sample
+    uint32_t first_;  // number of the first sample
     CameraView view_;
     int tiles_x_;
     std::mutex mutex_;
@@ -152,31 +170,37 @@ uint32_t fewest_samples(const Film& film) {
     return fewest;
 }
 
-}  // namespace
-
-Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace) {
-    Rendering result{Film(scene.width, scene.height), {}, {}};
-    if (options.sampler != SamplerType::independent) {
-        mark_lamp_edges(scene, options.threads, result.film);
-        result.film.start_audit();
+/// Whether the film has more than the pilot's samples.
+bool has_more(const Film& film, uint32_t pilot) {
+    for (size_t i = 0; i < film.pixels().size(); i++) {
+        if (film.count_of(i) > pilot) return true;
     }
-    continue_film(scene, options, result);
-    uint32_t done = options.film.empty() ? 0 : fewest_samples(result.film);
-    Limit limit(options.time);
+    return false;
+}
+
+/// Takes samples `wanted.first` to `wanted.last` - 1 of each pixel, but for those that the film
+/// has.
+///
+/// A pass takes every pixel once, or more often when they are so few that threads would idle; but
+/// no more often than all passes before, so that an early end does not leave pixels empty.
+void take_samples(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                  const Allocation& allocation, const Limit& limit, SampleRange wanted,
+                  Rendering& result) {
+    bool goes_on = !options.film.empty() && allocation.pilot == 0;
+    uint32_t done = goes_on ? fewest_samples(result.film) : 0;
     FilmClock clock(scene, options);
     Progress progress(options.quiet);
-    TileRenderer renderer(scene, options, trace, limit, clock, result);
-
-    // A pass takes every pixel once, or more often when they are so few that threads would idle;
-    // but no more often than all passes before, so that an early end does not leave pixels empty.
-    SampleRange wanted = wanted_samples(scene, options);
+    TileRenderer renderer(scene, options, trace, allocation, limit, clock, result, wanted.first);
     uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
     uint32_t most_per_pass = std::max(1u, (1u << 18) / pixels), spp = wanted.last - wanted.first;
     while (done < spp && !limit.reached()) {
         uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
+        bool in_pilot = wanted.first == 0 && done < allocation.pilot;
+        if (in_pilot) next = std::min(next, allocation.pilot);
+        result.begun = std::max(result.begun, next);
         std::atomic<int> tiles = 0;
         parallel_for(renderer.tiles(), options.threads, [&](int tile) {
-            renderer.render(tile, next);
+            renderer.render(tile, wanted.first + next);
             double of_pass = static_cast<double>(++tiles) / renderer.tiles();
             double seconds = limit.elapsed();
             double by_time = options.time > 0 ? seconds / options.time : 0;
@@ -184,19 +208,53 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Tr
         });
         if (clock.due()) {
             clock.save(result);  // and go on with the same pass
-        } else {
-            done = next;
+            continue;
+        }
+        done = next;
+        bool decides = in_pilot && done == allocation.pilot && !limit.reached();
+        if (decides && !has_more(result.film, done)) {
+            allocation.share_out(result.film);
         }
     }
+}
+
+}  // namespace
+
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                      const Allocation& allocation) {
+    Rendering result{Film(scene.width, scene.height), {}, 0, {}};
+    if (allocation.pilot > 0) {
+        result.film.start_halves();
+    } else if (options.sampler != SamplerType::independent) {
+        mark_lamp_edges(scene, options.threads, result.film);
+        result.film.start_audit();
+    }
+    continue_film(scene, options, result);
+    Limit limit(options.time);
+    SampleRange wanted = wanted_samples(scene, options);
+
+    // Make the pilot again where this render does not begin with it.
+    bool goes_on = wanted.first > 0 || has_more(result.film, allocation.pilot);
+    if (allocation.pilot > 0 && goes_on) {
+        RenderOptions alone = options;
+        alone.film.clear(), alone.split.clear();
+        Rendering again{Film(scene.width, scene.height), {}, 0, {}};
+        again.film.start_halves();
+        SampleRange pilot = {options.seed, 0, allocation.pilot};
+        take_samples(scene, alone, trace, allocation, limit, pilot, again);
+    }
+    take_samples(scene, options, trace, allocation, limit, wanted, result);
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
-    uint64_t all = uint64_t{pixels} * spp;
+    uint64_t all = uint64_t{static_cast<uint32_t>(scene.width)} *
+                   static_cast<uint32_t>(scene.height) * (wanted.last - wanted.first);
     result.stats.interrupted = limit.interrupted() && result.film.samples() < all;
     return result;
 }
 
-int render(const Scene& scene, const RenderOptions& options, const Trace& trace) {
-    if (options.explain) return explain(scene, options, trace);
+int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
+           const Allocation& allocation) {
+    if (options.explain) return explain(scene, options, trace, allocation.pilot > 0);
     check_outputs(options);
-    return write_results(scene, options, render_film(scene, options, trace));
+    return write_results(scene, options, render_film(scene, options, trace, allocation));
 }

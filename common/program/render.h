@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/path/trace.h"
+#include "common/picture/allocation.h"
 #include "common/picture/film_file.h"
 #include "common/program/loading.h"
 #include "common/program/options.h"
@@ -19,6 +20,7 @@ struct RenderStats : SampleCounts {
 struct Rendering {
     Film film;
     RenderStats stats;
+    uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::map<std::string, Film> classes;  // with --split: one film for each class of path, and one
                                           // for all that are longer than 8 letters
 };
@@ -27,8 +29,13 @@ struct Rendering {
 /// a signal (stop.h). These two end it at once: then some pixels have more samples than others,
 /// none where the first pass did not come. The same pixels for any number of threads. Goes on from
 /// options.film, and writes it now and then.
-Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace);
+///
+/// With an allocation, a render that goes on, or is not the first part, makes the pilot again to
+/// share the samples out as the whole does.
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                      const Allocation& allocation = {});
 
 /// All that a chapter's program does with its scene: renders it, or explains one path of it, and
 /// writes what the options ask for. Returns the exit code.
-int render(const Scene& scene, const RenderOptions& options, const Trace& trace);
+int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
+           const Allocation& allocation = {});

@@ -9,6 +9,7 @@
 #include "common/base/files.h"
 #include "common/base/json.h"
 #include "common/base/percent.h"
+#include "common/picture/heat_map.h"
 #include "common/program/film_keeping.h"
 #include "common/program/warnings.h"
 
@@ -114,6 +115,12 @@ bool write_files(const Scene& scene, const RenderOptions& options, const Renderi
         writer.write(
             path, [&] { write_image(path, film.image(), options.command); },
             "  mean " + json_number(film.mean()));
+    }
+    if (!options.map.empty()) {
+        float most = 4 * static_cast<float>(r.film.spp());
+        Image map = r.film.counts();
+        if (!options.map.ends_with(".pfm")) map = heat_map(std::move(map), most);
+        writer.write(options.map, [&] { write_image(options.map, map, options.command); });
     }
     if (!options.stats.empty()) {
         writer.write(options.stats,

@@ -56,6 +56,10 @@ const std::vector<Promoted> promoted = {
      "common/path/many_lights.h",
      {"mis_weight", "pdf_any", "pdf_best", "direct_light", "lobe_share", "resample_lights",
       "best_light", "mis_emission"}},
+    {"15",
+     "common/path/distribution.h",
+     {"through_lens", "Wavelength", "sample_wavelength", "Prepared", "prepare", "pdf_sky_image",
+      "sky_light", "trace"}},
 };
 
 /// The name that a definition gives which starts with this line.

@@ -1,0 +1,103 @@
+// Chapter 16: adaptive sampling. A few samples of each pixel tell where the error is; the others
+// go there. Chapter 15 traces the paths.
+//
+//   error^2 = sum over the pixels of  v_i / n_i   is least, for a given sum of n_i, where
+//   n_i is proportional to sqrt(v_i),             v_i: the variance of a pixel's samples
+#pragma once
+#include <memory>
+
+#include "common/path/distribution.h"
+#include "common/picture/allocation.h"
+
+namespace ch16 {
+
+using distribution::trace, distribution::prepare;
+
+/// How much a pixel's samples vary, in the measure in which pictures are compared here: that of
+/// relMSE, in which dark pixels count as much as bright ones.
+///
+///   v = variance of Y / (mean^2 + 0.01)        0 for fewer than two samples
+inline double relative_variance(const PixelSum& p) {
+    if (p.n < 2) return 0;
+    return p.m2() / (p.n - 1) / (p.mean() * p.mean() + 0.01);
+}
+
+/// The mean of v over the 5 x 5 pixels around each: a few samples of one alone tell little.
+inline std::vector<double> smooth(const std::vector<double>& v, int width) {
+    int height = static_cast<int>(v.size()) / width;
+    std::vector<double> result;
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            double sum = 0, count = 0;
+            for (int j = std::max(y - 2, 0); j <= std::min(y + 2, height - 1); j++) {
+                for (int i = std::max(x - 2, 0); i <= std::min(x + 2, width - 1); i++) {
+                    sum += v[static_cast<size_t>(j * width + i)], count++;
+                }
+            }
+            result.push_back(sum / count);
+        }
+    }
+    return result;
+}
+
+/// The share of each pixel in the samples to come, on the mean 1, from those that were taken.
+///
+///   share = 0.2 + 0.8 s / (mean of s),    s = sqrt(smooth v)
+///
+/// 0.2: what looks even so far may not be so. No share is above 16, for the same reason.
+/// source  Neyman 1934      tested by  "truth: shares are those of the least error"
+inline std::vector<float> shares(const std::vector<PixelSum>& pixels, int width) {
+    std::vector<double> s;
+    for (const PixelSum& p : pixels) s.push_back(relative_variance(p));
+    s = smooth(s, width);
+    double sum = 0;
+    for (double& v : s) sum += v = std::sqrt(v);
+    std::vector<float> result;
+    for (double v : s) {
+        double share = sum > 0 ? 0.2 + 0.8 * v / sum * static_cast<double>(s.size()) : 1;
+        result.push_back(static_cast<float>(std::min(share, 16.0)));
+    }
+    return result;
+}
+
+/// Who decides how many samples a half of a pixel gets: the other half's pilot, or its own.
+///
+/// other  the mean is right: the samples that are averaged have no say in how many they are
+/// own    it is too dark: where a pilot missed the light, few samples follow that could find it
+enum class Judge { other, own };
+
+/// What the user asks for, and what the pilot has decided: the shares of both halves.
+struct Shares {
+    uint32_t pilot = 16;  // samples of each pixel, of both halves
+    Judge judge = Judge::other;
+    std::vector<float> of_half[2] = {};
+};
+inline void share_out(Shares& s, const Film& pilot) {
+    for (int half : {0, 1}) {
+        int judge = s.judge == Judge::other ? 1 - half : half;
+        s.of_half[half] = shares(pilot.half(judge), pilot.width);
+    }
+}
+
+/// How many samples a half of a pixel has when there are `spp` a pixel on the mean.
+///
+///   n = pilot / 2 + floor(share (spp - pilot) / 2 + u)
+///
+/// u in [0,1) is another for each pixel and half, so that rounding favours none.
+/// tested by  "identity: samples are as many as the shares say"
+inline uint32_t samples_of(const Shares& s, size_t pixel, int half, uint32_t spp) {
+    uint32_t pilot = std::min(spp, s.pilot), n = (pilot + (half == 0)) / 2;
+    if (spp == pilot) return n;
+    double u = to_unit_float(hash32(static_cast<uint32_t>(pixel), static_cast<uint32_t>(half)));
+    double more = double{s.of_half[half][pixel]} * ((spp - pilot) / 2.0);
+    return n + static_cast<uint32_t>(more + u);
+}
+
+/// The same for the loop that renders. A pixel is then  (mean of half 0 + mean of half 1) / 2.
+inline Allocation allocation(const Shares& wanted) {
+    auto s = std::make_shared<Shares>(wanted);
+    return {wanted.pilot, [s](const Film& pilot) { share_out(*s, pilot); },
+            [s](size_t pixel, int half, uint32_t spp) { return samples_of(*s, pixel, half, spp); }};
+}
+
+}  // namespace ch16

@@ -1,0 +1,36 @@
+// Chapter 16 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/16_adaptive/estimator.h"
+#include "common/base/error.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        ch16::Shares shares;
+        std::string map;
+        Option pilot = {"pilot", "N", "samples of each pixel before any is shared out (default 16)",
+                        [&](const std::string& text) {
+                            auto n = parse_integer("pilot", text, 4, 1 << 16);
+                            shares.pilot = static_cast<uint32_t>(n);
+                        },
+                        "16"};
+        Option judge = {"judge", "other|own",
+                        "which half of the pilot decides for a half; own is biased",
+                        [&](const std::string& text) {
+                            auto i = parse_choice("judge", text, {"other", "own"});
+                            shares.judge = static_cast<ch16::Judge>(i);
+                        },
+                        "other"};
+        Option counts = {"map", "FILE",
+                         "picture of how many samples each pixel has (.pfm: numbers)",
+                         [&](const std::string& text) { map = parse_picture("map", text); }};
+        RenderOptions options = parse_render_options(
+            argc, argv, "16_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});
+        options.map = map;
+        if (options.sampler == SamplerType::stratified) {
+            throw UsageError("error: --sampler stratified: nobody knows yet how many strata");
+        }
+        Scene scene = load(options, true);
+        return render(scene, options, trace_with<ch16::trace>(ch16::prepare(scene)),
+                      ch16::allocation(shares));
+    });
+}

@@ -1,0 +1,320 @@
+// Chapter 16: samples where the error is, and why the mean stays right.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "chapters/15_distribution/estimator.h"
+#include "chapters/16_adaptive/estimator.h"
+#include "common/base/files.h"
+#include "common/path/camera_sample.h"
+#include "common/program/film_keeping.h"
+#include "common/program/loading.h"
+#include "tests/support/folder.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+RenderOptions quiet_options(uint32_t seed = 1) {
+    RenderOptions options;
+    options.name = "16_adaptive";
+    options.seed = seed;
+    options.threads = static_cast<int>(std::thread::hardware_concurrency());
+    options.quiet = true;
+    return options;
+}
+
+Scene empty_scene(int width, int height, int spp) {
+    Scene scene = scene_of(
+        "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
+    scene.width = width, scene.height = height, scene.spp = spp;
+    return scene;
+}
+
+Rendering adaptive(Scene scene, const Trace& trace, int spp, uint32_t seed = 1,
+                   ch16::Shares shares = {}, SamplerType sampler = SamplerType::independent) {
+    scene.spp = spp;
+    RenderOptions options = quiet_options(seed);
+    options.sampler = sampler;
+    return render_film(scene, options, trace, ch16::allocation(shares));
+}
+
+Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
+Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
+
+/// Light in one sample of twenty, of which a path knows nothing before.
+Rgb rare(const Scene&, Ray, Sampler& sampler, PathLog& log) {
+    float L = sampler.u1() < 0.05f ? 1.0f : 0.0f;
+    return log.emitted({L, L, L});
+}
+
+/// The mean squared error of a picture against another, relative to that.
+double relative_error(const Image& a, const Image& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.pixels.size(); i++) {
+        for (int c = 0; c < 3; c++) {
+            double x = double{(&a.pixels[i].r)[c]}, y = double{(&b.pixels[i].r)[c]};
+            sum += (x - y) * (x - y) / (y * y + 0.01) / 3;
+        }
+    }
+    return sum / static_cast<double>(a.pixels.size());
+}
+
+}  // namespace
+
+TEST_SUITE("ch16 adaptive") {
+    TEST_CASE("truth: shares are those of the least error") {
+        // The left half of the picture varies four times as much as the right: its standard
+        // deviation is four times as large, and its mean the same.
+        constexpr int width = 64, height = 32;
+        Film film(width, height);
+        Sampler sampler(SamplerType::independent, 1, 1);
+        for (int i = 0; i < width * height; i++) {
+            sampler.start(static_cast<uint32_t>(i), 0);
+            for (int k = 0; k < 200; k++) {
+                float L = 1 + (i % width < width / 2 ? 0.4f : 0.1f) * (sampler.u1() - 0.5f);
+                film.add(static_cast<size_t>(i), {L, L, L});
+            }
+        }
+        std::vector<float> shares = ch16::shares(film.half(0), width);
+        // n in proportion to s, beside the 0.2 that all have: 0.2 + 0.8 (4 or 1) / 2.5
+        CHECK(shares[16 * width + 10] == doctest::Approx(1.48).epsilon(0.02).scale(0));
+        CHECK(shares[16 * width + 50] == doctest::Approx(0.52).epsilon(0.02).scale(0));
+        double sum = 0;
+        for (float share : shares) sum += double{share};
+        CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
+        // Without the 0.2 no other share of the same samples has less error.
+        auto error = [](double left) { return 16 / left + 1 / (2 - left); };
+        CHECK(error(1.6) < error(1.59));
+        CHECK(error(1.6) < error(1.61));
+    }
+
+    TEST_CASE("truth: a picture of one colour is shared out evenly, and a spike within bounds") {
+        Film film(8, 8);
+        for (size_t i = 0; i < 64; i++) {
+            for (int k = 0; k < 4; k++) film.add(i, {0.3f, 0.2f, 0.1f});
+        }
+        for (float share : ch16::shares(film.half(0), 8)) CHECK(share == 1);
+        Film spiky(100, 100);
+        for (size_t i = 0; i < 10000; i++) {
+            for (int k = 0; k < 4; k++)
+                spiky.add(i, Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
+        }
+        for (float share : ch16::shares(spiky.half(0), 100)) {
+            CHECK(share >= 0.2f);
+            CHECK(share <= 16);
+        }
+    }
+
+    TEST_CASE("identity: samples are as many as the shares say") {
+        ch16::Shares shares;
+        shares.pilot = 7;  // 4 and 3
+        constexpr size_t pixels = 4000;
+        for (auto& half : shares.of_half) {
+            for (size_t i = 0; i < pixels; i++)
+                half.push_back(0.2f +
+                               1.6f * (static_cast<float>(i) + 0.5f) / static_cast<float>(pixels));
+        }
+        for (uint32_t spp : {1u, 2u, 3u, 7u, 8u, 20u, 63u, 1000u}) {
+            CAPTURE(spp);
+            double sum = 0;
+            for (size_t i = 0; i < pixels; i++) {
+                for (int half : {0, 1}) {
+                    uint32_t n = ch16::samples_of(shares, i, half, spp);
+                    sum += n;
+                    CHECK(n <= ch16::samples_of(shares, i, half, spp + 1));  // none is taken back
+                    if (spp <= 7) CHECK(n == (half == 0 ? (spp + 1) / 2 : spp / 2));
+                }
+            }
+            // u rounds each of 8000 numbers by half a sample at most, up as often as down.
+            CHECK(std::abs(sum / pixels - spp) < 5 * std::sqrt(2.0 / 4 / pixels));
+        }
+    }
+
+    TEST_CASE("truth: a mean that decides itself when it ends is wrong by what theory says") {
+        // Hits of probability 0.05: stop after 16 equal ones, else take 1024. TRUTHS: V20.
+        Sampler sampler(SamplerType::independent, 1, 1);
+        auto hits = [&](int n) {
+            int sum = 0;
+            for (int i = 0; i < n; i++) sum += sampler.u1() < 0.05f;
+            return sum;
+        };
+        RunningStats own, other;
+        for (uint32_t pixel = 0; pixel < 40000; pixel++) {
+            sampler.start(pixel, 0);
+            int a = hits(16), b = hits(16);
+            auto goes_on = [](int pilot) { return pilot > 0 && pilot < 16; };
+            int rest = goes_on(a) || goes_on(b) ? hits(1008) : 0;
+            own.add(goes_on(a) ? (a + rest) / 1024.0 : a / 16.0);
+            other.add(goes_on(b) ? (a + rest) / 1024.0 : a / 16.0);
+        }
+        CHECK(std::abs(own.mean() - 0.0283375155273) < 5 * own.standard_error());
+        CHECK(std::abs(other.mean() - 0.05) < 5 * other.standard_error());
+        CHECK(own.standard_error() < 0.0003);
+        CHECK(other.standard_error() < 0.0003);
+    }
+
+    TEST_CASE(
+        "failure: halves that judge themselves are too dark, those that judge each other right") {
+        Scene scene = empty_scene(128, 128, 0);
+        for (ch16::Judge judge : {ch16::Judge::own, ch16::Judge::other}) {
+            RunningStats means;
+            for (uint32_t seed = 1; seed <= 20; seed++) {
+                means.add(adaptive(scene, rare, 24, seed, {8, judge, {}}).film.mean());
+            }
+            double z = (means.mean() - 0.05) / means.standard_error();
+            CAPTURE(means.mean());
+            CAPTURE(z);
+            CHECK(means.standard_error() < 0.0001);
+            if (judge == ch16::Judge::other) CHECK(std::abs(z) < 5);
+            if (judge == ch16::Judge::own) CHECK(z < -8);
+        }
+    }
+
+    TEST_CASE("consistency: the bias over 200 renders is below its standard error times five") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 8);
+        Trace trace = by_sixteen(scene);
+        for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
+            RunningStats difference;
+            for (uint32_t seed = 1; seed <= 200; seed++) {
+                double mean = adaptive(scene, trace, 12, seed, {4, ch16::Judge::other, {}}, sampler)
+                                  .film.mean();
+                difference.add(mean -
+                               film_of(scene, by_fifteen(scene), 12, seed + 1000).film.mean());
+            }
+            CAPTURE(difference.mean());
+            CHECK(std::abs(difference.mean()) < 5 * difference.standard_error());
+            CHECK(difference.standard_error() < 0.01);
+        }
+    }
+
+    TEST_CASE("consistency: the reported error is the spread over seeds, with either sampler") {
+        auto smooth = [](const Scene&, Ray, Sampler& sampler, PathLog&) {
+            Vec2 u = sampler.u2(), v = sampler.u2();
+            float L = u.x * u.x + u.y + (v.x + v.y < 0.3f ? 1.0f : 0.0f);
+            return Rgb{L, 2 * L, L / 2};
+        };
+        Scene scene = empty_scene(64, 32, 32);
+        for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
+            RunningStats means, squares;
+            for (uint32_t seed = 0; seed < 200; seed++) {
+                Film film = adaptive(scene, smooth, 32, seed, {}, sampler).film;
+                means.add(film.mean());
+                squares.add(film.standard_error() * film.standard_error());
+            }
+            double ratio = std::sqrt(squares.mean() / means.variance());
+            CAPTURE(static_cast<int>(sampler));
+            CHECK(ratio > 1 / 1.25);  // the spread of 200 has a standard error of 5 %
+            CHECK(ratio < 1.25);
+        }
+    }
+
+    TEST_CASE("agreement: with chapter 15, block by block, on scenes with all that it renders") {
+        for (std::string name : {"cornell", "prism", "moving-ball", "high-contrast"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
+            Film a = adaptive(scene, by_sixteen(scene), 96).film;
+            Film b = film_of(scene, by_fifteen(scene), 96, 2).film;
+            Image of_a = a.image(), of_b = b.image();
+            double v = a.standard_error(), w = b.standard_error();
+            CHECK(std::abs(a.mean() - b.mean()) < 5 * std::hypot(v, w));
+            CHECK(std::hypot(v, w) < 0.02 * b.mean());
+            // Each 8 x 8 block: the two halves tell its error.
+            for (int y = 0; y < 32; y += 8)
+                for (int x = 0; x < 32; x += 8) {
+                    double difference = 0, squares = 0;
+                    for (int j = y; j < y + 8; j++)
+                        for (int i = x; i < x + 8; i++) {
+                            size_t p = static_cast<size_t>(j * 32 + i);
+                            difference +=
+                                double{average(of_a.pixels[p])} - double{average(of_b.pixels[p])};
+                            for (int half : {0, 1}) {
+                                const PixelSum& sum = a.half(half)[p];
+                                squares += sum.m2() / (sum.n - 1.0) / sum.n / 4;
+                            }
+                            const PixelSum& sum = b.half(0)[p];
+                            squares += sum.m2() / (sum.n - 1.0) / sum.n;
+                        }
+                    CHECK(std::abs(difference) < 5 * std::sqrt(squares) + 1e-6);
+                }
+        }
+    }
+
+    TEST_CASE("variance: at equal samples less error than even sampling, where error is local") {
+        Scene scene = scene_from("scenes/high-contrast.pbrt", 48, 8);
+        Image truth = film_of(scene, by_fifteen(scene), 2048, 77).film.image();
+        double even = 0, shared = 0;
+        for (uint32_t seed = 1; seed <= 4; seed++) {
+            even += relative_error(film_of(scene, by_fifteen(scene), 64, seed).film.image(), truth);
+            Rendering r = adaptive(scene, by_sixteen(scene), 64, seed);
+            shared += relative_error(r.film.image(), truth);
+            CHECK(r.film.spp() == doctest::Approx(64).epsilon(0.005).scale(0));
+        }
+        CAPTURE(shared / even);
+        CHECK(shared < 0.75 * even);
+    }
+
+    TEST_CASE("identity: the same bytes for any threads, parts and stops") {
+        TemporaryFolder folder;
+        Scene scene = scene_from("scenes/high-contrast.pbrt", 24, 4);
+        scene.spp = 40;
+        Trace trace = by_sixteen(scene);
+        auto render_to = [&](const std::string& film, int part, int parts, int threads) {
+            RenderOptions options = quiet_options();
+            options.film = folder / film, options.part = part, options.parts = parts;
+            options.threads = threads;
+            Rendering r = render_film(scene, options, trace, ch16::allocation({}));
+            save_film(scene, options, r);
+            return r.film.image();
+        };
+        Image whole = render_to("whole.film", 1, 1, 1);
+        CHECK(render_to("two.film", 1, 1, 2).pixels == whole.pixels);
+        CHECK(read_file(folder / "two.film") == read_file(folder / "whole.film"));
+
+        // Parts, in any order.
+        for (int part : {1, 2, 3}) render_to("part" + std::to_string(part) + ".film", part, 3, 2);
+        LabeledFilm sum = read_film(folder / "part3.film");
+        for (int part : {1, 2}) {
+            std::string path = folder / ("part" + std::to_string(part) + ".film");
+            add_film(sum, path, read_film(path));
+        }
+        CHECK(sum.film.image().pixels == whole.pixels);
+
+        // In the pilot, at its end, after it: a render with fewer samples that goes on.
+        for (int first : {5, 16, 17, 30}) {
+            std::string film = std::to_string(first) + ".film";
+            scene.spp = first;
+            render_to(film, 1, 1, 2);
+            scene.spp = 40;
+            CHECK(render_to(film, 1, 1, 2).pixels == whole.pixels);
+            CHECK(read_file(folder / film) == read_file(folder / "whole.film"));
+        }
+    }
+
+    TEST_CASE("identity: the classes of --split sum to the picture") {
+        Scene scene = scene_from("scenes/high-contrast.pbrt", 16, 4);
+        scene.spp = 24;
+        RenderOptions options = quiet_options();
+        options.split = "unused";
+        Rendering r = render_film(scene, options, by_sixteen(scene), ch16::allocation({}));
+        double sum = 0;
+        for (const auto& [name, film] : r.classes) sum += film.mean();
+        CHECK(r.classes.size() > 2);
+        CHECK(sum == doctest::Approx(r.film.mean()).epsilon(1e-6).scale(0));
+    }
+
+    TEST_CASE("truth: a sample that is not finite is named by the number that replays it") {
+        Scene scene = empty_scene(8, 8, 24);
+        auto bad = [](const Scene&, Ray, Sampler& sampler, PathLog&) {
+            float u = sampler.u1();
+            return u < 0.002f ? Rgb{infinity, 0, 0} : Rgb{u, u, u};
+        };
+        Rendering r = render_film(scene, quiet_options(), bad, ch16::allocation({}));
+        REQUIRE(r.stats.not_finite > 0);
+        Sampler sampler(SamplerType::independent, r.stats.bad_seed, 1);
+        size_t pixel = static_cast<size_t>(r.stats.bad_y * 8 + r.stats.bad_x);
+        start_sample(sampler, pixel, r.stats.bad_sample % 2,
+                     static_cast<uint32_t>(r.stats.bad_sample / 2));
+        camera_sample(camera_view(scene.camera, 8, 8), r.stats.bad_x, r.stats.bad_y, sampler);
+        CHECK(sampler.u1() < 0.002f);
+    }
+}
