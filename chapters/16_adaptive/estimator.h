@@ -22,16 +22,16 @@ inline double relative_variance(const PixelSum& p) {
     return p.m2() / (p.n - 1) / (p.mean() * p.mean() + 0.01);
 }
 
-/// The mean of v over the 5 x 5 pixels around each: a few samples of one alone tell little.
-inline std::vector<double> smooth(const std::vector<double>& v, int width) {
-    int height = static_cast<int>(v.size()) / width;
+/// The mean of s over the 5 x 5 pixels around each: a few samples of one alone tell little.
+inline std::vector<double> smooth(const std::vector<double>& s, int width) {
+    int height = static_cast<int>(s.size()) / width;
     std::vector<double> result;
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
             double sum = 0, count = 0;
             for (int j = std::max(y - 2, 0); j <= std::min(y + 2, height - 1); j++) {
                 for (int i = std::max(x - 2, 0); i <= std::min(x + 2, width - 1); i++) {
-                    sum += v[static_cast<size_t>(j * width + i)], count++;
+                    sum += s[static_cast<size_t>(j * width + i)], count++;
                 }
             }
             result.push_back(sum / count);
@@ -42,19 +42,19 @@ inline std::vector<double> smooth(const std::vector<double>& v, int width) {
 
 /// The share of each pixel in the samples to come, on the mean 1, from those that were taken.
 ///
-///   share = 0.2 + 0.8 s / (mean of s),    s = sqrt(smooth v)
+///   share = 0.2 + 0.8 s / (mean of s),    s = sqrt(v), smooth
 ///
 /// 0.2: what looks even so far may not be so. No share is above 16, for the same reason.
 /// source  Neyman 1934      tested by  "truth: shares are those of the least error"
 inline std::vector<float> shares(const std::vector<PixelSum>& pixels, int width) {
     std::vector<double> s;
-    for (const PixelSum& p : pixels) s.push_back(relative_variance(p));
+    for (const PixelSum& p : pixels) s.push_back(std::sqrt(relative_variance(p)));
     s = smooth(s, width);
-    double sum = 0;
-    for (double& v : s) sum += v = std::sqrt(v);
+    double mean = 0;
+    for (double s_i : s) mean += s_i / static_cast<double>(s.size());
     std::vector<float> result;
-    for (double v : s) {
-        double share = sum > 0 ? 0.2 + 0.8 * v / sum * static_cast<double>(s.size()) : 1;
+    for (double s_i : s) {
+        double share = mean > 0 ? 0.2 + 0.8 * s_i / mean : 1;
         result.push_back(static_cast<float>(std::min(share, 16.0)));
     }
     return result;
