@@ -1,4 +1,5 @@
 #include "chapters/15_distribution/estimator.h"
+#include "tests/measure/chance_15.h"
 #include "tests/measure/methods.h"
 
 static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
@@ -17,7 +18,23 @@ static Method method(const char* name, const char* label, const char* color, Sam
             .has_distribution = true};
 }
 
+static Method by_chance() {
+    return {.name = "15-chance",
+            .label = "15, light by chance",
+            .color = "#9467bd",
+            .finds_light = "by chance",
+            .refuse = {refuse_delta_lights},
+            .render = by_trace([](const Scene&) -> Trace {
+                return [white = shares_of_white()](const Scene& scene, Ray ray, Sampler& sampler,
+                                                   PathLog& log) {
+                    return trace_by_chance(scene, white, ray, sampler, log);
+                };
+            }),
+            .has_distribution = true};
+}
+
 [[maybe_unused]] static const bool added[] = {
     add_method(method("15", "15 lens, time, color, sky", "#17becf", SamplerType::independent)),
+    add_method(by_chance()),
     add_method(method("15-sobol", "15, Sobol", "#9edae5", SamplerType::sobol)),
 };
