@@ -147,6 +147,7 @@ Film::ErrorBasis Film::error_basis() const {
     }
     if (squares > 0) basis.pixels = sum * sum / squares;
     if (of_audits > 0) basis.audits = sum * sum / of_audits;
+    if (has_halves_) basis.audits = basis.pixels;
     return basis;
 }
 

@@ -97,7 +97,7 @@ public:
     /// What standard_error() rests on: the more the better.
     struct ErrorBasis {
         double pixels = 0;   // (sum v)^2 / sum v^2: how many pixels carry the error
-        double audits = 0;   // the same of the audited pixels; 0 without audits
+        double audits = 0;   // the same of the audited pixels (with halves, of all); or 0
         double squares = 0;  // sum (Y - mean)^2 over all samples
     };
     ErrorBasis error_basis() const;

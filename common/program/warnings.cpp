@@ -104,9 +104,10 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
     if (one_in_many && effective >= few_samples) {
         lines.push_back("a few bright samples make the error: it is larger than it says");
     }
-    if (film.has_audits() && basis.squares > 0 && basis.audits < few_audits) {
+    bool is_told_by_means = film.has_audits() || film.has_halves();
+    if (is_told_by_means && basis.squares > 0 && basis.audits < few_audits) {
         lines.push_back(
-            "few pixels tell the error of samples that depend on each other: it may be "
+            "few pixels tell the error by two means of each: it may be "
             "half or twice as large");
     }
     return lines;

@@ -79,7 +79,7 @@ StabilityCase near_disk(double h) {
         {{{"06", "07"}, {relvar(variance_by(seen, pdf_uniform))}},
          area,
          {{"08", "09", "10", "11", "12"}, {relvar(variance_by(seen, by_square))}},
-         {{"13", "14"}, {relvar(variance_of_mis(seen, by_square, pdf_cosine))}},
+         {{"13", "14", "15"}, {relvar(variance_of_mis(seen, by_square, pdf_cosine))}},
          {{"12-bsdf"}, {relvar(h * h), covered < 0.5 ? bad_coverage(covered) : covers(covered)}}}};
 }
 
@@ -103,7 +103,7 @@ StabilityCase wall_under_light(double z) {
             {{{"06", "07"}, {relvar(variance_by(seen, pdf_uniform))}},
              {{"08-area"}, {bad_relvar(variance_by(seen, by_area))}},
              {{"08", "09", "10", "11", "12"}, {relvar(variance_by(seen, by_angle))}},
-             {{"13", "14"}, {relvar(variance_of_mis(seen, by_angle, pdf_cosine))}},
+             {{"13", "14", "15"}, {relvar(variance_of_mis(seen, by_angle, pdf_cosine))}},
              {{"12-bsdf"}, {relvar(variance_by(seen, pdf_cosine))}}}};
 }
 
@@ -120,7 +120,7 @@ StabilityCase small_light() {
             N,
             {{{"06", "07"}, misses(hit_uniform)},
              {{"12-bsdf"}, misses(hit)},
-             {{"08", "09", "10", "11", "12", "13", "14"},
+             {{"08", "09", "10", "11", "12", "13", "14", "15"},
               {{Metric::relative_variance, 1e-3, false, true}}}}};
 }
 
@@ -130,7 +130,7 @@ StabilityCase in_the_plane_of_the_light() {
                 quad("0.1 0 -0.5  0.1 0 0.5  1 0 0.5  1 0 -0.5"),
             0,
             N,
-            {{{"06", "07", "08", "08-area", "09", "10", "11", "12", "13", "14"}}}};
+            {{{"06", "07", "08", "08-area", "09", "10", "11", "12", "13", "14", "15"}}}};
 }
 
 /// A small piece of ground, where floats are fine.
@@ -140,7 +140,7 @@ StabilityCase near_point_light() {
                 "LightSource \"point\" \"point3 from\" [0 0.001 0]\n",
             0.5 / pi * 1e6,
             N,
-            {{{"08", "08-area", "09", "10", "11", "12", "13", "14"},
+            {{{"08", "08-area", "09", "10", "11", "12", "13", "14", "15"},
               {{Metric::relative_variance, 1e-5, false, true}}}},
             {"06", "07", "12-bsdf"}};
 }
@@ -161,7 +161,7 @@ StabilityCase light_behind_glass() {
             0.5 * hit * through,
             N,
             {{{"06", "07", "08"}, {bad_relvar(uniform)}},
-             {{"09", "10", "11", "12", "12-bsdf", "13", "14"},
+             {{"09", "10", "11", "12", "12-bsdf", "13", "14", "15"},
               {bad_relvar(cosine), covers(coverage_of_rare(1 / (1 + cosine), N))}}}};
 }
 
@@ -205,7 +205,7 @@ StabilityCase horizon(double e) {
                     N,
                     {{{"06", "07", "08"}, {relvar(4 / (3 * e) - 1)}},
                      {{"09", "10", "11", "12", "12-bsdf"}, {bad_relvar(1 / (e * e) - 1)}},
-                     {{"13", "14"}, {bad_relvar((1 / (e * e) - 1) / 2)}}}};
+                     {{"13", "14", "15"}, {bad_relvar((1 / (e * e) - 1) / 2)}}}};
     if (e > 0.05) return c;
     // Hits are rare: nearly every run of the cosine sees nothing.
     auto misses = [](double p) { return Prediction{Metric::black, std::pow(1 - p, N), true}; };
@@ -241,7 +241,7 @@ StabilityCase sky_in_metal(double alpha) {
             N,
             {{{"12"}, {bad_relvar(by_light)}},
              {{"12-bsdf"}, {relvar(variance_by(seen, by_bsdf))}},
-             {{"13", "14"}, {relvar(variance_of_mis(seen, pdf_cosine, by_bsdf))}}},
+             {{"13", "14", "15"}, {relvar(variance_of_mis(seen, pdf_cosine, by_bsdf))}}},
             {"06", "07", "08", "09", "10", "11"}};
 }
 
@@ -262,7 +262,7 @@ StabilityCase grey_sphere() {
             2,
             N,
             {{{"06"}, {relvar(0.125), endless}},
-             {{"07", "08", "12-bsdf", "13", "14"}},
+             {{"07", "08", "12-bsdf", "13", "14", "15"}},
              {{"09", "10", "11", "12"}, {relvar(aims.relative_variance())}}}};
 }
 
@@ -282,7 +282,7 @@ StabilityCase red_sphere() {
              {{"07"}, {coverage(true, false)}},
              {{"08"}, {coverage(true, true)}},
              {{"09", "10", "11", "12"}, {relvar(by_cosine.relative_variance())}},
-             {{"12-bsdf", "13", "14"}}}};
+             {{"12-bsdf", "13", "14", "15"}}}};
 }
 
 /// Cut before roulette can end a path.
@@ -292,7 +292,7 @@ StabilityCase cut_sphere() {
             closed_sphere("0.8 0.8 0.8", 3),
             5,
             N,
-            {{{"06", "07", "08", "09", "10", "11", "12", "13", "14"},
+            {{{"06", "07", "08", "09", "10", "11", "12", "13", "14", "15"},
               {lost, {Metric::coverage, 0, true}, {Metric::cut, 1, true}}}}};
 }
 
@@ -310,7 +310,7 @@ StabilityCase glass_cube() {
             2.25 * (1 - kept_in),
             N,
             {{{"06"}, {{Metric::cut, kept_in, true}}},
-             {{"07", "08", "09", "10", "11", "12", "13", "14"},
+             {{"07", "08", "09", "10", "11", "12", "13", "14", "15"},
               {{Metric::cut, kept_in * std::pow(0.95, 97)}}}}};
 }
 
@@ -324,7 +324,7 @@ StabilityCase far_ball() {
             0.8,
             N,
             {{{"06", "07", "08"}, {relvar(1.0 / 3)}},
-             {{"09", "10", "11", "12", "12-bsdf", "13", "14"}}}};
+             {{"09", "10", "11", "12", "12-bsdf", "13", "14", "15"}}}};
 }
 StabilityCase far_wall() {
     return {"before a wall, 10,000 from the origin",
@@ -333,7 +333,23 @@ StabilityCase far_wall() {
                 quad("-0.5 2 0.02  0.5 2 0.02  0.5 2 1  -0.5 2 1"),
             0,
             N,
-            {{{"06", "07", "08", "08-area", "09", "10", "11", "12", "12-bsdf", "13", "14"}}}};
+            {{{"06", "07", "08", "08-area", "09", "10", "11", "12", "12-bsdf", "13", "14", "15"}}}};
+}
+
+/// A lamp of a tenth of the lens, as far behind the plane of focus as that is from the lens: a
+/// hundredth of the lens sees it, and nothing aims at lamps by way of a lens.
+StabilityCase blurred_lamp() {
+    double seen = 0.01;
+    return {"small lamp out of focus",
+            "Film \"rgb\" \"integer xresolution\" [1] \"integer yresolution\" [1]\n"
+            "LookAt 0 0 0  0 0 1  0 1 0\n"
+            "Camera \"perspective\" \"float fov\" [0.001] \"float lensradius\" [1]\n"
+            "  \"float focaldistance\" [10]\nWorldBegin\n" +
+                lamp + "Rotate 180 0 1 0 Translate 0 0 -20 Shape \"disk\" \"float radius\" [0.1]\n",
+            seen,
+            N,
+            {{{"15"}, {bad_relvar(1 / seen - 1), covers(coverage_of_rare(seen, N))}}},
+            {"06", "07", "08", "09", "10", "11", "12", "13", "14"}};
 }
 
 }  // namespace
@@ -348,5 +364,5 @@ std::vector<StabilityCase> stability_cases() {
             sky_in_metal(0.1),  grey_sphere(),
             red_sphere(),       cut_sphere(),
             glass_cube(),       far_ball(),
-            far_wall()};
+            far_wall(),         blurred_lamp()};
 }
