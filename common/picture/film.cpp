@@ -5,9 +5,8 @@ Film::Channels Film::mean_of(size_t pixel, double spp) const {
     double n = static_cast<double>(std::max<uint64_t>(p.n, 1));
     Channels c = {p.r() / n, p.g() / n, p.b() / n};
     if (splats_.empty()) return c;
-    const ExactSum* splats = &splats_[3 * pixel];
-    return {c.r + splats[0].value() / spp, c.g + splats[1].value() / spp,
-            c.b + splats[2].value() / spp};
+    const PixelSum& splats = splats_[pixel];
+    return {c.r + splats.r() / spp, c.g + splats.g() / spp, c.b + splats.b() / spp};
 }
 
 Film::Channels Film::mean_channels() const {
@@ -79,15 +78,17 @@ struct Film::ErrorPart {
 
 std::array<Film::ErrorPart, 2> Film::error_parts() const {
     std::array<ErrorPart, 2> parts;
-    for (const PixelSum& p : pixels_) {
+    for (size_t i = 0; i < pixels_.size(); i++) {
+        const PixelSum& p = measured()[i];
         if (p.n < 2) continue;
+        ErrorPart& part = parts[pixels_[i].is_edge];
         double v = variance_of_mean(p);
-        parts[p.is_edge].v += v, parts[p.is_edge].v2 += v * v;
+        part.v += v, part.v2 += v * v;
     }
     for (size_t i = 0; i < audits_.size(); i++) {
-        const PixelSum &p = pixels_[audited_[i]], &again = audits_[i];
+        const PixelSum &p = measured()[audited_[i]], &again = audits_[i];
         if (p.n < 2) continue;
-        ErrorPart& part = parts[p.is_edge];
+        ErrorPart& part = parts[pixels_[audited_[i]].is_edge];
         double difference = p.mean() - again.mean();
         double v = (variance_of_mean(p) + variance_of_mean(again)) / 2;
         part.found += difference * difference / 2;
@@ -97,7 +98,6 @@ std::array<Film::ErrorPart, 2> Film::error_parts() const {
 }
 
 double Film::standard_error() const {
-    if (!splats_.empty()) return std::nan("");
     double seen = 0, sum = 0;
     for (const PixelSum& p : pixels_) {
         if (p.n == 1) return std::nan("");
@@ -116,7 +116,7 @@ Film::ErrorBasis Film::error_basis() const {
         if (part.audited > 0)
             of_audits += share * share * part.audited2 / part.audited / part.audited;
     }
-    for (const PixelSum& p : pixels_) basis.squares += p.n < 2 ? 0 : p.m2();
+    for (const PixelSum& p : measured()) basis.squares += p.n < 2 ? 0 : p.m2();
     if (squares > 0) basis.pixels = sum * sum / squares;
     if (of_audits > 0) basis.audits = sum * sum / of_audits;
     return basis;
@@ -124,7 +124,7 @@ Film::ErrorBasis Film::error_basis() const {
 
 double Film::effective_samples() const {
     double sum = 0, squares = 0;
-    for (const PixelSum& p : pixels_) {
+    for (const PixelSum& p : measured()) {
         sum += p.n * p.mean();
         squares += p.sum_of_squares();
     }
@@ -134,6 +134,8 @@ double Film::effective_samples() const {
 void Film::add(const Film& other) {
     for (size_t i = 0; i < pixels_.size(); i++) pixels_[i].add(other.pixels_[i]);
     for (size_t i = 0; i < audits_.size(); i++) audits_[i].add(other.audits_[i]);
+    for (size_t i = 0; i < splats_.size(); i++) splats_[i].add(other.splats_[i]);
+    for (size_t i = 0; i < totals_.size(); i++) totals_[i].add(other.totals_[i]);
 }
 
 uint64_t Film::samples() const {

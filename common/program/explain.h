@@ -5,4 +5,4 @@
 
 /// Prints the path that makes sample options.explain_sample of one pixel, and draws it as an SVG
 /// beside the first picture. Returns the exit code.
-int explain(const Scene& scene, const RenderOptions& options, const Trace& trace);
+int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);

@@ -1,6 +1,7 @@
 #include "common/program/render.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -39,7 +40,7 @@ public:
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
     static constexpr int between_looks = 64;    // samples from one look at the limit to the next
 
-    TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace,
+    TileRenderer(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
                  const Limit& limit, const FilmClock& clock, Rendering& result)
         : scene_(scene),
           options_(options),
@@ -59,6 +60,7 @@ public:
         Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
         bool listen = !options_.paths.empty() || !options_.split.empty();
         PathLog log = listen ? PathLog(options_.paths) : PathLog(), audit_log = log;
+        Splats splats, audit_splats;
         RenderStats stats;
         uint64_t rays_before = rays_traced;
         int taken = 0;
@@ -68,8 +70,8 @@ public:
             bool audited = result_.film.is_audited(pixel);
             for (uint32_t s = result_.film.pixels()[pixel].n; s < count; s++) {
                 if (++taken % between_looks == 0 && limit_.reached()) return false;
-                add_sample({x, y, pixel, first_ + s}, sampler, log, stats);
-                if (audited) audit({x, y, pixel, first_ + s}, sampler, audit_log);
+                add_sample({x, y, pixel, first_ + s}, sampler, splats, log, stats);
+                if (audited) audit({x, y, pixel, first_ + s}, sampler, audit_splats, audit_log);
             }
             return true;
         });
@@ -98,44 +100,64 @@ private:
         uint32_t sample;
     };
 
-    Rgb trace(const Place& at, uint32_t key, Sampler& sampler, PathLog& log) {
+    /// What a sample brings to its own pixel, and what with all its splats.
+    struct Sample {
+        Rgb L, total;
+    };
+    Sample trace(const Place& at, uint32_t key, Sampler& sampler, Splats& splats, PathLog& log) {
         sampler.start(static_cast<uint32_t>(at.pixel) | key, at.sample);
         log.start();
+        splats.clear();
         Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
-        return trace_(scene_, ray, sampler, log);
+        Rgb L = trace_(scene_, ray, splats, sampler, log), total = L;
+        for (const Splat& splat : splats) total += splat.L;
+        return {L, total};
     }
 
-    void add_sample(const Place& at, Sampler& sampler, PathLog& log, RenderStats& stats) {
-        Rgb L = trace(at, 0, sampler, log);
-        if (is_finite(L)) {
-            stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
+    void add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
+                    RenderStats& stats) {
+        auto [L, total] = trace(at, 0, sampler, splats, log);
+        if (is_finite(total)) {
+            stats.largest = std::max(stats.largest, static_cast<double>(average(total)));
         } else {
             stats.add_not_finite(options_.seed, static_cast<int>(at.sample), at.y, at.x);
         }
         result_.film.add(at.pixel, L);
+        if (result_.film.takes_splats()) {
+            result_.film.add_total(at.pixel, total);
+            for (const Splat& splat : splats) {
+                std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
+                result_.film.splat(splat.pixel, splat.L);
+            }
+        }
         if (!options_.split.empty()) split(at.pixel, log);
     }
 
     /// The same sample again, with numbers of another key: no pixel's number has this bit.
-    void audit(const Place& at, Sampler& sampler, PathLog& log) {
+    void audit(const Place& at, Sampler& sampler, Splats& splats, PathLog& log) {
         constexpr uint32_t another_key = 1u << 31;
-        result_.film.audit(at.pixel, trace(at, another_key, sampler, log));
+        result_.film.audit(at.pixel, trace(at, another_key, sampler, splats, log).total);
     }
 
-    void split(size_t pixel, const PathLog& log) {
-        for (const auto& [path_class, L] : log.contributions()) {
+    void split(size_t own_pixel, const PathLog& log) {
+        for (const auto& [path_class, L, pixel] : log.contributions()) {
             // Keep all long paths together: their classes double with every letter.
             bool is_long = path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
-            auto [film, added] = result_.classes.try_emplace(is_long ? "longer" : path_class,
-                                                             scene_.width, scene_.height);
-            film->second.add_part(pixel, L);
+            auto [film, added] =
+                result_.classes.try_emplace(is_long ? "longer" : path_class, scene_.width,
+                                            scene_.height, result_.film.takes_splats());
+            if (pixel == Contribution::own_pixel) {
+                film->second.add_part(own_pixel, L);
+            } else {
+                film->second.splat(pixel, L);
+            }
         }
     }
 
     const Scene& scene_;
     const RenderOptions& options_;
-    const Trace& trace_;
+    const SplatTrace& trace_;
     const Limit& limit_;
     const FilmClock& clock_;
     Rendering& result_;
@@ -143,6 +165,7 @@ private:
     CameraView view_;
     int tiles_x_;
     std::mutex mutex_;
+    std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats meet
 };
 
 uint32_t fewest_samples(const Film& film) {
@@ -151,10 +174,9 @@ uint32_t fewest_samples(const Film& film) {
     return fewest;
 }
 
-}  // namespace
-
-Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace) {
-    Rendering result{Film(scene.width, scene.height), {}, {}};
+Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
+                      const SplatTrace& trace) {
+    Rendering result{std::move(empty), {}, {}};
     if (options.sampler != SamplerType::independent) {
         mark_lamp_edges(scene, options.threads, result.film);
         result.film.start_audit();
@@ -194,8 +216,32 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Tr
     return result;
 }
 
-int render(const Scene& scene, const RenderOptions& options, const Trace& trace) {
-    if (options.explain) return explain(scene, options, trace);
+SplatTrace without_splats(const Trace& trace) {
+    return [&trace](const Scene& scene, Ray ray, Splats&, Sampler& sampler, PathLog& log) {
+        return trace(scene, ray, sampler, log);
+    };
+}
+
+template <class AnyTrace>
+int render_any(const Scene& scene, const RenderOptions& options, const AnyTrace& trace) {
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace));
+}
+
+}  // namespace
+
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace) {
+    return render_into(Film(scene.width, scene.height), scene, options, without_splats(trace));
+}
+Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
+    return render_into(Film(scene.width, scene.height, true), scene, options, trace);
+}
+
+int render(const Scene& scene, const RenderOptions& options, const Trace& trace) {
+    if (options.explain) return explain(scene, options, without_splats(trace));
+    return render_any(scene, options, trace);
+}
+int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
+    if (options.explain) return explain(scene, options, trace);
+    return render_any(scene, options, trace);
 }

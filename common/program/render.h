@@ -28,7 +28,10 @@ struct Rendering {
 /// none where the first pass did not come. The same pixels for any number of threads. Goes on from
 /// options.film, and writes it now and then.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace);
+/// The same into a film that takes splats.
+Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
 
 /// All that a chapter's program does with its scene: renders it, or explains one path of it, and
 /// writes what the options ask for. Returns the exit code.
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace);
+int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
