@@ -32,19 +32,27 @@ inline Pinhole pinhole_of(const Scene& scene) {
     return {view, n, axis, depth, pixels * length(n) / (depth * depth), scene.width, scene.height};
 }
 
-/// How the camera sees light that comes from where `away` points to.
-struct Sight {
-    size_t pixel;
-    float We_cos;  // sr^-1: importance, times the cosine at the pinhole
-};
-
-/// The pixel in which the camera sees a point, `away` from the pinhole; none beyond the picture.
+/// What the camera makes of light that comes from where `away` points to, in sr^-1.
 ///
 ///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos over A: 1
 ///
 /// A patch dA of the film is seen under dw = dA cos^3 / d^2, at distance d in front. A picture
 /// weighs all of its film alike, so a direction weighs dA / dw / A = 1 / (A cos^3) = We cos.
 /// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright as it should be"
+inline float importance_cos(const Pinhole& camera, Vec3 away) {
+    float cos_c = dot(away, camera.axis) / length(away);
+    return 1 / (camera.area * cos_c * cos_c * cos_c);
+}
+
+/// Where the camera sees a point, and what it makes of it.
+struct Sight {
+    size_t pixel;
+    float We_cos;  // sr^-1
+};
+
+/// The pixel in which the camera sees a point, `away` from the pinhole; none beyond the picture.
+///
+/// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
 inline std::optional<Sight> sight_of(const Pinhole& camera, Vec3 away) {
     float depth = dot(away, camera.axis);
     if (!(depth > 0)) return {};
@@ -54,18 +62,17 @@ inline std::optional<Sight> sight_of(const Pinhole& camera, Vec3 away) {
     float y = dot(cross(camera.view.dx, q), camera.n) / n2;
     float width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
     if (!(x >= 0 && y >= 0 && x < width && y < height)) return {};
-    float cos_c = depth / length(away);
     size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width);
-    return Sight{pixel + static_cast<size_t>(x), 1 / (camera.area * cos_c * cos_c * cos_c)};
+    return Sight{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
 }
 
-/// What is prepared for a scene: its lights, by power; the sphere around it; the camera.
-struct Prepared {
+/// Where paths begin: the lights, by power, with the scene's middle; and the camera.
+struct Ends {
     LightTable lights;
     Vec3 centre;
     Pinhole camera;
 };
-inline Prepared prepare(const Scene& scene) {
+inline Ends ends_of(const Scene& scene) {
     Box box = bounds_of(scene.geometry);
     return {build_light_table(light_pmf(scene, 0)), (box.low + box.high) / 2, pinhole_of(scene)};
 }
@@ -93,11 +100,11 @@ inline Vec3 sample_sphere(Vec2 u) {
 ///   sky      the same, from any direction:  pdf = 1 / (pi R^2), 1 / (4 pi)
 ///
 /// tested by  "identity: each light sends out its power"
-inline Emission sample_emission(const Scene& scene, const Prepared& prepared, double u, Vec2 u_y,
+inline Emission sample_emission(const Scene& scene, const Ends& ends, double u, Vec2 u_y,
                                 Vec2 u_d) {
-    size_t i = pick_light(prepared.lights, u);
+    size_t i = pick_light(ends.lights, u);
     const Light& light = scene.lights[i];
-    float pmf = pmf_light(prepared.lights, i), R = scene.radius;
+    float pmf = pmf_light(ends.lights, i), R = scene.radius;
     if (light.type == LightType::point)
         return {light.type, {light.p, {}, 0, 1}, sample_sphere(u_d), pmf, 1 / (4 * pi), light.L};
     if (light.type == LightType::area) {
@@ -113,7 +120,7 @@ inline Emission sample_emission(const Scene& scene, const Prepared& prepared, do
     bool sky = light.type == LightType::infinite;
     Vec3 d = sky ? sample_sphere(u_d) : -light.p;
     Vec3 disk = from_cylindrical(R * std::sqrt(u_y.x), u_y.y, -R);
-    Vec3 p = prepared.centre + Frame(d).to_world(disk);
+    Vec3 p = ends.centre + Frame(d).to_world(disk);
     return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
 }
 
@@ -134,6 +141,14 @@ inline void show_light(const Scene& scene, const Pinhole& camera, const Emission
     splats.push_back({sight->pixel, log.joined(L, 1, 1, 1, sight->pixel)});
 }
 
+/// x as the ray finds it that comes along w: with its normals on that side.
+inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
+    x.n = smooth_normal(scene, x);
+    if (dot(w, x.ng) < 0) x.n = -x.n, x.ng = -x.ng, x.front = !x.front;
+    if (dot(w, x.n) <= 0) x.n = x.ng;  // one that looks away cannot be used
+    return x;
+}
+
 /// f cos, of light that arrives at x from wi and leaves to wo, as a factor of its flux.
 ///
 ///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, if wo sees its front
@@ -142,10 +157,7 @@ inline void show_light(const Scene& scene, const Pinhole& camera, const Emission
 /// and leaves to |wo.ng|: where n is ng, the cosine is that of wo.
 /// source  Veach 1997, sec. 5.3      tested by  "agreement: smoothed normals"
 inline Rgb carry(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
-    if (dot(wo, x.ng) <= 0) return {};
-    Hit seen = x;  // as the ray finds it that comes along wo
-    seen.n = smooth_normal(scene, x);
-    if (dot(seen.n, wo) <= 0) seen.n = x.ng;
+    Hit seen = seen_from(scene, x, wo);
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
 }
 
@@ -188,15 +200,15 @@ inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, f
 /// Unbiased up to scene.max_depth scattering events, but for what it cannot see: where mirror or
 /// glass is all that lies before the pinhole. Var ~ 1 / d^2 of what is near to it.
 /// source  Arvo 1986; Dutre, Willems 1995      tested by  "ch17 light tracing"
-inline void trace_light(const Scene& scene, const Prepared& prepared, Splats& splats,
-                        Sampler& sampler, PathLog& log) {
+inline void trace_light(const Scene& scene, const Ends& ends, Splats& splats, Sampler& sampler,
+                        PathLog& log) {
     // Choose a light, a point on it and a direction; show the light itself.
     if (scene.lights.empty()) return;
     double u = join(sampler.u2());
     Vec2 u_y = sampler.u2();
-    Emission e = sample_emission(scene, prepared, u, u_y, sampler.u2());
+    Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
     log.start_at_light(e.y.p);
-    show_light(scene, prepared.camera, e, splats, log);
+    show_light(scene, ends.camera, e, splats, log);
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w)), beta = {1, 1, 1};
     Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
@@ -206,7 +218,7 @@ inline void trace_light(const Scene& scene, const Prepared& prepared, Splats& sp
         if (!x) return;
         log.vertex(*x);
         Vec3 wi = -ray.d;
-        show(scene, prepared.camera, *x, wi, flux * beta, depth + 1, splats, log);
+        show(scene, ends.camera, *x, wi, flux * beta, depth + 1, splats, log);
         if (depth == scene.max_depth) log.cut();
 
         // Go on, with what does not depend on the light but on the path alone.

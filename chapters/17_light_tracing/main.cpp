@@ -8,6 +8,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "17_light_tracing", "scenes/caustic.pbrt");
         options.search = LightSearch::from_lights;
         Scene scene = load(options);
-        return render(scene, options, trace_light_with<ch17::trace_light>(ch17::prepare(scene)));
+        return render(scene, options, trace_light_with<ch17::trace_light>(ch17::ends_of(scene)));
     });
 }

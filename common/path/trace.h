@@ -24,6 +24,15 @@ Trace trace_with(Own... own) {
     };
 }
 
+/// The same for a chapter whose trace() also adds splats.
+template <auto trace, class... Own>
+SplatTrace splat_trace_with(Own... own) {
+    return [... own = std::move(own)](const Scene& scene, Ray ray, Splats& splats, Sampler& sampler,
+                                      PathLog& log) __attribute__((flatten)) {
+        return trace(scene, own..., ray, splats, sampler, log);
+    };
+}
+
 /// A chapter's trace_light(), which needs no ray.
 template <auto trace_light, class... Own>
 SplatTrace trace_light_with(Own... own) {

@@ -11,7 +11,7 @@ namespace {
 
 Trace by_fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
 SplatTrace by_seventeen(const Scene& scene) {
-    return trace_light_with<ch17::trace_light>(ch17::prepare(scene));
+    return trace_light_with<ch17::trace_light>(ch17::ends_of(scene));
 }
 
 /// A grey floor of side 2 `half` below a pinhole that looks straight down from height 1.
@@ -136,7 +136,7 @@ TEST_SUITE("ch17 light tracing") {
             "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
             "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
             square(0, false));
-        ch17::Prepared prepared = ch17::prepare(scene);
+        ch17::Ends ends = ch17::ends_of(scene);
         Sampler random = random_numbers(1);
         double share = 0, backs = 0, n = 0, all = 0;
         for (size_t i = 0; i < scene.lights.size(); i++) {
@@ -144,9 +144,9 @@ TEST_SUITE("ch17 light tracing") {
         }
         for (int k = 0; k < 20000; k++) {
             double u = join(random.u2());
-            size_t i = pick_light(prepared.lights, u);
+            size_t i = pick_light(ends.lights, u);
             Vec2 u_y = random.u2();
-            ch17::Emission e = ch17::sample_emission(scene, prepared, u, u_y, random.u2());
+            ch17::Emission e = ch17::sample_emission(scene, ends, u, u_y, random.u2());
             REQUIRE(length(e.d) == doctest::Approx(1).epsilon(1e-5).scale(0));
             bool point = e.type == LightType::point;
             float cos_y = point ? 1 : dot(e.d, e.y.n);
@@ -164,13 +164,13 @@ TEST_SUITE("ch17 light tracing") {
 
     TEST_CASE("density: rays of the sky and the sun fill the disk of the scene evenly") {
         Scene scene = world_of("Translate 5 6 7 " + square(0, true) + "LightSource \"infinite\"");
-        ch17::Prepared prepared = ch17::prepare(scene);
+        ch17::Ends ends = ch17::ends_of(scene);
         Sampler random = random_numbers(1);
         std::vector<double> rings(10), octants(8);
         for (int i = 0; i < 100000; i++) {
             Vec2 u_y = random.u2();
-            ch17::Emission e = ch17::sample_emission(scene, prepared, 0.5, u_y, random.u2());
-            Vec3 to = prepared.centre - e.y.p;
+            ch17::Emission e = ch17::sample_emission(scene, ends, 0.5, u_y, random.u2());
+            Vec3 to = ends.centre - e.y.p;
             float r2 = (dot(to, to) - dot(to, e.d) * dot(to, e.d)) / scene.radius / scene.radius;
             rings[std::min<size_t>(9, static_cast<size_t>(10 * r2))]++;
             octants[static_cast<size_t>((e.d.x > 0) + 2 * (e.d.y > 0) + 4 * (e.d.z > 0))]++;

@@ -56,6 +56,10 @@ const std::vector<Promoted> promoted = {
      "common/path/many_lights.h",
      {"mis_weight", "pdf_any", "pdf_best", "direct_light", "lobe_share", "resample_lights",
       "best_light", "mis_emission"}},
+    {"17",
+     "common/path/light_paths.h",
+     {"Pinhole", "pinhole_of", "importance_cos", "Sight", "sight_of", "Ends", "ends_of", "Emission",
+      "sample_sphere", "sample_emission", "seen_from", "carry", "sample_light_bsdf"}},
 };
 
 /// The name that a definition gives which starts with this line.

@@ -11,7 +11,7 @@ static void refuse_seen_mirrors(const Scene& scene) {
 
 static Rendering by_light(const Scene& scene, RenderOptions options) {
     options.search = LightSearch::from_lights;
-    return render_film(scene, options, trace_light_with<ch17::trace_light>(ch17::prepare(scene)));
+    return render_film(scene, options, trace_light_with<ch17::trace_light>(ch17::ends_of(scene)));
 }
 
 [[maybe_unused]] static const bool added = add_method({.name = "17",

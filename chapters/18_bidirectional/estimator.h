@@ -1,0 +1,319 @@
+// Chapter 18: bidirectional path tracing. One path from the eye, one from a light, and all ways to
+// join them, each with its weight:
+//
+//   strategy (s, t): s vertices from the light, t from the eye;   mis_s = p_s / sum over i of p_i
+#pragma once
+#include "common/path/light_paths.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+#include "common/path/splats.h"
+
+namespace ch18 {
+
+using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
+
+/// A vertex of a path, from the eye or from a light.
+struct Vertex {
+    Hit x;
+    Vec3 back;          // unit, to the vertex before
+    Rgb beta;           // what the path carries to x: throughput, or flux
+    float pdf = 1;      // m^-2: the density of x
+    float to_area = 0;  // cos / d^2 at the vertex before: makes m^-2 there of sr^-1 here
+    float before = 0;   // see mis_sum()
+    bool specular = false;
+};
+
+/// What is prepared for a scene, and the one strategy that counts (s < 0: all).
+struct Prepared {
+    Ends ends;
+    int s = -1, t = -1;
+};
+inline Prepared prepare(const Scene& scene, int s = -1, int t = -1) {
+    return {ends_of(scene), s, t};
+}
+
+/// The density, in sr^-1, with which a path from the eye, or from the light, goes on at x from
+/// `from` to `to`. Mirrors and glass: 1 for both, as they have the same chances in both directions.
+inline float pdf_eye(const Scene& scene, const Hit& x, Vec3 from, Vec3 to) {
+    if (is_specular(*x.material)) return 1;
+    return pdf_bsdf(seen_from(scene, x, from), from, to);
+}
+inline float pdf_light(const Scene& scene, const Hit& x, Vec3 from, Vec3 to) {
+    if (is_specular(*x.material)) return 1;
+    Hit y = seen_from(scene, x, from);
+    if (x.material->type == MaterialType::diffuse) y.n = y.ng;
+    return pdf_bsdf(y, from, to);
+}
+
+/// Sum of p_i / p_s over the strategies in which this side has fewer vertices, down to none.
+///
+///   v_j, v_j-1, ...: vertices of this side, the last one first; r = pdf from the other side / pdf
+///   sum = r_j (can_j + r_j-1 (can_j-1 + r_j-2 ( ... ))),  can: whether its ends can be joined
+///   there
+///
+/// Each r moves one vertex to the other side. Only r_j and r_j-1 depend on the vertex that is
+/// joined; the bracket behind them is v_j.before, worked out once, as the path went on.
+/// source  Veach 1997, sec. 10.2; van Antwerpen 2011      tested by  "identity: weights of all
+/// strategies sum to 1, and are those of the densities of whole paths"
+inline float mis_sum(const Vertex& v, const Vertex& before, bool can, float pdf, float pdf_before) {
+    return pdf / v.pdf * ((can ? 1.0f : 0.0f) + pdf_before / before.pdf * v.before);
+}
+
+/// The vertex x that the path comes to from v along wi, drawn with pdf_w there; `back_w`: with
+/// which density a path of the other side would go on from x by way of v to `before`.
+inline Vertex next_vertex(const Vertex& before, const Vertex& v, const Hit& x, Vec3 wi, float pdf_w,
+                          float back_w, Rgb beta) {
+    float d2 = length_squared(x.p - v.x.p), cos_v = std::abs(dot(wi, v.x.ng));
+    float can = before.specular || v.specular ? 0 : 1;
+    return {x,
+            -wi,
+            beta,
+            pdf_w * std::abs(dot(wi, x.ng)) / d2,
+            cos_v / d2,
+            can + back_w * v.to_area / before.pdf * v.before,
+            is_specular(*x.material)};
+}
+
+/// What a light that was drawn gives to x.
+struct LightEnd {
+    Vec3 wi;           // unit, from x to the light
+    float dist;        // m
+    Rgb Li;            // W m^-2 sr^-1: without f, cosine and visibility, over the density
+    float pdf, pdf_w;  // of the light's point; of the direction to x, times what makes it area
+    float to_area;     // makes the density of the light's point of one at x
+};
+inline bool is_far(LightType type) {
+    return type == LightType::distant || type == LightType::infinite;
+}
+inline bool can_be_met(LightType type) {
+    return type == LightType::area || type == LightType::infinite;
+}
+inline LightEnd light_end(const Emission& e, const Hit& x) {
+    bool far = is_far(e.type);
+    Vec3 to_y = e.y.p - x.p;
+    float d2 = far ? 1 : dot(to_y, to_y), d = std::sqrt(d2);
+    Vec3 wi = far ? -e.d : to_y / d;
+    float cos_y = e.type == LightType::area ? std::max(0.0f, -dot(wi, e.y.n)) : 1;
+    float cos_x = std::abs(dot(wi, x.ng)), pdf = e.pmf * (far ? e.pdf_w : e.y.pdf);
+    float pdf_w = far ? e.y.pdf : e.type == LightType::area ? cos_y / pi : e.pdf_w;
+    float dist = far ? infinity : d - (cos_y > 0 ? (x.eps + e.y.eps) / cos_y : 0);
+    return {wi,
+            dist,
+            e.Le * (cos_y / (pdf * d2)),
+            pdf,
+            pdf_w * cos_x / d2,
+            can_be_met(e.type) ? cos_y / d2 : 0};
+}
+
+/// One path from a light, vertex by vertex; the first is the point on the light.
+inline void walk_from_light(const Scene& scene, const Prepared& prepared, Sampler& sampler,
+                            std::vector<Vertex>& path, PathLog& log) {
+    path.clear();
+    if (scene.lights.empty()) return;
+    double u = ::join(sampler.u2());
+    Vec2 u_y = sampler.u2();
+    Emission e = sample_emission(scene, prepared.ends, u, u_y, sampler.u2());
+    log.start_at_light(e.y.p);
+    float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
+    Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w)), beta = {1, 1, 1};
+    Vertex light;
+    light.x.p = e.y.p, light.x.ng = e.y.n;
+    light.pdf = e.pmf * (is_far(e.type) ? e.pdf_w : e.y.pdf);
+    path.push_back(light);
+    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
+    float pdf_w = e.pdf_w, back_w = 0;
+    for (int depth = 1; depth <= scene.max_depth; depth++) {
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return;
+        log.vertex(*x);
+        const Vertex& v = path.back();
+        const Vertex& before = path[path.size() - (path.size() > 1 ? 2 : 1)];
+        Vertex next = next_vertex(before, v, *x, ray.d, pdf_w, back_w, flux * beta);
+        if (depth == 1) {  // as the light is no surface
+            LightEnd end = light_end(e, *x);
+            next.pdf = end.pdf_w;
+            next.to_area = end.to_area;
+            next.before = can_be_met(e.type) ? 1 : 0;
+        }
+        path.push_back(next);
+        if (depth == scene.max_depth) return;
+
+        // Go on as in chapter 17.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_light_bsdf(scene, *x, next.back, u1, sampler.u2());
+        float u_q = sampler.u1();
+        if (s.pdf_w == 0) return;
+        beta *= s.f / s.pdf_w;
+        if (is_black(beta)) return;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        float q = survival_probability(beta, depth - 1);
+        if (u_q >= q) return;
+        beta /= q;
+        log.roulette(q, beta);
+        pdf_w = s.specular ? 1 : s.pdf_w, back_w = pdf_eye(scene, *x, s.wi, next.back);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+/// Whether strategy (s, t) counts; its weight, from the sums of both sides.
+inline bool counts(const Prepared& p, int s, int t) { return p.s < 0 || (p.s == s && p.t == t); }
+inline float mis_weight(const Prepared& p, float light_sum, float eye_sum) {
+    return p.s < 0 ? 1 / (1 + light_sum + eye_sum) : 1;
+}
+
+/// t = 1: shows each vertex of the light's path to the camera. The lamp itself is left to s = 0.
+inline void show(const Scene& scene, const Prepared& prepared, const std::vector<Vertex>& path,
+                 Splats& splats, PathLog& log) {
+    const Pinhole& camera = prepared.ends.camera;
+    for (size_t i = 1; i < path.size(); i++) {
+        const Vertex& y = path[i];
+        Vec3 away = y.x.p - camera.view.o;
+        std::optional<Sight> sight = sight_of(camera, away);
+        int s = static_cast<int>(i) + 1;
+        if (!sight || y.specular || !counts(prepared, s, 1)) continue;
+        float d2 = dot(away, away), d = std::sqrt(d2);
+        Vec3 wo = -1 / d * away;
+        float pdf = sight->We_cos * std::abs(dot(wo, y.x.ng)) / d2;
+        float back = pdf_eye(scene, y.x, wo, y.back) * y.to_area;
+        float mis =
+            mis_weight(prepared, mis_sum(y, path[i - 1], !path[i - 1].specular, pdf, back), 0);
+        Rgb L = y.beta * carry(scene, y.x, y.back, wo) * (mis * sight->We_cos / d2);
+        if (is_black(L) || occluded(scene, spawn_ray(y.x, wo, d))) continue;
+        splats.push_back({sight->pixel, log.joined(L, s, 1, mis, sight->pixel)});
+    }
+}
+
+/// s = 1: a point of a light, drawn anew.
+inline Rgb join_light(const Scene& scene, const Prepared& prepared, const Vertex& before,
+                      const Vertex& z, const Emission& e, int t, PathLog& log) {
+    LightEnd y = light_end(e, z.x);
+    Rgb f = eval_bsdf(z.x, z.back, y.wi) * std::abs(dot(y.wi, z.x.n));
+    if (is_black(f * y.Li)) return {};
+    float light_sum = pdf_eye(scene, z.x, z.back, y.wi) * y.to_area / y.pdf;
+    float back = pdf_light(scene, z.x, y.wi, z.back) * z.to_area;
+    float mis =
+        mis_weight(prepared, light_sum, mis_sum(z, before, !before.specular, y.pdf_w, back));
+    Rgb L = z.beta * f * y.Li * mis;
+    if (occluded(scene, spawn_ray(z.x, y.wi, y.dist))) return {};
+    return log.joined(L, 1, t, mis);
+}
+
+/// s > 1: joins vertex y of the light's path with z of the eye's.
+///
+///   L = beta_z f_z cos_z  V / d^2  carry_y beta_y
+inline Rgb join(const Scene& scene, const Prepared& prepared, const Vertex& y_before,
+                const Vertex& y, const Vertex& before, const Vertex& z, int s, int t,
+                PathLog& log) {
+    Vec3 to_z = z.x.p - y.x.p;
+    float d2 = dot(to_z, to_z), d = std::sqrt(d2);
+    if (!(d2 > 0)) return {};
+    Vec3 w = to_z / d;
+    Rgb f = eval_bsdf(z.x, z.back, -w) * std::abs(dot(w, z.x.n));
+    if (is_black(f)) return {};
+    Rgb L = z.beta * f * y.beta * carry(scene, y.x, y.back, w) / d2;
+    if (is_black(L)) return {};
+    float pdf_y = pdf_eye(scene, z.x, z.back, -w) * std::abs(dot(w, y.x.ng)) / d2;
+    float pdf_z = pdf_light(scene, y.x, y.back, w) * std::abs(dot(w, z.x.ng)) / d2;
+    float y_back = pdf_eye(scene, y.x, w, y.back) * y.to_area;
+    float z_back = pdf_light(scene, z.x, -w, z.back) * z.to_area;
+    float mis = mis_weight(prepared, mis_sum(y, y_before, !y_before.specular, pdf_y, y_back),
+                           mis_sum(z, before, !before.specular, pdf_z, z_back));
+    if (occluded(scene, spawn_ray(z.x, -w, d - (z.x.eps + y.x.eps) / std::abs(dot(w, y.x.ng))))) return {};
+    return log.joined(L * mis, s, t, mis);
+}
+
+/// s = 0: the weight of light that the path from the eye has met in z, or in the sky beyond.
+inline float mis_emission(const Scene& scene, const Prepared& prepared, const Vertex& before,
+                          const Vertex& z, int t, size_t light, bool sky) {
+    bool two = scene.lights[light].two_sided;
+    float pmf = pmf_light(prepared.ends.lights, light), R = scene.radius;
+    float pdf = sky ? pmf / (4 * pi) : pmf * pdf_area(scene, light) / (two ? 2 : 1);
+    float pdf_w = sky ? 1 / (pi * R * R) : std::abs(dot(z.back, z.x.ng)) / pi;
+    bool can = t > 2 && !before.specular;
+    return mis_weight(prepared, 0, mis_sum(z, before, can, pdf, pdf_w * z.to_area));
+}
+
+/// Estimates Li along the ray from one path, and adds to the splats what light shows to other
+/// pixels.
+///
+///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
+///
+/// Unbiased up to scene.max_depth scattering events.
+/// source  Lafortune, Willems 1993; Veach, Guibas 1994      tested by  "ch18 bidirectional"
+inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& splats,
+                 Sampler& sampler, PathLog& log) {
+    // Walk from a light, with numbers that have their own dimensions, and show it to the camera.
+    static thread_local std::vector<Vertex> path;
+    sampler.jump(1 << 12);
+    walk_from_light(scene, prepared, sampler, path, log);
+    show(scene, prepared, path, splats, log);
+
+    // Walk from the eye.
+    sampler.jump(8);
+    log.start_at_eye();
+    Rgb L, beta = {1, 1, 1};
+    Vertex before, z;
+    z.x.p = ray.o, z.x.ng = ray.d;
+    float pdf_w = importance_cos(prepared.ends.camera, ray.d), back_w = 0;
+    for (int t = 2;; t++) {
+        std::optional<Hit> x = intersect(scene, ray);
+        if (x) log.vertex(*x);
+
+        // s = 0: what shines there.
+        Rgb Le = x ? emission(scene, *x) : scene.sky;
+        Vertex next;
+        if (x) {
+            next = next_vertex(before, z, *x, ray.d, pdf_w, back_w, beta);
+        } else {
+            next.pdf = pdf_w, next.to_area = std::abs(dot(ray.d, z.x.ng));
+            next.before = (before.specular || z.specular ? 0.0f : 1.0f) +
+                          back_w * z.to_area / before.pdf * z.before;
+        }
+        if (t == 2) next.before = next.to_area = 0;
+        before = z, z = next;
+        if (!is_black(Le) && counts(prepared, 0, t)) {
+            size_t light = static_cast<size_t>(x ? x->light : scene.sky_light);
+            float mis = mis_emission(scene, prepared, before, z, t, light, !x);
+            L += log.emitted(beta * Le * mis, mis);
+        }
+        if (!x) return L;
+        if (t - 2 == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // s = 1: aim at a light. s > 1: join all of the light's path.
+        double u = ::join(sampler.u2());
+        Vec2 u_y = sampler.u2(), u_d = sampler.u2();
+        if (!z.specular && !scene.lights.empty()) {
+            if (counts(prepared, 1, t)) {
+                Emission e = sample_emission(scene, prepared.ends, u, u_y, u_d);
+                L += join_light(scene, prepared, before, z, e, t, log);
+            }
+            size_t last = std::min(path.size(), static_cast<size_t>(scene.max_depth - t + 2));
+            for (size_t i = 1; i < last; i++) {
+                int s = static_cast<int>(i) + 1;
+                if (path[i].specular || !counts(prepared, s, t)) continue;
+                L += join(scene, prepared, path[i - 1], path[i], before, z, s, t, log);
+            }
+        }
+
+        // Go on.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, z.back, u1, sampler.u2());
+        float u_q = sampler.u1();
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        float q = survival_probability(beta, t - 2);
+        if (u_q >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        pdf_w = s.specular ? 1 : s.pdf_w, back_w = pdf_light(scene, *x, s.wi, z.back);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch18
