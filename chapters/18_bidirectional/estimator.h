@@ -199,10 +199,10 @@ inline Rgb join_light(const Scene& scene, const Prepared& prepared, const Vertex
     return log.joined(L, 1, t, mis);
 }
 
-/// s > 1: joins vertex y of the light's path with z of the eye's.
+/// s > 1: joins vertex y of the light's path with z of the eye's; `share`: the chance of this y.
 ///
-///   L = beta_z f_z cos_z  V / d^2  carry_y beta_y
-inline Rgb join(const Scene& scene, const Prepared& prepared, const Vertex& y_before,
+///   L = beta_z f_z cos_z  V / d^2  carry_y beta_y / share
+inline Rgb join(const Scene& scene, const Prepared& prepared, float share, const Vertex& y_before,
                 const Vertex& y, const Vertex& before, const Vertex& z, int s, int t,
                 PathLog& log) {
     Vec3 to_z = z.x.p - y.x.p;
@@ -211,7 +211,7 @@ inline Rgb join(const Scene& scene, const Prepared& prepared, const Vertex& y_be
     Vec3 w = to_z / d;
     Rgb f = eval_bsdf(z.x, z.back, -w) * std::abs(dot(w, z.x.n));
     if (is_black(f)) return {};
-    Rgb L = z.beta * f * y.beta * carry(scene, y.x, y.back, w) / d2;
+    Rgb L = z.beta * f * y.beta * carry(scene, y.x, y.back, w) / (d2 * share);
     if (is_black(L)) return {};
     float pdf_y = pdf_eye(scene, z.x, z.back, -w) * std::abs(dot(w, y.x.ng)) / d2;
     float pdf_z = pdf_light(scene, y.x, y.back, w) * std::abs(dot(w, z.x.ng)) / d2;
@@ -219,7 +219,8 @@ inline Rgb join(const Scene& scene, const Prepared& prepared, const Vertex& y_be
     float z_back = pdf_light(scene, z.x, -w, z.back) * z.to_area;
     float mis = mis_weight(prepared, mis_sum(y, y_before, !y_before.specular, pdf_y, y_back),
                            mis_sum(z, before, !before.specular, pdf_z, z_back));
-    if (occluded(scene, spawn_ray(z.x, -w, d - (z.x.eps + y.x.eps) / std::abs(dot(w, y.x.ng))))) return {};
+    if (occluded(scene, spawn_ray(z.x, -w, d - (z.x.eps + y.x.eps) / std::abs(dot(w, y.x.ng)))))
+        return {};
     return log.joined(L * mis, s, t, mis);
 }
 
@@ -232,6 +233,42 @@ inline float mis_emission(const Scene& scene, const Prepared& prepared, const Ve
     float pdf_w = sky ? 1 / (pi * R * R) : std::abs(dot(z.back, z.x.ng)) / pi;
     bool can = t > 2 && !before.specular;
     return mis_weight(prepared, 0, mis_sum(z, before, can, pdf, pdf_w * z.to_area));
+}
+
+/// What mirrors and glass alone bring from lights to z, where mirrors and glass alone show it to
+/// the eye: LS+DS+E, of which no join is possible but s = 0, by chance. So it is given more
+/// chances.
+inline Rgb through_mirrors(const Scene& scene, const Prepared& prepared, const Vertex& z, int t,
+                           Sampler& sampler, PathLog& log) {
+    constexpr int chances = 8;
+    sampler.jump(1 << 13);
+    Rgb L;
+    for (int i = 0; i < chances; i++) {
+        Hit x = z.x;
+        Vec3 wo = z.back;
+        Rgb beta = {1, 1, 1};
+        int left = 0;  // z and the mirrors behind it
+        while (t + left <= scene.max_depth + 1) {
+            float u1 = sampler.u1();
+            BsdfSample s = sample_bsdf(x, wo, u1, sampler.u2());
+            float u_q = sampler.u1();
+            beta *= s.f * (s.pdf_w > 0 ? std::abs(dot(s.wi, x.n)) / s.pdf_w : 0);
+            float q = left == 0 ? 1 : survival_probability(beta, t + left - 2);
+            if (is_black(beta) || u_q >= q) break;
+            beta /= q;
+            left++;
+            log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+            std::optional<Hit> y = intersect(scene, spawn_ray(x, s.wi));
+            Rgb Le = y ? emission(scene, *y) : scene.sky;
+            if (left > 1 && counts(prepared, 0, t + left)) {
+                L += log.emitted(z.beta * beta * Le / chances);
+            }
+            if (!y || !is_specular(*y->material)) break;
+            x = *y, wo = -s.wi;
+        }
+        for (; left > 0; left--) log.step_back();
+    }
+    return L;
 }
 
 /// Estimates Li along the ray from one path, and adds to the splats what light shows to other
@@ -256,6 +293,8 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& 
     Vertex before, z;
     z.x.p = ray.o, z.x.ng = ray.d;
     float pdf_w = importance_cos(prepared.ends.camera, ray.d), back_w = 0;
+    bool only_mirrors = true;  // so far
+    bool split = false;        // the last vertex that is no mirror is the first one
     for (int t = 2;; t++) {
         std::optional<Hit> x = intersect(scene, ray);
         if (x) log.vertex(*x);
@@ -272,7 +311,7 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& 
         }
         if (t == 2) next.before = next.to_area = 0;
         before = z, z = next;
-        if (!is_black(Le) && counts(prepared, 0, t)) {
+        if (!is_black(Le) && !(split && before.specular) && counts(prepared, 0, t)) {
             size_t light = static_cast<size_t>(x ? x->light : scene.sky_light);
             float mis = mis_emission(scene, prepared, before, z, t, light, !x);
             L += log.emitted(beta * Le * mis, mis);
@@ -283,20 +322,28 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& 
             return L;
         }
 
-        // s = 1: aim at a light. s > 1: join all of the light's path.
+        // s = 1: aim at a light. s > 1: join one vertex of the light's path, any of them.
+        sampler.jump(8 * static_cast<uint32_t>(t));
         double u = ::join(sampler.u2());
         Vec2 u_y = sampler.u2(), u_d = sampler.u2();
+        float u_s = sampler.u1();
         if (!z.specular && !scene.lights.empty()) {
             if (counts(prepared, 1, t)) {
                 Emission e = sample_emission(scene, prepared.ends, u, u_y, u_d);
                 L += join_light(scene, prepared, before, z, e, t, log);
             }
             size_t last = std::min(path.size(), static_cast<size_t>(scene.max_depth - t + 2));
-            for (size_t i = 1; i < last; i++) {
-                int s = static_cast<int>(i) + 1;
-                if (path[i].specular || !counts(prepared, s, t)) continue;
-                L += join(scene, prepared, path[i - 1], path[i], before, z, s, t, log);
+            float n = static_cast<float>(last) - 1;
+            size_t i = 1 + static_cast<size_t>(u_s * n);
+            int s = static_cast<int>(i) + 1;
+            if (n >= 1 && !path[i].specular && counts(prepared, s, t)) {
+                L += join(scene, prepared, 1 / n, path[i - 1], path[i], before, z, s, t, log);
             }
+        }
+        if (!z.specular) {
+            split = only_mirrors && t > 2;
+            only_mirrors = false;
+            if (split) L += through_mirrors(scene, prepared, z, t, sampler, log);
         }
 
         // Go on.

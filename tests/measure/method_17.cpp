@@ -1,4 +1,5 @@
 #include "chapters/17_light_tracing/estimator.h"
+#include "common/base/error.h"
 #include "tests/measure/methods.h"
 
 /// What mirrors and glass show the camera is missing.
