@@ -240,7 +240,7 @@ inline float mis_emission(const Scene& scene, const Prepared& prepared, const Ve
 /// chances.
 inline Rgb through_mirrors(const Scene& scene, const Prepared& prepared, const Vertex& z, int t,
                            Sampler& sampler, PathLog& log) {
-    constexpr int chances = 8;
+    constexpr int chances = 16;
     sampler.jump(1 << 13);
     Rgb L;
     for (int i = 0; i < chances; i++) {
