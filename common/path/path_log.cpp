@@ -38,17 +38,37 @@ PathLog::PathLog(const std::string& class_filter, bool keep_steps)
 
 void PathLog::forget() {
     scattered_.clear();
+    from_light_.clear();
+    at_light_ = false;
     steps_.clear();
     vertices_.clear();
     latest_.clear();
     contributions_.clear();
 }
 
+void PathLog::note_start_at_light(Vec3 p) {
+    from_light_.clear();
+    at_light_ = true;
+    vertices_.push_back({p, -2});
+    if (keep_steps_) {
+        steps_ += format("vertex %zu  a light at ", vertices_.size()) + to_text(p) + "\n";
+    }
+}
+
+void PathLog::note_start_at_eye() {
+    at_light_ = false;
+    if (keep_steps_) steps_ += "from the eye:\n";
+}
+
 void PathLog::note_vertex(const Hit& x) {
-    size_t depth = scattered_.size();
-    latest_.resize(depth + 1);
-    latest_[depth] = static_cast<int>(vertices_.size());
-    vertices_.push_back({x.p, depth > 0 ? latest_[depth - 1] : -1});
+    if (at_light_) {
+        vertices_.push_back({x.p, static_cast<int>(vertices_.size()) - 1});
+    } else {
+        size_t depth = scattered_.size();
+        latest_.resize(depth + 1);
+        latest_[depth] = static_cast<int>(vertices_.size());
+        vertices_.push_back({x.p, depth > 0 ? latest_[depth - 1] : -1});
+    }
     if (!keep_steps_) return;
     steps_ += format("vertex %zu  %s at ", vertices_.size(), name(x.material->type)) +
               to_text(x.p) + ", n " + to_text(x.n) +
@@ -56,7 +76,8 @@ void PathLog::note_vertex(const Hit& x) {
 }
 
 void PathLog::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta) {
-    scattered_.insert(scattered_.begin(), specular ? 'S' : 'D');
+    std::string& scattered = at_light_ ? from_light_ : scattered_;
+    scattered.insert(at_light_ ? scattered.end() : scattered.begin(), specular ? 'S' : 'D');
     if (!keep_steps_) return;
     steps_ +=
         "    goes on along wi " + to_text(wi) + ": f " + to_text(f) +
@@ -97,9 +118,27 @@ Rgb PathLog::note_direct(Rgb contribution, Vec3 wi, float pdf_l, float pdf_b, fl
     return keep(path_class, contribution);
 }
 
-Rgb PathLog::keep(const std::string& path_class, Rgb contribution) {
+Rgb PathLog::note_joined(Rgb contribution, int s, int t, float mis, size_t pixel) {
+    if (is_black(contribution)) return contribution;
+    // A vertex where both ends are joined scatters light in many directions: D.
+    size_t before = static_cast<size_t>(std::max(s - 2, 0));
+    size_t after = static_cast<size_t>(std::max(t - 2, 0));
+    std::string path_class = "L";
+    path_class += from_light_.substr(0, before);
+    path_class.append(static_cast<size_t>(s > 1) + static_cast<size_t>(t > 1), 'D');
+    path_class += scattered_.substr(scattered_.size() - after) + "E";
+    if (keep_steps_) {
+        steps_ += format("    %d vertices from the light and %d from the eye: ", s, t) +
+                  (pixel == Contribution::own_pixel ? "" : format("pixel number %zu, ", pixel)) +
+                  "adds " + to_text(contribution) + format(", mis %.6g, class ", double{mis}) +
+                  path_class + "\n";
+    }
+    return keep(path_class, contribution, pixel);
+}
+
+Rgb PathLog::keep(const std::string& path_class, Rgb contribution, size_t pixel) {
     if (!counts(path_class)) return {};
-    contributions_.push_back({path_class, contribution});
+    contributions_.push_back({path_class, contribution, pixel});
     return contribution;
 }
 

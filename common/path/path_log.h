@@ -10,11 +10,14 @@
 /// Part of a path's estimate: its class in Heckbert's notation, from light to eye, and how much.
 /// S: a vertex with one possible direction (mirror, glass); D: any other.
 struct Contribution {
+    static constexpr size_t own_pixel = SIZE_MAX;
+
     std::string path_class;  // such as "LDSE"
     Rgb L;
+    size_t pixel = own_pixel;  // that a path from a light has met
 };
 
-/// Where the path went, and the vertex that it came from (-1: the eye).
+/// Where the path went, and the vertex that it came from (-1: the eye, -2: it is a light).
 struct PathVertex {
     Vec3 p;
     int from;
@@ -34,6 +37,14 @@ public:
     /// Forgets the path before.
     void start() {
         if (listening_) forget();
+    }
+    /// From here on the path is another one that begins at p, a point of a light.
+    void start_at_light(Vec3 p) {
+        if (listening_) note_start_at_light(p);
+    }
+    /// From here on it is one that begins at the eye, as after start().
+    void start_at_eye() {
+        if (listening_) note_start_at_eye();
     }
     /// The path met x.
     void vertex(const Hit& x) {
@@ -64,6 +75,13 @@ public:
         return listening_ ? note_direct(contribution, wi, pdf_l, pdf_b, mis_l) : contribution;
     }
 
+    /// The first s vertices from the light joined with the first t from the eye, of which the light
+    /// and the eye are one each: returns what of it counts. t = 1: in the pixel that the eye sees.
+    Rgb joined(Rgb contribution, int s, int t, float mis = 1,
+               size_t pixel = Contribution::own_pixel) {
+        return listening_ ? note_joined(contribution, s, t, mis, pixel) : contribution;
+    }
+
     bool listening() const { return listening_; }
     const std::vector<Contribution>& contributions() const { return contributions_; }
     const std::vector<PathVertex>& vertices() const { return vertices_; }
@@ -72,18 +90,24 @@ public:
 
 private:
     void forget();
+    void note_start_at_light(Vec3);
+    void note_start_at_eye();
     void note_vertex(const Hit&);
     void note_scatter(Vec3, Rgb, float, bool, Rgb);
     void note_roulette(float, Rgb);
     void note_step_back();
     Rgb note_emitted(Rgb, float);
     Rgb note_direct(Rgb, Vec3, float, float, float);
-    Rgb keep(const std::string& path_class, Rgb contribution);
+    Rgb note_joined(Rgb, int, int, float, size_t);
+    Rgb keep(const std::string& path_class, Rgb contribution,
+             size_t pixel = Contribution::own_pixel);
     bool counts(const std::string& path_class);
 
     bool listening_ = false, keep_steps_ = false;
     uint64_t paths_cut_ = 0;
-    std::string scattered_;  // D and S of the vertices left so far, the first one last
+    std::string scattered_;   // D and S of the vertices left so far, the first one last
+    std::string from_light_;  // of those of the path from the light, the first one first
+    bool at_light_ = false;   // that is the one that goes on
     std::string steps_;
     std::vector<PathVertex> vertices_;
     std::vector<int> latest_;  // vertex for each number of scatterings before it

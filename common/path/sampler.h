@@ -124,6 +124,10 @@ public:
         state_ = hash64(key_ + sample);
     }
 
+    /// Goes on with the numbers of this dimension, a multiple of 8: what was drawn before has no
+    /// say in which ones come next.
+    void jump(uint32_t dimension) { dimension_ = dimension; }
+
     float u1() {
         if (type_ == SamplerType::independent) return to_unit_float(random_bits());
         return u2().x;

@@ -10,9 +10,8 @@ Film::Channels Film::mean_of(size_t pixel, double spp) const {
         c = {(c.r + b.r() / m) / 2, (c.g + b.g() / m) / 2, (c.b + b.b() / m) / 2};
     }
     if (splats_.empty()) return c;
-    const ExactSum* splats = &splats_[3 * pixel];
-    return {c.r + splats[0].value() / spp, c.g + splats[1].value() / spp,
-            c.b + splats[2].value() / spp};
+    const PixelSum& splats = splats_[pixel];
+    return {c.r + splats.r() / spp, c.g + splats.g() / spp, c.b + splats.b() / spp};
 }
 
 Film::Channels Film::mean_channels() const {
@@ -99,15 +98,16 @@ struct Film::ErrorPart {
 std::array<Film::ErrorPart, 2> Film::error_parts() const {
     std::array<ErrorPart, 2> parts;
     for (size_t i = 0; i < pixels_.size(); i++) {
-        const PixelSum& p = pixels_[i];
+        const PixelSum& p = measured()[i];
         double v = p.n < 2 ? 0 : variance_of_mean(p);
         if (has_halves_ && audits_[i].n >= 2) v = (v + variance_of_mean(audits_[i])) / 4;
-        parts[p.is_edge].v += v, parts[p.is_edge].v2 += v * v;
+        ErrorPart& part = parts[pixels_[i].is_edge];
+        part.v += v, part.v2 += v * v;
     }
     for (size_t i = 0; i < audited_.size(); i++) {
-        const PixelSum &p = pixels_[audited_[i]], &again = audits_[i];
+        const PixelSum &p = measured()[audited_[i]], &again = audits_[i];
         if (p.n < 2) continue;
-        ErrorPart& part = parts[p.is_edge];
+        ErrorPart& part = parts[pixels_[audited_[i]].is_edge];
         double difference = p.mean() - again.mean();
         double v = (variance_of_mean(p) + variance_of_mean(again)) / 2;
         part.found += difference * difference / 2;
@@ -117,7 +117,6 @@ std::array<Film::ErrorPart, 2> Film::error_parts() const {
 }
 
 double Film::standard_error() const {
-    if (!splats_.empty()) return std::nan("");
     double seen = 0, sum = 0;
     for (size_t i = 0; i < pixels_.size(); i++) {
         if (count_of(i) == 1) return std::nan("");
@@ -141,7 +140,7 @@ Film::ErrorBasis Film::error_basis() const {
         if (part.audited > 0)
             of_audits += share * share * part.audited2 / part.audited / part.audited;
     }
-    for (const PixelSum& p : pixels_) basis.squares += p.n < 2 ? 0 : p.m2();
+    for (const PixelSum& p : measured()) basis.squares += p.n < 2 ? 0 : p.m2();
     if (has_halves_) {
         for (const PixelSum& p : audits_) basis.squares += p.n < 2 ? 0 : p.m2();
     }
@@ -154,7 +153,7 @@ Film::ErrorBasis Film::error_basis() const {
 double Film::effective_samples() const {
     double sum = 0, squares = 0;
     for (int half = 0; half <= has_halves_; half++) {
-        for (const PixelSum& p : this->half(half)) {
+        for (const PixelSum& p : half == 0 ? measured() : audits_) {
             sum += p.n * p.mean();
             squares += p.sum_of_squares();
         }
@@ -165,6 +164,8 @@ double Film::effective_samples() const {
 void Film::add(const Film& other) {
     for (size_t i = 0; i < pixels_.size(); i++) pixels_[i].add(other.pixels_[i]);
     for (size_t i = 0; i < audits_.size(); i++) audits_[i].add(other.audits_[i]);
+    for (size_t i = 0; i < splats_.size(); i++) splats_[i].add(other.splats_[i]);
+    for (size_t i = 0; i < totals_.size(); i++) totals_[i].add(other.totals_[i]);
 }
 
 uint64_t Film::samples() const {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/base/exact_sum.h"
 #include "common/path/sampler.h"
+#include "common/path/splats.h"
 #include "common/picture/image.h"
 #include "common/picture/pixel_sum.h"
 
@@ -20,7 +20,8 @@ public:
         : width(w),
           height(h),
           pixels_(static_cast<size_t>(w) * static_cast<size_t>(h)),
-          splats_(takes_splats ? 3 * pixels_.size() : 0) {}
+          splats_(takes_splats ? pixels_.size() : 0),
+          totals_(splats_.size()) {}
 
     /// From now on each pixel has two halves, 0 and 1, that count their samples each. The picture
     /// is the mean of both halves' means, and they tell the error: (A - B)^2 / 4 is on the mean the
@@ -43,14 +44,14 @@ public:
             audits_[i].n = whole.audits_[i].n;
     }
 
-    /// Adds what a path from a light brings to a pixel that it happens to meet, from any thread.
-    /// The picture is the mean of the samples plus the sum of the splats over spp(): one path from
-    /// a light for each sample.
-    void splat(size_t pixel, Rgb L) {
-        splats_[3 * pixel].add(L.r);
-        splats_[3 * pixel + 1].add(L.g);
-        splats_[3 * pixel + 2].add(L.b);
-    }
+    /// Adds what a path from a light brings to a pixel that it happens to meet. Two threads must
+    /// not add to one pixel. The picture is the mean of the samples plus the sum of the splats over
+    /// spp(): one path from a light for each sample.
+    void splat(size_t pixel, Rgb L) { splats_[pixel].add_part(L); }
+    /// Adds what sample and splats together have brought that belong to the next sample of a pixel:
+    /// these totals are independent of each other, and so tell the error of the mean.
+    void add_total(size_t pixel, Rgb L) { totals_[pixel].add(L); }
+    bool takes_splats() const { return !splats_.empty(); }
 
     /// From now on some pixels are audited: they take each of their samples a second time, with
     /// random numbers of another key.
@@ -84,7 +85,7 @@ public:
     Rgb mean_rgb() const;
 
     /// Standard error of mean(), from the variance within the pixels; unknown (NaN) where a pixel
-    /// has one sample alone, and for a film that takes splats.
+    /// has one sample alone. In a film that takes splats, from that of the totals.
     ///
     ///   SE^2 = r sum over the pixels of v,   v = sum (Y - mean)^2 / (n - 1) / n
     ///   r    = sum of (A - B)^2 / 2 over the audited pixels / sum of v over them
@@ -120,6 +121,10 @@ public:
     std::vector<PixelSum>& pixels() { return pixels_; }
     std::vector<PixelSum>& audits() { return audits_; }
     const std::vector<PixelSum>& audits() const { return audits_; }
+    std::vector<PixelSum>& splats() { return splats_; }
+    const std::vector<PixelSum>& splats() const { return splats_; }
+    std::vector<PixelSum>& totals() { return totals_; }
+    const std::vector<PixelSum>& totals() const { return totals_; }
 
 private:
     struct Channels {
@@ -131,8 +136,11 @@ private:
     PixelSum& sum_of(size_t pixel, int half) { return half == 0 ? pixels_[pixel] : audits_[pixel]; }
     Channels mean_channels() const;
 
+    /// What the error is told by.
+    const std::vector<PixelSum>& measured() const { return splats_.empty() ? pixels_ : totals_; }
+
     std::vector<PixelSum> pixels_, audits_;  // the audits may be a second half
     bool has_halves_ = false;
-    std::vector<size_t> audited_;   // the pixels that the audits belong to, in order
-    std::vector<ExactSum> splats_;  // r, g and b of each pixel; none for a film without
+    std::vector<size_t> audited_;            // the pixels that the audits belong to, in order
+    std::vector<PixelSum> splats_, totals_;  // none for a film without
 };

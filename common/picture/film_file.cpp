@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -17,7 +18,7 @@
 
 namespace {
 
-constexpr const char* first_line = "film of path-by-path, version 1";
+constexpr const char* first_line = "film of path-by-path, version 2";
 constexpr size_t longest_label = 1 << 20;  // bytes
 
 /// 0: the pixels alone; 1: with audits; 2: with a second half of each pixel.
@@ -37,12 +38,18 @@ std::string text_of(const FilmLabel& label, const Film& film) {
     text << "counts " << c.rays << ' ' << c.paths_cut << ' ' << c.not_finite << ' ' << c.bad_seed
          << ' ' << c.bad_sample << ' ' << c.bad_y << ' ' << c.bad_x << ' '
          << std::bit_cast<uint64_t>(c.largest) << '\n';
-    text << "size " << film.width << ' ' << film.height << ' ' << kind_of(film) << "\n\n";
+    text << "size " << film.width << ' ' << film.height << ' ' << kind_of(film) << ' '
+         << film.takes_splats() << "\n\n";
     return text.str();
 }
 
 std::string_view bytes_of(const std::vector<PixelSum>& sums) {
     return {reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(PixelSum)};
+}
+
+/// All that a film's file holds, in its order.
+std::array<const std::vector<PixelSum>*, 4> sums_of(const Film& film) {
+    return {&film.pixels(), &film.audits(), &film.splats(), &film.totals()};
 }
 
 /// Reads a film from the beginning to the end, and adds up its checksum.
@@ -87,6 +94,7 @@ private:
     Checksum checksum_;
     FilmLabel label_;
     int width_ = 0, height_ = 0, kind_ = 0;
+    bool takes_splats_ = false;
 };
 
 std::string FilmReader::read_text() {
@@ -127,7 +135,7 @@ void FilmReader::read_line(const std::string& line) {
             c.bad_x >> largest;
         c.largest = std::bit_cast<double>(largest);
     } else if (kind == "size") {
-        words >> width_ >> height_ >> kind_;
+        words >> width_ >> height_ >> kind_ >> takes_splats_;
     } else if (line != first_line) {
         refuse_label();
     }
@@ -152,7 +160,7 @@ void FilmReader::check(const Film& film) const {
     }
     if (most > PixelSum::most) refuse_label();
     if (film.has_halves()) most = PixelSum::most;  // they are shared out as the chapter likes
-    for (const std::vector<PixelSum>* sums : {&film.pixels(), &film.audits()}) {
+    for (const std::vector<PixelSum>* sums : sums_of(film)) {
         for (const PixelSum& p : *sums) {
             if (p.n > most || !p.has_valid_tops()) refuse_label();
         }
@@ -169,14 +177,17 @@ LabeledFilm FilmReader::read() {
     struct stat file = {};
     uint64_t least =
         static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(PixelSum);
+    if (takes_splats_) least *= 3;
     if (::fstat(fd_, &file) != 0 || static_cast<uint64_t>(file.st_size) < least) {
         refuse("the film is cut short");
     }
-    Film film(width_, height_);
+    Film film(width_, height_, takes_splats_);
     read_sums(film.pixels());
     if (kind_ == 1) film.start_audit();
     if (kind_ == 2) film.start_halves();
-    read_sums(film.audits());
+    for (std::vector<PixelSum>* sums : {&film.audits(), &film.splats(), &film.totals()}) {
+        read_sums(*sums);
+    }
     uint64_t written = 0;
     char more;
     if (read_some(reinterpret_cast<char*>(&written), 8) < 8) refuse("the film is cut short");
@@ -234,11 +245,12 @@ void write_film(const std::string& path, const FilmLabel& label, const Film& fil
     NewFile file(path);
     Checksum checksum;
     std::string text = text_of(label, film);
-    for (std::string_view bytes :
-         {std::string_view(text), bytes_of(film.pixels()), bytes_of(film.audits())}) {
+    auto write = [&](std::string_view bytes) {
         checksum.add(bytes);
         file.write(bytes);
-    }
+    };
+    write(text);
+    for (const std::vector<PixelSum>* sums : sums_of(film)) write(bytes_of(*sums));
     uint64_t sum = checksum.value();
     file.write({reinterpret_cast<const char*>(&sum), sizeof sum});
     file.write_through();
@@ -265,7 +277,8 @@ void check_options(const std::string& path, const FilmLabel& label,
 void add_film(LabeledFilm& sum, const std::string& path, const LabeledFilm& part) {
     check_options(path, part.label, sum.label.options);
     bool same_size = part.film.width == sum.film.width && part.film.height == sum.film.height &&
-                     kind_of(part.film) == kind_of(sum.film);
+                     kind_of(part.film) == kind_of(sum.film) &&
+                     part.film.takes_splats() == sum.film.takes_splats();
     if (!same_size) fail({path}, "a film by another version of the program");
     sum.label.samples = joined(sum.label.samples, part.label.samples, path);
     sum.label.counts.add(part.label.counts);

@@ -8,7 +8,8 @@
 #include "common/path/camera_sample.h"
 #include "common/program/path_drawing.h"
 
-int explain(const Scene& scene, const RenderOptions& options, const Trace& trace, bool halves) {
+int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
+            bool halves) {
     int x = options.explain_x, y = options.explain_y, s = options.explain_sample;
     if (x >= scene.width || y >= scene.height) {
         throw UsageError("error: pixel " + std::to_string(x) + "," + std::to_string(y) +
@@ -28,7 +29,8 @@ int explain(const Scene& scene, const RenderOptions& options, const Trace& trace
     PathLog log(options.paths, true);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     auto [ray, film] = camera_sample(view, x, y, sampler, options.pixel_centre);
-    Rgb L = trace(scene, ray, sampler, log);
+    Splats splats;
+    Rgb L = trace(scene, ray, splats, sampler, log);
 
     std::printf(
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
@@ -37,6 +39,12 @@ int explain(const Scene& scene, const RenderOptions& options, const Trace& trace
     std::printf("%s", log.steps().c_str());
     if (log.paths_cut() > 0) std::printf("    is ended by the depth limit %d\n", scene.max_depth);
     std::printf("L (%.6g, %.6g, %.6g)\n", double{L.r}, double{L.g}, double{L.b});
+    for (const Splat& splat : splats) {
+        size_t w = static_cast<size_t>(scene.width);
+        std::printf("and (%.6g, %.6g, %.6g) in pixel %zu,%zu\n", double{splat.L.r},
+                    double{splat.L.g}, double{splat.L.b}, splat.pixel % w, splat.pixel / w);
+        L += splat.L;
+    }
 
     std::filesystem::path file = options.out[0];
     file.replace_extension(".svg");

@@ -9,9 +9,11 @@
 
 /// How a chapter finds light, which decides what it can tell about its error.
 enum class LightSearch : uint8_t {
-    aims,       // at lights, and also meets by chance those that it cannot aim at
-    by_chance,  // never aims
-    direct      // only aims, and follows mirrors and glass; other light it leaves out
+    aims,         // at lights, and also meets by chance those that it cannot aim at
+    by_chance,    // never aims
+    direct,       // only aims, and follows mirrors and glass; other light it leaves out
+    from_lights,  // begins at them, and cannot see what mirrors and glass show the camera
+    both_ends     // begins at them and at the eye, and joins the two
 };
 
 /// What every chapter that renders a scene understands.

@@ -104,6 +104,7 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
                                    fit("top: x to the right, z up", 0, 2, panel + 2 * margin, b)}) {
         draw_scene(svg, view, scene.geometry);
         for (const PathVertex& x : path) {
+            if (x.from == -2) continue;  // begins here
             Vec3 from = x.from < 0 ? eye : path[static_cast<size_t>(x.from)].p;
             svg.line(view, from, x.p, "stroke='#c03' stroke-width='2'");
         }

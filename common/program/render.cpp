@@ -1,6 +1,7 @@
 #include "common/program/render.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -39,7 +40,7 @@ public:
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
     static constexpr int between_looks = 64;    // samples from one look at the limit to the next
 
-    TileRenderer(const Scene& scene, const RenderOptions& options, const Trace& trace,
+    TileRenderer(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
                  const Allocation& allocation, const Limit& limit, const FilmClock& clock,
                  Rendering& result, uint32_t first)
         : scene_(scene),
@@ -62,6 +63,7 @@ public:
         Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
         bool listen = !options_.paths.empty() || !options_.split.empty();
         PathLog log = listen ? PathLog(options_.paths) : PathLog(), audit_log = log;
+        Splats splats, audit_splats;
         RenderStats stats;
         uint64_t rays_before = rays_traced;
         int taken = 0;
@@ -73,8 +75,8 @@ public:
                 auto [s, last] = samples(pixel, half, end);
                 for (; s < last; s++) {
                     if (++taken % between_looks == 0 && limit_.reached()) return false;
-                    add_sample({x, y, pixel, half, s}, sampler, log, stats);
-                    if (audited) audit({x, y, pixel, half, s}, sampler, audit_log);
+                    add_sample({x, y, pixel, half, s}, sampler, splats, log, stats);
+                    if (audited) audit({x, y, pixel, half, s}, sampler, audit_splats, audit_log);
                 }
             }
             return true;
@@ -115,45 +117,66 @@ private:
         uint32_t sample;  // of the half
     };
 
-    [[gnu::always_inline]] Rgb trace(const Place& at, int half, Sampler& sampler, PathLog& log) {
+    /// What a sample brings to its own pixel, and what with all its splats.
+    struct Sample {
+        Rgb L, total;
+    };
+    [[gnu::always_inline]] Sample trace(const Place& at, int half, Sampler& sampler, Splats& splats,
+                                        PathLog& log) {
         start_sample(sampler, at.pixel, half, at.sample);
         log.start();
+        splats.clear();
         Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
-        return trace_(scene_, ray, sampler, log);
+        Rgb L = trace_(scene_, ray, splats, sampler, log), total = L;
+        for (const Splat& splat : splats) total += splat.L;
+        return {L, total};
     }
 
-    void add_sample(const Place& at, Sampler& sampler, PathLog& log, RenderStats& stats) {
-        Rgb L = trace(at, at.half, sampler, log);
-        if (is_finite(L)) {
-            stats.largest = std::max(stats.largest, static_cast<double>(average(L)));
+    void add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
+                    RenderStats& stats) {
+        auto [L, total] = trace(at, at.half, sampler, splats, log);
+        if (is_finite(total)) {
+            stats.largest = std::max(stats.largest, static_cast<double>(average(total)));
         } else {
             int number = static_cast<int>(at.sample) * halves() + at.half;
             stats.add_not_finite(options_.seed, number, at.y, at.x);
         }
         result_.film.add(at.pixel, L, at.half);
+        if (result_.film.takes_splats()) {
+            result_.film.add_total(at.pixel, total);
+            for (const Splat& splat : splats) {
+                std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
+                result_.film.splat(splat.pixel, splat.L);
+            }
+        }
         if (!options_.split.empty()) split(at, log);
     }
 
     /// The same sample again, with numbers of another key.
-    void audit(const Place& at, Sampler& sampler, PathLog& log) {
-        result_.film.audit(at.pixel, trace(at, 1, sampler, log));
+    void audit(const Place& at, Sampler& sampler, Splats& splats, PathLog& log) {
+        result_.film.audit(at.pixel, trace(at, 1, sampler, splats, log).total);
     }
 
     void split(const Place& at, const PathLog& log) {
-        for (const auto& [path_class, L] : log.contributions()) {
+        for (const auto& [path_class, L, pixel] : log.contributions()) {
             // Keep all long paths together: their classes double with every letter.
             bool is_long = path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
-            auto [film, added] = result_.classes.try_emplace(is_long ? "longer" : path_class,
-                                                             scene_.width, scene_.height);
+            auto [film, added] =
+                result_.classes.try_emplace(is_long ? "longer" : path_class, scene_.width,
+                                            scene_.height, result_.film.takes_splats());
             if (added && result_.film.has_halves()) film->second.start_halves();
-            film->second.add_part(at.pixel, L, at.half);
+            if (pixel == Contribution::own_pixel) {
+                film->second.add_part(at.pixel, L, at.half);
+            } else {
+                film->second.splat(pixel, L);
+            }
         }
     }
 
     const Scene& scene_;
     const RenderOptions& options_;
-    const Trace& trace_;
+    const SplatTrace& trace_;
     const Allocation& allocation_;
     const Limit& limit_;
     const FilmClock& clock_;
@@ -162,6 +185,7 @@ private:
     CameraView view_;
     int tiles_x_;
     std::mutex mutex_;
+    std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats meet
 };
 
 uint32_t fewest_samples(const Film& film) {
@@ -183,7 +207,7 @@ bool has_more(const Film& film, uint32_t pilot) {
 ///
 /// A pass takes every pixel once, or more often when they are so few that threads would idle; but
 /// no more often than all passes before, so that an early end does not leave pixels empty.
-void take_samples(const Scene& scene, const RenderOptions& options, const Trace& trace,
+void take_samples(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
                   const Allocation& allocation, const Limit& limit, SampleRange wanted,
                   Rendering& result) {
     bool goes_on = !options.film.empty() && allocation.pilot == 0;
@@ -218,11 +242,9 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Trace&
     }
 }
 
-}  // namespace
-
-Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
-                      const Allocation& allocation) {
-    Rendering result{Film(scene.width, scene.height), {}, 0, {}};
+Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
+                      const SplatTrace& trace, const Allocation& allocation) {
+    Rendering result{std::move(empty), {}, 0, {}};
     if (allocation.pilot > 0) {
         result.film.start_halves();
     } else if (options.sampler != SamplerType::independent) {
@@ -252,9 +274,33 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Tr
     return result;
 }
 
+SplatTrace without_splats(const Trace& trace) {
+    return [&trace](const Scene& scene, Ray ray, Splats&, Sampler& sampler, PathLog& log) {
+        return trace(scene, ray, sampler, log);
+    };
+}
+
+}  // namespace
+
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                      const Allocation& allocation) {
+    Film empty(scene.width, scene.height);
+    return render_into(std::move(empty), scene, options, without_splats(trace), allocation);
+}
+Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
+    return render_into(Film(scene.width, scene.height, true), scene, options, trace, {});
+}
+
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation) {
-    if (options.explain) return explain(scene, options, trace, allocation.pilot > 0);
+    if (options.explain) {
+        return explain(scene, options, without_splats(trace), allocation.pilot > 0);
+    }
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace, allocation));
+}
+int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
+    if (options.explain) return explain(scene, options, trace, false);
+    check_outputs(options);
+    return write_results(scene, options, render_film(scene, options, trace));
 }

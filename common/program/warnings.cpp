@@ -6,6 +6,8 @@
 
 #include "common/base/percent.h"
 #include "common/light/light_table.h"
+#include "common/scene/camera.h"
+#include "common/scene/intersect.h"
 
 namespace {
 
@@ -40,6 +42,20 @@ bool has_rare_light(const Scene& scene, double samples) {
     return false;
 }
 
+/// Which share of the pixels shows mirror or glass in its middle.
+double seen_in_mirrors(const Scene& scene) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    double seen = 0;
+    for (int y = 0; y < scene.height; y++) {
+        for (int x = 0; x < scene.width; x++) {
+            Vec2 middle = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+            std::optional<Hit> hit = intersect(scene, camera_ray(view, middle));
+            seen += hit && is_specular(*hit->material);
+        }
+    }
+    return seen / scene.width / scene.height;
+}
+
 /// Light that this way of looking for it leaves out, or meets by chance.
 void add_missed_light(const Scene& scene, const RenderOptions& options, double samples,
                       std::vector<std::string>& lines) {
@@ -49,6 +65,14 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, double s
                 "lights are met only by chance here, and one is so small that it is "
                 "rarely met: the error may not know of it");
         }
+        return;
+    }
+    if (options.search == LightSearch::from_lights) {
+        double share = seen_in_mirrors(scene);
+        if (share == 0) return;
+        lines.push_back(percent(share) +
+                        " of the picture shows a mirror or glass: black, since no path from a "
+                        "light can be joined with the camera there");
         return;
     }
     auto any_material = [&](auto is) {

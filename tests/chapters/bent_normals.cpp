@@ -4,6 +4,9 @@
 
 #include "tests/support/chapters.h"
 #include "tests/support/ggx_truth.h"
+#include "tests/support/light_paths.h"
+// After the chapters below it: its names must not be found by theirs.
+#include "chapters/17_light_tracing/estimator.h"
 
 namespace {
 
@@ -282,6 +285,26 @@ TEST_SUITE("bent normals") {
         for (const Chapter& chapter : glossy_chapters(metal)) {
             CAPTURE(chapter.name);
             CHECK(check_classes(metal, chapter.trace, metal, metal_13, 20000) >= 4);
+        }
+    }
+
+    TEST_CASE("agreement: smoothed normals") {
+        // Paths from lights against paths from the eye, over paint: few and large triangles, so
+        // that normals lean far.
+        std::string ball = "Material \"diffuse\" \"rgb reflectance\" [.7 .7 .7]\n" +
+                           smooth_ball({0.4f, 0, 0}, 0.9f);
+        for (std::string light :
+             {"LightSource \"distant\" \"point3 from\" [3 2 -1] \"point3 to\" [0 0 0]\n",
+              "LightSource \"point\" \"point3 from\" [2 1 -3]\n", "LightSource \"infinite\"\n"}) {
+            CAPTURE(light);
+            Scene scene = world_of(light + "AttributeBegin Translate 0 -1 0 " +
+                                   leaning_square(0.6, 9) + "AttributeEnd " + ball);
+            scene.max_depth = 3;
+            Trace eye = trace_with<ch14::trace>(ch14::prepare(scene));
+            SplatTrace walk = trace_light_with<ch17::trace_light>(ch17::ends_of(scene));
+            CHECK(check_classes(scene, eye, scene, walk, 400000) >= 4);
+            BlockMeans a = blocks_of(scene, eye, 16, 32, 8), b = blocks_of(scene, walk, 64, 32, 8);
+            check_agreement(hold_against(a, b), 0.02);
         }
     }
 }

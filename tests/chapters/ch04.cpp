@@ -26,7 +26,7 @@ Seen look(const Scene& scene, Vec3 from, Vec3 to, uint32_t seed = 1) {
     log.start();
     Seen seen;
     seen.L = ch04::trace(scene, {from, normalize(to - from)}, sampler, log);
-    for (const auto& [name, L] : log.contributions()) {
+    for (const auto& [name, L, pixel] : log.contributions()) {
         seen.classes[name] += static_cast<double>(average(L));
     }
     seen.cut = log.paths_cut();

@@ -364,7 +364,7 @@ TEST_SUITE("ch06 path tracing") {
             all.start(), direct.start();
             ch06::trace(scene, {scene.camera.o, d}, a, all);
             Rgb L = ch06::trace(scene, {scene.camera.o, d}, b, direct);
-            for (const auto& [name, part] : all.contributions()) {
+            for (const auto& [name, part, pixel] : all.contributions()) {
                 if (name == "LE" || name == "LDE") L = L - part;
             }
             kept = std::max(kept, static_cast<double>(max_component(L)));

@@ -60,6 +60,10 @@ const std::vector<Promoted> promoted = {
      "common/path/distribution.h",
      {"through_lens", "Wavelength", "sample_wavelength", "Prepared", "prepare", "pdf_sky_image",
       "sky_light", "trace"}},
+    {"17",
+     "common/path/light_paths.h",
+     {"Pinhole", "pinhole_of", "importance_cos", "Sight", "sight_of", "Ends", "ends_of", "Emission",
+      "sample_sphere", "sample_emission", "seen_from", "carry", "sample_light_bsdf"}},
 };
 
 /// The name that a definition gives which starts with this line.

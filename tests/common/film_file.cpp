@@ -40,7 +40,7 @@ PixelSum sum_of(const std::vector<Rgb>& samples) {
 
 /// Samples first to last - 1 of a made-up render of 5 x 3 pixels.
 LabeledFilm film_of(uint32_t first, uint32_t last, uint32_t seed = 1) {
-    LabeledFilm f{{}, Film(5, 3)};
+    LabeledFilm f{{}, Film(5, 3, true)};
     f.film.start_audit();
     f.label.options = {{"chapter", "06"}, {"scene", "abc"}, {"paths", ""}, {"m", "16"}};
     f.label.samples = {{seed, first, last}};
@@ -50,6 +50,8 @@ LabeledFilm film_of(uint32_t first, uint32_t last, uint32_t seed = 1) {
             sampler.start(i, s);
             f.film.add(i, {any_float(sampler), any_float(sampler), any_float(sampler)});
             f.film.audit(i, {sampler.u1(), 1, 1});
+            f.film.splat(7 * (i + s) % 15, {any_float(sampler), 1, 1});
+            f.film.add_total(i, {any_float(sampler), 1, 1});
             f.label.counts.rays++;
         }
     }

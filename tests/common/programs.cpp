@@ -16,7 +16,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 const std::string spheres = "scenes/cornell-spheres.pbrt";
-const std::string path_tracer = "06_path_tracing";
+const std::string path_tracer = "06_path_tracing", light_tracer = "17_light_tracing";
 
 /// Becomes the program.
 int execute(const std::string& program, const Words& words) {
@@ -50,6 +50,8 @@ std::vector<std::string> programs(bool render) {
     REQUIRE(!names.empty());
     return names;
 }
+
+bool begins_at_lights(const std::string& program) { return program > "17"; }
 
 /// Options for a render of a few milliseconds.
 Words small(const Words& more) {
@@ -423,11 +425,14 @@ TEST_SUITE("programs") {
                          "3000",      "--quiet", "--film", folder / name + ".film",
                          "--sampler", sampler,   "--out",  folder / name + ".pfm"};
         };
-        for (const char* sampler : {"independent", "stratified", "sobol"}) {
-            REQUIRE(run(path_tracer, words("a", sampler)).code == 0);
+        for (auto [program, sampler] : {std::pair(path_tracer, "independent"),
+                                        {path_tracer, "stratified"},
+                                        {path_tracer, "sobol"},
+                                        {light_tracer, "sobol"}}) {
+            REQUIRE(run(program, words("a", sampler)).code == 0);
             Finished end;
             for (int stops = 0; stops < 100; stops++) {
-                Process process = start(path_tracer, words("b", sampler));
+                Process process = start(program, words("b", sampler));
                 ::usleep(static_cast<useconds_t>(50000 + 1000 * stops));
                 process.kill(SIGTERM);
                 end = process.wait();
@@ -443,13 +448,19 @@ TEST_SUITE("programs") {
     }
 
     TEST_CASE("identity: parts of a render, merged in any order, have the bytes of the whole") {
-        for (const char* sampler : {"independent", "stratified", "sobol"}) {
+        for (auto [program_here, sampler_here] :
+             {std::pair(std::string("14_mis_ris"), "independent"),
+              {"14_mis_ris", "stratified"},
+              {"14_mis_ris", "sobol"},
+              {light_tracer, "independent"},
+              {light_tracer, "sobol"}}) {
             TemporaryFolder folder;
+            const std::string& program = program_here;
+            const char* sampler = sampler_here;
             auto render = [&](const std::string& name, const char* part) {
-                return run("14_mis_ris",
-                           {spheres, "--size", "33x17", "--spp", "10", "--sampler", sampler,
-                            "--quiet", "--part", part, "--film", folder / name + ".film", "--out",
-                            folder / name + ".pfm"});
+                return run(program, {spheres, "--size", "33x17", "--spp", "10", "--sampler",
+                                     sampler, "--quiet", "--part", part, "--film",
+                                     folder / name + ".film", "--out", folder / name + ".pfm"});
             };
             REQUIRE(render("whole", "1/1").code == 0);
             REQUIRE(render("1", "1/3").code == 0);
@@ -585,6 +596,7 @@ TEST_SUITE("programs") {
     TEST_CASE("identity: a path that is explained is the sample of the picture") {
         TemporaryFolder folder;
         for (const std::string& program : programs(true)) {
+            if (begins_at_lights(program)) continue;  // many samples for one pixel: see below
             CAPTURE(program);
             Words words = {spheres, "--size", "24x24", "--max-depth", "6", "--seed", "4"};
             Words render = words, outputs = {"--spp", "1", "--quiet", "--out", folder / "a.pfm"};
@@ -622,6 +634,43 @@ TEST_SUITE("programs") {
                 CHECK(opened == closed + 2 * ends);
             }
             CHECK_FALSE(folder.names().contains("b.ppm"));
+        }
+    }
+
+    TEST_CASE("identity: paths from lights that are explained sum to the picture") {
+        TemporaryFolder folder;
+        Words words = {spheres, "--size", "5x4", "--max-depth", "4", "--spp", "1"};
+        for (const std::string& program : programs(true)) {
+            if (!begins_at_lights(program)) continue;
+            CAPTURE(program);
+            Words render = words;
+            render.insert(render.end(), {"--quiet", "--out", folder / "a.pfm"});
+            REQUIRE(run(program, render).code == 0);
+            Image image = read_image(folder / "a.pfm"), sum(5, 4);
+            for (int i = 0; i < 20; i++) {
+                Words explain = words;
+                std::string pixel = std::to_string(i % 5) + "," + std::to_string(i / 5);
+                explain.insert(explain.end(), {"--explain", pixel, "--out", folder / "b.ppm"});
+                Finished end = run(program, explain);
+                CHECK(end.code == 0);
+                CHECK(end.out.find("\nvertex 1  a light at ") != std::string::npos);
+                for (size_t at = 0; (at = end.out.find("\nand (", at)) != std::string::npos; at++) {
+                    Rgb L;
+                    int x = 0, y = 0;
+                    REQUIRE(std::sscanf(end.out.c_str() + at, "\nand (%f, %f, %f) in pixel %d,%d",
+                                        &L.r, &L.g, &L.b, &x, &y) == 5);
+                    sum.at(x, y) += L;
+                }
+                Rgb L;
+                const char* own = std::strstr(end.out.c_str(), "\nL (");
+                REQUIRE(std::sscanf(own, "\nL (%f, %f, %f)", &L.r, &L.g, &L.b) == 3);
+                sum.at(i % 5, i / 5) += L;
+            }
+            for (size_t i = 0; i < sum.pixels.size(); i++) {
+                double a = static_cast<double>(sum.pixels[i].g);
+                double b = static_cast<double>(image.pixels[i].g);
+                CHECK(std::abs(a - b) <= 1e-4 * b);
+            }
         }
     }
 

@@ -86,11 +86,14 @@ inline SquareMoments moments_of(const std::function<double(double, double)>& f, 
 }
 
 /// Two chapters bring the same: in all, by length of path, and by class (those that both saw 100
-/// times). The log's parts make up the whole. Returns how many parts were compared.
-inline int check_classes(const Scene& scene_a, Trace trace_a, const Scene& scene_b, Trace trace_b,
-                         int paths, uint32_t seed = 1) {
-    PathCensus a = census_of(scene_a, trace_a, paths, seed);
-    PathCensus b = census_of(scene_b, trace_b, paths, seed + 1);
+/// times); of the classes that the filter matches. The log's parts make up the whole. Returns how
+/// many parts were compared.
+template <class TraceA, class TraceB>
+int check_classes(const Scene& scene_a, const TraceA& trace_a, const Scene& scene_b,
+                  const TraceB& trace_b, int paths, uint32_t seed = 1,
+                  const std::string& filter = "") {
+    PathCensus a = census_of(scene_a, trace_a, paths, seed, filter);
+    PathCensus b = census_of(scene_b, trace_b, paths, seed + 1, filter);
     CHECK(b.worst_sum < 1e-5);
     CHECK(z_between(a.all.measured(a.paths), b.all.measured(b.paths)) < 5);
     int compared = 0;

@@ -60,8 +60,9 @@ inline std::string square(float y, bool up) {
            " -1  -1 " + h + " 1  1 " + h + " 1  1 " + h + " -1]\n";
 }
 
-inline Rendering film_of(Scene scene, Trace trace, int spp, uint32_t seed = 1,
-                         SamplerType sampler = SamplerType::independent) {
+template <class AnyTrace>
+Rendering film_of(Scene scene, AnyTrace trace, int spp, uint32_t seed = 1,
+                  SamplerType sampler = SamplerType::independent) {
     scene.spp = spp;
     RenderOptions options;
     options.seed = seed;
@@ -158,7 +159,7 @@ struct PathSum {
     }
     Measured measured(double n) const {
         double mean = sum / n;
-        return {mean, std::sqrt((squares / n - mean * mean) / (n - 1))};
+        return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1))};
     }
 };
 
@@ -194,19 +195,22 @@ Result in_blocks(int count, const Part& part_of) {
     return all;
 }
 
-/// The paths [first, last) of a census.
-inline PathCensus part_of_census(const Scene& scene, const Trace& trace, int first, int last,
-                                 uint32_t seed) {
+/// The paths [first, last) of a census; of those whose class the filter matches.
+inline PathCensus part_of_census(const Scene& scene, const SplatTrace& trace, int first, int last,
+                                 uint32_t seed, const std::string& filter) {
     PathCensus census;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, seed, 1);
-    PathLog log("");
+    PathLog log(filter);
+    Splats splats;
     for (int i = first; i < last; i++) {
         sampler.start(0, static_cast<uint32_t>(i));
         log.start();
+        splats.clear();
         Vec2 u = sampler.u2();
         Vec2 film = {u.x * static_cast<float>(scene.width), u.y * static_cast<float>(scene.height)};
-        Rgb L = trace(scene, camera_ray(view, film), sampler, log);
+        Rgb L = trace(scene, camera_ray(view, film), splats, sampler, log);
+        for (const Splat& splat : splats) L += splat.L;
         std::map<std::string, double> by_class;
         std::map<size_t, double> by_length;
         double sum = 0, whole = static_cast<double>(average(L));
@@ -224,10 +228,17 @@ inline PathCensus part_of_census(const Scene& scene, const Trace& trace, int fir
     return census;
 }
 
-inline PathCensus census_of(const Scene& scene, const Trace& trace, int paths, uint32_t seed) {
+inline PathCensus census_of(const Scene& scene, const SplatTrace& trace, int paths, uint32_t seed,
+                            const std::string& filter = "") {
     PathCensus census = in_blocks<PathCensus>(paths, [&](int first, int last) {
-        return part_of_census(scene, trace, first, last, seed);
+        return part_of_census(scene, trace, first, last, seed, filter);
     });
     census.paths = paths;
     return census;
+}
+inline PathCensus census_of(const Scene& scene, const Trace& trace, int paths, uint32_t seed,
+                            const std::string& filter = "") {
+    SplatTrace without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler,
+                                    PathLog& log) { return trace(s, ray, sampler, log); };
+    return census_of(scene, without_splats, paths, seed, filter);
 }

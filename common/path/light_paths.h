@@ -1,0 +1,156 @@
+// taught by chapter 17
+// Where paths from lights begin, how they go on, and where the camera sees them.
+#pragma once
+#include "common/light/light_table.h"
+#include "common/material/ggx.h"
+#include "common/scene/camera.h"
+#include "common/scene/smooth_normal.h"
+
+using glossy_bsdf::eval_bsdf, glossy_bsdf::sample_bsdf;
+
+/// The camera as light sees it.
+struct Pinhole {
+    CameraView view;
+    Vec3 n, axis;       // dx x dy, the area of a pixel; unit, the way the camera looks
+    float depth, area;  // of the film from the pinhole; the film's at distance 1
+    int width, height;
+};
+inline Pinhole pinhole_of(const Scene& scene) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    Vec3 n = cross(view.dx, view.dy), axis = normalize(n);
+    if (dot(axis, view.corner) < 0) axis = -axis;
+    float depth = dot(axis, view.corner);
+    float pixels = static_cast<float>(scene.width) * static_cast<float>(scene.height);
+    return {view, n, axis, depth, pixels * length(n) / (depth * depth), scene.width, scene.height};
+}
+
+/// What the camera makes of light that comes from where `away` points to, in sr^-1.
+///
+///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos over A: 1
+///
+/// A patch dA of the film is seen under dw = dA cos^3 / d^2, at distance d in front. A picture
+/// weighs all of its film alike, so a direction weighs dA / dw / A = 1 / (A cos^3) = We cos.
+/// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright as it should be"
+inline float importance_cos(const Pinhole& camera, Vec3 away) {
+    float cos_c = dot(away, camera.axis) / length(away);
+    return 1 / (camera.area * cos_c * cos_c * cos_c);
+}
+
+/// Where the camera sees a point, and what it makes of it.
+struct Sight {
+    size_t pixel;
+    float We_cos;  // sr^-1
+};
+
+/// The pixel in which the camera sees a point, `away` from the pinhole; none beyond the picture.
+///
+/// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
+inline std::optional<Sight> sight_of(const Pinhole& camera, Vec3 away) {
+    float depth = dot(away, camera.axis);
+    if (!(depth > 0)) return {};
+    Vec3 q = camera.depth / depth * away - camera.view.corner;  // on the film, from its corner
+    float n2 = dot(camera.n, camera.n);
+    float x = dot(cross(q, camera.view.dy), camera.n) / n2;
+    float y = dot(cross(camera.view.dx, q), camera.n) / n2;
+    float width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
+    if (!(x >= 0 && y >= 0 && x < width && y < height)) return {};
+    size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width);
+    return Sight{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
+}
+
+/// Where paths begin: the lights, by power, with the scene's middle; and the camera.
+struct Ends {
+    LightTable lights;
+    Vec3 centre;
+    Pinhole camera;
+};
+inline Ends ends_of(const Scene& scene) {
+    Box box = bounds_of(scene.geometry);
+    return {build_light_table(light_pmf(scene, 0)), (box.low + box.high) / 2, pinhole_of(scene)};
+}
+
+/// A ray that leaves a light: where from, where to, and how likely.
+struct Emission {
+    LightType type;
+    LightPoint y;  // its normal on the side that shines here; pdf per area
+    Vec3 d;
+    float pmf = 0, pdf_w = 0;  // of the light; sr^-1
+    Rgb Le;                    // W m^-2 sr^-1, or what the light has in its place
+};
+
+/// A direction of the sphere, all equally likely.      pdf_w = 1 / (4 pi)
+inline Vec3 sample_sphere(Vec2 u) {
+    float z = 1 - 2 * u.x;
+    return from_cylindrical(std::sqrt(std::max(0.0f, 1 - z * z)), u.y, z);
+}
+
+/// Chooses a light by power, and draws a ray from it.
+///
+///   area     any point, cosine direction:   pdf = 1 / A, cos / pi       (both sides: 1 / 2A)
+///   point    any direction:                 pdf = 1, 1 / (4 pi)
+///   distant  a point of the scene's disk:   pdf = 1 / (pi R^2), 1
+///   sky      the same, from any direction:  pdf = 1 / (pi R^2), 1 / (4 pi)
+///
+/// tested by  "identity: each light sends out its power"
+inline Emission sample_emission(const Scene& scene, const Ends& ends, double u, Vec2 u_y,
+                                Vec2 u_d) {
+    size_t i = pick_light(ends.lights, u);
+    const Light& light = scene.lights[i];
+    float pmf = pmf_light(ends.lights, i), R = scene.radius;
+    if (light.type == LightType::point)
+        return {light.type, {light.p, {}, 0, 1}, sample_sphere(u_d), pmf, 1 / (4 * pi), light.L};
+    if (light.type == LightType::area) {
+        bool back = light.two_sided && u_d.x < 0.5f;
+        if (light.two_sided) u_d.x = 2 * u_d.x - (back ? 0 : 1);
+        LightPoint y = sample_area(scene, i, u_y);
+        if (light.two_sided) y.pdf /= 2;
+        if (back) y.n = -y.n;
+        Vec3 d = sample_cosine_hemisphere(u_d);
+        float pdf_w = pdf_cosine_hemisphere(d.z);
+        return {light.type, y, Frame(y.n).to_world(d), pmf, pdf_w, light.L};
+    }
+    bool sky = light.type == LightType::infinite;
+    Vec3 d = sky ? sample_sphere(u_d) : -light.p;
+    Vec3 disk = from_cylindrical(R * std::sqrt(u_y.x), u_y.y, -R);
+    Vec3 p = ends.centre + Frame(d).to_world(disk);
+    return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
+}
+
+/// x as the ray finds it that comes along w: with its normals on that side.
+inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
+    x.n = smooth_normal(scene, x);
+    if (dot(w, x.ng) < 0) x.n = -x.n, x.ng = -x.ng, x.front = !x.front;
+    if (dot(w, x.n) <= 0) x.n = x.ng;  // one that looks away cannot be used
+    return x;
+}
+
+/// f cos, of light that arrives at x from wi and leaves to wo, as a factor of its flux.
+///
+///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, if wo sees its front
+///
+/// For a path from the eye the cosine is that of wi and n. Flux arrives in proportion to |wi.ng|
+/// and leaves to |wo.ng|: where n is ng, the cosine is that of wo.
+/// source  Veach 1997, sec. 5.3      tested by  "agreement: smoothed normals"
+inline Rgb carry(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
+    Hit seen = seen_from(scene, x, wo);
+    return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
+}
+
+/// Draws where light goes on that arrives at x from wi, and f cos of it; s.f is that.
+///
+/// Refracted radiance is squeezed by 1 / eta^2, flux is not: its factor is taken out again.
+/// source  Veach 1997, sec. 5.2      tested by  "agreement: a light in glass"
+inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, float u1, Vec2 u2) {
+    Hit y = x;
+    if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // so that all of wo is drawn
+    BsdfSample s = sample_bsdf(y, wi, u1, u2);
+    if (s.pdf_w == 0) return s;
+    if (!s.specular) {
+        s.f = carry(scene, x, wi, s.wi);
+        return s;
+    }
+    bool through = dot(s.wi, x.ng) < 0;
+    float eta = x.front ? x.material->ior : 1 / x.material->ior;
+    s.f *= std::abs(dot(wi, x.n) / dot(wi, x.ng) * dot(s.wi, x.ng)) * (through ? eta * eta : 1);
+    return s;
+}

@@ -1,0 +1,380 @@
+// Chapter 17: what a path from a light brings to the camera.
+#include <doctest/doctest.h>
+
+#include "chapters/14_mis_ris/estimator.h"
+#include "chapters/17_light_tracing/estimator.h"
+#include "common/program/warnings.h"
+#include "tests/support/known_lights.h"
+#include "tests/support/light_paths.h"
+
+namespace {
+
+Trace by_fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
+SplatTrace by_seventeen(const Scene& scene) {
+    return trace_light_with<ch17::trace_light>(ch17::ends_of(scene));
+}
+
+/// A grey floor of side 2 `half` below a pinhole that looks straight down from height 1.
+Scene floor_below(const std::string& light, double half, double fov = 90, int width = 8,
+                  int height = 8) {
+    std::string side = std::to_string(half);
+    Scene scene = scene_of("LookAt 0 1 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" " +
+                           std::to_string(fov) + "\nFilm \"rgb\" \"integer xresolution\" " +
+                           std::to_string(width) + " \"integer yresolution\" " +
+                           std::to_string(height) + "\nWorldBegin\nAttributeBegin " +
+                           "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Scale " + side +
+                           " 1 " + side + " " + square(0, true) + "AttributeEnd\n" + light);
+    scene.max_depth = 1;
+    return scene;
+}
+const std::string sun = "LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n";
+
+/// What all paths bring to all pixels: one number for each path, whose mean is that of the picture.
+PathSum totals(const Scene& scene, int paths, uint32_t seed = 1, const std::string& filter = "") {
+    return census_of(scene, by_seventeen(scene), paths, seed, filter).all;
+}
+void check_picture_mean(const Scene& scene, double truth, int paths, double relative_se) {
+    Measured m = totals(scene, paths).measured(paths);
+    CAPTURE(m.mean);
+    CAPTURE(truth);
+    CHECK(std::abs(m.mean - truth) < 5 * m.se + 1e-5 * truth);
+    CHECK(m.se < relative_se * truth);
+}
+
+}  // namespace
+
+TEST_SUITE("ch17 camera") {
+    TEST_CASE("truth: a lit floor is as bright as it should be") {
+        // Irradiance 1: a point of the floor, all alike likely, stands for the flux of all 4 m^2.
+        // What it brings is the same wherever the camera sees it, even in the corners.
+        Scene scene = floor_below(sun, 1);
+        ch17::Pinhole camera = ch17::pinhole_of(scene);
+        Sampler random = random_numbers(1);
+        PathLog log;
+        int seen = 0;
+        for (int i = 0; i < 10000; i++) {
+            float x = 2 * random.u1() - 1, z = 2 * random.u1() - 1;
+            Hit floor = *intersect(scene, {{x, 5, z}, {0, -1, 0}});
+            Splats splats;
+            ch17::show(scene, camera, floor, {0, 1, 0}, {4, 4, 4}, 2, splats, log);
+            if (splats.empty()) continue;  // in the outermost pixels, by rounding
+            seen++;
+            CHECK(splats[0].L.g == doctest::Approx(0.1591549430919).epsilon(1e-5).scale(0));
+            int px = static_cast<int>(splats[0].pixel % 8);
+            CHECK(std::abs(static_cast<double>(std::abs(x)) * 4 - std::abs(px + 0.5 - 4)) < 0.51);
+        }
+        CHECK(seen > 9990);
+        check_picture_mean(floor_below(sun, 3), 0.1591549430919, 200000, 0.01);
+    }
+
+    TEST_CASE("truth: its brightness depends neither on the field of view nor on the resolution") {
+        for (double fov : {20.0, 60.0, 100.0}) {
+            CAPTURE(fov);
+            check_picture_mean(floor_below(sun, 2, fov), 0.1591549430919, 1000000, 0.03);
+        }
+        for (auto [width, height] : {std::pair(1, 1), {64, 8}, {7, 31}}) {
+            CAPTURE(width);
+            Scene scene = floor_below(sun, 9, 60, width, height);
+            check_picture_mean(scene, 0.1591549430919, 1000000, 0.02);
+        }
+    }
+
+    TEST_CASE("identity: a light point is in the pixel whose rays meet it, with any camera") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 1);
+        for (int k = 0; k < 3; k++) {
+            if (k == 1) scene.width = 77, scene.camera.screen_window = {{-0.3f, 0.9f, -0.2f, 0.4f}};
+            if (k == 2) scene.camera.right = 2 * scene.camera.right + scene.camera.up;  // skew
+            ch17::Pinhole camera = ch17::pinhole_of(scene);
+            Sampler random = random_numbers(1);
+            for (int i = 0; i < 1000; i++) {
+                Vec2 u = random.u2();
+                Vec2 film = {u.x * static_cast<float>(scene.width),
+                             u.y * static_cast<float>(scene.height)};
+                Vec3 d = camera_ray(camera.view, film).d;
+                auto sight = ch17::sight_of(camera, (1 + 100 * random.u1()) * d);
+                size_t x = static_cast<size_t>(film.x), y = static_cast<size_t>(film.y);
+                bool inside =
+                    film.x - std::floor(film.x) > 1e-3f && film.y - std::floor(film.y) > 1e-3f;
+                if (!inside) continue;
+                REQUIRE(sight.has_value());
+                CHECK(sight->pixel == y * static_cast<size_t>(scene.width) + x);
+                CHECK(!ch17::sight_of(camera, -1 * d));
+            }
+        }
+    }
+
+    TEST_CASE("truth: all of the camera's importance is 1") {
+        // Mean over directions of 4 pi We cos.
+        for (int fov : {20, 90, 140}) {
+            Scene scene = floor_below(sun, 1, fov, 30, 20);
+            ch17::Pinhole camera = ch17::pinhole_of(scene);
+            RunningStats s;
+            Sampler random = random_numbers(1);
+            for (int i = 0; i < 1000000; i++) {
+                auto sight = ch17::sight_of(camera, uniform_direction(random.u2()));
+                s.add(sight ? 4 * pi_exact * static_cast<double>(sight->We_cos) : 0);
+            }
+            check_bounded(s, 1, 0.01);
+        }
+    }
+
+    TEST_CASE("truth: a lamp that faces the camera: its area on the film times its radiance") {
+        Scene scene = world_of(shining + "Translate 0 0 -2 Rotate 180 0 1 0 Shape \"disk\" " +
+                               "\"float radius\" 0.5\n");
+        // The film at distance 1 is 2 tan 20 wide and high.
+        double film = std::pow(2 * std::tan(pi_exact / 9), 2);
+        check_picture_mean(scene, 0.1963495408494 / film, 100000, 0.005);
+    }
+}
+
+TEST_SUITE("ch17 light tracing") {
+    TEST_CASE("identity: each light sends out its power") {
+        Scene scene = world_of(
+            square(0, true) + "LightSource \"point\" \"point3 from\" [1 2 0] \"rgb I\" [1 2 3]\n" +
+            "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
+            "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
+            "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
+            "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
+            square(0, false));
+        ch17::Ends ends = ch17::ends_of(scene);
+        Sampler random = random_numbers(1);
+        double share = 0, backs = 0, n = 0, all = 0;
+        for (size_t i = 0; i < scene.lights.size(); i++) {
+            all += static_cast<double>(light_power(scene, i));
+        }
+        for (int k = 0; k < 20000; k++) {
+            double u = join(random.u2());
+            size_t i = pick_light(ends.lights, u);
+            Vec2 u_y = random.u2();
+            ch17::Emission e = ch17::sample_emission(scene, ends, u, u_y, random.u2());
+            REQUIRE(length(e.d) == doctest::Approx(1).epsilon(1e-5).scale(0));
+            bool point = e.type == LightType::point;
+            float cos_y = point ? 1 : dot(e.d, e.y.n);
+            REQUIRE(cos_y >= 0);
+            if (cos_y < 1e-4f) continue;
+            double flux = static_cast<double>(average(e.Le) * cos_y / (e.pmf * e.y.pdf * e.pdf_w));
+            CHECK(flux == doctest::Approx(all).epsilon(1e-4).scale(0));
+            if (!scene.lights[i].two_sided) continue;
+            n++, backs += e.y.n.y > 0, share += e.d.y > 0;
+        }
+        CHECK(n > 500);
+        CHECK(std::abs(backs / n - 0.5) < 5 * 0.5 / std::sqrt(n));
+        CHECK(share == backs);
+    }
+
+    TEST_CASE("density: rays of the sky and the sun fill the disk of the scene evenly") {
+        Scene scene = world_of("Translate 5 6 7 " + square(0, true) + "LightSource \"infinite\"");
+        ch17::Ends ends = ch17::ends_of(scene);
+        Sampler random = random_numbers(1);
+        std::vector<double> rings(10), octants(8);
+        for (int i = 0; i < 100000; i++) {
+            Vec2 u_y = random.u2();
+            ch17::Emission e = ch17::sample_emission(scene, ends, 0.5, u_y, random.u2());
+            Vec3 to = ends.centre - e.y.p;
+            float r2 = (dot(to, to) - dot(to, e.d) * dot(to, e.d)) / scene.radius / scene.radius;
+            rings[std::min<size_t>(9, static_cast<size_t>(10 * r2))]++;
+            octants[static_cast<size_t>((e.d.x > 0) + 2 * (e.d.y > 0) + 4 * (e.d.z > 0))]++;
+        }
+        CHECK(chi_square_tail(chi_square(rings), 9) > 1e-6);
+        CHECK(chi_square_tail(chi_square(octants), 7) > 1e-6);
+    }
+
+    TEST_CASE("truth: irradiance of all lights") {
+        // The picture shows a square of 10 cm around the origin.
+        auto all = lights_of_known_irradiance;
+        all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
+        for (const auto& [light_here, E] : all) {
+            const auto& light = light_here;
+            if (E < 0.1) continue;  // too few of its paths come here
+            CAPTURE(light);
+            Scene scene = floor_below(light, 0.1);
+            scene.camera.o = {0, 0.05f, 0};
+            constexpr int paths = 3000000;
+            double truth = 0.5 * E / pi_exact;
+            Measured m = totals(scene, paths).measured(paths);
+            CHECK(std::abs(m.mean - truth) < 5 * m.se + 0.003 * truth);
+            CHECK(m.se < 0.06 * truth);
+        }
+    }
+
+    TEST_CASE("truth: how finely a light is cut into triangles changes nothing") {
+        auto lamp = [](int n) {
+            std::string text = "AttributeBegin " + shining + "Translate 0 1.5 0 Scale 0.3 1 0.3\n" +
+                               "Shape \"trianglemesh\" \"integer indices\" [";
+            std::string points;
+            for (int i = 0; i < n; i++)
+                for (int j = 0; j < n; j++) {
+                    int a = 4 * (n * i + j);
+                    for (int k : {0, 2, 1, 0, 3, 2}) text += std::to_string(a + k) + " ";
+                    for (auto [x, z] : {std::pair(i, j), {i, j + 1}, {i + 1, j + 1}, {i + 1, j}})
+                        points += std::to_string(2.0 * x / n - 1) + " 0 " +
+                                  std::to_string(2.0 * z / n - 1) + " ";
+                }
+            return text + "] \"point3 P\" [" + points + "]\nAttributeEnd\n";
+        };
+        Scene whole = floor_below(lamp(1), 2), cut = floor_below(lamp(9), 2);
+        CHECK(whole.light_shapes[0].parallelogram);
+        CHECK(!cut.light_shapes[0].parallelogram);
+        Measured a = totals(whole, 300000).measured(300000);
+        Measured b = totals(cut, 300000, 2).measured(300000);
+        CHECK(z_between(a, b) < 5);
+        CHECK(a.se < 0.005 * a.mean);
+    }
+
+    TEST_CASE("furnace: inside a sphere that emits 1 and reflects the albedo: 1 / (1 - albedo)") {
+        for (double albedo : {0.0, 0.5, 0.8}) {
+            std::string a = std::to_string(albedo);
+            Scene scene = scene_of(
+                "LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 60\n"
+                "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
+                "ReverseOrientation AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+                "Material \"diffuse\" \"rgb reflectance\" [" +
+                a + " " + a + " " + a + "] Shape \"sphere\" \"float radius\" [1]\n");
+            scene.max_depth = 1000;
+            check_picture_mean(scene, 1 / (1 - albedo), 400000, 0.01);
+        }
+    }
+
+    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 14") {
+        struct {
+            std::string name;
+            int paths, least;
+        } cases[] = {{"cornell", 200000, 12},        {"cornell-spheres", 200000, 12},
+                     {"two-lights", 200000, 8},      {"far-and-near", 2000000, 2},
+                     {"color-bleeding", 200000, 10}, {"caustic", 200000, 4},
+                     {"furnace", 200000, 2},         {"hidden-light", 4000000, 2},
+                     {"near-light", 1000000, 4}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
+            CHECK(check_classes(scene, by_fourteen(scene), scene, by_seventeen(scene), c.paths, 1,
+                                shown_by_light) >= c.least);
+        }
+    }
+
+    TEST_CASE("agreement: each block of the picture with chapter 14") {
+        for (std::string name : {"cornell", "cornell-spheres", "two-lights"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 5);
+            BlockMeans a = blocks_of(scene, by_fourteen(scene), 16, 32, 8, shown_by_light);
+            BlockMeans b = blocks_of(scene, by_seventeen(scene), 16, 32, 8, shown_by_light);
+            check_agreement(hold_against(a, b), 0.02);
+        }
+    }
+
+    TEST_CASE("agreement: a light in glass") {
+        Scene scene = scene_from("scenes/light-in-glass.pbrt", 32, 8);
+        CHECK(check_classes(scene, by_fourteen(scene), scene, by_seventeen(scene), 1000000, 1,
+                            shown_by_light) >= 6);
+    }
+
+    TEST_CASE("truth: flux through a pane of glass, from both sides") {
+        // A floor in the sun under a pane: (1 - R) / (1 + R) = 12 / 13 of it.
+        auto check = [&](const std::string& glass, const char* classes, double share) {
+            Scene scene = floor_below(sun +
+                                          "AttributeBegin Material \"dielectric\" \"float eta\" "
+                                          "[1.5] " +
+                                          glass + "AttributeEnd\n",
+                                      1);
+            scene.camera.o = {0, 0.3f, 0};
+            scene.max_depth = 50;
+            Measured m = totals(scene, 1000000, 1, classes).measured(1000000);
+            CHECK(std::abs(m.mean - share * 0.1591549430919) < 5 * m.se);
+            CHECK(m.se < 0.01 * m.mean);
+        };
+        check(square(0.5f, true) + square(0.4f, false), "LS*DE", 12 / 13.0);
+        // Flux is not squeezed where it enters glass, nor where it leaves it.
+        check(square(0.5f, true), "LSDE", 0.96);
+        check(square(0.5f, false), "LSDE", 0.96);
+    }
+
+    TEST_CASE("failure: mirrors seen directly are black, and a warning says so") {
+        Scene mirror = light_before_mirror();
+        Rendering r = film_of(mirror, by_seventeen(mirror), 16);
+        CHECK(r.film.mean() == 0);
+        RenderOptions options;
+        options.search = LightSearch::from_lights;
+        std::vector<std::string> lines = warnings_of(mirror, options, r);
+        REQUIRE(!lines.empty());
+        CHECK(lines.back().find("mirror or glass: black") != std::string::npos);
+        Scene none = floor_without_lights();
+        CHECK(film_of(none, by_seventeen(none), 4).film.mean() == 0);
+        Scene cornell = scene_from("scenes/cornell.pbrt", 16, 2);
+        r = film_of(cornell, by_seventeen(cornell), 16);
+        CHECK(warnings_of(cornell, options, r).empty());
+    }
+
+    TEST_CASE("failure: light is rarely shown to a camera close to what it sees") {
+        // Direct sun, and a floor of which the picture shows the share h^2: relvar 1 / h^2 - 1 of
+        // those that meet the floor.
+        for (double h : {1.0, 0.3, 0.1}) {
+            Scene scene = floor_below(sun, 1);
+            scene.camera.o = {0, static_cast<float>(h), 0};
+            PathSum sum = totals(scene, 400000);
+            double disk = pi_exact * std::pow(static_cast<double>(scene.radius), 2);
+            double share = std::min(1.0, h * h) * 4 / disk;
+            Measured m = sum.measured(400000);
+            double relvar = 400000 * m.se * m.se / (m.mean * m.mean);
+            CHECK(relvar == doctest::Approx(1 / share - 1).epsilon(0.1).scale(0));
+            CHECK(std::isfinite(m.mean));
+        }
+    }
+
+    TEST_CASE("agreement: samplers, sizes of samples and units leave the mean alone") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 4);
+        Film truth = film_of(scene, by_seventeen(scene), 256).film;
+        Measured a{truth.mean(), truth.standard_error()};
+        for (SamplerType type : {SamplerType::stratified, SamplerType::sobol}) {
+            Film film = film_of(scene, by_seventeen(scene), 64, 2, type).film;
+            CHECK(z_between(a, {film.mean(), film.standard_error()}) < 5);
+        }
+        for (int spp : {1, 2, 3, 7}) {
+            RunningStats means;
+            for (uint32_t seed = 0; seed < 32; seed++)
+                means.add(film_of(scene, by_seventeen(scene), spp, 100 + seed).film.mean());
+            CHECK(z_between(a, {means.mean(), means.standard_error()}) < 5);
+        }
+        for (double unit : {0.001, 1000.0}) {
+            Scene other = parse_scene("cornell.pbrt", read_file("scenes/cornell.pbrt"), nullptr);
+            float scale = static_cast<float>(unit);
+            for (Vec3& p : other.geometry.positions) p = scale * p;
+            other.camera.o = scale * other.camera.o;
+            prepare(other, 1);
+            other.width = other.height = 32, other.max_depth = 4;
+            Film film = film_of(other, by_seventeen(other), 64, 3).film;
+            CHECK(z_between(a, {film.mean(), film.standard_error()}) < 5);
+        }
+    }
+
+    TEST_CASE("variance: a caustic: a hundredth of the relMSE of chapter 14, and less") {
+        Scene scene = scene_from("scenes/caustic.pbrt", 32, 8);
+        auto error_of = [&](const auto& trace) {
+            BlockMeans m = blocks_of(scene, trace, 16, 16, 4, "LS+DE");
+            double sum = 0;
+            for (const RunningStats& s : m.blocks)
+                sum += s.variance() / (s.mean() * s.mean() + 1e-4);
+            return sum;
+        };
+        CHECK(error_of(by_seventeen(scene)) < error_of(by_fourteen(scene)) / 100);
+    }
+}
+
+TEST_SUITE("ch17 slow") {
+    TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 4);
+        for (SamplerType type :
+             {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
+            CAPTURE(static_cast<int>(type));
+            RunningStats means, squares;
+            for (uint32_t seed = 0; seed < 200; seed++) {
+                Film film = film_of(scene, by_seventeen(scene), 8, seed, type).film;
+                means.add(film.mean());
+                squares.add(std::pow(film.standard_error(), 2));
+            }
+            double ratio = std::sqrt(squares.mean() / means.variance());
+            CHECK(ratio > 1 / 1.25);
+            CHECK(ratio < 1.25);
+            CHECK(std::sqrt(means.variance()) < 0.01 * means.mean());
+        }
+    }
+}

@@ -1,0 +1,315 @@
+// Chapter 18: every strategy, its weight, and all of them together.
+#include <doctest/doctest.h>
+
+#include "chapters/14_mis_ris/estimator.h"
+#include "chapters/18_bidirectional/estimator.h"
+#include "tests/support/known_lights.h"
+#include "tests/support/light_paths.h"
+
+namespace {
+
+Trace by_fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
+SplatTrace by_eighteen(const Scene& scene, int s = -1, int t = -1) {
+    return splat_trace_with<ch18::trace>(ch18::prepare(scene, s, t));
+}
+
+/// All that is seen of a whole path, from the light x[0] on to the eye: x[k] is the last surface.
+struct WholePath {
+    std::vector<ch18::Vertex> from_light;  // as the walk from the light left them
+    std::vector<ch18::Vertex> from_eye;    // [i]: the vertex i + 1 steps from the eye
+    size_t light = 0;
+};
+
+/// The same points as a path from the eye meets them; nothing where it does not.
+bool add_eye_vertices(const Scene& scene, const Pinhole& camera, WholePath& path) {
+    ch18::Vertex before, z;
+    z.x.p = camera.view.o;
+    Vec3 d = normalize(path.from_light.back().x.p - z.x.p);
+    float pdf_w = importance_cos(camera, d), back_w = 0;
+    for (size_t i = path.from_light.size(); i-- > 0;) {
+        Vec3 target = path.from_light[i].x.p;
+        Ray ray = path.from_eye.empty() ? Ray{z.x.p, d} : spawn_ray(z.x, normalize(target - z.x.p));
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x || length(x->p - target) > 1e-3f * scene.radius) return false;
+        ch18::Vertex next = ch18::next_vertex(before, z, *x, ray.d, pdf_w, back_w, {1, 1, 1});
+        if (path.from_eye.empty()) next.before = next.to_area = 0;
+        before = z, z = next;
+        path.from_eye.push_back(z);
+        if (i == 0) break;
+        Vec3 wi = normalize(path.from_light[i - 1].x.p - x->p);
+        pdf_w = ch18::pdf_eye(scene, *x, z.back, wi);
+        back_w = ch18::pdf_light(scene, *x, wi, z.back);
+        if (pdf_w == 0 || back_w == 0) return false;
+    }
+    return true;
+}
+
+/// The balance heuristic as it is written: densities of the whole path by each strategy.
+std::vector<double> densities_of(const Scene& scene, const ch18::Prepared& prepared,
+                                 const WholePath& path) {
+    const auto& y = path.from_light;
+    size_t n = y.size();  // vertices but the eye
+    const Pinhole& camera = prepared.ends.camera;
+    auto p = [&](size_t i) { return i < n ? y[i].x.p : camera.view.o; };
+    auto ng = [&](size_t i) { return path.from_eye[n - 1 - i].x.ng; };
+    auto hit = [&](size_t i) { return path.from_eye[n - 1 - i].x; };
+    auto specular = [&](size_t i) { return i > 0 && i < n && y[i].specular; };
+    auto to = [&](size_t a, size_t b) { return normalize(p(b) - p(a)); };
+    auto area = [&](size_t from, size_t at) {  // of one sr at `from`, in m^-2 at `at`
+        return static_cast<double>(std::abs(dot(to(from, at), ng(at)))) /
+               static_cast<double>(length_squared(p(at) - p(from)));
+    };
+    // Of each vertex, when it comes from the light, and from the eye.
+    std::vector<double> light(n), eye(n);
+    for (size_t i = 0; i < n; i++) {
+        if (i == 0) {
+            light[i] = static_cast<double>(pmf_light(prepared.ends.lights, path.light) *
+                                           pdf_area(scene, path.light));
+        } else {
+            double pdf_w = i == 1 ? static_cast<double>(std::abs(dot(to(0, 1), ng(0)))) / pi_exact
+                                  : static_cast<double>(ch18::pdf_light(
+                                        scene, hit(i - 1), to(i - 1, i - 2), to(i - 1, i)));
+            light[i] = pdf_w * area(i - 1, i);
+        }
+        double pdf_w = i == n - 1 ? static_cast<double>(importance_cos(camera, to(n, i)))
+                                  : static_cast<double>(ch18::pdf_eye(
+                                        scene, hit(i + 1), to(i + 1, i + 2), to(i + 1, i)));
+        eye[i] = pdf_w * area(i + 1, i);
+    }
+    std::vector<double> of_strategy(n + 1);  // by s; the eye alone comes from no light
+    for (size_t s = 0; s <= n; s++) {
+        bool joined = s == 0 || (!specular(s - 1) && !specular(s));
+        double density = joined && !(s == 1 && n == 1) ? 1 : 0;
+        for (size_t i = 0; i < n; i++) density *= i < s ? light[i] : eye[i];
+        of_strategy[s] = density;
+    }
+    return of_strategy;
+}
+
+/// The same weights by what the vertices remember.
+double weight_of(const Scene& scene, const ch18::Prepared& prepared, const WholePath& path,
+                 size_t s) {
+    const auto& y = path.from_light;
+    const auto& z = path.from_eye;
+    size_t n = y.size(), t = n + 1 - s;  // t counts the eye
+    ch18::Vertex eye;
+    auto z_at = [&](size_t i) { return i == 0 ? eye : z[i - 1]; };
+    if (s == 0) {
+        return static_cast<double>(ch18::mis_emission(scene, prepared, z_at(t - 2), z_at(t - 1),
+                                                      static_cast<int>(t), path.light, false));
+    }
+    if (t == 1) {
+        Vec3 away = y[s - 1].x.p - prepared.ends.camera.view.o;
+        float We_cos = importance_cos(prepared.ends.camera, away);
+        return static_cast<double>(ch18::mis_shown(scene, prepared, y[s - 2], y[s - 1],
+                                                   -1 * normalize(away), We_cos / dot(away, away)));
+    }
+    ch18::Vertex to = z_at(t - 1);
+    if (s == 1) {
+        Emission e{LightType::area,
+                   {y[0].x.p, y[0].x.ng, 0, pdf_area(scene, path.light)},
+                   {},
+                   pmf_light(prepared.ends.lights, path.light),
+                   1,
+                   {1, 1, 1}};
+        return static_cast<double>(
+            ch18::mis_lit(scene, prepared, ch18::light_end(e, to.x), z_at(t - 2), to));
+    }
+    Vec3 w = to.x.p - y[s - 1].x.p;
+    return static_cast<double>(ch18::mis_joined(scene, prepared, y[s - 2], y[s - 1], z_at(t - 2),
+                                                to, normalize(w), dot(w, w)));
+}
+
+}  // namespace
+
+TEST_SUITE("ch18 weights") {
+    TEST_CASE("identity: weights are p_s / sum p_i over the densities of whole paths") {
+        for (std::string name : {"cornell", "cornell-spheres", "two-lights", "veach-mis"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 7);
+            ch18::Prepared prepared = ch18::prepare(scene);
+            Sampler sampler(SamplerType::independent, 1, 1);
+            PathLog log;
+            std::vector<int> compared(9);
+            for (uint32_t i = 0; i < 20000; i++) {
+                sampler.start(i, 0);
+                std::vector<ch18::Vertex> walk;
+                ch18::walk_from_light(scene, prepared, sampler, walk, log);
+                size_t n = 2 + i % 7;  // vertices of the path, but the eye
+                if (walk.size() < n) continue;
+                walk.resize(n);
+                WholePath path{walk, {}, 0};
+                if (walk.back().specular) continue;
+                if (!add_eye_vertices(scene, prepared.ends.camera, path)) continue;
+                path.light = static_cast<size_t>(path.from_eye.back().x.light);
+                if (path.from_eye.back().x.light < 0) continue;
+                std::vector<double> p = densities_of(scene, prepared, path);
+                double all = 0, sum = 0;
+                for (double density : p) all += density;
+                for (size_t s = 0; s <= n; s++) {
+                    if (p[s] == 0) continue;
+                    double mis = weight_of(scene, prepared, path, s);
+                    sum += mis;
+                    CAPTURE(n);
+                    CAPTURE(s);
+                    CHECK(std::abs(mis - p[s] / all) < 2e-3);
+                }
+                CHECK(std::abs(sum - 1) < 2e-3);
+                compared[n]++;
+            }
+            for (size_t n = 2; n < 6; n++) CHECK(compared[n] > 50);
+        }
+    }
+
+    TEST_CASE("truth: densities and weights of a path of three edges") {
+        // The pinhole at (0, -1, 0.5) looks at the origin, with a film of area 1 at distance 1;
+        // x = (0.2, 0.1, 0) on the floor, y = (0.1, -0.2, 1) on a unit light that faces it.
+        Vec3 x = {0.2f, 0.1f, 0}, y = {0.1f, -0.2f, 1}, c = {0, -1, 0.5f};
+        Pinhole camera{};
+        camera.axis = normalize(-1 * c), camera.area = 1;
+        Vec3 away = x - c;
+        float d2 = dot(away, away);
+        double from_eye = static_cast<double>(importance_cos(camera, away) / d2 * std::abs(away.z) /
+                                              std::sqrt(d2));
+        CHECK(from_eye == doctest::Approx(0.2840100565843).epsilon(1e-5).scale(0));
+        Vec3 to_y = y - x;
+        double r2 = static_cast<double>(dot(to_y, to_y));
+        double cos2 = static_cast<double>(to_y.z) * static_cast<double>(to_y.z) / r2;
+        double s0 = from_eye * cos2 / pi_exact / r2, s1 = from_eye, s2 = cos2 / pi_exact / r2;
+        CHECK(s0 == doctest::Approx(0.07471339569125).epsilon(1e-5).scale(0));
+        CHECK(s2 == doctest::Approx(0.2630660216395).epsilon(1e-5).scale(0));
+        CHECK(s0 / (s0 + s1 + s2) == doctest::Approx(0.1201586691727).epsilon(1e-5).scale(0));
+    }
+}
+
+TEST_SUITE("ch18 bidirectional") {
+    TEST_CASE("truth: each strategy alone has the mean of its paths") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 3);
+        for (int edges : {2, 3, 4}) {
+            std::string classes = "L" + std::string(static_cast<size_t>(edges - 1), 'D') + "E";
+            constexpr int paths = 400000;
+            Measured truth =
+                census_of(scene, by_fourteen(scene), paths, 1, classes).all.measured(paths);
+            for (int s = 0; s <= edges; s++) {
+                CAPTURE(edges);
+                CAPTURE(s);
+                Measured m =
+                    census_of(scene, by_eighteen(scene, s, edges + 1 - s), paths, 2, classes)
+                        .all.measured(paths);
+                CHECK(z_between(truth, m) < 5);
+                CHECK(m.se < 0.15 * m.mean);
+            }
+        }
+    }
+
+    TEST_CASE("truth: irradiance of all lights by both ends") {
+        auto all = lights_of_known_irradiance;
+        all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
+        for (const auto& [light_here, E] : all) {
+            const auto& light = light_here;
+            CAPTURE(light);
+            Scene scene = floor_under(light);
+            scene.camera.o = {0, 0.01f, 0};
+            scene.camera.right = {1, 0, 0}, scene.camera.up = {0, 0, 1};
+            scene.camera.forward = {0, -1, 0};
+            constexpr int paths = 200000;
+            Measured m = census_of(scene, by_eighteen(scene), paths, 1).all.measured(paths);
+            CHECK(std::abs(m.mean - E / pi_exact) < 5 * m.se + 1e-3 * E);
+            CHECK(m.se < 0.03 * m.mean);
+        }
+    }
+
+    TEST_CASE("furnace: inside a sphere that emits 1 and reflects the albedo, by both ends") {
+        Scene scene = scene_of(
+            "LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 60\n"
+            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
+            "ReverseOrientation AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+            "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Shape \"sphere\"\n");
+        scene.max_depth = 60;
+        Measured m = census_of(scene, by_eighteen(scene), 200000, 1).all.measured(200000);
+        CHECK(std::abs(m.mean - 2) < 5 * m.se);
+        CHECK(m.se < 0.01);
+    }
+
+    TEST_CASE("truth: a light in a mirror and straight on, without noise, by both ends") {
+        Scene mirror = light_before_mirror();
+        auto trace = by_eighteen(mirror);
+        check_light_before_mirror(mirror,
+                                  [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+                                      Splats splats;
+                                      return trace(s, ray, splats, sampler, log);
+                                  });
+        Scene none = floor_without_lights();
+        CHECK(film_of(none, by_eighteen(none), 4).film.mean() == 0);
+    }
+
+    TEST_CASE("agreement: all lengths and classes of paths with chapter 14") {
+        struct {
+            std::string name;
+            int paths, least;
+        } cases[] = {{"cornell", 200000, 12},
+                     {"cornell-spheres", 400000, 20},
+                     {"two-lights", 200000, 8},
+                     {"far-and-near", 200000, 2},
+                     {"color-bleeding", 200000, 8},
+                     {"horizon-sky", 200000, 2},
+                     {"veach-mis", 200000, 8},
+                     {"light-in-glass", 400000, 8},
+                     {"furnace-glass", 100000, 4},
+                     {"hidden-light", 400000, 4},
+                     {"near-light", 200000, 4},
+                     {"caustic", 400000, 6},
+                     {"lamp", 400000, 6}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
+            CHECK(check_classes(scene, by_fourteen(scene), scene, by_eighteen(scene), c.paths) >=
+                  c.least);
+        }
+    }
+
+    TEST_CASE("agreement: each block of the picture with chapter 14, by both ends") {
+        for (std::string name : {"cornell", "two-lights"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 5);
+            BlockMeans a = blocks_of(scene, by_fourteen(scene), 16, 32, 8);
+            BlockMeans b = blocks_of(scene, by_eighteen(scene), 16, 32, 8);
+            check_agreement(hold_against(a, b), 0.02);
+        }
+    }
+
+    TEST_CASE("agreement: samplers, by both ends") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
+        Film a = film_of(scene, by_eighteen(scene), 128).film;
+        for (SamplerType type : {SamplerType::stratified, SamplerType::sobol}) {
+            Film b = film_of(scene, by_eighteen(scene), 64, 2, type).film;
+            CHECK(z_between({a.mean(), a.standard_error()}, {b.mean(), b.standard_error()}) < 5);
+        }
+    }
+
+    TEST_CASE("variance: a lamp in a shade: a tenth of the relMSE of chapter 14, and less") {
+        Scene scene = scene_from("scenes/lamp.pbrt", 32, 8);
+        auto error_of = [&](const auto& trace) {
+            BlockMeans m = blocks_of(scene, trace, 16, 16, 4);
+            double sum = 0;
+            for (const RunningStats& s : m.blocks) sum += s.variance() / (s.mean() * s.mean());
+            return sum;
+        };
+        CHECK(error_of(by_eighteen(scene)) < error_of(by_fourteen(scene)) / 5);
+    }
+
+    TEST_CASE("failure: a point light seen by way of glass, lit by way of glass: no strategy") {
+        // LS+DS+E has one strategy, by chance; of a point light, none.
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 8);
+        Measured lamp =
+            census_of(scene, by_eighteen(scene), 400000, 1, "LS+DS+E").all.measured(400000);
+        CHECK(lamp.mean > 5 * lamp.se);
+        Scene point = world_of(
+            "LightSource \"point\" \"point3 from\" [0 2 0]\nAttributeBegin Translate 0 -1 0 Scale "
+            "9 1 9 " +
+            square(0, true) + "AttributeEnd Material \"dielectric\" Shape \"sphere\"\n");
+        point.max_depth = 8;
+        CHECK(census_of(point, by_eighteen(point), 100000, 1, "LS+DS+E").all.sum == 0);
+        CHECK(census_of(point, by_eighteen(point), 100000, 1, "LS+DE").all.sum > 0);
+    }
+}

@@ -1,0 +1,24 @@
+#include "chapters/17_light_tracing/estimator.h"
+#include "common/base/error.h"
+#include "tests/measure/methods.h"
+
+/// What mirrors and glass show the camera is missing.
+static void refuse_seen_mirrors(const Scene& scene) {
+    for (const Shape& shape : scene.shapes) {
+        const Material& m = scene.materials[shape.material];
+        if (is_specular(m)) throw InputError("error: " + scene.file + " has mirrors or glass");
+    }
+}
+
+static Rendering by_light(const Scene& scene, RenderOptions options) {
+    options.search = LightSearch::from_lights;
+    return render_film(scene, options, trace_light_with<ch17::trace_light>(ch17::ends_of(scene)));
+}
+
+[[maybe_unused]] static const bool added = add_method({.name = "17",
+                                                       .label = "17 light tracing",
+                                                       .color = "#bcbd22",
+                                                       .finds_light = "from the light",
+                                                       .scenes = {"cornell", "two-lights"},
+                                                       .refuse = {refuse_seen_mirrors},
+                                                       .render = by_light});

@@ -1,0 +1,57 @@
+// For chapters whose paths begin at lights: a picture's parts, measured over seeds, since pixels of
+// such a picture do not know their own error.
+#pragma once
+#include "tests/support/estimators.h"
+
+/// The means of blocks of pixels, over renders with different seeds.
+struct BlockMeans {
+    int size = 0, side = 0;
+    std::vector<RunningStats> blocks = {};
+    RunningStats whole = {};
+
+    void add(const Image& image) {
+        int count = size / side;
+        blocks.resize(static_cast<size_t>(count * count));
+        double all = 0;
+        for (int b = 0; b < count * count; b++) {
+            double sum = 0;
+            for (int y = 0; y < side; y++)
+                for (int x = 0; x < side; x++)
+                    sum += static_cast<double>(
+                        average(image.at(b % count * side + x, b / count * side + y)));
+            blocks[static_cast<size_t>(b)].add(sum / (side * side));
+            all += sum;
+        }
+        whole.add(all / (size * size));
+    }
+    Measured block(int x0, int y0, int block_side) const {
+        const RunningStats& s =
+            block_side == size ? whole
+                               : blocks[static_cast<size_t>(y0 / side * (size / side) + x0 / side)];
+        return {s.mean(), s.standard_error()};
+    }
+};
+
+/// `runs` pictures of a square scene; of the classes of path that the filter matches.
+template <class AnyTrace>
+BlockMeans blocks_of(Scene scene, const AnyTrace& trace, int spp, int runs, int side,
+                     const std::string& paths = "") {
+    BlockMeans means{scene.width, side};
+    scene.spp = spp;
+    RenderOptions options;
+    options.threads = static_cast<int>(std::thread::hardware_concurrency());
+    options.quiet = true, options.paths = paths;
+    for (int run = 0; run < runs; run++) {
+        options.seed = static_cast<uint32_t>(run);
+        means.add(render_film(scene, options, trace).film.image());
+    }
+    return means;
+}
+inline Agreement hold_against(const BlockMeans& a, const BlockMeans& b) {
+    return hold_against(
+        a.size, a.side, [&](int x, int y, int side) { return a.block(x, y, side); },
+        [&](int x, int y, int side) { return b.block(x, y, side); });
+}
+
+/// Paths that a light can show to a pinhole: those whose last vertex is no mirror and no glass.
+inline const std::string shown_by_light = "L((D|S)*D)?E";
