@@ -1,192 +1,17 @@
 #include "common/program/render.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <chrono>
-#include <mutex>
 
 #include "common/base/parallel.h"
-#include "common/path/camera_sample.h"
 #include "common/program/explain.h"
 #include "common/program/film_keeping.h"
 #include "common/program/lamp_edges.h"
 #include "common/program/progress.h"
 #include "common/program/results.h"
-#include "common/program/stop.h"
+#include "common/program/tile_renderer.h"
 
 namespace {
-
-/// When the render has to end before it has all samples.
-class Limit {
-public:
-    explicit Limit(double seconds) : seconds_(seconds) {}
-    bool reached() const { return signal_.requested() || (seconds_ > 0 && elapsed() >= seconds_); }
-    bool interrupted() const { return signal_.requested(); }
-    double elapsed() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    double seconds_;  // 0: no limit
-    StopOnSignal signal_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Renders the samples of the pixels of one tile, or fewer at the limit.
-class TileRenderer {
-public:
-    static constexpr int side = 16;             // pixels
-    static constexpr size_t longest_class = 8;  // letters of a class that has its own film
-    static constexpr int between_looks = 64;    // samples from one look at the limit to the next
-
-    TileRenderer(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
-                 const Allocation& allocation, const Limit& limit, const FilmClock& clock,
-                 Rendering& result, uint32_t first)
-        : scene_(scene),
-          options_(options),
-          trace_(trace),
-          allocation_(allocation),
-          limit_(limit),
-          clock_(clock),
-          result_(result),
-          first_(first),
-          view_(camera_view(scene.camera, scene.width, scene.height)),
-          tiles_x_((scene.width + side - 1) / side) {}
-
-    int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
-
-    /// Takes samples until each pixel has those up to `end`, the number of a sample; none while the
-    /// film waits to be saved.
-    void render(int tile, uint32_t end) {
-        if (limit_.reached() || clock_.due()) return;
-        Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
-        bool listen = !options_.paths.empty() || !options_.split.empty();
-        PathLog log = listen ? PathLog(options_.paths) : PathLog(), audit_log = log;
-        Splats splats, audit_splats;
-        RenderStats stats;
-        uint64_t rays_before = rays_traced;
-        int taken = 0;
-        for_pixels(tile, [&](int x, int y) {
-            size_t pixel =
-                static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
-            bool audited = result_.film.is_audited(pixel);
-            for (int half = 0; half < halves(); half++) {
-                auto [s, last] = samples(pixel, half, end);
-                for (; s < last; s++) {
-                    if (++taken % between_looks == 0 && limit_.reached()) return false;
-                    add_sample({x, y, pixel, half, s}, sampler, splats, log, stats);
-                    if (audited) audit({x, y, pixel, half, s}, sampler, audit_splats, audit_log);
-                }
-            }
-            return true;
-        });
-        stats.rays = rays_traced - rays_before;
-        stats.paths_cut = log.paths_cut();
-        std::lock_guard lock(mutex_);
-        result_.stats.add(stats);
-    }
-
-private:
-    int halves() const { return allocation_.pilot > 0 ? 2 : 1; }
-
-    /// The numbers of the next sample of a pixel's half, and of the one after the last up to `end`.
-    std::pair<uint32_t, uint32_t> samples(size_t pixel, int half, uint32_t end) const {
-        uint32_t done = result_.film.half(half)[pixel].n;
-        if (allocation_.pilot == 0) return {first_ + done, end};
-        uint32_t first = first_ == 0 ? 0 : allocation_.samples(pixel, half, first_);
-        return {first + done, allocation_.samples(pixel, half, end)};
-    }
-
-    /// Calls work(x, y) for the pixels of the tile, as long as it returns true.
-    template <typename Work>
-    void for_pixels(int tile, const Work& work) {
-        int x0 = tile % tiles_x_ * side, y0 = tile / tiles_x_ * side;
-        int x1 = std::min(x0 + side, scene_.width), y1 = std::min(y0 + side, scene_.height);
-        for (int y = y0; y < y1; y++) {
-            for (int x = x0; x < x1; x++) {
-                if (!work(x, y)) return;
-            }
-        }
-    }
-
-    struct Place {
-        int x, y;
-        size_t pixel;
-        int half;
-        uint32_t sample;  // of the half
-    };
-
-    /// What a sample brings to its own pixel, and what with all its splats.
-    struct Sample {
-        Rgb L, total;
-    };
-    [[gnu::always_inline]] Sample trace(const Place& at, int half, Sampler& sampler, Splats& splats,
-                                        PathLog& log) {
-        start_sample(sampler, at.pixel, half, at.sample);
-        log.start();
-        splats.clear();
-        Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
-        Rgb L = trace_(scene_, ray, splats, sampler, log), total = L;
-        for (const Splat& splat : splats) total += splat.L;
-        return {L, total};
-    }
-
-    void add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
-                    RenderStats& stats) {
-        auto [L, total] = trace(at, at.half, sampler, splats, log);
-        if (is_finite(total)) {
-            stats.largest = std::max(stats.largest, static_cast<double>(average(total)));
-        } else {
-            int number = static_cast<int>(at.sample) * halves() + at.half;
-            stats.add_not_finite(options_.seed, number, at.y, at.x);
-        }
-        result_.film.add(at.pixel, L, at.half);
-        if (result_.film.takes_splats()) {
-            result_.film.add_total(at.pixel, total);
-            for (const Splat& splat : splats) {
-                std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
-                result_.film.splat(splat.pixel, splat.L);
-            }
-        }
-        if (!options_.split.empty()) split(at, log);
-    }
-
-    /// The same sample again, with numbers of another key.
-    void audit(const Place& at, Sampler& sampler, Splats& splats, PathLog& log) {
-        result_.film.audit(at.pixel, trace(at, 1, sampler, splats, log).total);
-    }
-
-    void split(const Place& at, const PathLog& log) {
-        for (const auto& [path_class, L, pixel] : log.contributions()) {
-            // Keep all long paths together: their classes double with every letter.
-            bool is_long = path_class.size() > longest_class;
-            std::lock_guard lock(mutex_);
-            auto [film, added] =
-                result_.classes.try_emplace(is_long ? "longer" : path_class, scene_.width,
-                                            scene_.height, result_.film.takes_splats());
-            if (added && result_.film.has_halves()) film->second.start_halves();
-            if (pixel == Contribution::own_pixel) {
-                film->second.add_part(at.pixel, L, at.half);
-            } else {
-                film->second.splat(pixel, L);
-            }
-        }
-    }
-
-    const Scene& scene_;
-    const RenderOptions& options_;
-    const SplatTrace& trace_;
-    const Allocation& allocation_;
-    const Limit& limit_;
-    const FilmClock& clock_;
-    Rendering& result_;
-    uint32_t first_;  // number of the first sample
-    CameraView view_;
-    int tiles_x_;
-    std::mutex mutex_;
-    std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats meet
-};
 
 uint32_t fewest_samples(const Film& film) {
     uint32_t fewest = film.pixels()[0].n;
@@ -207,7 +32,7 @@ bool has_more(const Film& film, uint32_t pilot) {
 ///
 /// A pass takes every pixel once, or more often when they are so few that threads would idle; but
 /// no more often than all passes before, so that an early end does not leave pixels empty.
-void take_samples(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
+void take_samples(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
                   const Allocation& allocation, const Limit& limit, SampleRange wanted,
                   Rendering& result) {
     bool goes_on = !options.film.empty() && allocation.pilot == 0;
@@ -243,7 +68,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const SplatT
 }
 
 Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
-                      const SplatTrace& trace, const Allocation& allocation) {
+                      const AnyTrace& trace, const Allocation& allocation) {
     Rendering result{std::move(empty), {}, 0, {}};
     if (allocation.pilot > 0) {
         result.film.start_halves();
@@ -274,27 +99,24 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     return result;
 }
 
-SplatTrace without_splats(const Trace& trace) {
-    return [&trace](const Scene& scene, Ray ray, Splats&, Sampler& sampler, PathLog& log) {
-        return trace(scene, ray, sampler, log);
-    };
-}
-
 }  // namespace
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation) {
     Film empty(scene.width, scene.height);
-    return render_into(std::move(empty), scene, options, without_splats(trace), allocation);
+    return render_into(std::move(empty), scene, options, {.plain = &trace}, allocation);
 }
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
-    return render_into(Film(scene.width, scene.height, true), scene, options, trace, {});
+    Film empty(scene.width, scene.height, true);
+    return render_into(std::move(empty), scene, options, {.splatting = &trace}, {});
 }
 
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation) {
     if (options.explain) {
-        return explain(scene, options, without_splats(trace), allocation.pilot > 0);
+        auto without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler,
+                                  PathLog& log) { return trace(s, ray, sampler, log); };
+        return explain(scene, options, without_splats, allocation.pilot > 0);
     }
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace, allocation));
