@@ -1,22 +1,25 @@
 // Chapter 18 as a program: reads options, loads a scene, renders it, writes the picture.
-#include "chapters/18_bidirectional/estimator.h"
-#include "common/program/render.h"
+#include "chapters/18_bidirectional/figure.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {
         int s = -1, t = -1;
+        std::string sheet;
         Option strategy = {
-            "strategy", "S,T", "one strategy alone, without a weight: S vertices from the light",
+            "strategy", "S,T", "one alone, without a weight: S vertices from the light, T the eye",
             [&](const std::string& text) {
                 size_t comma = std::min(text.find(','), text.size() - 1);
                 s = static_cast<int>(parse_integer("strategy", text.substr(0, comma), 0, 1000));
                 t = static_cast<int>(parse_integer("strategy", text.substr(comma + 1), 1, 1000));
             },
             "all"};
-        RenderOptions options = parse_render_options(argc, argv, "18_bidirectional",
-                                                     "scenes/cornell-spheres.pbrt", {strategy});
+        Option pyramid = {"pyramid", "FILE", "also write all short strategies as one sheet",
+                          [&](const std::string& text) { sheet = text; }, ""};
+        RenderOptions options = parse_render_options(
+            argc, argv, "18_bidirectional", "scenes/cornell-spheres.pbrt", {strategy, pyramid});
         options.search = LightSearch::both_ends;
         Scene scene = load(options);
+        if (!sheet.empty()) write_image(sheet, ch18::pyramid(scene, options), options.command);
         return render(scene, options, splat_trace_with<ch18::trace>(ch18::prepare(scene, s, t)));
     });
 }

@@ -18,13 +18,15 @@ struct Vertex {
     bool specular = false;
 };
 
-/// What is prepared for a scene, and the one strategy that counts (s < 0: all).
+/// What is prepared for a scene; the one strategy that counts (s < 0: all), and whether weighted.
 struct Prepared {
     Ends ends;
     int s = -1, t = -1;
+    bool weighted = true;
 };
-inline Prepared prepare(const Scene& scene, int s = -1, int t = -1) {
-    return {ends_of(scene), s, t};
+inline Prepared prepare(const Scene& scene) { return {ends_of(scene)}; }
+inline Prepared prepare(const Scene& scene, int s, int t, bool weighted = false) {
+    return {ends_of(scene), s, t, weighted || s < 0};
 }
 
 /// The density, in sr^-1, with which a path from the eye, or from the light, goes on at x from
@@ -103,7 +105,7 @@ inline LightEnd light_end(const Emission& e, const Hit& x) {
 /// Whether strategy (s, t) counts; its weight, from the sums of both sides.
 inline bool counts(const Prepared& p, int s, int t) { return p.s < 0 || (p.s == s && p.t == t); }
 inline float mis_weight(const Prepared& p, float light_sum, float eye_sum) {
-    return p.s < 0 ? 1 / (1 + light_sum + eye_sum) : 1;
+    return p.weighted ? 1 / (1 + light_sum + eye_sum) : 1;
 }
 
 /// t = 1: the weight of vertex y that is shown to the camera, in direction wo; `density` = We cos /

@@ -88,6 +88,18 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, double s
     auto is_delta = [](LightType type) {
         return type == LightType::point || type == LightType::distant;
     };
+    if (options.search == LightSearch::both_ends) {
+        const std::string both =
+            "light that comes by way of mirrors or glass to what the camera "
+            "sees by way of mirrors or glass ";
+        if (any_light(is_delta)) {
+            lines.push_back(both +
+                            "from a point or distant light is left out: nothing can meet it");
+        } else if (any_light(is_area)) {
+            lines.push_back(both + "is met only by chance: the error may not know of it");
+        }
+        return;
+    }
     const std::string light = "light that reaches a surface by way of mirrors or glass ";
     if (options.search == LightSearch::direct) {
         lines.push_back(light + "is left out, as is light from surface to surface");

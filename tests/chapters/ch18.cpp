@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "chapters/14_mis_ris/estimator.h"
+#include "chapters/17_light_tracing/estimator.h"
 #include "chapters/18_bidirectional/estimator.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
@@ -30,7 +31,7 @@ bool add_eye_vertices(const Scene& scene, const Pinhole& camera, WholePath& path
         Vec3 target = path.from_light[i].x.p;
         Ray ray = path.from_eye.empty() ? Ray{z.x.p, d} : spawn_ray(z.x, normalize(target - z.x.p));
         std::optional<Hit> x = intersect(scene, ray);
-        if (!x || length(x->p - target) > 1e-3f * scene.radius) return false;
+        if (!x || length(x->p - target) > 2e-5f * scene.radius) return false;
         ch18::Vertex next = ch18::next_vertex(before, z, *x, ray.d, pdf_w, back_w, {1, 1, 1});
         if (path.from_eye.empty()) next.before = next.to_area = 0;
         before = z, z = next;
@@ -124,14 +125,21 @@ double weight_of(const Scene& scene, const ch18::Prepared& prepared, const Whole
 
 TEST_SUITE("ch18 weights") {
     TEST_CASE("identity: weights are p_s / sum p_i over the densities of whole paths") {
-        for (std::string name : {"cornell", "cornell-spheres", "two-lights", "veach-mis"}) {
+        for (std::string name : {"cornell", "cornell-spheres", "two-lights", "metal"}) {
             CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 7);
+            bool metal = name == "metal";
+            Scene scene = scene_from("scenes/" + (metal ? "cornell" : name) + ".pbrt", 32, 7);
+            if (metal) {
+                for (Material& m : scene.materials) {
+                    m.type = MaterialType::conductor, m.alpha = 0.3f;
+                    m.eta = {0.2f, 0.2f, 0.2f}, m.k = {3.9f, 3.9f, 3.9f};
+                }
+            }
             ch18::Prepared prepared = ch18::prepare(scene);
             Sampler sampler(SamplerType::independent, 1, 1);
             PathLog log;
             std::vector<int> compared(9);
-            for (uint32_t i = 0; i < 20000; i++) {
+            for (uint32_t i = 0; i < 100000; i++) {
                 sampler.start(i, 0);
                 std::vector<ch18::Vertex> walk;
                 ch18::walk_from_light(scene, prepared, sampler, walk, log);
@@ -152,12 +160,12 @@ TEST_SUITE("ch18 weights") {
                     sum += mis;
                     CAPTURE(n);
                     CAPTURE(s);
-                    CHECK(std::abs(mis - p[s] / all) < 2e-3);
+                    CHECK(std::abs(mis - p[s] / all) < 5e-3);
                 }
-                CHECK(std::abs(sum - 1) < 2e-3);
+                CHECK(std::abs(sum - 1) < 5e-3);
                 compared[n]++;
             }
-            for (size_t n = 2; n < 6; n++) CHECK(compared[n] > 50);
+            for (size_t n = 2; n < 6; n++) CHECK(compared[n] > 20);
         }
     }
 
@@ -186,8 +194,10 @@ TEST_SUITE("ch18 bidirectional") {
     TEST_CASE("truth: each strategy alone has the mean of its paths") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 3);
         for (int edges : {2, 3, 4}) {
-            std::string classes = "L" + std::string(static_cast<size_t>(edges - 1), 'D') + "E";
-            constexpr int paths = 400000;
+            std::string classes = "L";
+            classes.append(static_cast<size_t>(edges - 1), 'D');
+            classes += "E";
+            constexpr int paths = 100000;
             Measured truth =
                 census_of(scene, by_fourteen(scene), paths, 1, classes).all.measured(paths);
             for (int s = 0; s <= edges; s++) {
@@ -197,7 +207,7 @@ TEST_SUITE("ch18 bidirectional") {
                     census_of(scene, by_eighteen(scene, s, edges + 1 - s), paths, 2, classes)
                         .all.measured(paths);
                 CHECK(z_between(truth, m) < 5);
-                CHECK(m.se < 0.15 * m.mean);
+                CHECK(m.se < 0.3 * m.mean);
             }
         }
     }
@@ -243,28 +253,13 @@ TEST_SUITE("ch18 bidirectional") {
         CHECK(film_of(none, by_eighteen(none), 4).film.mean() == 0);
     }
 
-    TEST_CASE("agreement: all lengths and classes of paths with chapter 14") {
-        struct {
-            std::string name;
-            int paths, least;
-        } cases[] = {{"cornell", 200000, 12},
-                     {"cornell-spheres", 400000, 20},
-                     {"two-lights", 200000, 8},
-                     {"far-and-near", 200000, 2},
-                     {"color-bleeding", 200000, 8},
-                     {"horizon-sky", 200000, 2},
-                     {"veach-mis", 200000, 8},
-                     {"light-in-glass", 400000, 8},
-                     {"furnace-glass", 100000, 4},
-                     {"hidden-light", 400000, 4},
-                     {"near-light", 200000, 4},
-                     {"caustic", 400000, 6},
-                     {"lamp", 400000, 6}};
-        for (const auto& c : cases) {
-            CAPTURE(c.name);
-            Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
-            CHECK(check_classes(scene, by_fourteen(scene), scene, by_eighteen(scene), c.paths) >=
-                  c.least);
+    TEST_CASE("agreement: caustics with chapter 17, which finds them at once") {
+        for (std::string name : {"caustic", "cornell-spheres", "light-in-glass"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
+            SplatTrace walk = trace_light_with<ch17::trace_light>(ch17::ends_of(scene));
+            CHECK(check_classes(scene, walk, scene, by_eighteen(scene), 400000, 1,
+                                shown_by_light) >= 6);
         }
     }
 
@@ -287,7 +282,7 @@ TEST_SUITE("ch18 bidirectional") {
         }
     }
 
-    TEST_CASE("variance: a lamp in a shade: a tenth of the relMSE of chapter 14, and less") {
+    TEST_CASE("variance: a lamp in a shade: a tenth of the error of chapter 14") {
         Scene scene = scene_from("scenes/lamp.pbrt", 32, 8);
         auto error_of = [&](const auto& trace) {
             BlockMeans m = blocks_of(scene, trace, 16, 16, 4);
@@ -295,7 +290,7 @@ TEST_SUITE("ch18 bidirectional") {
             for (const RunningStats& s : m.blocks) sum += s.variance() / (s.mean() * s.mean());
             return sum;
         };
-        CHECK(error_of(by_eighteen(scene)) < error_of(by_fourteen(scene)) / 5);
+        CHECK(error_of(by_eighteen(scene)) < error_of(by_fourteen(scene)) / 10);
     }
 
     TEST_CASE("failure: a point light seen by way of glass, lit by way of glass: no strategy") {
@@ -311,5 +306,25 @@ TEST_SUITE("ch18 bidirectional") {
         point.max_depth = 8;
         CHECK(census_of(point, by_eighteen(point), 100000, 1, "LS+DS+E").all.sum == 0);
         CHECK(census_of(point, by_eighteen(point), 100000, 1, "LS+DE").all.sum > 0);
+    }
+}
+
+TEST_SUITE("ch18 slow") {
+    TEST_CASE("agreement: all lengths and classes of paths with chapter 14") {
+        struct {
+            std::string name;
+            int paths, least;
+        } cases[] = {{"cornell", 200000, 12},       {"cornell-spheres", 400000, 20},
+                     {"two-lights", 200000, 8},     {"far-and-near", 200000, 2},
+                     {"color-bleeding", 200000, 8}, {"horizon-sky", 200000, 2},
+                     {"veach-mis", 200000, 8},      {"light-in-glass", 400000, 8},
+                     {"furnace-glass", 100000, 4},  {"hidden-light", 400000, 4},
+                     {"near-light", 200000, 4},     {"lamp", 400000, 6}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
+            CHECK(check_classes(scene, by_fourteen(scene), scene, by_eighteen(scene), c.paths) >=
+                  c.least);
+        }
     }
 }

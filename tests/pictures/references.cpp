@@ -6,8 +6,9 @@
 #include "chapters/12_glossy/estimator.h"
 #include "chapters/13_mis/estimator.h"
 #include "chapters/14_mis_ris/estimator.h"
+#include "chapters/18_bidirectional/estimator.h"
 #include "common/picture/image.h"
-#include "tests/support/scenes.h"
+#include "tests/support/light_paths.h"
 
 namespace {
 
@@ -117,6 +118,21 @@ TEST_SUITE("references slow") {
 
     TEST_CASE("agreement: a caustic, found by chance") {
         check_agreement(hold_against_reference("glass-caustic", six, 4096, 32), 0.015);
+    }
+
+    TEST_CASE("agreement: a caustic and plates, with chapter 18") {
+        for (std::string name : {"glass-caustic", "veach-mis", "cornell-grey"}) {
+            CAPTURE(name);
+            Reference reference(name);
+            Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
+            SplatTrace trace = splat_trace_with<ch18::trace>(ch18::prepare(scene));
+            BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
+            check_agreement(
+                hold_against(
+                    128, 32, [&](int x, int y, int side) { return means.block(x, y, side); },
+                    [&](int x, int y, int side) { return reference.block(x, y, side); }),
+                0.01);
+        }
     }
 
     TEST_CASE("agreement: lights that almost touch what they light") {
