@@ -1,6 +1,5 @@
 // Chapter 16 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/16_adaptive/estimator.h"
-#include "common/base/error.h"
 #include "common/program/render.h"
 
 int main(int argc, char** argv) {
@@ -26,9 +25,6 @@ int main(int argc, char** argv) {
         RenderOptions options = parse_render_options(
             argc, argv, "16_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});
         options.map = map;
-        if (options.sampler == SamplerType::stratified) {
-            throw UsageError("error: --sampler stratified: nobody knows yet how many strata");
-        }
         Scene scene = load(options, true);
         return render(scene, options, trace_with<ch16::trace>(ch16::prepare(scene)),
                       ch16::allocation(shares));
