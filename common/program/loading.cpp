@@ -66,22 +66,23 @@ void refuse_distribution(const Scene& scene) {
     const Camera& camera = scene.camera;
     if (camera.lens_radius > 0) {
         fail({scene.file, camera.line, camera.column},
-             "chapters before 15 have a pinhole: lensradius must be 0");
+             "all chapters but 15 and 16 have a pinhole: lensradius must be 0");
     }
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
         if (m.glass == nullptr) continue;
         char eta[32];
         std::snprintf(eta, sizeof eta, "%.5g", double{m.ior});
-        fail({scene.file, m.line, m.column}, std::string("in chapters before 15 glass does not ") +
-                                                 "disperse: try \"float eta\" " + eta);
+        fail({scene.file, m.line, m.column},
+             std::string("outside chapters 15 and 16 glass does not ") +
+                 "disperse: try \"float eta\" " + eta);
     }
     if (!scene.movers.empty()) {
         fail({scene.file, scene.movers[0].line, scene.movers[0].column},
-             "in chapters before 15 nothing moves");
+             "outside chapters 15 and 16 nothing moves");
     }
     if (scene.sky_image) {
         fail({scene.file, scene.sky_image->line, scene.sky_image->column},
-             "in chapters before 15 the sky has no picture");
+             "outside chapters 15 and 16 the sky has no picture");
     }
 }
