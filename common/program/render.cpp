@@ -69,7 +69,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
 
 Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
                       const AnyTrace& trace, const Allocation& allocation) {
-    Rendering result{std::move(empty), {}, 0, {}};
+    Rendering result{std::move(empty), {}, {}};
     if (allocation.pilot > 0) {
         result.film.start_halves();
     } else if (options.sampler != SamplerType::independent) {
@@ -85,7 +85,7 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     if (allocation.pilot > 0 && goes_on) {
         RenderOptions alone = options;
         alone.film.clear(), alone.split.clear();
-        Rendering again{Film(scene.width, scene.height), {}, 0, {}};
+        Rendering again{Film(scene.width, scene.height), {}, {}};
         again.film.start_halves();
         SampleRange pilot = {options.seed, 0, allocation.pilot};
         take_samples(scene, alone, trace, allocation, limit, pilot, again);

@@ -20,9 +20,9 @@ struct RenderStats : SampleCounts {
 struct Rendering {
     Film film;
     RenderStats stats;
-    uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::map<std::string, Film> classes;  // with --split: one film for each class of path, and one
                                           // for all that are longer than 8 letters
+    uint32_t begun = 0;                   // samples a pixel that passes have begun to take
 };
 
 /// Renders in passes over the whole picture, until scene.spp samples a pixel, or options.time, or

@@ -188,7 +188,7 @@ TEST_SUITE("film") {
         Splats splats = random_splats(15);
         std::vector<Rgb> image = film_with(splats, 1).image().pixels;
         double mean = film_with(splats, 1).mean();
-        for (size_t parts : {1, 2, 7}) {
+        for (size_t parts : {1u, 2u, 7u}) {
             std::reverse(splats.begin(), splats.end());
             for (size_t i = 1; i < splats.size(); i++)
                 std::swap(splats[i], splats[7919 * i % (i + 1)]);
