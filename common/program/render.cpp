@@ -81,8 +81,8 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     SampleRange wanted = wanted_samples(scene, options);
 
     // Make the pilot again where this render does not begin with it.
-    bool goes_on = wanted.first > 0 || has_more(result.film, allocation.pilot);
-    if (allocation.pilot > 0 && goes_on) {
+    bool is_shared_out = allocation.pilot > 0;
+    if (is_shared_out && (wanted.first > 0 || has_more(result.film, allocation.pilot))) {
         RenderOptions alone = options;
         alone.film.clear(), alone.split.clear();
         Rendering again{Film(scene.width, scene.height), {}, {}};
