@@ -32,6 +32,7 @@ bool has_more(const Film& film, uint32_t pilot) {
 ///
 /// A pass takes every pixel once, or more often when they are so few that threads would idle; but
 /// no more often than all passes before, so that an early end does not leave pixels empty.
+template <class AnyTrace>
 void take_samples(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
                   const Allocation& allocation, const Limit& limit, SampleRange wanted,
                   Rendering& result) {
@@ -67,6 +68,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
     }
 }
 
+template <class AnyTrace>
 Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
                       const AnyTrace& trace, const Allocation& allocation) {
     Rendering result{std::move(empty), {}, {}};
@@ -104,11 +106,11 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation) {
     Film empty(scene.width, scene.height);
-    return render_into(std::move(empty), scene, options, {.plain = &trace}, allocation);
+    return render_into(std::move(empty), scene, options, trace, allocation);
 }
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
     Film empty(scene.width, scene.height, true);
-    return render_into(std::move(empty), scene, options, {.splatting = &trace}, {});
+    return render_into(std::move(empty), scene, options, trace, {});
 }
 
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,

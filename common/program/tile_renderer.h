@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <mutex>
+#include <type_traits>
 
 #include "common/path/camera_sample.h"
 #include "common/program/film_keeping.h"
@@ -25,22 +26,12 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// The trace() of a chapter, of either kind.
-struct AnyTrace {
-    const Trace* plain = nullptr;
-    const SplatTrace* splatting = nullptr;
-
-    Rgb operator()(const Scene& scene, const Ray& ray, Splats& splats, Sampler& sampler,
-                   PathLog& log) const {
-        if (plain != nullptr) return (*plain)(scene, ray, sampler, log);
-        splats.clear();
-        return (*splatting)(scene, ray, splats, sampler, log);
-    }
-};
-
-/// Renders the samples of the pixels of one tile, or fewer at the limit.
+/// Renders the samples of the pixels of one tile, or fewer at the limit. AnyTrace: Trace or
+/// SplatTrace.
+template <class AnyTrace>
 class TileRenderer {
 public:
+    static constexpr bool has_splats = std::is_same_v<AnyTrace, SplatTrace>;
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
     static constexpr int between_looks = 64;    // samples from one look at the limit to the next
@@ -131,9 +122,15 @@ private:
         start_sample(sampler, at.pixel, half, at.sample);
         log.start();
         Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
-        Rgb L = trace_(scene_, ray, splats, sampler, log), total = L;
-        for (const Splat& splat : splats) total += splat.L;
-        return {L, total};
+        if constexpr (has_splats) {
+            splats.clear();
+            Rgb L = trace_(scene_, ray, splats, sampler, log), total = L;
+            for (const Splat& splat : splats) total += splat.L;
+            return {L, total};
+        } else {
+            Rgb L = trace_(scene_, ray, sampler, log);
+            return {L, L};
+        }
     }
 
     void add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
@@ -146,7 +143,7 @@ private:
             stats.add_not_finite(options_.seed, number, at.y, at.x);
         }
         result_.film.add(at.pixel, L, at.half);
-        if (result_.film.takes_splats()) {
+        if constexpr (has_splats) {
             result_.film.add_total(at.pixel, total);
             for (const Splat& splat : splats) {
                 std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
@@ -166,9 +163,8 @@ private:
             // Keep all long paths together: their classes double with every letter.
             bool is_long = path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
-            auto [film, added] =
-                result_.classes.try_emplace(is_long ? "longer" : path_class, scene_.width,
-                                            scene_.height, result_.film.takes_splats());
+            auto [film, added] = result_.classes.try_emplace(
+                is_long ? "longer" : path_class, scene_.width, scene_.height, has_splats);
             if (added && result_.film.has_halves()) film->second.start_halves();
             if (pixel == Contribution::own_pixel) {
                 film->second.add_part(at.pixel, L, at.half);

@@ -10,7 +10,7 @@
 #include "common/program/film_keeping.h"
 #include "common/program/loading.h"
 #include "tests/support/folder.h"
-#include "tests/support/scenes.h"
+#include "tests/support/stand_ins.h"
 
 namespace {
 
@@ -21,13 +21,6 @@ RenderOptions quiet_options(uint32_t seed = 1) {
     options.threads = static_cast<int>(std::thread::hardware_concurrency());
     options.quiet = true;
     return options;
-}
-
-Scene empty_scene(int width, int height, int spp) {
-    Scene scene = scene_of(
-        "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
-    scene.width = width, scene.height = height, scene.spp = spp;
-    return scene;
 }
 
 Rendering adaptive(Scene scene, const Trace& trace, int spp, uint32_t seed = 1,
@@ -188,16 +181,11 @@ TEST_SUITE("ch16 adaptive") {
     }
 
     TEST_CASE("consistency: the reported error is the spread over seeds, with either sampler") {
-        auto smooth = [](const Scene&, Ray, Sampler& sampler, PathLog&) {
-            Vec2 u = sampler.u2(), v = sampler.u2();
-            float L = u.x * u.x + u.y + (v.x + v.y < 0.3f ? 1.0f : 0.0f);
-            return Rgb{L, 2 * L, L / 2};
-        };
         Scene scene = empty_scene(64, 32, 32);
         for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
             RunningStats means, squares;
             for (uint32_t seed = 0; seed < 200; seed++) {
-                Film film = adaptive(scene, smooth, 32, seed, {}, sampler).film;
+                Film film = adaptive(scene, smooth_and_rough, 32, seed, {}, sampler).film;
                 means.add(film.mean());
                 squares.add(film.standard_error() * film.standard_error());
             }

@@ -12,19 +12,9 @@
 #include "common/path/camera_sample.h"
 #include "common/program/results.h"
 #include "tests/support/process.h"
-#include "tests/support/scenes.h"
+#include "tests/support/stand_ins.h"
 
 namespace {
-
-Scene empty_scene(int width, int height, int spp) {
-    Scene scene = scene_of(
-        "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
-        "Shape \"sphere\"\n");
-    scene.width = width;
-    scene.height = height;
-    scene.spp = spp;
-    return scene;
-}
 
 RenderOptions quiet_options(int threads = 2) {
     RenderOptions options;
@@ -149,12 +139,6 @@ TEST_SUITE("render loop") {
     }
 
     TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler") {
-        // Smooth in two dimensions, rough in a third: what stratification gains is in between.
-        auto smooth = [](const Scene&, Ray, Sampler& sampler, PathLog&) {
-            Vec2 u = sampler.u2(), v = sampler.u2();
-            float L = u.x * u.x + u.y + (v.x + v.y < 0.3f ? 1.0f : 0.0f);
-            return Rgb{L, 2 * L, L / 2};
-        };
         Scene scene = empty_scene(64, 32, 16);
         for (SamplerType type : samplers) {
             RunningStats means, squares;
@@ -164,7 +148,7 @@ TEST_SUITE("render loop") {
                 RenderOptions options = quiet_options();
                 options.sampler = type;
                 options.seed = seed;
-                Film film = render_film(scene, options, smooth).film;
+                Film film = render_film(scene, options, smooth_and_rough).film;
                 double se = film.standard_error(), naive = 0;
                 for (const PixelSum& p : film.pixels()) naive += p.m2() / 15 / 16;
                 naive_squares += naive / 2048 / 2048 / seeds;
