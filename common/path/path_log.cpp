@@ -136,6 +136,19 @@ Rgb PathLog::note_joined(Rgb contribution, int s, int t, float mis, size_t pixel
     return keep(path_class, contribution, pixel);
 }
 
+Rgb PathLog::note_gathered(Rgb contribution, uint32_t depth, uint32_t mirrors) {
+    if (is_black(contribution)) return contribution;
+    std::string path_class = "L";
+    for (uint32_t i = 0; i + 1 < depth; i++) {
+        path_class += i < 8 && (mirrors >> i & 1) != 0 ? 'S' : 'D';
+    }
+    path_class += "D" + scattered_ + "E";
+    if (keep_steps_) {
+        steps_ += "    photons: add " + to_text(contribution) + ", class " + path_class + "\n";
+    }
+    return keep(path_class, contribution);
+}
+
 Rgb PathLog::keep(const std::string& path_class, Rgb contribution, size_t pixel) {
     if (!counts(path_class)) return {};
     contributions_.push_back({path_class, contribution, pixel});

@@ -82,6 +82,13 @@ public:
         return listening_ ? note_joined(contribution, s, t, mis, pixel) : contribution;
     }
 
+    /// Light that was stored at the last vertex, after so many scattering events, that one included;
+    /// bit i of `mirrors`: event number i was at a mirror or glass, as far as that is known: of the
+    /// first 8. Returns what of it counts.
+    Rgb gathered(Rgb contribution, uint32_t depth, uint32_t mirrors) {
+        return listening_ ? note_gathered(contribution, depth, mirrors) : contribution;
+    }
+
     bool listening() const { return listening_; }
     const std::vector<Contribution>& contributions() const { return contributions_; }
     const std::vector<PathVertex>& vertices() const { return vertices_; }
@@ -99,6 +106,7 @@ private:
     Rgb note_emitted(Rgb, float);
     Rgb note_direct(Rgb, Vec3, float, float, float);
     Rgb note_joined(Rgb, int, int, float, size_t);
+    Rgb note_gathered(Rgb, uint32_t, uint32_t);
     Rgb keep(const std::string& path_class, Rgb contribution,
              size_t pixel = Contribution::own_pixel);
     bool counts(const std::string& path_class);

@@ -13,6 +13,17 @@ using Trace = std::function<Rgb(const Scene&, Ray, Sampler&, PathLog&)>;
 /// meet goes into the splats, that of the ray's own pixel is returned.
 using SplatTrace = std::function<Rgb(const Scene&, Ray, Splats&, Sampler&, PathLog&)>;
 
+/// The same for a chapter that prepares something anew for each sample: the samples of all pixels
+/// that have the same number make a pass, and depend on each other by what was prepared. So that
+/// passes do not, paths from the eye have independent numbers here: --sampler is for what is
+/// prepared.
+struct PassTrace {
+    /// Before sample number `pass` is taken of any pixel. Ends early when `stopped()`, and that
+    /// pass is then not begun.
+    std::function<void(uint32_t pass, int threads, const std::function<bool()>& stopped)> prepare;
+    Trace trace;
+};
+
 /// A chapter's trace(), and what the chapter has prepared for it and hands in behind the scene.
 ///
 /// gnu::flatten makes one piece of code of all that trace() calls: a fifth faster.

@@ -116,7 +116,22 @@ std::array<Film::ErrorPart, 2> Film::error_parts() const {
     return parts;
 }
 
+double Film::error_of_batches() const {
+    double n = 0, sum = 0, count = 0, squares = 0;
+    auto is_whole = [&](const PixelSum& b) { return b.n > 0 && b.n % pixels_.size() == 0; };
+    for (const PixelSum& b : batches_) {
+        if (is_whole(b)) n += b.n, sum += b.n * b.mean(), count++;
+    }
+    if (count < 2) return std::nan("");
+    for (const PixelSum& b : batches_) {
+        double part = is_whole(b) ? b.n / n * (b.mean() - sum / n) : 0;
+        squares += part * part;
+    }
+    return std::sqrt(count / (count - 1) * squares);
+}
+
 double Film::standard_error() const {
+    if (has_batches()) return error_of_batches();
     double seen = 0, sum = 0;
     for (size_t i = 0; i < pixels_.size(); i++) {
         if (count_of(i) == 1) return std::nan("");
@@ -166,6 +181,7 @@ void Film::add(const Film& other) {
     for (size_t i = 0; i < audits_.size(); i++) audits_[i].add(other.audits_[i]);
     for (size_t i = 0; i < splats_.size(); i++) splats_[i].add(other.splats_[i]);
     for (size_t i = 0; i < totals_.size(); i++) totals_[i].add(other.totals_[i]);
+    for (size_t i = 0; i < batches_.size(); i++) batches_[i].add(other.batches_[i]);
 }
 
 uint64_t Film::samples() const {

@@ -71,6 +71,23 @@ public:
         audits_[static_cast<size_t>(place - audited_.begin())].add(L);
     }
 
+    /// From now on the samples of one pass, those of all pixels that have the same number, may depend
+    /// on each other. Passes are independent, so their totals tell the error: each is added to one of
+    /// a few batches, by its number.
+    ///
+    ///   SE^2 = B / (B - 1) sum over the B batches of (n_b / n)^2 (mean_b - mean)^2
+    ///
+    /// Batches with a pass that is not complete are left out.
+    static constexpr size_t most_batches = 32;
+    void start_batches() { batches_.assign(most_batches, {}); }
+    bool has_batches() const { return !batches_.empty(); }
+    /// Adds samples of pass number `pass`. Two threads must not do so at once.
+    void add_to_batch(uint32_t pass, const PixelSum& samples) {
+        batches_[pass % most_batches].add(samples);
+    }
+    std::vector<PixelSum>& batches() { return batches_; }
+    const std::vector<PixelSum>& batches() const { return batches_; }
+
     /// Adds the samples of another film of the same size, which has audits if this has.
     void add(const Film& other);
 
@@ -135,6 +152,7 @@ private:
     Channels mean_of(size_t pixel, double spp) const;
     PixelSum& sum_of(size_t pixel, int half) { return half == 0 ? pixels_[pixel] : audits_[pixel]; }
     Channels mean_channels() const;
+    double error_of_batches() const;
 
     /// What the error is told by.
     const std::vector<PixelSum>& measured() const { return splats_.empty() ? pixels_ : totals_; }
@@ -143,4 +161,5 @@ private:
     bool has_halves_ = false;
     std::vector<size_t> audited_;            // the pixels that the audits belong to, in order
     std::vector<PixelSum> splats_, totals_;  // none for a film without
+    std::vector<PixelSum> batches_;          // none where samples are independent of other pixels'
 };

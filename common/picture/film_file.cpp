@@ -18,11 +18,13 @@
 
 namespace {
 
-constexpr const char* first_line = "film of path-by-path, version 2";
+constexpr const char* first_line = "film of path-by-path, version 3";
 constexpr size_t longest_label = 1 << 20;  // bytes
 
-/// 0: the pixels alone; 1: with audits; 2: with a second half of each pixel.
-int kind_of(const Film& film) { return film.has_halves() ? 2 : film.has_audits(); }
+/// 0: the pixels alone; 1: with audits; 2: with a second half of each pixel; 3: with batches.
+int kind_of(const Film& film) {
+    return film.has_batches() ? 3 : film.has_halves() ? 2 : film.has_audits();
+}
 
 /// The lines of text at the beginning, up to the empty one.
 std::string text_of(const FilmLabel& label, const Film& film) {
@@ -48,8 +50,8 @@ std::string_view bytes_of(const std::vector<PixelSum>& sums) {
 }
 
 /// All that a film's file holds, in its order.
-std::array<const std::vector<PixelSum>*, 4> sums_of(const Film& film) {
-    return {&film.pixels(), &film.audits(), &film.splats(), &film.totals()};
+std::array<const std::vector<PixelSum>*, 5> sums_of(const Film& film) {
+    return {&film.pixels(), &film.audits(), &film.splats(), &film.totals(), &film.batches()};
 }
 
 /// Reads a film from the beginning to the end, and adds up its checksum.
@@ -161,8 +163,9 @@ void FilmReader::check(const Film& film) const {
     if (most > PixelSum::most) refuse_label();
     if (film.has_halves()) most = PixelSum::most;  // they are shared out as the chapter likes
     for (const std::vector<PixelSum>* sums : sums_of(film)) {
+        bool is_batches = sums == &film.batches();  // of many pixels
         for (const PixelSum& p : *sums) {
-            if (p.n > most || !p.has_valid_tops()) refuse_label();
+            if ((p.n > most && !is_batches) || !p.has_valid_tops()) refuse_label();
         }
     }
 }
@@ -172,7 +175,7 @@ LabeledFilm FilmReader::read() {
     for (std::string line; std::getline(text, line) && !line.empty();) read_line(line);
     bool is_size = width_ > 0 && height_ > 0 && width_ <= 65536 && height_ <= 65536 &&
                    int64_t{width_} * height_ <= 1 << 28;
-    if (!is_size || kind_ < 0 || kind_ > 2) refuse_label();
+    if (!is_size || kind_ < 0 || kind_ > 3) refuse_label();
     // Ask first whether there are so many bytes: a label alone must not take all memory.
     struct stat file = {};
     uint64_t least =
@@ -185,7 +188,9 @@ LabeledFilm FilmReader::read() {
     read_sums(film.pixels());
     if (kind_ == 1) film.start_audit();
     if (kind_ == 2) film.start_halves();
-    for (std::vector<PixelSum>* sums : {&film.audits(), &film.splats(), &film.totals()}) {
+    if (kind_ == 3) film.start_batches();
+    for (std::vector<PixelSum>* sums :
+         {&film.audits(), &film.splats(), &film.totals(), &film.batches()}) {
         read_sums(*sums);
     }
     uint64_t written = 0;

@@ -13,7 +13,8 @@ enum class LightSearch : uint8_t {
     by_chance,    // never aims
     direct,       // only aims, and follows mirrors and glass; other light it leaves out
     from_lights,  // begins at them, and cannot see what mirrors and glass show the camera
-    both_ends     // begins at them and at the eye, and joins the two
+    both_ends,    // begins at them and at the eye, and joins the two
+    photons       // begins at them, and counts what arrives near to what the eye sees
 };
 
 /// What every chapter that renders a scene understands.

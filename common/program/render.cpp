@@ -47,6 +47,11 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
         bool in_pilot = wanted.first == 0 && done < allocation.pilot;
         if (in_pilot) next = std::min(next, allocation.pilot);
+        if constexpr (renderer.has_passes) {
+            next = done + 1;
+            trace.prepare(wanted.first + done, options.threads, [&] { return limit.reached(); });
+            if (limit.reached()) break;
+        }
         result.begun = std::max(result.begun, next);
         std::atomic<int> tiles = 0;
         parallel_for(renderer.tiles(), options.threads, [&](int tile) {
@@ -74,6 +79,8 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     Rendering result{std::move(empty), {}, {}};
     if (allocation.pilot > 0) {
         result.film.start_halves();
+    } else if (std::is_same_v<AnyTrace, PassTrace>) {
+        result.film.start_batches();
     } else if (options.sampler != SamplerType::independent) {
         mark_lamp_edges(scene, options.threads, result.film);
         result.film.start_audit();
@@ -101,6 +108,15 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     return result;
 }
 
+/// Explains a sample of a trace that has no splats.
+int explain_plain(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                  bool halves) {
+    auto without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler, PathLog& log) {
+        return trace(s, ray, sampler, log);
+    };
+    return explain(scene, options, without_splats, halves);
+}
+
 }  // namespace
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
@@ -113,18 +129,29 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Sp
     return render_into(std::move(empty), scene, options, trace, {});
 }
 
+Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
+    return render_into(Film(scene.width, scene.height), scene, options, trace, {});
+}
+
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation) {
-    if (options.explain) {
-        auto without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler,
-                                  PathLog& log) { return trace(s, ray, sampler, log); };
-        return explain(scene, options, without_splats, allocation.pilot > 0);
-    }
+    if (options.explain) return explain_plain(scene, options, trace, allocation.pilot > 0);
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace, allocation));
 }
 int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
     if (options.explain) return explain(scene, options, trace, false);
+    check_outputs(options);
+    return write_results(scene, options, render_film(scene, options, trace));
+}
+int render(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
+    if (options.explain) {
+        uint32_t pass = static_cast<uint32_t>(options.explain_sample);
+        trace.prepare(pass, options.threads, [] { return false; });
+        RenderOptions as_rendered = options;
+        as_rendered.sampler = SamplerType::independent;
+        return explain_plain(scene, as_rendered, trace.trace, false);
+    }
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace));
 }

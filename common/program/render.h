@@ -34,11 +34,13 @@ struct Rendering {
 /// share the samples out as the whole does.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation = {});
-/// The same into a film that takes splats.
+/// The same into a film that takes splats, and with what is prepared for each pass.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
+Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
 
 /// All that a chapter's program does with its scene: renders it, or explains one path of it, and
 /// writes what the options ask for. Returns the exit code.
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation = {});
 int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
+int render(const Scene& scene, const RenderOptions& options, const PassTrace& trace);

@@ -26,12 +26,13 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Renders the samples of the pixels of one tile, or fewer at the limit. AnyTrace: Trace or
-/// SplatTrace.
+/// Renders the samples of the pixels of one tile, or fewer at the limit. AnyTrace: Trace,
+/// SplatTrace or PassTrace.
 template <class AnyTrace>
 class TileRenderer {
 public:
     static constexpr bool has_splats = std::is_same_v<AnyTrace, SplatTrace>;
+    static constexpr bool has_passes = std::is_same_v<AnyTrace, PassTrace>;
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
     static constexpr int between_looks = 64;    // samples from one look at the limit to the next
@@ -56,11 +57,13 @@ public:
     /// film waits to be saved.
     void render(int tile, uint32_t end) {
         if (limit_.reached() || clock_.due()) return;
-        Sampler sampler(options_.sampler, options_.seed, static_cast<uint32_t>(scene_.spp));
+        Sampler sampler(has_passes ? SamplerType::independent : options_.sampler, options_.seed,
+                        static_cast<uint32_t>(scene_.spp));
         bool listen = !options_.paths.empty() || !options_.split.empty();
         PathLog log = listen ? PathLog(options_.paths) : PathLog(), audit_log = log;
         Splats splats, audit_splats;
         RenderStats stats;
+        PixelSum of_pass;
         uint64_t rays_before = rays_traced;
         int taken = 0;
         for_pixels(tile, [&](int x, int y) {
@@ -71,7 +74,8 @@ public:
                 auto [s, last] = samples(pixel, half, end);
                 for (; s < last; s++) {
                     if (++taken % between_looks == 0 && limit_.reached()) return false;
-                    add_sample({x, y, pixel, half, s}, sampler, splats, log, stats);
+                    Rgb L = add_sample({x, y, pixel, half, s}, sampler, splats, log, stats);
+                    if constexpr (has_passes) of_pass.add(L);
                     if (audited) audit({x, y, pixel, half, s}, sampler, audit_splats, audit_log);
                 }
             }
@@ -81,6 +85,7 @@ public:
         stats.paths_cut = log.paths_cut();
         std::lock_guard lock(mutex_);
         result_.stats.add(stats);
+        if constexpr (has_passes) result_.film.add_to_batch(end - 1, of_pass);
     }
 
 private:
@@ -127,14 +132,17 @@ private:
             Rgb L = trace_(scene_, ray, splats, sampler, log), total = L;
             for (const Splat& splat : splats) total += splat.L;
             return {L, total};
+        } else if constexpr (has_passes) {
+            Rgb L = trace_.trace(scene_, ray, sampler, log);
+            return {L, L};
         } else {
             Rgb L = trace_(scene_, ray, sampler, log);
             return {L, L};
         }
     }
 
-    void add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
-                    RenderStats& stats) {
+    Rgb add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
+                   RenderStats& stats) {
         auto [L, total] = trace(at, at.half, sampler, splats, log);
         if (is_finite(total)) {
             stats.largest = std::max(stats.largest, static_cast<double>(average(total)));
@@ -151,6 +159,7 @@ private:
             }
         }
         if (!options_.split.empty()) split(at, log);
+        return L;
     }
 
     /// The same sample again, with numbers of another key.

@@ -75,6 +75,12 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, double s
                         "light can be joined with the camera there");
         return;
     }
+    if (options.search == LightSearch::photons) {
+        lines.push_back(
+            "light is blurred as far as photons are counted, the less the more passes there are: the "
+            "error does not know of it");
+        return;
+    }
     auto any_material = [&](auto is) {
         return std::any_of(scene.shapes.begin(), scene.shapes.end(),
                            [&](const Shape& s) { return is(scene.materials[s.material]); });
@@ -139,6 +145,9 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
                        counts.largest * counts.largest > 0.05 * basis.squares;
     if (one_in_many && effective >= few_samples) {
         lines.push_back("a few bright samples make the error: it is larger than it says");
+    }
+    if (film.has_batches() && film.spp() > 1 && film.spp() < few_audits) {
+        lines.push_back("few passes tell the error: it may be half or twice as large");
     }
     bool is_told_by_means = film.has_audits() || film.has_halves();
     if (is_told_by_means && basis.squares > 0 && basis.audits < few_audits) {

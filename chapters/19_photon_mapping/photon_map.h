@@ -1,0 +1,169 @@
+// Chapter 19: the photons that light has left on surfaces, and those of them that are nearest to a
+// point.
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "common/base/parallel.h"
+#include "common/geometry/geometry.h"
+
+namespace ch19 {
+
+/// Light that arrived at a diffuse surface. 28 bytes.
+struct Photon {
+    Vec3 p;           // m
+    Rgb flux;         // W
+    uint16_t normal;  // of the surface, on the side where light arrived; see to_bits()
+    uint8_t depth;    // scattering events on its path, the one at p included; 255 or more
+    uint8_t mirrors;  // bit i: event number i was at a mirror or glass; of the first eight
+};
+
+/// A normal in 16 bits, off by less than a degree: the octahedron |x| + |y| + |z| = 1 unfolded to a
+/// square of 256 x 256 cells. from_bits() gives a point of the octahedron, not of length 1.
+///
+/// source  Cigolle et al. 2014      tested by  "identity: a photon keeps its normal"
+inline uint16_t to_bits(Vec3 n) {
+    float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    float x = n.x / sum, y = n.y / sum;
+    if (n.z < 0) {  // the lower half is folded outwards
+        float folded = std::copysign(1 - std::abs(y), x);
+        y = std::copysign(1 - std::abs(x), y), x = folded;
+    }
+    auto cell = [](float a) { return static_cast<int>(std::clamp(128 * (a + 1), 0.0f, 255.0f)); };
+    return static_cast<uint16_t>(256 * cell(x) + cell(y));
+}
+inline Vec3 from_bits(uint16_t bits) {
+    auto middle = [](int cell) { return (static_cast<float>(cell) + 0.5f) / 128 - 1; };
+    float x = middle(bits / 256), y = middle(bits % 256), z = 1 - std::abs(x) - std::abs(y);
+    if (z < 0) {
+        float folded = std::copysign(1 - std::abs(y), x);
+        y = std::copysign(1 - std::abs(x), y), x = folded;
+    }
+    return {x, y, z};
+}
+
+/// Photons as a k-d tree: a plane through the middle one, across the longest side of the box around
+/// them, parts them in two halves, and those again, down to leaves of 8.
+///
+/// No pointers: leaves first .. last-1 have one plane, and that has the number of the leaf in their
+/// middle.
+/// source  Bentley 1975; Jensen 1996      tested by  "brute: photons near a point"
+class PhotonMap {
+public:
+    PhotonMap() = default;
+    PhotonMap(std::vector<Photon> photons, int threads)
+        : photons_(std::move(photons)), planes_((size() + leaf - 1) / leaf) {
+        build(0, planes_.size(), threads);
+    }
+
+    size_t size() const { return photons_.size(); }
+    size_t bytes() const { return size() * sizeof(Photon) + planes_.size() * sizeof(Plane); }
+
+    /// Calls work(photon, d2) for each photon whose distance d from p is below r.
+    template <class Work>
+    void for_each_near(Vec3 p, float r, const Work& work) const {
+        if (size() > 0) visit(p, r * r, 0, planes_.size(), work);
+    }
+
+    /// Just less than the distance of the k-th nearest photon, if that is below r; else r. k > 0.
+    float kth_distance(Vec3 p, size_t k, float r) const;
+
+    /// kth_distance() for the middle of each leaf, and where to look it up for a point.
+    std::vector<float> kth_distances(size_t k, float r, int threads) const;
+    size_t leaf_at(Vec3 p) const;
+
+private:
+    static constexpr size_t leaf = 8;
+    struct Plane {
+        float at = 0;
+        int axis = 0;
+    };
+
+    size_t end_of(size_t leaf_number) const { return std::min(leaf_number * leaf, size()); }
+    Box box_of(size_t first, size_t last) const {
+        Box box;
+        for (size_t i = first * leaf; i < end_of(last); i++) {
+            box = {min(box.low, photons_[i].p), max(box.high, photons_[i].p)};
+        }
+        return box;
+    }
+
+    void build(size_t first, size_t last, int threads) {
+        if (last - first < 2) return;
+        Box box = box_of(first, last);
+        Vec3 side = box.high - box.low;
+        int axis = side.x > side.y && side.x > side.z ? 0 : side.y > side.z ? 1 : 2;
+        size_t middle = (first + last) / 2;
+        auto at = [&](size_t i) { return photons_.begin() + static_cast<std::ptrdiff_t>(i); };
+        std::nth_element(
+            at(first * leaf), at(middle * leaf), at(end_of(last)),
+            [axis](const Photon& a, const Photon& b) { return a.p[axis] < b.p[axis]; });
+        planes_[middle] = {photons_[middle * leaf].p[axis], axis};
+        parallel_for(2, threads, [&](int half) {
+            if (half == 0) build(first, middle, threads / 2);
+            if (half == 1) build(middle, last, threads / 2);
+        });
+    }
+
+    template <class Work>
+    void visit(Vec3 p, float r2, size_t first, size_t last, const Work& work) const {
+        if (last - first > 1) {
+            size_t middle = (first + last) / 2;
+            float d = p[planes_[middle].axis] - planes_[middle].at;
+            if (d <= 0 || d * d < r2) visit(p, r2, first, middle, work);
+            if (d >= 0 || d * d < r2) visit(p, r2, middle, last, work);
+            return;
+        }
+        for (size_t i = first * leaf; i < end_of(last); i++) {
+            Vec3 v = photons_[i].p - p;
+            if (float d2 = dot(v, v); d2 < r2) work(photons_[i], d2);
+        }
+    }
+
+    std::vector<Photon> photons_;
+    std::vector<Plane> planes_;
+};
+
+/// A sphere is searched that holds more than k photons, if its size is guessed from the leaf around
+/// p.
+inline float PhotonMap::kth_distance(Vec3 p, size_t k, float r) const {
+    if (size() < k) return r;
+    Box box = box_of(leaf_at(p), leaf_at(p) + 1);
+    float guess = length(max(abs(box.low - p), abs(box.high - p)));
+    std::vector<float> found;
+    for (guess *= std::sqrt(static_cast<float>(k) / leaf);; guess *= 1.5f) {
+        float searched = guess > 0 ? std::min(guess, r) : r;
+        found.clear();
+        for_each_near(p, searched, [&](const Photon&, float d2) { found.push_back(d2); });
+        if (found.size() >= k) break;
+        if (searched == r) return r;
+    }
+    auto kth = found.begin() + static_cast<std::ptrdiff_t>(k) - 1;
+    std::nth_element(found.begin(), kth, found.end());
+    return std::nextafter(std::sqrt(*kth), 0.0f);
+}
+
+inline std::vector<float> PhotonMap::kth_distances(size_t k, float r, int threads) const {
+    constexpr int at_once = 256;  // leaves
+    std::vector<float> distances(planes_.size());
+    int leaves = static_cast<int>(distances.size());
+    parallel_for((leaves + at_once - 1) / at_once, threads, [&](int part) {
+        for (int i = part * at_once; i < std::min((part + 1) * at_once, leaves); i++) {
+            size_t number = static_cast<size_t>(i);
+            Box box = box_of(number, number + 1);
+            distances[number] = kth_distance(0.5f * (box.low + box.high), k, r);
+        }
+    });
+    return distances;
+}
+
+inline size_t PhotonMap::leaf_at(Vec3 p) const {
+    size_t first = 0, last = planes_.size();
+    while (last - first > 1) {
+        size_t middle = (first + last) / 2;
+        (p[planes_[middle].axis] < planes_[middle].at ? last : first) = middle;
+    }
+    return first;
+}
+
+}  // namespace ch19

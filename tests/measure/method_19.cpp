@@ -1,0 +1,28 @@
+#include "chapters/19_photon_mapping/estimator.h"
+#include "tests/measure/methods.h"
+
+static auto by_photons(ch19::Gather gather) {
+    return [gather](const Scene& scene, RenderOptions options) {
+        options.search = LightSearch::photons;
+        ch19::Settings settings;
+        settings.sampler = options.sampler, settings.seed = options.seed;
+        settings.gather = gather;
+        return render_film(scene, options, ch19::photon_passes(scene, settings));
+    };
+}
+
+[[maybe_unused]] static const bool added = [] {
+    add_method({.name = "19-direct",
+                .label = "19, photons where the eye looks",
+                .color = "#9edae5",
+                .finds_light = "by photons",
+                .render = by_photons(ch19::Gather::direct),
+                .biased = true});
+    return add_method({.name = "19",
+                       .label = "19 photon mapping",
+                       .color = "#17becf",
+                       .finds_light = "by photons",
+                       .scenes = {"pool", "sds", "cornell-spheres"},
+                       .render = by_photons(ch19::Gather::final),
+                       .biased = true});
+}();
