@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
         std::vector<Option> extra = {
             {"photons", "N", "paths from lights in each pass (default 100000)",
              [&](const std::string& text) {
-                 s.photons = static_cast<int>(parse_integer("photons", text, 1, 10'000'000));
+                 s.photons = static_cast<int>(parse_integer("photons", text, 1, 1'000'000));
              },
              "100000"},
             {"gather", "final|direct|nearest",

@@ -109,6 +109,7 @@ inline PhotonMap send_photons(const Scene& scene, const Prepared& prepared, Maps
         }
     });
     std::vector<Photon> photons;
+    if (stopped()) return {};
     for (const auto& some : sent) photons.insert(photons.end(), some.begin(), some.end());
     return {std::move(photons), threads};
 }

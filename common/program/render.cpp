@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/program/explain.h"
 #include "common/program/film_keeping.h"
@@ -145,6 +146,9 @@ int render(const Scene& scene, const RenderOptions& options, const SplatTrace& t
     return write_results(scene, options, render_film(scene, options, trace));
 }
 int render(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
+    if (!options.paths.empty() && scene.max_depth > 9) {  // see PathLog::gathered()
+        throw UsageError("error: --paths: photons know their first 8 events: try --max-depth 9");
+    }
     if (options.explain) {
         uint32_t pass = static_cast<uint32_t>(options.explain_sample);
         trace.prepare(pass, options.threads, [] { return false; });
