@@ -469,6 +469,52 @@ TEST_SUITE("ch19 photon mapping") {
 }
 
 TEST_SUITE("ch19 photon mapping slow") {
+    TEST_CASE("agreement: what glass gathers and glass shows, with chapter 14") {
+        // The scenes' lamps made larger at the same power, so that chance finds them.
+        auto with_large_lamp = [](const std::string& name, const std::string& lamp,
+                                  const std::string& larger) {
+            std::string text = read_file("scenes/" + name + ".pbrt");
+            size_t at = text.find(lamp), mesh = text.find("pool.ply\"");
+            REQUIRE(at != std::string::npos);
+            text.replace(at, lamp.size(), larger);
+            if (mesh != std::string::npos) text.insert(mesh, "scenes/");
+            size_t radius = text.rfind("\"float radius\" [0.0");
+            if (name == "sds") radius = text.find("\"float radius\" [0.02]");
+            REQUIRE(radius != std::string::npos);
+            text.replace(radius, 21, "\"float radius\" [0.2]");
+            Scene scene = scene_of(text);
+            scene.width = scene.height = 48;
+            scene.max_depth = 8;
+            return scene;
+        };
+        Scene scenes[] = {with_large_lamp("pool", "62000 56000 48000", "155 140 120"),
+                          with_large_lamp("sds", "3200 3000 2600", "32 30 26")};
+        for (const Scene& scene : scenes) {
+            for (const char* classes : {"LS+DS+E", "LS+D+DS*E"}) {
+                CAPTURE(scene.spp);
+                CAPTURE(std::string(classes));
+                Measured m = mean_over_seeds(scene, {.photons = 50000}, 16, 8, classes);
+                RunningStats means;
+                for (uint32_t seed = 1; seed <= 8; seed++) {
+                    Scene s = scene;
+                    s.spp = 512;
+                    RenderOptions options;
+                    options.seed = seed, options.threads = 2, options.quiet = true;
+                    options.paths = classes;
+                    means.add(render_film(s, options, trace_with<ch14::trace>(ch14::prepare(s)))
+                                  .film.mean());
+                }
+                Measured truth{means.mean(), means.standard_error()};
+                CAPTURE(m.mean);
+                CAPTURE(truth.mean);
+                CAPTURE(truth.se);
+                CHECK(std::abs(m.mean - truth.mean) <
+                      5 * std::hypot(m.se, truth.se) + 0.01 * truth.mean);
+                CHECK(std::hypot(m.se, truth.se) < 0.02 * truth.mean);
+            }
+        }
+    }
+
     TEST_CASE("agreement: classes of paths with chapter 14, where little light is at edges") {
         // Radii of 2 cm in a room of 2 m. What is biased is said in each row: the share that edges
         // and corners lose of what is counted there.
