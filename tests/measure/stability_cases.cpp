@@ -181,7 +181,7 @@ StabilityCase two_points(bool hidden) {
     auto even = chosen(with_pmf(other, 0.5), with_pmf(near, 0.5));
     return {hidden ? "bright light behind a wall" : "far and bright, near and weak",
             look("0 0.5 -1  0 0 0  0 1 0") + ground +
-                "LightSource \"point\" \"point3 from\" [0 1 0]\n"
+                "LightSource \"point\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n"
                 "LightSource \"point\" \"rgb I\" [1000 1000 1000] \"point3 from\" " +
                 (hidden ? "[0 2 0]\n" : "[0 1000 0]\n") + (hidden ? black + disk(1, 1.5) : ""),
             0.5 / pi * (near.f + other.f),
@@ -352,17 +352,63 @@ StabilityCase blurred_lamp() {
             {"06", "07", "08", "09", "10", "11", "12", "13", "14"}};
 }
 
+/// A lamp with its back to the ground, under a mirror in which the eye sees the ground: LSDSE, met
+/// by chance alone, from which no strategy of both ends saves. 18 gives it eight chances.
+StabilityCase lit_and_seen_by_mirror() {
+    double d2 = 1, h2 = 1.8 * 1.8, r2 = 0.1 * 0.1, sum = d2 + h2 + r2;
+    double hit = 0.5 * (1 - (d2 + h2 - r2) / std::sqrt(sum * sum - 4 * d2 * r2));  // form factor
+    return {"ground lit and seen by a mirror",
+            look("0 0.5 -0.5  0 2 0  0 1 0", 3) +
+                "Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n" + ground +
+                "Material \"conductor\" \"rgb reflectance\" [1 1 1]\n" +
+                quad("-9 1 -9  9 1 -9  9 1 9  -9 1 9") + lamp +
+                "Translate 1 0.2 0 Rotate -90 1 0 0 Shape \"disk\" \"float radius\" [0.1]\n",
+            hit,
+            N,
+            {{{"09", "10", "11", "12", "12-bsdf", "13", "14", "15"},
+              {bad_relvar(1 / hit - 1), covers(coverage_of_rare(hit, N))}},
+             {{"18"}, {bad_relvar((1 / hit - 1) / 8)}}},
+            {"17"}};
+}
+
+/// A floor in the sun, of which the picture shows the share h^2. From the light, few paths land
+/// there; from the eye it has no noise.
+StabilityCase close_to_the_floor(double h) {
+    double seen = h * h * 4 / (2 * pi);  // of the disk around the floor's square that paths fill
+    return {format("%g above a floor in the sun", h),
+            look(format("0 %g 0  0 0 0  0 0 1", h), 1, 90) +
+                "LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n" +
+                quad("-1 0 -1  -1 0 1  1 0 1  1 0 -1"),
+            0.5 / pi,
+            N,
+            {{{"08", "09", "10", "11", "12", "13", "14", "15", "18"}},
+             {{"17"}, {bad_relvar(1 / seen - 1), covers(coverage_of_rare(seen, N))}}},
+            {"06", "07", "12-bsdf"}};
+}
+
 }  // namespace
 
 std::vector<StabilityCase> stability_cases() {
-    return {near_disk(1),       near_disk(0.1),
-            near_disk(0.01),    wall_under_light(0.1),
-            small_light(),      in_the_plane_of_the_light(),
-            near_point_light(), light_behind_glass(),
-            two_points(false),  two_points(true),
-            horizon(0.1),       horizon(0.01),
-            sky_in_metal(0.1),  grey_sphere(),
-            red_sphere(),       cut_sphere(),
-            glass_cube(),       far_ball(),
-            far_wall(),         blurred_lamp()};
+    return {near_disk(1),
+            near_disk(0.1),
+            near_disk(0.01),
+            wall_under_light(0.1),
+            small_light(),
+            in_the_plane_of_the_light(),
+            near_point_light(),
+            light_behind_glass(),
+            two_points(false),
+            two_points(true),
+            horizon(0.1),
+            horizon(0.01),
+            sky_in_metal(0.1),
+            grey_sphere(),
+            red_sphere(),
+            cut_sphere(),
+            glass_cube(),
+            far_ball(),
+            far_wall(),
+            blurred_lamp(),
+            lit_and_seen_by_mirror(),
+            close_to_the_floor(0.3)};
 }
