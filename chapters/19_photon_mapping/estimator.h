@@ -82,13 +82,13 @@ inline Rgb gather(const Prepared& prepared, const Pass& pass, Maps which, const 
     if (!(r > 0)) return {};
     Rgb sum;
     std::map<std::pair<uint8_t, uint8_t>, Rgb> classes;  // of paths, for the log
-    pass.map[which].for_each_near(x.p, r, [&](const Photon& photon, float d2) {
-        Vec3 v = photon.p - x.p, n = from_bits(photon.normal);
+    pass.map[which].for_each_near(x.p, r, [&](const Arrival& photon, Vec3 v) {
+        Vec3 n = from_bits(photon.normal);
         float cosine = dot(n, x.ng);
         bool same_surface = cosine > 0 && cosine * cosine > 0.5f * dot(n, n);
         if (!same_surface || std::abs(dot(v, x.ng)) > r / 8) return;
         if (photon.depth > depth) return;
-        Rgb counts = kernel(prepared.settings.kernel, d2 / (r * r)) * photon.flux;
+        Rgb counts = kernel(prepared.settings.kernel, dot(v, v) / (r * r)) * photon.flux;
         if (log.listening()) classes[{photon.depth, photon.mirrors}] += counts;
         sum += counts;
     });

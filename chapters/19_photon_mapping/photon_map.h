@@ -9,14 +9,18 @@
 
 namespace ch19 {
 
-/// Light that arrived at a diffuse surface. 28 bytes.
-struct Photon {
-    Vec3 p;           // m
+/// Light that arrived at a diffuse surface.
+struct Arrival {
     Rgb flux;         // W
     uint16_t normal;  // of the surface, on the side where light arrived; see to_bits()
     uint8_t depth;    // scattering events on its path, the one at p included; 255 or more
     uint8_t mirrors;  // bit i: event number i was at a mirror or glass; of the first eight
 };
+struct Photon {
+    Vec3 p;  // m
+    Arrival light;
+};
+static_assert(sizeof(Photon) == 28);
 
 /// A normal in 16 bits, off by less than a degree: the octahedron |x| + |y| + |z| = 1 unfolded to a
 /// square of 256 x 256 cells. from_bits() gives a point of the octahedron, not of length 1.
@@ -43,23 +47,32 @@ inline Vec3 from_bits(uint16_t bits) {
 }
 
 /// Photons as a k-d tree: a plane through the middle one, across the longest side of the box around
-/// them, parts them in two halves, and those again, down to leaves of 8.
+/// them, parts them in two halves, and those again, down to leaves of 16.
 ///
 /// No pointers: leaves first .. last-1 have one plane, and that has the number of the leaf in their
-/// middle.
-/// source  Bentley 1975; Jensen 1996      tested by  "brute: photons near a point"
+/// middle. The places of a leaf's photons stand apart from the rest, so that all are tested at
+/// once. source  Bentley 1975; Jensen 1996      tested by  "brute: photons near a point"
 class PhotonMap {
 public:
     PhotonMap() = default;
     PhotonMap(std::vector<Photon> photons, int threads)
-        : photons_(std::move(photons)), planes_((size() + leaf - 1) / leaf) {
-        build(0, planes_.size(), threads);
+        : size_(photons.size()), planes_((size_ + leaf - 1) / leaf), places_(planes_.size()) {
+        build(photons, 0, planes_.size(), threads);
+        arrivals_.reserve(size_);
+        for (size_t i = 0; i < size_; i++) {
+            Places& to = places_[i / leaf];
+            Vec3 p = photons[i].p;
+            to.x[i % leaf] = p.x, to.y[i % leaf] = p.y, to.z[i % leaf] = p.z;
+            arrivals_.push_back(photons[i].light);
+        }
     }
 
-    size_t size() const { return photons_.size(); }
-    size_t bytes() const { return size() * sizeof(Photon) + planes_.size() * sizeof(Plane); }
+    size_t size() const { return size_; }
+    size_t bytes() const {
+        return planes_.size() * (sizeof(Plane) + sizeof(Places)) + size_ * sizeof(Arrival);
+    }
 
-    /// Calls work(photon, d2) for each photon whose distance d from p is below r.
+    /// Calls work(arrival, v) for each photon nearer to p than r; v: from p to the photon.
     template <class Work>
     void for_each_near(Vec3 p, float r, const Work& work) const {
         if (size() > 0) visit(p, r * r, 0, planes_.size(), work);
@@ -73,35 +86,47 @@ public:
     size_t leaf_at(Vec3 p) const;
 
 private:
-    static constexpr size_t leaf = 8;
+    static constexpr size_t leaf = 16;
     struct Plane {
         float at = 0;
         int axis = 0;
     };
 
-    size_t end_of(size_t leaf_number) const { return std::min(leaf_number * leaf, size()); }
-    Box box_of(size_t first, size_t last) const {
+    struct Places {
+        float x[leaf], y[leaf], z[leaf];
+        Places() { std::fill_n(x, leaf, infinity); }  // where the last leaf has no photon
+    };
+
+    size_t end_of(size_t leaf_number) const { return std::min(leaf_number * leaf, size_); }
+    Vec3 place(size_t i) const {
+        const Places& of = places_[i / leaf];
+        return {of.x[i % leaf], of.y[i % leaf], of.z[i % leaf]};
+    }
+    Box box_of_leaf(size_t number) const {
         Box box;
-        for (size_t i = first * leaf; i < end_of(last); i++) {
-            box = {min(box.low, photons_[i].p), max(box.high, photons_[i].p)};
+        for (size_t i = number * leaf; i < end_of(number + 1); i++) {
+            box = {min(box.low, place(i)), max(box.high, place(i))};
         }
         return box;
     }
 
-    void build(size_t first, size_t last, int threads) {
+    void build(std::vector<Photon>& photons, size_t first, size_t last, int threads) {
         if (last - first < 2) return;
-        Box box = box_of(first, last);
+        Box box;
+        for (size_t i = first * leaf; i < end_of(last); i++) {
+            box = {min(box.low, photons[i].p), max(box.high, photons[i].p)};
+        }
         Vec3 side = box.high - box.low;
         int axis = side.x > side.y && side.x > side.z ? 0 : side.y > side.z ? 1 : 2;
         size_t middle = (first + last) / 2;
-        auto at = [&](size_t i) { return photons_.begin() + static_cast<std::ptrdiff_t>(i); };
+        auto at = [&](size_t i) { return photons.begin() + static_cast<std::ptrdiff_t>(i); };
         std::nth_element(
             at(first * leaf), at(middle * leaf), at(end_of(last)),
             [axis](const Photon& a, const Photon& b) { return a.p[axis] < b.p[axis]; });
-        planes_[middle] = {photons_[middle * leaf].p[axis], axis};
+        planes_[middle] = {photons[middle * leaf].p[axis], axis};
         parallel_for(2, threads, [&](int half) {
-            if (half == 0) build(first, middle, threads / 2);
-            if (half == 1) build(middle, last, threads / 2);
+            if (half == 0) build(photons, first, middle, threads / 2);
+            if (half == 1) build(photons, middle, last, threads / 2);
         });
     }
 
@@ -114,27 +139,37 @@ private:
             if (d >= 0 || d * d < r2) visit(p, r2, middle, last, work);
             return;
         }
-        for (size_t i = first * leaf; i < end_of(last); i++) {
-            Vec3 v = photons_[i].p - p;
-            if (float d2 = dot(v, v); d2 < r2) work(photons_[i], d2);
+        const Places& at = places_[first];
+        float d2[leaf];
+        for (size_t i = 0; i < leaf; i++) {
+            float x = at.x[i] - p.x, y = at.y[i] - p.y, z = at.z[i] - p.z;
+            d2[i] = x * x + y * y + z * z;
+        }
+        size_t near[leaf], count = 0;
+        for (size_t i = 0; i < leaf; i++) near[count] = i, count += d2[i] < r2;
+        for (size_t j = 0; j < count; j++) {
+            size_t i = first * leaf + near[j];
+            work(arrivals_[i], place(i) - p);
         }
     }
 
-    std::vector<Photon> photons_;
+    size_t size_ = 0;
     std::vector<Plane> planes_;
+    std::vector<Places> places_;
+    std::vector<Arrival> arrivals_;
 };
 
 /// A sphere is searched that holds more than k photons, if its size is guessed from the leaf around
 /// p.
 inline float PhotonMap::kth_distance(Vec3 p, size_t k, float r) const {
     if (size() < k) return r;
-    Box box = box_of(leaf_at(p), leaf_at(p) + 1);
+    Box box = box_of_leaf(leaf_at(p));
     float guess = length(max(abs(box.low - p), abs(box.high - p)));
     std::vector<float> found;
     for (guess *= std::sqrt(static_cast<float>(k) / leaf);; guess *= 1.5f) {
         float searched = guess > 0 ? std::min(guess, r) : r;
         found.clear();
-        for_each_near(p, searched, [&](const Photon&, float d2) { found.push_back(d2); });
+        for_each_near(p, searched, [&](const Arrival&, Vec3 v) { found.push_back(dot(v, v)); });
         if (found.size() >= k) break;
         if (searched == r) return r;
     }
@@ -150,7 +185,7 @@ inline std::vector<float> PhotonMap::kth_distances(size_t k, float r, int thread
     parallel_for((leaves + at_once - 1) / at_once, threads, [&](int part) {
         for (int i = part * at_once; i < std::min((part + 1) * at_once, leaves); i++) {
             size_t number = static_cast<size_t>(i);
-            Box box = box_of(number, number + 1);
+            Box box = box_of_leaf(number);
             distances[number] = kth_distance(0.5f * (box.low + box.high), k, r);
         }
     });

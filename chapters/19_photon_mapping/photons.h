@@ -72,7 +72,7 @@ inline void send_photon(const Scene& scene, const Prepared& prepared, Maps which
             float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
             Rgb arrives = flux * beta * cosines;
             auto events = static_cast<uint8_t>(std::min(depth, 255));
-            photons.push_back({x->p, arrives, to_bits(x->ng), events, mirrors});
+            photons.push_back({x->p, {arrives, to_bits(x->ng), events, mirrors}});
         }
         if (which == caustics && !is_specular(*x->material)) return;
 

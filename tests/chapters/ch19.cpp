@@ -19,7 +19,7 @@ std::vector<Photon> on_a_cube(size_t n, Sampler& random) {
     for (Photon& photon : photons) {
         Vec2 u = random.u2();
         int side = static_cast<int>(6 * random.u1());
-        photon = {{u.x, u.y, random.u1()}, {1, 1, 1}, 0, 1, 0};
+        photon = {{u.x, u.y, random.u1()}, {{1, 1, 1}, 0, 1, 0}};
         photon.p[side % 3] = side < 3 ? 0 : 1;
     }
     return photons;
@@ -30,7 +30,7 @@ std::vector<Photon> on_a_square(int n, Sampler& random, float flux) {
     std::vector<Photon> photons;
     for (int i = 0; i < n; i++) {
         Vec2 u = random.u2();
-        photons.push_back({{u.x, 0, u.y}, {flux, flux, flux}, ch19::to_bits({0, 1, 0}), 1, 0});
+        photons.push_back({{u.x, 0, u.y}, {{flux, flux, flux}, ch19::to_bits({0, 1, 0}), 1, 0}});
     }
     return photons;
 }
@@ -140,7 +140,8 @@ TEST_SUITE("ch19 photon map") {
                     if (i % 3 == 0 && n > 0) p = photons[static_cast<size_t>(i) % n].p;
                     float r = 0.5f * random.u1();
                     std::multiset<float> found, expected;
-                    map.for_each_near(p, r, [&](const Photon&, float d2) { found.insert(d2); });
+                    map.for_each_near(
+                        p, r, [&](const ch19::Arrival&, Vec3 v) { found.insert(dot(v, v)); });
                     std::vector<float> all;
                     for (const Photon& photon : photons) {
                         float d2 = length_squared(photon.p - p);
@@ -165,8 +166,8 @@ TEST_SUITE("ch19 photon map") {
         CHECK(one.bytes() <= 32 * one.size());
         auto in_order = [](const PhotonMap& map) {
             std::vector<float> places;
-            map.for_each_near({}, 10, [&](const Photon& photon, float) {
-                places.insert(places.end(), {photon.p.x, photon.p.y, photon.p.z});
+            map.for_each_near({}, 10, [&](const ch19::Arrival&, Vec3 v) {
+                places.insert(places.end(), {v.x, v.y, v.z});
             });
             return places;
         };
@@ -231,7 +232,7 @@ TEST_SUITE("ch19 density of photons") {
             auto photons = on_a_square(n, random, 1.0f / n);
             for (Photon& photon : photons) {
                 float x = photon.p.x - 0.5f, z = photon.p.z - 0.5f;
-                photon.flux = (1 + 8 * (x * x + z * z)) * photon.flux;
+                photon.light.flux = (1 + 8 * (x * x + z * z)) * photon.light.flux;
             }
             for (int i = 0; i < 3; i++) {
                 stats[i].add(irradiance_at(floor.at(0.5f, 0.5f), photons, r, kernels[i]));
@@ -313,7 +314,7 @@ TEST_SUITE("ch19 density of photons") {
             for (int i = 0; i < 4000; i++) {
                 Vec3 n = uniform_direction(random.u2());
                 float flux = 4 * pi / 4000;
-                photons.push_back({n, {flux, flux, flux}, ch19::to_bits(n), 1, 0});
+                photons.push_back({n, {{flux, flux, flux}, ch19::to_bits(n), 1, 0}});
             }
             Hit x;
             x.p = x.n = x.ng = uniform_direction(random.u2()), x.material = &white;
