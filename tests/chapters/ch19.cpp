@@ -442,6 +442,25 @@ TEST_SUITE("ch19 photon mapping") {
         }
     }
 
+    TEST_CASE("identity: parts add up to the whole, error included") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
+        scene.spp = 7;
+        RenderOptions options;
+        options.threads = 2, options.quiet = true, options.parts = 3;
+        Settings settings{.photons = 1000};
+        Film whole = film_by(scene, settings, 7, 0);
+        std::vector<Film> parts;
+        for (int part : {2, 3, 1}) {
+            options.part = part;
+            parts.push_back(render_film(scene, options, ch19::photon_passes(scene, settings)).film);
+        }
+        parts[0].add(parts[1]);
+        parts[0].add(parts[2]);
+        CHECK(parts[0].image().pixels == whole.image().pixels);
+        CHECK(parts[0].standard_error() == whole.standard_error());
+        CHECK(whole.standard_error() > 0);
+    }
+
     TEST_CASE("identity: classes of path add up to the picture") {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 6);
         Settings settings{.photons = 3000};
