@@ -125,7 +125,7 @@ TEST_SUITE("ch19 photon map") {
 
     TEST_CASE("brute: photons near a point are those that a search through all finds") {
         Sampler random = random_numbers(1);
-        for (size_t n : {0, 1, 2, 8, 9, 17, 100, 1000, 4099}) {
+        for (size_t n : {0u, 1u, 2u, 16u, 17u, 33u, 100u, 1000u, 4099u}) {
             for (int shape = 0; shape < 3; shape++) {
                 std::vector<Photon> photons = on_a_cube(n, random);
                 for (Photon& photon : photons) {
@@ -150,7 +150,7 @@ TEST_SUITE("ch19 photon map") {
                     }
                     CHECK(found == expected);
                     std::sort(all.begin(), all.end());
-                    for (size_t k : {1, 5, 50}) {
+                    for (size_t k : {1u, 5u, 50u}) {
                         float kth = k <= n ? std::min(std::sqrt(all[k - 1]), r) : r;
                         CHECK(std::abs(map.kth_distance(p, k, r) - kth) <= 1e-6f * kth);
                     }
@@ -246,7 +246,7 @@ TEST_SUITE("ch19 density of photons") {
     TEST_CASE("truth: k - 1 photons are counted up to the k-th, not k") {
         // n photons on the unit square, k = 10: the mean is 1, the variance by TRUTHS G13.
         constexpr int n = 1000, repeats = 2000;
-        for (size_t k : {3, 10, 50}) {
+        for (size_t k : {3u, 10u, 50u}) {
             Floor floor;
             RunningStats stats;
             Sampler random = random_numbers(1);
