@@ -64,14 +64,23 @@ inline std::array<std::array<Vec3, 3>, 4> quarters(const std::array<Vec3, 3>& t)
     return {{{t[0], c, b}, {c, t[1], a}, {b, a, t[2]}, {a, b, c}}};
 }
 
-/// (c) The mean over triangle t, with normal n, of the form factor from its points to q: from its
-/// centre when q is far for its size, else from its quarters, and so on.
+/// (c) The mean over triangle t, with normal n, of the form factor from its points to q.
+///
+/// Far for both sizes: from the centre. Nearer: from three points, which makes the mean of any
+/// square polynomial right. Nearer still: from its quarters, and so on.
+inline float longest_edge2(const std::array<Vec3, 3>& t) {
+    return std::max({length_squared(t[1] - t[0]), length_squared(t[2] - t[1]),
+                     length_squared(t[0] - t[2])});
+}
 inline double mean_to_polygon(const std::array<Vec3, 3>& t, Vec3 n, const Patch& q, int depth) {
     Vec3 centre = (t[0] + t[1] + t[2]) / 3;
-    float size2 = std::max(length_squared(t[1] - t[0]), length_squared(t[2] - t[0]));
-    if (depth == 0 || length_squared(centre - q.centre) > 9 * (size2 + q.area))
-        return point_to_polygon(centre, n, q.p);
+    float size2 = longest_edge2(t) + longest_edge2(q.p), d2 = length_squared(centre - q.centre);
+    if (d2 > 36 * size2) return point_to_polygon(centre, n, q.p);
     double sum = 0;
+    if (depth == 0 || d2 > 2 * size2) {
+        for (Vec3 p : t) sum += point_to_polygon((centre + p) / 2, n, q.p);
+        return sum / 3;
+    }
     for (const auto& part : quarters(t)) sum += mean_to_polygon(part, n, q, depth - 1);
     return sum / 4;
 }

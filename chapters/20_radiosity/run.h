@@ -285,9 +285,9 @@ private:
         repair(m, patch, patches_->closed);
         auto stop = [&](double) { return limit_.reached(); };
         if (settings_.solver == Solver::jacobi) {
-            solve(m, patch, enough, solution_, sweep_jacobi, stop);
+            solve(m, patch, 1e-10, solution_, sweep_jacobi, stop);
         } else {
-            solve(m, patch, enough, solution_, sweep_gauss_seidel, stop);
+            solve(m, patch, 1e-10, solution_, sweep_gauss_seidel, stop);
         }
         solution_.escaped = escaped_by(m, patch, solution_);
     }
