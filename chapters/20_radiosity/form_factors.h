@@ -69,8 +69,8 @@ inline std::array<std::array<Vec3, 3>, 4> quarters(const std::array<Vec3, 3>& t)
 /// Far for both sizes: from the centre. Nearer: from three points, which makes the mean of any
 /// square polynomial right. Nearer still: from its quarters, and so on.
 inline float longest_edge2(const std::array<Vec3, 3>& t) {
-    return std::max({length_squared(t[1] - t[0]), length_squared(t[2] - t[1]),
-                     length_squared(t[0] - t[2])});
+    return std::max(
+        {length_squared(t[1] - t[0]), length_squared(t[2] - t[1]), length_squared(t[0] - t[2])});
 }
 inline double mean_to_polygon(const std::array<Vec3, 3>& t, Vec3 n, const Patch& q, int depth) {
     Vec3 centre = (t[0] + t[1] + t[2]) / 3;
@@ -120,18 +120,20 @@ inline Exchange exchange(const Scene& scene, const Patch& p, const Patch& q, For
         if (!sees(scene, p.centre + p.eps * p.n, q.centre + q.eps * q.n)) return {};
         return {G, G};
     }
-    auto x = points_on(p, key), y = points_on(q, hash32(key) | 4);
+    auto x = points_on(p, key), y = points_on(q, hash32(key) + 4);
+    size_t shift = hash32(key + 9) % 4;  // each quarter of p with any of q
     if (way == FormFactors::chance) {
         double sum = 0;
         for (size_t i = 0; i < 4; i++) {
-            double G = by_centres(p, q, x[i], y[i]);
-            if (G > 0 && sees(scene, x[i], y[i])) sum += G / 4;
+            Vec3 z = y[(i + shift) % 4];
+            double G = by_centres(p, q, x[i], z);
+            if (G > 0 && sees(scene, x[i], z)) sum += G / 4;
         }
         return {sum, sum};
     }
     double visible = 0;
     for (size_t i = 0; i < 4; i++) {
-        if (sees(scene, x[i], y[3 - i])) visible += 0.25;
+        if (sees(scene, x[i], y[(i + shift) % 4])) visible += 0.25;
     }
     if (visible == 0) return {};
     constexpr int deepest = 4;
