@@ -198,6 +198,7 @@ public:
         tell_result();
         double seconds = limit_.elapsed();
         bool stopped = limit_.interrupted();
+        if (stopped) options_.time = 0.5;  // s: a picture soon
         Shown shown = shown_now(settings_.show);
         if (!settings_.mesh.empty()) write_mesh(settings_.mesh, shown);
         Rendering picture = render_film(scene_, options_, trace_with<trace>(shown));

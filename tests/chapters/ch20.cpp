@@ -9,6 +9,7 @@
 
 namespace {
 
+using Words = std::vector<std::string>;
 using ch20::FormFactors, ch20::Patch, ch20::Patches, ch20::Radiosity, ch20::Solution;
 
 // Values of unit squares: opposite at distance 1, and with a common edge.
@@ -194,6 +195,23 @@ Trace by_radiosity(const Scene& scene, size_t wanted, ch20::Show how) {
     return trace_with<ch20::trace>(ch20::show(scene, patches, s, how, all_threads()));
 }
 
+/// The program on the Cornell box, small; `more` may say otherwise.
+Process start_program(const Words& more) {
+    return Process([&] {
+        Words all = program_words("20_radiosity");
+        for (const char* word :
+             {"scenes/cornell.pbrt", "--size", "33x17", "--spp", "2", "--patches", "300"})
+            all.push_back(word);
+        all.insert(all.end(), more.begin(), more.end());
+        std::vector<char*> argv;
+        for (std::string& word : all) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        ::execvp(argv[0], argv.data());
+        return 127;
+    });
+}
+Finished run_program_with(const Words& more) { return start_program(more).wait(); }
+
 }  // namespace
 
 TEST_SUITE("ch20 form factors") {
@@ -299,7 +317,7 @@ TEST_SUITE("ch20 form factors") {
         std::vector<Vec3> block = quad({0.3f, 0.3f, 0.3f}, {0.3f, 0.1f, 0}, {0, 0.1f, 0.4f});
         Scene scene = cube_room(0.5, 1, diffuse(0.3) + mesh(block));
         for (FormFactors way : {FormFactors::contour, FormFactors::chance}) {
-            Room raw(scene, 300, way, false), room(scene, 300, way);
+            Room raw(scene, 150, way, false), room(scene, 150, way);
             REQUIRE(room.patches.closed);
             double worst = 0, worst_raw = 0;
             for (size_t i = 0; i < room.G.size(); i++) {
@@ -390,41 +408,35 @@ TEST_SUITE("ch20 patches") {
     }
 
     TEST_CASE("input: what has no radiosity is refused, with its place in the file") {
-        auto refusal = [](const std::string& world) {
-            try {
-                ch20::refuse(world_of(world));
-            } catch (const InputError& error) {
-                return std::string(error.what());
-            }
-            return std::string("none");
-        };
         std::string lamp = emitting(1, 0.5, mesh(cube_faces()[0]));
-        CHECK(refusal(lamp) == "none");
-        const std::string alone =
-            "test.pbrt:8:1: error: radiosity knows diffuse surfaces alone (LD*E): ";
-        auto with = [&](const std::string& more) { return lamp + more + mesh(cube_faces()[1]); };
-        CHECK(refusal(with("\nMaterial \"dielectric\"")).find(alone + "glass") == 0);
-        CHECK(refusal(with("\nMaterial \"conductor\" \"float roughness\" 0.3"))
-                  .find(alone + "rough metal") == 0);
-        CHECK(refusal(with("\nMaterial \"conductor\" \"float roughness\" 0"))
-                  .find(alone + "a mirror") == 0);
-        CHECK(refusal(with("\nLightSource \"point\""))
-                  .find("test.pbrt:8:1: error: radiosity knows lamps with a surface alone: a point "
-                        "light") == 0);
-        CHECK(refusal(with("\nLightSource \"distant\"")).find("a distant light") !=
-              std::string::npos);
-        CHECK(refusal(with("\nLightSource \"infinite\"")).find("a sky") != std::string::npos);
+        auto refusal = [&](const std::string& more) {
+            return error_of([&] { ch20::refuse(world_of(lamp + '\n' + more)); });
+        };
+        CHECK(refusal(mesh(cube_faces()[1])) == "");
+        const std::string at = "test.pbrt:9:1: error: radiosity knows ";
+        for (auto [directive, message] :
+             {std::pair{"Material \"dielectric\"", "diffuse surfaces alone (LD*E): glass"},
+              {"Material \"conductor\" \"float roughness\" 0.3",
+               "diffuse surfaces alone (LD*E): rough metal"},
+              {"Material \"conductor\" \"float roughness\" 0",
+               "diffuse surfaces alone (LD*E): a mirror"},
+              {"LightSource \"point\"", "lamps with a surface alone: a point light"},
+              {"LightSource \"distant\"", "lamps with a surface alone: a distant light"},
+              {"LightSource \"infinite\"", "lamps with a surface alone: a sky"}}) {
+            std::string text = refusal(std::string(directive) + "\n" + mesh(cube_faces()[1]));
+            CAPTURE(text);
+            CHECK(text.starts_with(at + message));
+        }
+        CHECK(
+            refusal("Material \"diffuse\"\nShape \"sphere\"").starts_with(at + "triangles alone"));
+        CHECK(refusal("Material \"diffuse\"\nShape \"disk\"").starts_with(at + "triangles alone"));
     }
 
     TEST_CASE("input: a closed room that reflects all light is refused, an open one is not") {
         auto is_refused = [](const Scene& scene) {
-            try {
-                ch20::refuse_no_loss(scene, ch20::make_patches(scene, 12, 2));
-            } catch (const InputError& error) {
-                CHECK(std::string(error.what()).find("no solution") != std::string::npos);
-                return true;
-            }
-            return false;
+            std::string text =
+                error_of([&] { ch20::refuse_no_loss(scene, ch20::make_patches(scene, 12, 2)); });
+            return text.find("has no solution") != std::string::npos;
         };
         CHECK(is_refused(cube_room(1, 1)));
         CHECK(is_refused(cube_room(1, 6)));
@@ -604,7 +616,7 @@ TEST_SUITE("ch20 solvers") {
                 room.mean_B(s, [](const Patch& p) { return p.n.z == 0; }) - 0.18113};
             for (size_t i = 0; i < 3; i++) {
                 CAPTURE(i);
-                CHECK(std::abs(off[i]) < 8e-3 / static_cast<double>(k * k));
+                CHECK(std::abs(off[i]) < 2e-2 / static_cast<double>(k * k));
                 if (k > 1 && i < 2) CHECK(std::abs(off[i]) < 0.5 * std::abs(before[i]));
             }
             before = off;
@@ -639,7 +651,7 @@ TEST_SUITE("ch20 solvers") {
 
     TEST_CASE("identity: rows that are not kept are the rows that are, for any threads and order") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
-        Patches patches = ch20::make_patches(scene, 300, 2);
+        Patches patches = ch20::make_patches(scene, 150, 2);
         ch20::Rows a(scene, patches, FormFactors::contour, 3, 1);
         ch20::Rows b(scene, patches, FormFactors::contour, 3, 7);
         ch20::Rows other(scene, patches, FormFactors::contour, 4, 2);
@@ -674,23 +686,186 @@ TEST_SUITE("ch20 radiosity") {
         // The same seed takes the same points of each pixel: edges cancel.
         Scene scene = scene_from("tests/pictures/references/cornell-grey.pbrt", 64, 60);
         constexpr int spp = 64;
-        Film paths = film_of(scene, trace_with<ch14::trace>(ch14::prepare(scene)), 4 * spp).film;
+        Film paths = film_of(scene, trace_with<ch14::trace>(ch14::prepare(scene)), spp).film;
         double before = 1;
-        for (size_t wanted : {100, 400, 1600}) {
+        for (size_t wanted : {80, 320, 1280}) {
             CAPTURE(wanted);
-            Film film =
-                film_of(scene, by_radiosity(scene, wanted, ch20::Show::smooth), 4 * spp).film;
+            Film film = film_of(scene, by_radiosity(scene, wanted, ch20::Show::smooth), spp).film;
             double squares = 0;
             for (int y = 0; y < 64; y += 4)
                 for (int x = 0; x < 64; x += 4) {
                     double a = block_of(film, x, y, 4).mean, b = block_of(paths, x, y, 4).mean;
                     squares += (a - b) * (a - b) / (b * b + 0.01) / 256;
                 }
-            MESSAGE(squares, "  ", film.mean() / paths.mean() - 1);
             CHECK(squares < 0.7 * before);
             before = squares;
             CHECK(std::abs(film.mean() / paths.mean() - 1) < (wanted > 1000 ? 0.01 : 0.03));
         }
         CHECK(before < 0.01);
+    }
+}
+
+TEST_SUITE("ch20 program") {
+    TEST_CASE("identity: radiosity has the same bytes for 1, 2 and 7 threads") {
+        TemporaryFolder folder;
+        for (const char* solver : {"southwell", "jacobi"}) {
+            std::string first;
+            for (const char* threads : {"1", "2", "7"}) {
+                Finished end = run_program_with({"--quiet", "--patches", "150", "--threads",
+                                                 threads, "--solver", solver, "--out",
+                                                 folder / "a.pfm", "--mesh", folder / "a.ply"});
+                CHECK(end.code == 0);
+                CHECK(end.err == "");
+                std::string bytes = read_file(folder / "a.pfm") + read_file(folder / "a.ply");
+                if (first.empty()) first = bytes;
+                CHECK(bytes == first);
+            }
+        }
+    }
+
+    TEST_CASE("identity: shots that are stopped and go on from their film have the same bytes") {
+        TemporaryFolder folder;
+        auto words = [&](const std::string& name, const Words& more = {}) {
+            Words all = {
+                "--quiet",   "--film", folder / name + ".film", "--out", folder / name + ".pfm",
+                "--patches", "500"};
+            all.insert(all.end(), more.begin(), more.end());
+            return all;
+        };
+        REQUIRE(run_program_with(words("a")).code == 0);
+        // Ended by their number, then by signals, of which one lets nothing be saved.
+        CHECK(run_program_with(words("b", {"--shots", "7"})).code == 0);
+        CHECK(read_file(folder / "b.pfm") != read_file(folder / "a.pfm"));
+        Finished end;
+        for (int stops = 0; stops < 200; stops++) {
+            Process process = start_program(words("b", {"--film-every", "0.01"}));
+            ::usleep(static_cast<useconds_t>(50000 + 10000 * stops));
+            process.kill(stops % 4 == 3 ? SIGKILL : SIGTERM);
+            end = process.wait();
+            if (end.code == 0) break;
+            CHECK((end.code == 3 || end.signal == SIGTERM || end.signal == SIGKILL));
+        }
+        REQUIRE(end.code == 0);
+        CHECK(read_file(folder / "b.film") == read_file(folder / "a.film"));
+        CHECK(read_file(folder / "b.pfm") == read_file(folder / "a.pfm"));
+        // Another camera needs no more shots: the film stays as it is.
+        CHECK(run_program_with(words("b", {"--size", "20x20", "--show", "constant"})).code == 0);
+        CHECK(read_image(folder / "b.pfm").width == 20);
+        CHECK(read_file(folder / "b.film") == read_file(folder / "a.film"));
+    }
+
+    TEST_CASE("input: a film of radiosity of something else, or damaged, is refused") {
+        TemporaryFolder folder;
+        std::string film = folder / "a.film";
+        auto end_with = [&](const Words& more) {
+            Words all = {"--quiet", "--shots", "5", "--film", film, "--out", folder / "a.pfm"};
+            all.insert(all.end(), more.begin(), more.end());
+            return run_program_with(all);
+        };
+        REQUIRE(end_with({}).code == 0);
+        std::string bytes = read_file(film);
+        for (const Words& other :
+             {Words{"--seed", "1"}, {"--patches", "400"}, {"--form-factors", "chance"}}) {
+            Finished end = end_with(other);
+            CHECK(end.code == 1);
+            CHECK(end.err.starts_with(film + ": error: it is of \""));
+            CHECK(read_file(film) == bytes);
+        }
+        for (size_t i : {size_t{0}, size_t{30}, bytes.size() / 2, bytes.size() - 1}) {
+            std::string damaged = bytes;
+            damaged[i] = static_cast<char>(damaged[i] ^ 4);
+            write_file_atomically(film, damaged);
+            CHECK(end_with({}).code == 1);
+            write_file_atomically(film, bytes.substr(0, i));
+            CHECK(end_with({}).code == 1);
+        }
+    }
+
+    TEST_CASE("files: Ctrl-C leaves the picture of the light so far, and exit code 3") {
+        TemporaryFolder folder;
+        Finished end;
+        for (int ms = 500; ms < 30000; ms *= 2) {
+            Process process = start_program({"--patches", "9000", "--out", folder / "a.pfm"});
+            ::usleep(static_cast<useconds_t>(1000 * ms));
+            process.kill(SIGINT);
+            end = process.wait();
+            if (end.signal == 0) break;
+        }
+        CHECK(end.code == 3);
+        CHECK(end.err == "");
+        CHECK(end.out.find(" (interrupted)\n") != std::string::npos);
+        CHECK(read_image(folder / "a.pfm").width == 33);
+    }
+
+    TEST_CASE("files: radiosity says its costs first, writes pictures on the way, and a mesh") {
+        TemporaryFolder folder;
+        Finished end = run_program_with({"--every", "20", "--shots", "50", "--out",
+                                         folder / "a.png", "--mesh", folder / "a.ply"});
+        CHECK(end.code == 0);
+        CHECK(end.out.find(" million form factors, ") < end.out.find("50 shots: of "));
+        CHECK(end.out.find(" patches in an open room: ") != std::string::npos);
+        CHECK(folder.names() ==
+              std::set<std::string>{"a.png", "a-000020.png", "a-000040.png", "a.ply"});
+        // The reader of scenes reads the mesh: the area of the room's patches.
+        Scene scene = scene_of(
+            "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+            "Shape \"plymesh\" \"string filename\" \"" +
+            folder / "a.ply" + "\"\n");
+        Patches patches = ch20::make_patches(scene_from("scenes/cornell.pbrt", 32, 5), 300, 2);
+        CHECK(scene.geometry.triangles.size() == patches.patch.size());
+        CHECK(scene.geometry.positions.size() == 3 * patches.patch.size());
+    }
+
+    TEST_CASE("input: options that mean nothing to radiosity are refused") {
+        for (const Words& words : {Words{"--max-depth", "3"},
+                                   {"--explain", "1,1"},
+                                   {"--paths", "LDE"},
+                                   {"--part", "1/2"},
+                                   {"--split", "x"},
+                                   {"--patches", "0"},
+                                   {"--patches", "many"},
+                                   {"--show", "nothing"},
+                                   {"--solver", "jacobi", "--film", "a.film"},
+                                   {"--solver", "jacobi", "--shots", "5"},
+                                   {"--mesh", "a.obj"}}) {
+            Finished end = run_program_with(words);
+            CAPTURE(words[0]);
+            CHECK(end.code == 2);
+            CHECK(end.err.find("error: ") == 0);
+            CHECK(std::count(end.err.begin(), end.err.end(), '\n') == 1);
+        }
+        Finished end = run_program_with({"--out", "/nowhere/a.png"});
+        CHECK(end.code == 1);
+        CHECK(run_program_with({"--mesh", "/nowhere/a.ply"}).code == 1);
+    }
+}
+
+TEST_SUITE("ch20 slow") {
+    TEST_CASE("agreement: 5000 patches of a gray Cornell box with another renderer's picture") {
+        Scene scene = scene_from("tests/pictures/references/cornell-grey.pbrt", 128, 60);
+        Image reference = read_image("tests/pictures/references/cornell-grey.pfm");
+        REQUIRE(reference.width == 128);
+        Image image =
+            film_of(scene, by_radiosity(scene, 5000, ch20::Show::smooth), 256).film.image();
+        double a = 0, b = 0, error = 0;
+        for (size_t i = 0; i < image.pixels.size(); i++) {
+            double x = double{average(image.pixels[i])}, y = double{average(reference.pixels[i])};
+            a += x, b += y;
+            error += (x - y) * (x - y) / (y * y + 0.01) / static_cast<double>(image.pixels.size());
+        }
+        CHECK(std::abs(a / b - 1) < 0.01);
+        CHECK(error < 0.01);
+    }
+
+    TEST_CASE("agreement: the final gather with chapter 14, block by block within 2 %") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 60);
+        Film film = film_of(scene, by_radiosity(scene, 2000, ch20::Show::gather), 2048, 1).film;
+        Film paths = film_of(scene, trace_with<ch14::trace>(ch14::prepare(scene)), 2048, 1).film;
+        for (int y = 0; y < 32; y += 8)
+            for (int x = 0; x < 32; x += 8) {
+                Measured a = block_of(film, x, y, 8), b = block_of(paths, x, y, 8);
+                CHECK(std::abs(a.mean / b.mean - 1) < 0.02 + 5 * std::hypot(a.se, b.se) / b.mean);
+                CHECK(std::hypot(a.se, b.se) < 0.02 * b.mean);
+            }
     }
 }
