@@ -243,8 +243,9 @@ private:
         if (!film_.empty() && std::filesystem::exists(film_, none))
             read_solution(film_, label, solution_);
         Progress progress(options_.quiet);
-        double saved = limit_.elapsed(), first = share_to_come(patch, solution_), last = first;
+        double saved = limit_.elapsed(), first = share_to_come(patch, solution_), last = 1;
         while (!limit_.reached() && (settings_.shots == 0 || solution_.steps < settings_.shots)) {
+            // Asked after the same shots in whatever runs they are done.
             if (solution_.steps % 16 == 0) last = share_to_come(patch, solution_);
             if (settings_.shots == 0 && last < enough) break;
             if (!shoot(

@@ -738,8 +738,8 @@ TEST_SUITE("ch20 program") {
         CHECK(read_file(folder / "b.pfm") != read_file(folder / "a.pfm"));
         Finished end;
         for (int stops = 0; stops < 200; stops++) {
-            Process process = start_program(words("b", {"--film-every", "0.01"}));
-            ::usleep(static_cast<useconds_t>(50000 + 10000 * stops));
+            Process process = start_program(words("b", {"--film-every", "0.1"}));
+            ::usleep(static_cast<useconds_t>(100000 + 50000 * stops));
             process.kill(stops % 4 == 3 ? SIGKILL : SIGTERM);
             end = process.wait();
             if (end.code == 0) break;
