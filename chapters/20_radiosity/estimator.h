@@ -78,10 +78,11 @@ using Corner = std::array<int64_t, 3>;
 inline Corner corner_at(Vec3 p, float size) {
     return {std::llround(p.x / size), std::llround(p.y / size), std::llround(p.z / size)};
 }
-inline std::map<Corner, std::vector<uint32_t>> find_corners(const Patches& patches, float size) {
+inline std::map<Corner, std::vector<uint32_t>> find_corners(const std::vector<Patch>& patch,
+                                                            float size) {
     std::map<Corner, std::vector<uint32_t>> corners;
-    for (uint32_t i = 0; i < patches.patch.size(); i++)
-        for (Vec3 p : patches.patch[i].p) corners[corner_at(p, size)].push_back(i);
+    for (uint32_t i = 0; i < patch.size(); i++)
+        for (Vec3 p : patch[i].p) corners[corner_at(p, size)].push_back(i);
     return corners;
 }
 
@@ -92,26 +93,49 @@ inline bool goes_on(const Scene& scene, const Patch& p, const Patch& q) {
                 q.centre + 0.1f * std::sqrt(q.area) * q.n);
 }
 
-/// Radiosity at the corners: the mean of the patches around, by area.
-inline void make_smooth(const Scene& scene, Shown& shown, int threads) {
-    const std::vector<Patch>& patch = shown.patches->patch;
+/// Of each corner of each patch: the patches around it that its surface goes on to, and itself.
+using Around = std::vector<std::array<std::vector<uint32_t>, 3>>;
+inline Around find_around(const Scene& scene, const std::vector<Patch>& patch, int threads) {
     float size = 4e-5f * scene.radius;
-    auto corners = find_corners(*shown.patches, size);
-    std::vector<std::array<Rgb, 3>> smooth(patch.size());
+    auto corners = find_corners(patch, size);
+    Around around(patch.size());
     parallel_for(static_cast<int>(patch.size()), threads, [&](int index) {
-        size_t i = static_cast<size_t>(index);
+        uint32_t i = static_cast<uint32_t>(index);
         for (size_t c = 0; c < 3; c++) {
-            float area = patch[i].area;
-            Rgb sum = area * shown.B[i][0];
-            for (uint32_t j : corners.find(corner_at(patch[i].p[c], size))->second) {
-                if (j == i || !goes_on(scene, patch[i], patch[j])) continue;
-                area += patch[j].area;
-                sum += patch[j].area * shown.B[j][0];
-            }
-            smooth[i][c] = sum / area;
+            for (uint32_t j : corners.find(corner_at(patch[i].p[c], size))->second)
+                if (j == i || goes_on(scene, patch[i], patch[j])) around[i][c].push_back(j);
         }
     });
-    shown.B = std::move(smooth);
+    return around;
+}
+
+/// Radiosity at the corners: the mean of the patches around, by area. That alone would flatten what
+/// rises and falls; so what a patch's corners miss of its own radiosity is spread among them too.
+inline void make_smooth(const Scene& scene, Shown& shown, int threads) {
+    constexpr int rounds = 4;
+    const std::vector<Patch>& patch = shown.patches->patch;
+    Around around = find_around(scene, patch, threads);
+    std::vector<Rgb> missing;
+    for (const auto& B : shown.B) missing.push_back(B[0]);
+    for (auto& B : shown.B) B = {};
+    for (int round = 0; round < rounds; round++) {
+        std::vector<Rgb> left = missing;
+        for (size_t i = 0; i < patch.size(); i++) {
+            for (size_t c = 0; c < 3; c++) {
+                float area = 0;
+                Rgb sum;
+                for (uint32_t j : around[i][c]) {
+                    area += patch[j].area;
+                    sum += patch[j].area * missing[j];
+                }
+                shown.B[i][c] += sum / area;
+                left[i] = left[i] - sum / (3 * area);
+            }
+        }
+        missing = left;
+    }
+    for (auto& B : shown.B)
+        for (Rgb& b : B) b = {std::max(0.0f, b.r), std::max(0.0f, b.g), std::max(0.0f, b.b)};
 }
 
 inline Shown show(const Scene& scene, std::shared_ptr<const Patches> patches, const Solution& s,
