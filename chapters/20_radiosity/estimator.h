@@ -14,7 +14,7 @@
 
 namespace ch20 {
 
-/// Throws InputError for all that has no radiosity: paths are LD*E, lamps and surfaces triangles.
+/// Throws InputError for all that has no radiosity: paths are LD*E, and lamps have a surface.
 inline void refuse(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type == LightType::area) continue;
@@ -39,14 +39,6 @@ inline void refuse(const Scene& scene) {
     for (const Triangle& t : g.triangles) refuse_material(t.shape);
     for (const Sphere& s : g.spheres) refuse_material(s.shape);
     for (const Disk& d : g.disks) refuse_material(d.shape);
-    if (g.triangles.size() < g.size()) {
-        const Material& m =
-            scene.materials[scene.shapes[g.spheres.empty() ? g.disks[0].shape : g.spheres[0].shape]
-                                .material];
-        fail({scene.file, m.line, m.column}, std::string("radiosity knows triangles alone: a ") +
-                                                 (g.spheres.empty() ? "disk" : "sphere") +
-                                                 " of this material has to be a mesh");
-    }
 }
 
 /// Throws InputError for a closed room that absorbs nothing: its light grows for ever.

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "chapters/20_radiosity/estimator.h"
+#include "chapters/20_radiosity/tessellate.h"
 #include "common/base/checksum.h"
 #include "common/base/files.h"
 #include "common/base/percent.h"

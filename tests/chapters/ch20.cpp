@@ -427,9 +427,6 @@ TEST_SUITE("ch20 patches") {
             CAPTURE(text);
             CHECK(text.starts_with(at + message));
         }
-        CHECK(
-            refusal("Material \"diffuse\"\nShape \"sphere\"").starts_with(at + "triangles alone"));
-        CHECK(refusal("Material \"diffuse\"\nShape \"disk\"").starts_with(at + "triangles alone"));
     }
 
     TEST_CASE("input: a closed room that reflects all light is refused, an open one is not") {
@@ -581,16 +578,57 @@ TEST_SUITE("ch20 solvers") {
         }
     }
 
-    TEST_CASE("truth: concentric spheres of triangles") {
-        Scene scene = world_of(emitting(1, 0.5, mesh(sphere(1, 2, true))) + diffuse(0.5) +
-                               mesh(sphere(2, 2, false)));
-        Room room(scene, 256);
-        REQUIRE(room.patches.closed);
-        Solution s = solved(room.G, room.patches.patch);
-        auto inner = [](const Patch& p) { return p.E.g > 0; };
-        auto outer = [](const Patch& p) { return p.E.g == 0; };
-        CHECK(room.mean_B(s, inner) == doctest::Approx(10.0 / 9).epsilon(1e-3).scale(0));
-        CHECK(room.mean_B(s, outer) == doctest::Approx(2.0 / 9).epsilon(1e-3).scale(0));
+    TEST_CASE("truth: concentric spheres, as meshes and as spheres made meshes") {
+        Scene meshes = world_of(emitting(1, 0.5, mesh(sphere(1, 2, true))) + diffuse(0.5) +
+                                mesh(sphere(2, 2, false)));
+        std::string outside = "ReverseOrientation Shape \"sphere\" \"float radius\" 2\n";
+        Scene spheres = world_of(emitting(1, 0.5, "Shape \"sphere\"\n") + diffuse(0.5) + outside);
+        ch20::tessellate(spheres, 2);
+        for (const Scene* scene : {&meshes, &spheres}) {
+            Room room(*scene, 256);
+            REQUIRE(room.patches.closed);
+            Solution s = solved(room.G, room.patches.patch);
+            auto inner = [](const Patch& p) { return p.E.g > 0; };
+            auto outer = [](const Patch& p) { return p.E.g == 0; };
+            CHECK(room.mean_B(s, inner) == doctest::Approx(10.0 / 9).epsilon(1e-3).scale(0));
+            CHECK(room.mean_B(s, outer) == doctest::Approx(2.0 / 9).epsilon(1e-3).scale(0));
+        }
+    }
+
+    TEST_CASE("identity: spheres and disks made meshes keep area, power and the side that shines") {
+        // The lamps are not the first shapes, nor the last.
+        std::string shapes =
+            diffuse(0.5) + "Shape \"sphere\" \"float radius\" 0.5\n" + mesh(cube_faces()[0]) +
+            emitting(1, 0.5, "Translate 5 0 0 Shape \"disk\"\n") +
+            emitting(2, 0.5, "Translate 9 0 0 ReverseOrientation Shape \"sphere\"\n") +
+            emitting(3, 0.5, mesh(cube_faces()[1])) + "Shape \"disk\"\n";
+        Scene before = world_of(shapes), after = world_of(shapes);
+        ch20::tessellate(after, 2);
+        CHECK(after.geometry.spheres.empty());
+        CHECK(after.geometry.disks.empty());
+        CHECK(after.geometry.triangles.size() == 4 + 2 * 512 + 2 * 32);
+        for (size_t i = 0; i < 3; i++) {
+            CAPTURE(i);
+            double power = double{light_power(before, i)};
+            CHECK(double{light_power(after, i)} == doctest::Approx(power).epsilon(1e-4).scale(0));
+            // All its triangles say so, and shine where the shape did.
+            const Light& light = after.lights[i];
+            for (uint32_t k = 0; k < light.prims; k++) {
+                uint32_t prim = light.first_prim + k;
+                CHECK(after.shapes[after.geometry.triangles[prim].shape].light ==
+                      static_cast<int>(i));
+                auto t = ch20::corners(after, prim);
+                Vec3 at = (t[0] + t[1] + t[2]) / 3, n = after.geometry.facet_normals[prim];
+                for (float side : {1.0f, -1.0f}) {
+                    Ray ray = {at + side * 0.1f * n, -side * n};
+                    auto x = intersect(after, ray), y = intersect(before, ray);
+                    REQUIRE(x);
+                    REQUIRE(y);
+                    CHECK(emission(after, *x) == emission(before, *y));
+                    CHECK(is_black(emission(after, *x)) == (side < 0));
+                }
+            }
+        }
     }
 
     TEST_CASE("truth: a closed cube: 1 / (1 - rho), and the limit of ever smaller patches") {

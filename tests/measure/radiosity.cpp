@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
         std::string name = o.words.empty() ? "cornell" : o.words[0];
         Scene scene = load_scene_for("scenes/" + name + ".pbrt", o);
         ch20::refuse(scene);
+        ch20::tessellate(scene, o.threads);
         Trace fourteen = trace_with<ch14::trace>(ch14::prepare(scene));
         scene.spp = o.spp;
         Image reference = image_of(scene, fourteen, 0, o.threads);
