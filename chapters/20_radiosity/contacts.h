@@ -27,7 +27,7 @@ inline Polygon clip(const Polygon& polygon, Vec3 o, Vec3 m) {
 }
 
 /// The line along which triangle s touches or crosses the plane through o with normal n: two
-/// points; or its three corners, when it lies in it; else fewer.
+/// points. Three when it lies in the plane, where it hides nothing; else fewer.
 inline Polygon contact(const std::array<Vec3, 3>& s, Vec3 o, Vec3 n, float eps) {
     Polygon points;
     float d[3];
@@ -82,10 +82,7 @@ inline std::vector<Polygon> cut_at_contacts(const Scene& scene, uint32_t prim) {
         Vec3 gap = max(min(min(s[0], s[1]), s[2]) - high, low - max(max(s[0], s[1]), s[2]));
         if (other == prim || max_component(gap) > eps) continue;
         Polygon points = contact(s, t[0], n, eps);
-        for (size_t i = 0; i + 1 < points.size(); i++) {
-            cut(pieces, points[i], points[i + 1], n, eps);
-        }
-        if (points.size() == 3) cut(pieces, points[2], points[0], n, eps);
+        if (points.size() == 2) cut(pieces, points[0], points[1], n, eps);
     }
     return pieces;
 }

@@ -302,7 +302,7 @@ private:
             "row sums %.4f to %.4f before their repair; the two ends of a pair are %s apart\n",
             f.lowest, f.highest, percent(f.all > 0 ? f.apart / f.all : 0).c_str());
         Balance b = balance_of(patches_->patch, solution_);
-        auto share = [&](double x) { return percent(x / b.emitted); };
+        auto share = [&](double x) { return percent(std::max(0.0, x / b.emitted)); };  // not -0
         std::printf("%llu %s: of %.4g W %s absorbed, %s out of the room, %s unshot (off by %.1g)\n",
                     static_cast<unsigned long long>(solution_.steps),
                     settings_.solver == Solver::southwell ? "shots" : "sweeps", b.emitted,
