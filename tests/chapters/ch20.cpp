@@ -218,23 +218,25 @@ TEST_SUITE("ch20 form factors") {
     TEST_CASE("truth: form factors by contour of squares and disks") {
         Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
         auto floor = patches_of(quad({}, x, y));
-        for (auto [d, F] : {std::pair{0.1, 0.8269945223973},
-                            {0.5, 0.4152532835771},
-                            {1.0, opposite},
-                            {2.0, 0.06858958881855},
-                            {5.0, 0.01240397731325},
-                            {10.0, 0.003162056838758}}) {
+        for (auto [distance, F] : {std::pair{0.1, 0.8269945223973},
+                                   {0.5, 0.4152532835771},
+                                   {1.0, opposite},
+                                   {2.0, 0.06858958881855},
+                                   {5.0, 0.01240397731325},
+                                   {10.0, 0.003162056838758}}) {
+            double d = distance;
             CAPTURE(d);
             auto above = patches_of(quad(static_cast<float>(d) * z, y, x));
             CHECK(std::abs(form_factor(floor, above) - F) < 3e-5);
         }
         auto wall = patches_of(quad({}, y, z));
         CHECK(std::abs(form_factor(floor, wall) - beside) < 1e-6);
-        for (auto [r1, r2, h, F] : {std::array{1.0, 1.0, 1.0, 0.3819660112501},
-                                    {1, 1, 2, 0.1715728752538},
-                                    {1, 2, 1, 0.7639320225002},
-                                    {2, 1, 1, 0.1909830056251},
-                                    {1, 1, 0.1, 0.9048750780275}}) {
+        for (const auto& row : {std::array{1.0, 1.0, 1.0, 0.3819660112501},
+                                {1, 1, 2, 0.1715728752538},
+                                {1, 2, 1, 0.7639320225002},
+                                {2, 1, 1, 0.1909830056251},
+                                {1, 1, 0.1, 0.9048750780275}}) {
+            double r1 = row[0], r2 = row[1], h = row[2], F = row[3];
             CAPTURE(r1);
             CAPTURE(r2);
             CAPTURE(h);
@@ -274,12 +276,12 @@ TEST_SUITE("ch20 form factors") {
         Patch low, high;
         low.area = high.area = 1;
         low.n = {0, 0, 1}, high.n = {0, 0, -1};
-        for (auto [d, F] : {std::pair{0.1, 31.83098861838},
-                            {0.5, 1.273239544735},
-                            {1.0, 0.3183098861838},
-                            {2.0, 0.07957747154595},
-                            {5.0, 0.01273239544735},
-                            {10.0, 0.003183098861838}}) {
+        for (auto [distance, F] : {std::pair{0.1, 31.83098861838},
+                                   {0.5, 1.273239544735},
+                                   {1.0, 0.3183098861838},
+                                   {2.0, 0.07957747154595},
+                                   {5.0, 0.01273239544735},
+                                   {10.0, 0.003183098861838}}) {
             double G = ch20::by_centres(low, high, {}, {0, 0, static_cast<float>(d)});
             CHECK(G == doctest::Approx(F).epsilon(1e-6).scale(0));
         }
@@ -726,7 +728,7 @@ TEST_SUITE("ch20 radiosity") {
         constexpr int spp = 64;
         Film paths = film_of(scene, trace_with<ch14::trace>(ch14::prepare(scene)), spp).film;
         double before = 1;
-        for (size_t wanted : {80, 320, 1280}) {
+        for (size_t wanted : {size_t{80}, size_t{320}, size_t{1280}}) {
             CAPTURE(wanted);
             Film film = film_of(scene, by_radiosity(scene, wanted, ch20::Show::smooth), spp).film;
             double squares = 0;

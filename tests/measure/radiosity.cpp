@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
         scene.spp = o.spp;
         Image reference = image_of(scene, fourteen, 0, o.threads);
         std::vector<Solved> solved;
-        for (size_t patches : {80, 320, 1280, 5120})
+        for (size_t patches : {size_t{80}, size_t{320}, size_t{1280}, size_t{5120}})
             solved.push_back(solve_and_compare(scene, patches, reference, o.threads));
         std::vector<std::array<double, 3>> paths;
         for (int spp : {1, 4, 16, 64, 256}) {
