@@ -282,7 +282,7 @@ TEST_SUITE("ch20 form factors") {
                                    {2.0, 0.07957747154595},
                                    {5.0, 0.01273239544735},
                                    {10.0, 0.003183098861838}}) {
-            double G = ch20::by_centres(low, high, {}, {0, 0, static_cast<float>(d)});
+            double G = ch20::by_centres(low, high, {}, {0, 0, static_cast<float>(distance)});
             CHECK(G == doctest::Approx(F).epsilon(1e-6).scale(0));
         }
         high.n = {-1, 0, 0};
