@@ -5,7 +5,7 @@ comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))
 
-.PHONY: chart stability agree efficiency compare references bench teeth break
+.PHONY: chart stability agree efficiency compare radiosity references bench teeth break
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
@@ -29,13 +29,16 @@ efficiency: $(BUILD)/efficiency $(made)
 #: make compare A=08 B=09 SCENE=cornell   two chapters with equal samples, and with equal time
 compare: $(BUILD)/efficiency $(made)
 	@$< $(or $(SCENE),cornell) $(chosen) --equal-time
+#: make radiosity    error against time: patches of chapter 20 beside paths of 14 (1 minute)
+radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
+	@$< $(SCENE)
 #: make references   render what the charts compare with
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
 #: make bench        rays per second of each step of chapter 05, beside Embree (2 minutes)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
-readmes: $(BUILD)/efficiency $(BUILD)/bench
+readmes: $(BUILD)/efficiency $(BUILD)/bench $(BUILD)/radiosity
 # What a test program consists of beside the test itself.
 harness := $(common) $(BUILD)/obj/tests/support/main.o
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
