@@ -2,6 +2,7 @@
 // awkward meshes.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "common/geometry/bvh_build.h"
@@ -159,11 +160,19 @@ struct Comparison {
     int rays = 0, hits = 0, wrong = 0;
     std::string first_wrong = "";
 
+    bool are_copies(uint32_t a, uint32_t b) const {
+        size_t n = g.triangles.size();
+        return a < n && b < n && std::ranges::equal(g.triangles[a].v, g.triangles[b].v);
+    }
+
     PrimHit compare(const char* what, int kind, uint32_t number, const Ray& ray) {
         PrimHit truth = linear_scan(g, ray), found = closest_hit(bvh, g, ray);
         bool hit = truth.prim != PrimHit::none, any = any_hit(bvh, g, ray);
         rays++, hits += hit;
-        if (same_bits(found, truth) && any == hit) return truth;
+        // Edge-on, rounding may put the hit before the boxes of some copies of a triangle.
+        bool edge_on = kind == static_cast<int>(RayKind::edge_on);
+        bool copy = edge_on && hit && found.t == truth.t && are_copies(found.prim, truth.prim);
+        if ((copy || same_bits(found, truth)) && any == hit) return truth;
         if (wrong++ == 0) {
             if (any != hit) found = {any ? 0 : PrimHit::none, 0, 0, 0};
             first_wrong = described(what, kind, number, ray, found, truth);
@@ -327,10 +336,9 @@ TEST_SUITE("ch05 bvh hits") {
             g.triangles.insert(g.triangles.end(), once.rbegin(), once.rend());
         g.spheres.assign(40, {{0, 0, 0}, 0.5f, 0});
         g.disks.assign(40, {{0, 0, 0}, {0, 0, 1}, 0.7f, 0});
-        // Of 1000 rays of each kind, one edge-on has a t before its box: not found in two copies.
-        check_same_hits(g, 0.2, 200);
+        check_same_hits(g, 0.2);
         g.triangles.assign(1000, once[0]);
-        check_same_hits(g, 0.1, 300);
+        check_same_hits(g, 0.1);
     }
 
     TEST_CASE("brute: triangles that are lines or points are never hit, and hide nothing") {
