@@ -1,4 +1,5 @@
-// What the tests of chapters from 06 on begin with: compiled in advance, so that make check is quick.
+// What the tests of chapters from 06 on begin with: compiled in advance, so that make check is
+// quick.
 #pragma once
 #include <doctest/doctest.h>
 
