@@ -9,7 +9,8 @@ struct Quantity {
 };
 
 /// By probe, then by class of path. Beside the classes: "all", the picture's mean; "parts", the sum
-/// of its classes; "noise", the spread of one sample; "rays" and "samples" of a sample asked for.
+/// of its classes; "noise", the spread of one sample over its mean; "rays" and "samples" of a
+/// sample asked for.
 using Quantities = std::map<std::string, std::map<std::string, Quantity>>;
 
 inline bool is_class(const std::string& name) { return name[0] == 'L' || name == "longer"; }

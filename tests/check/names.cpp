@@ -30,6 +30,8 @@ std::map<std::string, Quantity> measure(const Method& method, const Probe& probe
         double asked = static_cast<double>(spp) * scene.width * scene.height;
         values["samples"] = taken / asked;
         values["rays"] = static_cast<double>(r.stats.rays) / taken;
+        double noise = r.film.standard_error() * std::sqrt(taken) / r.film.mean();
+        if (std::isfinite(noise)) values["noise"] = noise;
         double& parts = values["parts"];
         for (const auto& [name, film] : r.classes) values[name] = film.mean(), parts += film.mean();
         for (const auto& [name, value] : values) {
@@ -42,8 +44,6 @@ std::map<std::string, Quantity> measure(const Method& method, const Probe& probe
     }
     std::map<std::string, Quantity> result;
     for (const auto& [name, s] : stats) result[name] = {s.mean(), s.standard_error()};
-    double noise = std::sqrt(stats["all"].variance() * spp) / stats["all"].mean();
-    result["noise"] = {noise, noise / std::sqrt(2.0 * (batches - 1))};
     return result;
 }
 
@@ -156,51 +156,66 @@ void print_rest(const Findings& f, const char* way, int most) {
     std::printf("%d of %d classes of path are off%s%s\n", count, classes, *way ? ", " : "", way);
 }
 
-/// The same of all chapters together, each weighed by its error.
-int write_references(const MeasureOptions& o) {
-    std::map<std::string, std::map<std::string, std::vector<Quantity>>> by_method;
+/// What all chapters say of each quantity, and what each says of itself.
+struct Answers {
+    std::map<std::string, std::map<std::string, std::vector<Quantity>>> of_all;
     Quantities own;
+};
+Answers ask_all(const MeasureOptions& o) {
+    Answers answers;
     for (const Method& method : all_methods()) {
         bool second = method.name == "08-area" || method.name == "12-bsdf";
         if (method.biased || (is_variant(method) && !second)) continue;
-        std::printf("%s\n", method.name.c_str()), std::fflush(stdout);
+        std::printf("%s\n", method.name.c_str());
+        std::fflush(stdout);
         for (const auto& [probe, row] : measure_all(method, o, 16, 1000))
             for (const auto& [name, q] : row) {
-                if (name == "noise" || name == "rays")
-                    own[probe][key_of(method, name)] = q;
-                else if (name != "samples")
-                    by_method[probe][name].push_back(q);
+                if (name == "samples") continue;
+                bool own = name == "noise" || name == "rays";
+                if (own) answers.own[probe][key_of(method, name)] = q;
+                if (!own) answers.of_all[probe][name].push_back(q);
             }
     }
+    return answers;
+}
+
+/// The mean of measurements, each weighed by its error. Counts and prints those that are far off.
+Quantity pooled(const std::string& what, const std::vector<Quantity>& values, int& disagree) {
+    double weights = 0, sum = 0;
+    for (Quantity q : values) {
+        double w = 1 / (q.se * q.se + 1e-12 * q.mean * q.mean + 1e-20);
+        weights += w, sum += w * q.mean;
+    }
+    Quantity mean{sum / weights, 1 / std::sqrt(weights)};
+    for (Quantity q : values) {
+        double z = (q.mean - mean.mean) / std::hypot(q.se, 1e-5 * mean.mean + 1e-12);
+        if (q.mean == mean.mean || std::abs(z) < 6) continue;
+        std::printf("%s: %g +- %g beside %g\n", what.c_str(), q.mean, q.se, mean.mean);
+        disagree++;
+    }
+    return mean;
+}
+
+/// The references, by all chapters together. Returns 1 when they do not agree.
+int write_references(const MeasureOptions& o) {
+    Answers answers = ask_all(o);
     std::string text =
         "# What each class of path brings in the probes: mean, standard error. By all chapters\n"
         "# together: build/names --references. Noise and rays are those of one chapter.\n";
-    int disagree = 0;
     auto add = [&](const std::string& probe, const std::string& name, Quantity q) {
         char line[200];
         std::snprintf(line, sizeof line, "%s\t%s\t%.6g\t%.2g\n", probe.c_str(), name.c_str(),
                       q.mean, q.se);
         text += line;
     };
-    for (const auto& [probe, row] : by_method) {
+    int disagree = 0;
+    for (const auto& [probe, row] : answers.of_all) {
         add(probe, "samples", {1, 0});
         for (const auto& [name, values] : row) {
-            double weights = 0, sum = 0;
-            for (Quantity q : values) {
-                double w = 1 / (q.se * q.se + 1e-12 * q.mean * q.mean + 1e-20);
-                weights += w, sum += w * q.mean;
-            }
-            Quantity mean{sum / weights, 1 / std::sqrt(weights)};
-            for (Quantity q : values) {
-                double z = (q.mean - mean.mean) / std::hypot(q.se, 1e-5 * mean.mean + 1e-12);
-                if (q.mean == mean.mean || std::abs(z) < 6) continue;
-                std::printf("%s %s: %g +- %g beside %g\n", probe.c_str(), name.c_str(), q.mean,
-                            q.se, mean.mean);
-                disagree++;
-            }
+            Quantity mean = pooled(probe + " " + name, values, disagree);
             if (mean.mean > 1e-4 || !is_class(name)) add(probe, name, mean);
         }
-        for (const auto& [name, q] : own[probe]) add(probe, name, q);
+        for (const auto& [name, q] : answers.own[probe]) add(probe, name, q);
     }
     write_file_atomically(reference_file, text);
     std::printf("wrote %s; %d values disagree\n", reference_file, disagree);

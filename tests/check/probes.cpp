@@ -82,6 +82,12 @@ const std::string above = from_above(1.2);
 /// The place of a lamp at distance 2, this far from overhead, that faces the floor's middle.
 std::string aslant(double degrees) { return turn(degrees, z_axis) + at(0, 2, 0); }
 
+/// The same lamp near the floor, whose normals lean in all directions.
+const std::string bent_lamp =
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 4 1 2 4 2 3 4 3 0 4] \"point3 P\" "
+    "[-.5 .4 -.5  .5 .4 -.5  .5 .4 .5  -.5 .4 .5  0 .4 0] \"normal N\" "
+    "[2 -1 0  0 -1 2  1 -1 1  -1 -1 2  1.5 -1 -1]\n";
+
 /// The inside of a cube of side 2.
 std::string cube(const std::string& material) {
     std::string faces;
@@ -113,9 +119,9 @@ void add_floors(std::vector<Probe>& p) {
     p.push_back(
         {"bright", "a lamp ten times as bright", above + floor_here + lamp(at(0, 2, 0), 10)});
     p.push_back({"near", "a lamp just above", from_above(0.1) + floor_here + lamp(at(0, 0.2, 0))});
-    p.push_back(
-        {"three", "three lamps, all alike",
-         above + floor_here + lamp(at(-1.2, 2, 0)) + lamp(at(0, 2, 0)) + lamp(at(1.2, 2, 0))});
+    p.push_back({"three", "three lamps, all alike and as far",
+                 above + floor_here + lamp(at(1, 2, 0)) + lamp(at(-0.5, 2, 0.866)) +
+                     lamp(at(-0.5, 2, -0.866))});
     p.push_back({"unequal", "a strong lamp and a weak one",
                  above + floor_here + lamp(at(-1, 2, 0), 20) + lamp(at(1, 2, 0) + scale(1.3), 1)});
     p.push_back(
@@ -175,12 +181,11 @@ void add_bent(std::vector<Probe>& p) {
     p.push_back(
         {"leaning sky", "a floor whose normals lean, under a sky", from_above(0.5) + bent + sky()});
     p.push_back({"leaning mirror", "a floor whose normals lean, lit by way of a mirror",
-                 from_above(0.5, 2) + bent + lamp(at(1.5, 1, 0) + scale(2), 1, false, true) +
-                     group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false))});
-    p.push_back({"leaning lamp", "a lamp whose normals lean",
-                 from_above(0.1) + floor_here +
-                     group(shining(1) + paint(0) + at(0, 0.4, 0) + scale(0.5) +
-                           square(false, leaning(60, false)))});
+                 from_above(0.5, 2) + bent + lamp(at(-1.5, 1, 0) + scale(2), 1, false, true) +
+                     group(metal(1) + at(-1.5, 2, 0) + scale(4) + square(false))});
+    p.push_back({"leaning lamp", "a lamp of four triangles whose normals lean",
+                 above + floor_here + group(shining(1) + paint(0) + at(0, 1.1, 0) + bent_lamp), 6,
+                 18, 256});
     p.push_back({"lamp aside", "a lamp whose normals lean away from the camera",
                  view("-3 -1 0  0 0 0  0 1 0", "\"float fov\" 3") +
                      group(shining(1) + paint(0) + scale(2) + square(false, leaning(80, false)))});
@@ -189,9 +194,9 @@ void add_bent(std::vector<Probe>& p) {
     std::string bent_metal = floor_of(metal(1, rough), leaning(40));
     p.push_back({"below metal", "rough metal whose normals lean, over a lamp below it",
                  above + bent_metal + lamp(turn(-110, z_axis) + at(0, 2, 0)), 12});
-    p.push_back({"bent mirror", "a mirror whose normals lean, seen along its surface",
-                 view("-3 0.5 0  0 0 0  0 1 0", "\"float fov\" 3", 4) + sky() +
-                     floor_of(metal(1), leaning(40))});
+    p.push_back({"bent mirror", "a mirror whose normals lean towards its horizon",
+                 view("-3 1.73 0  0 0 0  0 1 0", "\"float fov\" 3", 4) + sky() +
+                     floor_of(metal(1), leaning(20))});
 }
 
 void add_glass_and_metal(std::vector<Probe>& p) {
@@ -230,7 +235,7 @@ void add_glass_and_metal(std::vector<Probe>& p) {
                  on_metal(real, 0.25), 12});
 }
 
-/// What the chapters 15 to 18 are about.
+/// Cameras with a lens, and wide ones.
 void add_cameras(std::vector<Probe>& p) {
     p.push_back({"corner", "the corner of a wide picture of a floor",
                  view("0 1.2 0  0 0 0  0 0 1",
@@ -257,6 +262,10 @@ void add_cameras(std::vector<Probe>& p) {
                      group(shining(1) + paint(0) + at(4, 4, 4) + turn(-90, x_axis) + scale(0.12) +
                            square(true)),
                  15, 16});
+}
+
+/// What else the chapters 15 and 16 are about.
+void add_wavelengths_and_shares(std::vector<Probe>& p) {
     p.push_back({"dispersing", "a ball of glass that disperses, before a white sky",
                  view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 20", 20) + sky() +
                      group("Material \"dielectric\" \"spectrum eta\" \"glass-F11\" " + ball(1)),
@@ -283,5 +292,6 @@ std::vector<Probe> all_probes() {
     add_bent(probes);
     add_glass_and_metal(probes);
     add_cameras(probes);
+    add_wavelengths_and_shares(probes);
     return probes;
 }

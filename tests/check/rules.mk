@@ -1,5 +1,5 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check
+.PHONY: exercise check names
 
 #: make exercise CH=08   write my/08_light_sampling/estimator.h, its new functions left to you
 exercise:
@@ -18,3 +18,6 @@ check: $(checkers) $(common) $(made) $(BUILD)/check/support.h.gch \
 # All chapters in one, for the references that make check compares with (2 minutes): build/names --references
 $(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp)) $$(patsubst %.cpp,$$(BUILD)/obj/%.o,$$(methods)) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
+#: make names        plant mistakes, and write down how make check names them (8 minutes)
+names: $(checkers) $(common) $(made)
+	@tests/check/plant $(BUILD) '$(M)' $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))
