@@ -90,7 +90,9 @@ void print_errors(const CompareOptions& o, const Comparison& c) {
     explain(
         "0.1 to 2 %: noise everywhere; much more: a few bright specks, which samples hardly cure");
     std::printf("median of A/B over the pixels: %.5g\n", c.median_ratio);
-    explain("what specks cannot move: far from 1, A is off as a whole, by that factor");
+    explain(
+        "of the middle pixel: 2 or 1/pi is a factor, below 1 also noise: most have too little, few "
+        "too much");
     if (c.blocks == 0) return;
     std::printf("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks, c.worst_z,
                 c.worst_x, c.worst_y, c.beyond_5);
