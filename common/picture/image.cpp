@@ -245,3 +245,18 @@ Image decode_image(const std::string& path, const std::string& bytes) {
     if (magic == "Pf") return decode_pfm(header, 1);
     header.fail("not a .ppm (P6), .pfm or .png picture");
 }
+
+std::string read_comment(const std::string& path) {
+    std::string bytes = read_file(path);
+    if (!bytes.starts_with("\x89PNG")) return "";
+    const std::string key = std::string("Comment") + '\0';
+    for (size_t at = 8; at + 8 <= bytes.size();) {
+        size_t length = 0;
+        for (size_t i = 0; i < 4; i++) length = length << 8 | static_cast<uint8_t>(bytes[at + i]);
+        std::string_view body = std::string_view(bytes).substr(at + 8).substr(0, length);
+        if (bytes.compare(at + 4, 4, "tEXt") == 0 && body.starts_with(key))
+            return std::string(body.substr(key.size()));
+        at += 12 + length;
+    }
+    return "";
+}

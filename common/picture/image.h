@@ -38,3 +38,5 @@ bool is_image_path(const std::string& path);
 Image read_image(const std::string& path);
 /// The same from the bytes of the file `path`.
 Image decode_image(const std::string& path, const std::string& bytes);
+/// The comment that write_image put into a .png; empty where there is none.
+std::string read_comment(const std::string& path);

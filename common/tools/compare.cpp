@@ -7,6 +7,7 @@
 #include "common/base/percent.h"
 #include "common/picture/comparison.h"
 #include "common/picture/stats_file.h"
+#include "common/picture/verdict.h"
 #include "common/program/command_line.h"
 #include "common/program/table.h"
 
@@ -36,10 +37,12 @@ CompareOptions parse(int argc, char** argv) {
              if (o.trim >= 100) fail_value("trim", text, "less than 100");
          }},
     };
-    parse_options(argc, argv, "A B",
-                  "How far picture A is from the reference B, .ppm or .pfm. Standard errors are "
-                  "taken from what --stats wrote beside a picture (NAME.json), or NAME.err.pfm.",
-                  options, [&](const std::string& word) { o.pictures.push_back(word); });
+    parse_options(
+        argc, argv, "A B",
+        "How far picture A is from the reference B, .pfm, .png or .ppm, figure by figure and "
+        "then in words. Standard errors are taken from what --stats wrote beside a picture "
+        "(NAME.json), or NAME.err.pfm.",
+        options, [&](const std::string& word) { o.pictures.push_back(word); });
     if (o.pictures.size() != 2) {
         throw UsageError("error: two pictures are needed, not " +
                          std::to_string(o.pictures.size()) + "; --help says how");
@@ -76,8 +79,32 @@ void print_mean(const char* name, const std::string& file, double mean, const Kn
     }
 }
 
+/// A figure, and on the next line what it is.
+void explain(const char* words) { std::printf("    %s\n", words); }
+
+void print_errors(const CompareOptions& o, const Comparison& c) {
+    if (o.trim > 0) std::printf("without the worst %g %% of the pixels:\n", o.trim);
+    std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);
+    explain("mean of (a-b)^2; its root; mean of (a-b)^2 / (b^2 + 0.01), by which dark parts count");
+    std::printf("worst 0.1 %% of the pixels: %.3g %% of the squared error\n", 100 * c.worst_share);
+    explain(
+        "0.1 to 2 %: noise everywhere; much more: a few bright specks, which samples hardly cure");
+    std::printf("median of A/B over the pixels: %.5g\n", c.median_ratio);
+    explain(
+        "of the middle pixel: 2 or 1/pi is a factor, below 1 also noise: most have too little, few "
+        "too much");
+    if (c.blocks == 0) return;
+    std::printf("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks, c.worst_z,
+                c.worst_x, c.worst_y, c.beyond_5);
+    explain("how many standard errors a block differs by: noise alone hardly ever passes 5");
+}
+
 void print(const CompareOptions& o, const Comparison& c) {
     KnownError a = known_error(o.pictures[0]), b = known_error(o.pictures[1]);
+    PictureFacts facts_a = facts_of(o.pictures[0]), facts_b = facts_of(o.pictures[1]);
+    facts_a.standard_error = a.value, facts_b.standard_error = b.value;
+    for (const std::string& line : doubts(o.pictures[0], facts_a, o.pictures[1], facts_b))
+        std::printf("warning: %s\n", line.c_str());
     print_mean("A", o.pictures[0], c.mean_a, a);
     print_mean("B", o.pictures[1], c.mean_b, b);
     double difference = c.mean_a - c.mean_b, se = std::hypot(a.value, b.value);
@@ -88,13 +115,9 @@ void print(const CompareOptions& o, const Comparison& c) {
                 percent(difference / c.mean_b).c_str(),
                 digits(same ? 0 : difference / se, 3).c_str(),
                 known ? "the files beside both" : "the differences of pixels within blocks");
-    if (o.trim > 0) std::printf("without the worst %g %% of the pixels:\n", o.trim);
-    std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);
-    std::printf("worst 0.1 %% of the pixels: %.3g %% of the squared error\n", 100 * c.worst_share);
-    std::printf("median of A/B over the pixels: %.5g\n", c.median_ratio);
-    if (c.blocks == 0) return;
-    std::printf("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks, c.worst_z,
-                c.worst_x, c.worst_y, c.beyond_5);
+    explain("below 5 standard errors the means may be the same, beyond they are not");
+    print_errors(o, c);
+    std::printf("verdict: %s\n", verdict(c, se, facts_a, facts_b).c_str());
 }
 
 }  // namespace

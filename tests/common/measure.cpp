@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/files.h"
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
 #include "common/picture/stats_file.h"
+#include "common/picture/verdict.h"
 #include "tests/measure/agreement.h"
 #include "tests/measure/spread.h"
+#include "tests/support/folder.h"
 
 namespace {
 
@@ -54,6 +57,60 @@ TEST_SUITE("comparison") {
         CHECK(trimmed.mse == near((0.25 / 3 + 1) / 3));
         CHECK(trimmed.rel_mse == near((0.25 / 1.01 / 3 + 1 / 4.01) / 3));
         CHECK(trimmed.mean_a == c.mean_a);
+    }
+
+    TEST_CASE("truth: verdicts") {
+        Comparison c;
+        c.mean_a = 1.01, c.mean_b = 1, c.mse = 0.1, c.blocks = 64;
+        PictureFacts a, b;
+        CHECK(verdict(c, 0.01, a, b) == "the same mean within the noise");
+        CHECK(verdict(c, 0.001, a, b) ==
+              "other means: A is 1 % brighter than B, and noise does not do that (10 standard "
+              "errors)");
+        CHECK(verdict(c, NAN, a, b) == "how sure the means are is not known");
+        c.beyond_5 = 3;
+        CHECK(verdict(c, 0.01, a, b) ==
+              "the same mean within the noise, but not everywhere: 3 of 64 blocks differ by more "
+              "than noise does");
+        c.beyond_5 = 0;
+        a = {std::sqrt(33.0) * 0.001, 16, "", ""}, b = {0.001, 16, "", ""};
+        CHECK(verdict(c, 0.01, a, b) ==
+              "the same mean within the noise; B has 97 % less squared error: at equal samples "
+              "that is 33 times fewer");
+        CHECK(verdict(c, 0.01, b, a).find("; A has 97 % less") != std::string::npos);
+        b.spp = 64;  // a quarter of that is due to samples
+        CHECK(verdict(c, 0.01, a, b)
+                  .find("with 64 samples against 16: sample by sample 8.2 times "
+                        "fewer") != std::string::npos);
+        b.spp = 1024;
+        CHECK(verdict(c, 0.01, a, b).find("sample by sample 1.9 times more") != std::string::npos);
+        c.mse = 0;
+        CHECK(verdict(c, 0.01, a, b) == "the same picture");
+    }
+
+    TEST_CASE("truth: pictures of other scenes, and of 8 bits, are told") {
+        TemporaryFolder folder;
+        std::string png = folder / "a.png", pfm = folder / "b.pfm";
+        write_image(png, grey(4, 4, 2), "build/08_light_sampling scenes/near-light.pbrt --spp 1");
+        write_image(pfm, grey(4, 4, 2), "");
+        CHECK(read_comment(png) == "build/08_light_sampling scenes/near-light.pbrt --spp 1");
+        CHECK(read_comment(pfm) == "");
+        PictureFacts a = facts_of(png), b = facts_of(pfm);
+        CHECK(a.scene == "scenes/near-light.pbrt");
+        CHECK(b.scene == "");
+        std::vector<std::string> told = doubts(png, a, pfm, b);
+        REQUIRE(told.size() == 1);
+        CHECK(told[0].find("has 8 bits") != std::string::npos);
+        b.scene = "elsewhere/near-light.pbrt";  // the same file from another folder
+        CHECK(doubts(pfm, a, pfm, b).empty());
+        b.scene = "scenes/cornell.pbrt";
+        REQUIRE(doubts(pfm, a, pfm, b).size() == 1);
+        CHECK(doubts(pfm, a, pfm, b)[0] == "A shows scenes/near-light.pbrt, B scenes/cornell.pbrt");
+        std::string bytes = read_file(png);
+        for (size_t length : {20u, 40u, 60u}) {  // cut short: no comment, no crash
+            write_file_atomically(png, bytes.substr(0, length));
+            CHECK(read_comment(png).size() < 60);
+        }
     }
 
     TEST_CASE("identity: a picture does not differ from itself") {

@@ -52,7 +52,7 @@ std::vector<std::string> programs(bool render) {
     return names;
 }
 
-bool begins_at_lights(const std::string& program) { return program > "17"; }
+bool begins_at_lights(const std::string& program) { return program > "17" && program < "19"; }
 
 /// Options for a render of a few milliseconds.
 Words small(const Words& more) {

@@ -1,0 +1,78 @@
+// What a chapter's pictures of the probes bring, beside what they should: by class of path.
+#pragma once
+#include <cmath>
+#include <map>
+#include <string>
+
+struct Quantity {
+    double mean = 0, se = 0;
+};
+
+/// By probe, then by class of path. Beside the classes: "all", the picture's mean; "parts", the sum
+/// of its classes; "noise", the spread of one sample over its mean; "rays" and "samples" of a
+/// sample asked for.
+using Quantities = std::map<std::string, std::map<std::string, Quantity>>;
+
+inline bool is_class(const std::string& name) { return name[0] == 'L' || name == "longer"; }
+
+/// Measurements held against what they should be.
+class Findings {
+public:
+    Findings(Quantities measured, Quantities expected)
+        : measured_(std::move(measured)), expected_(std::move(expected)) {}
+
+    const Quantities& measured() const { return measured_; }
+    const Quantities& expected() const { return expected_; }
+    static Quantity find(const Quantities& q, const std::string& probe, const std::string& name) {
+        auto row = q.find(probe);
+        if (row == q.end()) return {};
+        auto cell = row->second.find(name);
+        return cell == row->second.end() ? Quantity{} : cell->second;
+    }
+    bool has(const std::string& probe) const { return measured_.contains(probe); }
+
+    /// Measured over expected, with its standard error; NaN where nothing is expected.
+    Quantity ratio(const std::string& probe, const std::string& name = "LDE") const {
+        Quantity a = find(measured_, probe, name), b = find(expected_, probe, name);
+        if (!(b.mean > 0)) return {NAN, NAN};
+        double r = a.mean / b.mean;
+        return {r, std::hypot(a.se / b.mean, r * b.se / b.mean)};
+    }
+    /// Whether it is other than expected: by 5 standard errors, and by so much that it is seen.
+    bool off(const std::string& probe, const std::string& name = "LDE") const {
+        if (!has(probe)) return false;
+        Quantity expected = find(expected_, probe, name);
+        if (!(expected.mean > 0)) return leaks(probe, name);
+        if (expected.se > 0.015 * expected.mean) return false;  // too rare to say
+        Quantity r = ratio(probe, name);
+        return !(std::abs(r.mean - 1) <= std::max(5 * r.se, least));
+    }
+    bool right(const std::string& probe, const std::string& name = "LDE") const {
+        return has(probe) && !off(probe, name);
+    }
+    /// Whether the ratio is this one, within its error.
+    bool is(const std::string& probe, const std::string& name, double value) const {
+        if (!has(probe)) return false;
+        Quantity r = ratio(probe, name);
+        return std::abs(r.mean - value) <= std::max(4 * r.se, 0.04 * value);
+    }
+    /// Light of a class that should bring nothing.
+    bool leaks(const std::string& probe, const std::string& name) const {
+        if (find(expected_, probe, name).mean > 0) return false;
+        Quantity m = find(measured_, probe, name);
+        return !(m.mean <= std::max(4 * m.se, 2e-3));
+    }
+    /// Light of any class that should bring nothing; its name, or "".
+    std::string leak(const std::string& probe) const {
+        auto row = measured_.find(probe);
+        if (row == measured_.end()) return "";
+        for (const auto& [name, q] : row->second)
+            if (is_class(name) && leaks(probe, name)) return name;
+        return "";
+    }
+
+    static constexpr double least = 0.008;  // by which a mean must be off
+
+private:
+    Quantities measured_, expected_;
+};

@@ -1,0 +1,263 @@
+// names NN: renders small scenes by chapter NN, and says which mistake would make them as they are.
+#include <cstdio>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/scene/prepare.h"
+#include "common/scene_file/reader.h"
+#include "tests/check/naming.h"
+#include "tests/check/probes.h"
+#include "tests/measure/measure.h"
+
+namespace {
+
+constexpr int batches = 16;
+constexpr const char* reference_file = "tests/check/references.tsv";
+
+/// The quantities of one probe, from the spread of several renders.
+std::map<std::string, Quantity> measure(const Method& method, const Probe& probe,
+                                        const MeasureOptions& o, int samples, uint32_t seed) {
+    Scene scene = parse_scene("probe.pbrt", probe.text, nullptr);
+    prepare(scene, o.threads);
+    std::map<std::string, RunningStats> stats;
+    bool shared_out =
+        method.name.starts_with("16") && (probe.name == "floor" || probe.name == "rare light");
+    int spp = std::max(samples / batches, shared_out ? 32 : 1);
+    for (int batch = 0; batch < batches; batch++) {
+        Rendering r = render_once(method, scene, o, spp, seed + static_cast<uint32_t>(batch), true);
+        std::map<std::string, double> values = {{"all", r.film.mean()}};
+        double taken = static_cast<double>(r.film.samples());
+        double asked = static_cast<double>(spp) * scene.width * scene.height;
+        values["samples"] = taken / asked;
+        values["rays"] = static_cast<double>(r.stats.rays) / taken;
+        double noise = r.film.standard_error() * std::sqrt(taken) / r.film.mean();
+        if (std::isfinite(noise)) values["noise"] = noise;
+        double& parts = values["parts"];
+        for (const auto& [name, film] : r.classes) values[name] = film.mean(), parts += film.mean();
+        for (const auto& [name, value] : values) {
+            RunningStats& s = stats[name];
+            while (s.count() < static_cast<uint64_t>(batch)) s.add(0);  // had nothing before
+            s.add(value);
+        }
+        for (auto& [name, s] : stats)
+            if (s.count() == static_cast<uint64_t>(batch)) s.add(0);
+    }
+    std::map<std::string, Quantity> result;
+    for (const auto& [name, s] : stats) result[name] = {s.mean(), s.standard_error()};
+    return result;
+}
+
+bool fits(const Probe& probe, const Method& method) {
+    int chapter = std::stoi(method.name.substr(0, 2));
+    // From a sky, hardly any path meets what these small pictures show.
+    if (chapter == 17 && probe.text.find("infinite") != std::string::npos) return false;
+    return chapter >= probe.first_chapter && chapter <= probe.last_chapter;
+}
+
+/// Of chapter 17 what it can see: where the last vertex is no mirror and no glass.
+bool is_seen(const Method& method, const std::string& name) {
+    if (!method.name.starts_with("17") || !is_class(name)) return true;
+    return name != "longer" && (name == "LE" || name[name.size() - 2] == 'D');
+}
+
+/// Those that depend on how a chapter works have its name behind them in the file.
+std::string key_of(const Method& method, const std::string& name) {
+    bool own = name == "noise" || name == "rays";
+    return own ? name + " " + method.name : name;
+}
+
+Quantities measure_all(const Method& method, const MeasureOptions& o, double times, uint32_t seed) {
+    Quantities found;
+    for (const Probe& probe : all_probes()) {
+        if (!fits(probe, method)) continue;
+        auto row = measure(method, probe, o, static_cast<int>(probe.samples * times), seed);
+        for (const auto& [name, q] : row)
+            if (is_seen(method, name)) found[probe.name][name] = q;
+        bool all_seen = !method.name.starts_with("17");
+        if (!all_seen) found[probe.name].erase("all"), found[probe.name].erase("parts");
+    }
+    return found;
+}
+
+Quantities read_references(const Method& method) {
+    Quantities expected;
+    std::string text = read_file(reference_file);
+    for (size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+        std::string line = text.substr(at, end - at), cells[4];
+        for (size_t i = 0, from = 0; i < 4; i++) {
+            size_t tab = std::min(line.find('\t', from), line.size());
+            cells[i] = line.substr(from, tab - from), from = std::min(tab + 1, line.size());
+        }
+        if (line.empty() || line[0] == '#') continue;
+        std::string name = cells[1];
+        size_t space = name.find(' ');
+        if (space != std::string::npos) {
+            if (name.substr(space + 1) != method.name) continue;
+            name.resize(space);
+        }
+        expected[cells[0]][name] = {std::stod(cells[2]), std::stod(cells[3])};
+    }
+    return expected;
+}
+
+Findings findings_of(const Method& method, const MeasureOptions& o) {
+    Quantities found = measure_all(method, o, 3, 1), expected = read_references(method);
+    for (auto row = expected.begin(); row != expected.end();)
+        row = found.contains(row->first) ? std::next(row) : expected.erase(row);
+    for (auto& [probe, row] : expected)
+        std::erase_if(row, [&](const auto& cell) {
+            bool all = cell.first == "all" || cell.first == "parts";
+            return !is_seen(method, cell.first) || (all && method.name.starts_with("17"));
+        });
+    return {found, expected};
+}
+
+const Probe& probe_named(const std::string& name) {
+    static const std::vector<Probe> probes = all_probes();
+    for (const Probe& probe : probes)
+        if (probe.name == name) return probe;
+    throw InputError("error: no probe " + name);
+}
+
+/// "LDE is 0.318 of what it should be (a floor under a lamp): ..."
+void print_name(const Findings& f, const Name& name) {
+    std::string where = name.path_class, leak = f.leak(name.probe);
+    bool is_leak = where == "leak" || (where == "longer" && !leak.empty());
+    if (is_leak) {
+        std::printf("%s: light where there should be none", leak.c_str());
+    } else {
+        double r = f.ratio(name.probe, where).mean;
+        std::printf("%s: %.3g of what it should be", where == "all" ? "the picture" : where.c_str(),
+                    r);
+        std::string factor = name_factor(r);
+        if (!factor.empty() && is_class(where)) std::printf(" (%s)", factor.c_str());
+    }
+    std::printf(", %s.\n    %s\n", probe_named(name.probe).what.c_str(), name.text.c_str());
+}
+
+/// Everything that is off, for who wants to think for himself.
+void print_rest(const Findings& f, const char* way, int most) {
+    int count = 0, classes = 0;
+    for (const auto& [probe, row] : f.expected())
+        for (const auto& [name, q] : row) {
+            if (!is_class(name)) continue;
+            classes++;
+            if (!f.off(probe, name) || ++count > most) continue;
+            Quantity r = f.ratio(probe, name);
+            std::printf("    %-18s %-10s %8.4f +- %.4f  %s\n", probe.c_str(), name.c_str(), r.mean,
+                        r.se, way);
+        }
+    for (const auto& [probe, row] : f.measured()) {
+        std::string leak = f.leak(probe);
+        if (!leak.empty() && ++count <= most)
+            std::printf("    %-18s %-10s light where there should be none  %s\n", probe.c_str(),
+                        leak.c_str(), way);
+    }
+    std::printf("%d of %d classes of path are off%s%s\n", count, classes, *way ? ", " : "", way);
+}
+
+/// What all chapters say of each quantity, and what each says of itself.
+struct Answers {
+    std::map<std::string, std::map<std::string, std::vector<Quantity>>> of_all;
+    Quantities own;
+};
+Answers ask_all(const MeasureOptions& o) {
+    Answers answers;
+    for (const Method& method : all_methods()) {
+        bool second = method.name == "08-area" || method.name == "12-bsdf";
+        if (method.biased || (is_variant(method) && !second)) continue;
+        std::printf("%s\n", method.name.c_str());
+        std::fflush(stdout);
+        for (const auto& [probe, row] : measure_all(method, o, 16, 1000))
+            for (const auto& [name, q] : row) {
+                if (name == "samples") continue;
+                bool own = name == "noise" || name == "rays";
+                if (own) answers.own[probe][key_of(method, name)] = q;
+                if (!own) answers.of_all[probe][name].push_back(q);
+            }
+    }
+    return answers;
+}
+
+/// The mean of measurements, each weighed by its error. Counts and prints those that are far off.
+Quantity pooled(const std::string& what, const std::vector<Quantity>& values, int& disagree) {
+    double weights = 0, sum = 0;
+    for (Quantity q : values) {
+        double w = 1 / (q.se * q.se + 1e-12 * q.mean * q.mean + 1e-20);
+        weights += w, sum += w * q.mean;
+    }
+    Quantity mean{sum / weights, 1 / std::sqrt(weights)};
+    for (Quantity q : values) {
+        double z = (q.mean - mean.mean) / std::hypot(q.se, 1e-5 * mean.mean + 1e-12);
+        if (q.mean == mean.mean || std::abs(z) < 6) continue;
+        std::printf("%s: %g +- %g beside %g\n", what.c_str(), q.mean, q.se, mean.mean);
+        disagree++;
+    }
+    return mean;
+}
+
+/// The references, by all chapters together. Returns 1 when they do not agree.
+int write_references(const MeasureOptions& o) {
+    Answers answers = ask_all(o);
+    std::string text =
+        "# What each class of path brings in the probes: mean, standard error. By all chapters\n"
+        "# together: build/names --references. Noise and rays are those of one chapter.\n";
+    auto add = [&](const std::string& probe, const std::string& name, Quantity q) {
+        char line[200];
+        std::snprintf(line, sizeof line, "%s\t%s\t%.6g\t%.2g\n", probe.c_str(), name.c_str(),
+                      q.mean, q.se);
+        text += line;
+    };
+    int disagree = 0;
+    for (const auto& [probe, row] : answers.of_all) {
+        add(probe, "samples", {1, 0});
+        for (const auto& [name, values] : row) {
+            Quantity mean = pooled(probe + " " + name, values, disagree);
+            if (mean.mean > 1e-4 || !is_class(name)) add(probe, name, mean);
+        }
+        for (const auto& [name, q] : answers.own[probe]) add(probe, name, q);
+    }
+    write_file_atomically(reference_file, text);
+    std::printf("wrote %s; %d values disagree\n", reference_file, disagree);
+    return disagree == 0 ? 0 : 1;
+}
+
+int check(const std::string& chapter, const MeasureOptions& o) {
+    const Method method = methods_named({chapter}).at(0);
+    Findings found = findings_of(method, o);
+    std::vector<Findings> other;
+    for (const Method& m : all_methods())
+        if (m.name == chapter + "-area" || m.name == chapter + "-bsdf")
+            other.push_back(findings_of(m, o));
+    const Findings* second = other.empty() ? nullptr : &other[0];
+    const char* way = chapter == "08" ? "by area" : "by the BSDF alone";
+    std::vector<Name> names = name_mistake(std::stoi(chapter), found, second);
+    for (const Name& name : names) {
+        bool by_second = second && !found.off(name.probe, name.path_class) &&
+                         second->off(name.probe, name.path_class);
+        print_name(by_second ? *second : found, name);
+        std::printf("\n");
+    }
+    if (names.empty()) std::printf("Light comes by every class of path as it should.\n");
+    print_rest(found, "", 12);
+    if (second) print_rest(*second, way, 6);
+    return names.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        bool references = false;
+        std::vector<Option> flags = {{"references", "",
+                                      "measure what is right by all chapters, and write it down",
+                                      [&](const std::string&) { references = true; }}};
+        MeasureOptions o = parse_measure_options(argc, argv, "CHAPTER",
+                                                 "Renders small scenes by a chapter, and says "
+                                                 "which mistake would make them as they are.",
+                                                 {}, flags);
+        if (references) return write_references(o);
+        if (o.words.size() != 1) throw UsageError("error: one chapter is needed, such as 08");
+        return check(o.words[0], o);
+    });
+}

@@ -1,0 +1,297 @@
+#include "tests/check/probes.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace {
+
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+    char text[600];
+    std::snprintf(text, sizeof text, pattern, args...);
+    return text;
+}
+
+std::string view(const std::string& look_at, const std::string& camera = "\"float fov\" 40",
+                 int max_depth = 1) {
+    return format(
+               "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+               "PixelFilter \"box\" Integrator \"path\" \"integer maxdepth\" %d\n",
+               max_depth) +
+           "LookAt " + look_at + "\nCamera \"perspective\" " + camera + "\nWorldBegin\n";
+}
+/// Straight down on the floor's middle.
+std::string from_above(double height, int max_depth = 1) {
+    return view(format("0 %g 0  0 0 0  0 0 1", height), "\"float fov\" 40", max_depth);
+}
+std::string group(const std::string& inside) {
+    return "AttributeBegin " + inside + "AttributeEnd\n";
+}
+std::string at(double x, double y, double z) { return format("Translate %g %g %g ", x, y, z); }
+std::string scale(double s) { return format("Scale %g %g %g ", s, s, s); }
+std::string turn(double degrees, const char* axis) {
+    return format("Rotate %g %s ", degrees, axis);
+}
+constexpr const char *x_axis = "1 0 0", *z_axis = "0 0 1";
+
+std::string paint(double albedo) {
+    return format("Material \"diffuse\" \"rgb reflectance\" [%g %g %g]\n", albedo, albedo, albedo);
+}
+const std::string glass = "Material \"dielectric\"\n";
+/// Metal that reflects this share in every direction.
+std::string metal(double share, const std::string& more = "") {
+    return format("Material \"conductor\" \"rgb reflectance\" [%g %g %g] ", share, share, share) +
+           more + "\n";
+}
+const std::string rough = "\"float roughness\" 0.5 \"bool remaproughness\" false";
+std::string shining(double L, bool two_sided = false) {
+    return format("AreaLightSource \"diffuse\" \"rgb L\" [%g %g %g] \"bool twosided\" %s ", L, L, L,
+                  two_sided ? "true" : "false");
+}
+
+/// A square of side 2 around the origin that faces up or down, and the same with normals that are
+/// other ones.
+std::string square(bool up, const std::string& normals = "") {
+    return std::string("Shape \"trianglemesh\" \"integer indices\" ") +
+           (up ? "[0 1 2 0 2 3]" : "[0 2 1 0 3 2]") +
+           " \"point3 P\" [-1 0 -1  -1 0 1  1 0 1  1 0 -1]" +
+           (normals.empty() ? "" : " \"normal N\" [" + normals + "]") + "\n";
+}
+/// Normals that all lean by this angle from up, or from down, towards +x.
+std::string leaning(double degrees, bool up = true) {
+    double a = degrees * 3.14159265358979 / 180, y = up ? std::cos(a) : -std::cos(a);
+    std::string one = format("%g %g 0 ", std::sin(a), y);
+    return one + one + one + one;
+}
+
+std::string floor_of(const std::string& material, const std::string& normals = "",
+                     double half_side = 20) {
+    return group(material + scale(half_side) + square(true, normals));
+}
+/// A black square lamp of the side 1, with its middle at the origin, that shines down.
+std::string lamp(const std::string& place, double L = 1, bool two_sided = false, bool up = false) {
+    return group(shining(L, two_sided) + paint(0) + place + scale(0.5) + square(up));
+}
+std::string sky(double L = 1) {
+    return format("LightSource \"infinite\" \"rgb L\" [%g %g %g]\n", L, L, L);
+}
+std::string ball(double radius) { return format("Shape \"sphere\" \"float radius\" %g\n", radius); }
+
+const std::string floor_here = floor_of(paint(0.5));
+const std::string above = from_above(1.2);
+/// The place of a lamp at distance 2, this far from overhead, that faces the floor's middle.
+std::string aslant(double degrees) { return turn(degrees, z_axis) + at(0, 2, 0); }
+
+/// The same lamp near the floor, whose normals lean in all directions.
+const std::string bent_lamp =
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 4 1 2 4 2 3 4 3 0 4] \"point3 P\" "
+    "[-.5 .4 -.5  .5 .4 -.5  .5 .4 .5  -.5 .4 .5  0 .4 0] \"normal N\" "
+    "[2 -1 0  0 -1 2  1 -1 1  -1 -1 2  1.5 -1 -1]\n";
+
+/// The inside of a cube of side 2.
+std::string cube(const std::string& material) {
+    std::string faces;
+    for (double angle : {0.0, 90.0, 180.0, 270.0})
+        faces += group(turn(angle, z_axis) + at(0, -1, 0) + square(true));
+    for (double angle : {90.0, -90.0})
+        faces += group(turn(angle, x_axis) + at(0, -1, 0) + square(true));
+    return material + faces;
+}
+
+/// A lamp of 35 x 35 small ones.
+std::string crowd() {
+    std::string text;
+    for (int i = 0; i < 35; i++)
+        for (int k = 0; k < 35; k++)
+            text += lamp(at(-0.85 + 0.05 * i, 1, -0.85 + 0.05 * k) + scale(0.045), 1);
+    return text;
+}
+
+void add_floors(std::vector<Probe>& p) {
+    p.push_back({"floor", "a floor under a lamp", above + floor_here + lamp(at(0, 2, 0))});
+    p.push_back(
+        {"slant", "a lamp 60 degrees from overhead", above + floor_here + lamp(aslant(60))});
+    p.push_back({"turned", "a lamp overhead that is turned away by 60 degrees",
+                 above + floor_here + lamp(at(0, 2, 0) + turn(60, z_axis))});
+    p.push_back({"far", "a lamp of 2 x 2, twice as far",
+                 above + floor_here + lamp(at(0, 4, 0) + scale(2))});
+    p.push_back({"large", "a lamp of 2 x 2", above + floor_here + lamp(at(0, 2, 0) + scale(2))});
+    p.push_back(
+        {"bright", "a lamp ten times as bright", above + floor_here + lamp(at(0, 2, 0), 10)});
+    p.push_back({"near", "a lamp just above", from_above(0.1) + floor_here + lamp(at(0, 0.2, 0))});
+    p.push_back({"three", "three lamps, all alike and as far",
+                 above + floor_here + lamp(at(1, 2, 0)) + lamp(at(-0.5, 2, 0.866)) +
+                     lamp(at(-0.5, 2, -0.866))});
+    p.push_back({"unequal", "a strong lamp and a weak one",
+                 above + floor_here + lamp(at(-1, 2, 0), 20) + lamp(at(1, 2, 0) + scale(1.3), 1)});
+    p.push_back(
+        {"crowd", "a thousand weak lamps", from_above(0.8) + floor_here + crowd(), 8, 18, 16});
+    p.push_back(
+        {"sizes", "a large lamp and a tiny one",
+         above + floor_here + lamp(at(0, 2, 0) + scale(2)) + lamp(at(1.5, 2, 0) + scale(0.02))});
+    p.push_back({"front", "a two-sided lamp, from its front",
+                 above + floor_here + lamp(at(0, 2, 0), 1, true)});
+    p.push_back({"behind", "a two-sided lamp, from behind",
+                 above + floor_here + lamp(at(0, 2, 0), 1, true, true)});
+    p.push_back({"half", "a board that hides half of a lamp",
+                 from_above(0.6) + floor_here + lamp(at(0, 2, 0)) +
+                     group(paint(0) + at(1, 1, 0) + square(true))});
+    p.push_back({"gap", "a board just below a lamp",
+                 from_above(0.6) + floor_here + lamp(at(0, 1, 0)) +
+                     group(paint(0) + at(0, 0.9999, 0) + scale(0.6) + square(false))});
+    p.push_back({"horizon", "a lamp of which the floor cuts off the larger part",
+                 above + floor_here + lamp(at(-1, -0.5, 0) + turn(90, z_axis) + scale(2), 1)});
+}
+
+void add_skies(std::vector<Probe>& p) {
+    std::string wide = floor_of(paint(0.5), "", 500);
+    std::string low = from_above(0.5);
+    p.push_back({"sky", "a floor under a white sky", low + floor_here + sky()});
+    p.push_back({"sky, lamp", "a sky, and behind it in the list a lamp",
+                 low + wide + sky() + lamp(at(0, 1, 0), 5)});
+    p.push_back({"lamp, sky", "a lamp, and behind it in the list the sky",
+                 low + wide + lamp(at(0, 1, 0), 5) + sky()});
+    p.push_back({"sphere", "the inside of a sphere that shines and reflects half",
+                 view("0 0 0  0 0 1  0 1 0", "\"float fov\" 60", 6) +
+                     group("ReverseOrientation " + shining(1) + paint(0.5) + ball(1)),
+                 6, 18, 256});
+    p.push_back({"red", "the same, that reflects red alone, 80 % of it",
+                 view("0 0 0  0 0 1  0 1 0", "\"float fov\" 60", 60) +
+                     group("ReverseOrientation " + shining(1) +
+                           "Material \"diffuse\" \"rgb reflectance\" [0.97 0.02 0.02] " + ball(1)),
+                 6, 18, 16});
+    p.push_back({"room", "a grey room with a lamp",
+                 view("0 0 -0.95  0 0 0  0 1 0", "\"float fov\" 80", 3) + group(cube(paint(0.5))) +
+                     lamp(at(0, 0.99, 0)),
+                 6, 18, 128});
+    p.push_back({"box", "a closed box in a bright sky",
+                 view("1000 300 0  1001 300 1  0 1 0", "\"float fov\" 60", 4) + sky() +
+                     group(at(1000, 300, 0) + "Rotate 33 1 2 3 " + cube(paint(0.8)))});
+}
+
+void add_bent(std::vector<Probe>& p) {
+    std::string bent = floor_of(paint(0.5), leaning(40));
+    // Of each triangle the camera sees what is near one corner.
+    std::string curved = group(paint(0.5) + scale(4) + at(0.9, 0, 0) +
+                               square(true, "-1.5 1 0  0 1 0  1.5 1 0  0 1 0"));
+    std::string strip = lamp(aslant(-30));
+    p.push_back({"leaning", "a floor whose normals lean, under a lamp", above + bent + strip});
+    p.push_back(
+        {"curved", "a floor whose normals differ from corner to corner", above + curved + strip});
+    p.push_back(
+        {"leaning sky", "a floor whose normals lean, under a sky", from_above(0.5) + bent + sky()});
+    p.push_back({"leaning mirror", "a floor whose normals lean, lit by way of a mirror",
+                 from_above(0.5, 2) + bent + lamp(at(-1.5, 1, 0) + scale(2), 1, false, true) +
+                     group(metal(1) + at(-1.5, 2, 0) + scale(4) + square(false))});
+    p.push_back({"leaning lamp", "a lamp of four triangles whose normals lean",
+                 above + floor_here + group(shining(1) + paint(0) + at(0, 1.1, 0) + bent_lamp), 6,
+                 18, 256});
+    p.push_back({"lamp aside", "a lamp whose normals lean away from the camera",
+                 view("-3 -1 0  0 0 0  0 1 0", "\"float fov\" 3") +
+                     group(shining(1) + paint(0) + scale(2) + square(false, leaning(80, false)))});
+    p.push_back({"below", "a floor whose normals lean, over a lamp below it",
+                 above + bent + lamp(turn(-110, z_axis) + at(0, 2, 0))});
+    std::string bent_metal = floor_of(metal(1, rough), leaning(40));
+    p.push_back({"below metal", "rough metal whose normals lean, over a lamp below it",
+                 above + bent_metal + lamp(turn(-110, z_axis) + at(0, 2, 0)), 12});
+    p.push_back({"bent mirror", "a mirror whose normals lean towards its horizon",
+                 view("-3 1.73 0  0 0 0  0 1 0", "\"float fov\" 3", 4) + sky() +
+                     floor_of(metal(1), leaning(20))});
+}
+
+void add_glass_and_metal(std::vector<Probe>& p) {
+    p.push_back({"corridor", "the sky by way of six mirrors",
+                 view("0 0 0  1 0 0.16  0 1 0", "\"float fov\" 0.5", 20) + sky() +
+                     group(metal(0.9) + at(1, 0, 0) + "Scale 1 1 1 " + turn(90, z_axis) +
+                           "Scale 20 1 1.86 " + square(true)) +
+                     group(metal(0.9) + at(-1, 0, 0) + turn(-90, z_axis) + "Scale 20 1 1.86 " +
+                           square(true))});
+    p.push_back(
+        {"pane", "a ball of glass before a sky",
+         view("0 0 -4  0.9 0 0  0 1 0", "\"float fov\" 1", 6) + sky() + group(glass + ball(1))});
+    p.push_back(
+        {"in glass", "the sky seen from inside a ball of glass",
+         view("0 0 0  0 0 1  0 1 0", "\"float fov\" 20", 4) + sky() + group(glass + ball(1))});
+    p.push_back({"bulb", "a lamp in a ball of glass",
+                 from_above(0.4, 3) + floor_here + group(at(0, 1.5, 0) + glass + ball(1)) +
+                     group(shining(1) + paint(0) + at(0, 1.5, 0) + ball(0.3)),
+                 6, 18, 128});
+    p.push_back({"mirror", "a floor lit by way of a mirror",
+                 from_above(0.5, 2) + floor_here + lamp(at(1.5, 1, 0) + scale(2), 1, false, true) +
+                     group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false))});
+    p.push_back({"tiny", "a shining ball of a hundredth of a millimetre, from near",
+                 view("0 0 -4e-5  0 0 0  0 1 0", "\"float fov\" 20") +
+                     group(shining(1) + paint(0) + ball(1e-5))});
+    auto on_metal = [&](const std::string& material, double height) {
+        return view(format("-1 %g 0  0 0 0  0 1 0", height), "\"float fov\" 5") + sky() +
+               floor_of(material);
+    };
+    p.push_back({"metal", "rough metal, from above", on_metal(metal(1, rough), 8), 12});
+    p.push_back(
+        {"metal aslant", "rough metal, along its surface", on_metal(metal(1, rough), 0.25), 12});
+    std::string real =
+        "Material \"conductor\" \"rgb eta\" [1.5 1.5 1.5] \"rgb k\" [1 1 1] " + rough + "\n";
+    p.push_back({"real metal", "rough metal of real eta and k, along its surface",
+                 on_metal(real, 0.25), 12});
+}
+
+/// Cameras with a lens, and wide ones.
+void add_cameras(std::vector<Probe>& p) {
+    p.push_back({"corner", "the corner of a wide picture of a floor",
+                 view("0 1.2 0  0 0 0  0 0 1",
+                      "\"float fov\" 90 \"float screenwindow\" [0.8 1.2 0.8 1.2]") +
+                     floor_here + lamp(at(1, 2, 1) + scale(2))});
+    auto lens = [](const char* window) {
+        return view("0 0 -4  0 0 0  0 1 0",
+                    format("\"float fov\" 90 \"float screenwindow\" [%s] \"float lensradius\" 0.2 "
+                           "\"float focaldistance\" 2",
+                           window));
+    };
+    std::string point = group(shining(1) + paint(0) + ball(0.01));
+    // The ball is a disk of the radius 0.05 on the screen at distance 1.
+    p.push_back({"blur", "the middle of a blurred lamp", lens("-0.01 0.01 -0.01 0.01") + point, 15,
+                 16, 1024});
+    p.push_back({"rim", "the rim of a blurred lamp", lens("0.035 0.047 -0.006 0.006") + point, 15,
+                 16, 1024});
+    p.push_back({"focus", "a lamp in focus, in the corner of a wide picture",
+                 view("0 0 0  0 0 1  0 1 0",
+                      "\"float fov\" 90 \"float screenwindow\" [0.98 1.02 0.98 1.02] "
+                      "\"float lensradius\" 0.3 \"float focaldistance\" 4") +
+                     group(shining(1) + paint(0) + at(-4, 4, 4) + turn(-90, x_axis) + scale(0.12) +
+                           square(true)) +
+                     group(shining(1) + paint(0) + at(4, 4, 4) + turn(-90, x_axis) + scale(0.12) +
+                           square(true)),
+                 15, 16});
+}
+
+/// What else the chapters 15 and 16 are about.
+void add_wavelengths_and_shares(std::vector<Probe>& p) {
+    p.push_back({"dispersing", "a ball of glass that disperses, before a white sky",
+                 view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 20", 20) + sky() +
+                     group("Material \"dielectric\" \"spectrum eta\" \"glass-F11\" " + ball(1)),
+                 15, 16});
+    p.push_back({"sky picture", "a floor under the picture of a sky",
+                 from_above(0.5) +
+                     group(turn(-90, x_axis) +
+                           "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
+                     floor_here,
+                 15, 16});
+    p.push_back({"rare light", "a floor on which light is found rarely",
+                 from_above(0.5, 2) + floor_here +
+                     lamp(at(1.5, 1, 0) + scale(0.15), 100, false, true) +
+                     group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false)),
+                 16, 16, 512});
+}
+
+}  // namespace
+
+std::vector<Probe> all_probes() {
+    std::vector<Probe> probes;
+    add_floors(probes);
+    add_skies(probes);
+    add_bent(probes);
+    add_glass_and_metal(probes);
+    add_cameras(probes);
+    add_wavelengths_and_shares(probes);
+    return probes;
+}

@@ -1,0 +1,23 @@
+# The reader's own version of a chapter, in my/: to begin with, and to be checked.
+.PHONY: exercise check names
+
+#: make exercise CH=08   write my/08_light_sampling/estimator.h, its new functions left to you
+exercise:
+	@common/tools/exercise '$(CH)'
+checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp) tests/measure/methods.cpp \
+            tests/measure/measure.cpp tests/support/main.cpp)
+$(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
+	@mkdir -p $(@D); printf '#include "$<"\n' >$@
+# Compiled in advance, with the flags that tests/check/check compiles with.
+$(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
+	@echo "compile $<"; $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -x c++-header $< -o $@
+#: make check CH=08      is it right? one line for each claim, and the name of the mistake (15 s)
+check: $(checkers) $(common) $(made) $(BUILD)/check/support.h.gch \
+       $(filter $(BUILD)/0[1-5]_%,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) $(BUILD)/compare
+	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
+# All chapters in one, for the references that make check compares with (2 minutes): build/names --references
+$(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp)) $$(patsubst %.cpp,$$(BUILD)/obj/%.o,$$(methods)) $(common)
+	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
+#: make names        plant mistakes, and write down how make check names them (8 minutes)
+names: $(checkers) $(common) $(made)
+	@tests/check/plant $(BUILD) '$(M)' $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))

@@ -1,0 +1,7 @@
+// What the tests of chapters from 06 on begin with: compiled in advance, so that make check is
+// quick.
+#pragma once
+#include <doctest/doctest.h>
+
+#include "tests/support/gates.h"
+#include "tests/support/scenes.h"
