@@ -82,9 +82,9 @@ public:
         return listening_ ? note_joined(contribution, s, t, mis, pixel) : contribution;
     }
 
-    /// Light that was stored at the last vertex, after so many scattering events, that one included;
-    /// bit i of `mirrors`: event number i was at a mirror or glass, as far as that is known: of the
-    /// first 8. Returns what of it counts.
+    /// Light that was stored at the last vertex, after so many scattering events, that one
+    /// included; bit i of `mirrors`: event number i was at a mirror or glass, as far as that is
+    /// known: of the first 8. Returns what of it counts.
     Rgb gathered(Rgb contribution, uint32_t depth, uint32_t mirrors) {
         return listening_ ? note_gathered(contribution, depth, mirrors) : contribution;
     }

@@ -71,9 +71,9 @@ public:
         audits_[static_cast<size_t>(place - audited_.begin())].add(L);
     }
 
-    /// From now on the samples of one pass, those of all pixels that have the same number, may depend
-    /// on each other. Passes are independent, so their totals tell the error: each is added to one of
-    /// a few batches, by its number.
+    /// From now on the samples of one pass, those of all pixels that have the same number, may
+    /// depend on each other. Passes are independent, so their totals tell the error: each is added
+    /// to one of a few batches, by its number.
     ///
     ///   SE^2 = B / (B - 1) sum over the B batches of (n_b / n)^2 (mean_b - mean)^2
     ///

@@ -77,7 +77,8 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, double s
     }
     if (options.search == LightSearch::photons) {
         lines.push_back(
-            "light is blurred as far as photons are counted, the less the more passes there are: the "
+            "light is blurred as far as photons are counted, the less the more passes there are: "
+            "the "
             "error does not know of it");
         return;
     }
