@@ -2,6 +2,7 @@
 // point.
 #pragma once
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "common/base/parallel.h"
@@ -97,6 +98,16 @@ private:
         Places() { std::fill_n(x, leaf, infinity); }  // where the last leaf has no photon
     };
 
+    /// The order of photons along an axis. Equal places are told apart by whatever else there is,
+    /// so that the order, and that of sums, is the same with every library.
+    struct Before {
+        int axis;
+        bool operator()(const Photon& a, const Photon& b) const {
+            if (a.p[axis] != b.p[axis]) return a.p[axis] < b.p[axis];
+            return std::memcmp(&a, &b, sizeof a) < 0;
+        }
+    };
+
     size_t end_of(size_t leaf_number) const { return std::min(leaf_number * leaf, size_); }
     Vec3 place(size_t i) const {
         const Places& of = places_[i / leaf];
@@ -111,7 +122,11 @@ private:
     }
 
     void build(std::vector<Photon>& photons, size_t first, size_t last, int threads) {
-        if (last - first < 2) return;
+        auto at = [&](size_t i) { return photons.begin() + static_cast<std::ptrdiff_t>(i); };
+        if (last - first < 2) {
+            std::sort(at(first * leaf), at(end_of(last)), Before{0});
+            return;
+        }
         Box box;
         for (size_t i = first * leaf; i < end_of(last); i++) {
             box = {min(box.low, photons[i].p), max(box.high, photons[i].p)};
@@ -119,10 +134,7 @@ private:
         Vec3 side = box.high - box.low;
         int axis = side.x > side.y && side.x > side.z ? 0 : side.y > side.z ? 1 : 2;
         size_t middle = (first + last) / 2;
-        auto at = [&](size_t i) { return photons.begin() + static_cast<std::ptrdiff_t>(i); };
-        std::nth_element(
-            at(first * leaf), at(middle * leaf), at(end_of(last)),
-            [axis](const Photon& a, const Photon& b) { return a.p[axis] < b.p[axis]; });
+        std::nth_element(at(first * leaf), at(middle * leaf), at(end_of(last)), Before{axis});
         planes_[middle] = {photons[middle * leaf].p[axis], axis};
         parallel_for(2, threads, [&](int half) {
             if (half == 0) build(photons, first, middle, threads / 2);
