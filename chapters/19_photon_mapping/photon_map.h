@@ -147,8 +147,9 @@ private:
         if (last - first > 1) {
             size_t middle = (first + last) / 2;
             float d = p[planes_[middle].axis] - planes_[middle].at;
-            if (d <= 0 || d * d < r2) visit(p, r2, first, middle, work);
-            if (d >= 0 || d * d < r2) visit(p, r2, middle, last, work);
+            bool low = d < 0;
+            if (low || d * d < r2) visit(p, r2, first, middle, work);
+            if (!low || d * d < r2) visit(p, r2, middle, last, work);
             return;
         }
         const Places& at = places_[first];
