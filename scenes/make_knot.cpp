@@ -1,12 +1,6 @@
 // Writes the mesh of knot.pbrt: a ribbed tube around a (2,3) torus knot, as a binary PLY.
 // usage: make_knot FILE.ply
-#include <cstdint>
-#include <string>
-
-#include "common/base/error.h"
-#include "common/base/files.h"
-#include "common/base/vec.h"
-#include "common/program/options.h"
+#include "scenes/grid_ply.h"
 
 namespace {
 
@@ -29,50 +23,16 @@ Vec3 tube(float s, float phi) {
     return 1.15f * (knot(t) + radius * (cosine(phi) * side + sine(phi) * up));
 }
 
-template <typename T>
-void append(std::string& bytes, T value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-std::string knot_ply() {
-    std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                      std::to_string(along * around) +
-                      "\nproperty float x\nproperty float y\nproperty float z\n"
-                      "property float nx\nproperty float ny\nproperty float nz\nelement face " +
-                      std::to_string(2 * along * around) +
-                      "\nproperty list uchar int vertex_indices\nend_header\n";
-    for (int i = 0; i < along; i++) {
-        for (int j = 0; j < around; j++) {
-            float s = static_cast<float>(i) / along, phi = 2 * pi * static_cast<float>(j) / around;
-            Vec3 p = tube(s, phi), ds = tube(s + 1e-3f, phi) - tube(s - 1e-3f, phi);
-            Vec3 dphi = tube(s, phi + 1e-2f) - tube(s, phi - 1e-2f);
-            append(ply, p);
-            append(ply, normalize(cross(dphi, ds)));
-        }
-    }
-    for (int i = 0; i < along; i++) {
-        for (int j = 0; j < around; j++) {
-            int i1 = (i + 1) % along, j1 = (j + 1) % around;
-            int32_t a = i * around + j, b = i1 * around + j, c = i1 * around + j1,
-                    d = i * around + j1;
-            for (int32_t corner : {a, c, b, a, d, c}) {
-                if (corner == a) append(ply, uint8_t{3});
-                append(ply, corner);
-            }
-        }
-    }
-    return ply;
+GridPoint point_at(int i, int j) {
+    float s = static_cast<float>(i) / along, phi = 2 * pi * static_cast<float>(j) / around;
+    Vec3 p = tube(s, phi), ds = tube(s + 1e-3f, phi) - tube(s - 1e-3f, phi);
+    Vec3 dphi = tube(s, phi + 1e-2f) - tube(s, phi - 1e-2f);
+    return {p, normalize(cross(dphi, ds))};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_program([&] {
-        std::string file;
-        parse_options(argc, argv, "FILE.ply", "Writes the mesh of knot.pbrt.", {},
-                      [&](const std::string& word) { file = word; });
-        if (file.empty()) throw UsageError("error: a file to write is needed");
-        write_file_atomically(file, knot_ply());
-        return 0;
-    });
+    return write_mesh(argc, argv, "Writes the mesh of knot.pbrt.",
+                      [] { return grid_ply(along, around, true, point_at); });
 }
