@@ -84,18 +84,21 @@ Measured mean_over_seeds(const Scene& scene, const Settings& settings, int spp, 
     return {means.mean(), means.standard_error()};
 }
 
-Measured mean_over_seeds_of_18(Scene scene, int spp, int seeds, const std::string& paths) {
+/// The same by another chapter: `trace` is its own.
+template <class AnyTrace>
+Measured mean_over_seeds_of(Scene scene, const AnyTrace& trace, int spp, int seeds,
+                            const std::string& paths) {
     scene.spp = spp;
     RunningStats means;
     for (int seed = 1; seed <= seeds; seed++) {
         RenderOptions options;
         options.seed = static_cast<uint32_t>(seed);
         options.threads = 2, options.quiet = true, options.paths = paths;
-        auto trace = splat_trace_with<ch18::trace>(ch18::prepare(scene));
         means.add(render_film(scene, options, trace).film.mean());
     }
     return {means.mean(), means.standard_error()};
 }
+Trace by_fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
 
 /// A flat sheet that pretends to lean away from the sun by 45 degrees, towards (0, 1, -1).
 const std::string bent_sheet =
@@ -384,7 +387,8 @@ TEST_SUITE("ch19 photon mapping") {
             const std::string classes = name == "veach-mis" ? "LDD+E" : "L(D|S)+E";
             Settings settings{.photons = 5000, .r = 0.01f * scene.radius};
             Measured m = mean_over_seeds(scene, settings, 16, 8, classes);
-            Measured truth = mean_over_seeds_of_18(scene, 32, 8, classes);
+            Measured truth = mean_over_seeds_of(
+                scene, splat_trace_with<ch18::trace>(ch18::prepare(scene)), 32, 8, classes);
             CAPTURE(m.mean);
             CAPTURE(truth.mean);
             CHECK(std::abs(m.mean - truth.mean) <
@@ -400,8 +404,7 @@ TEST_SUITE("ch19 photon mapping") {
         scene.max_depth = 1;
         Measured m =
             mean_over_seeds(scene, {.photons = 40000, .gather = Gather::direct, .r = 0.05f}, 4, 8);
-        auto fourteen = trace_with<ch14::trace>(ch14::prepare(scene));
-        Film film = film_of(scene, fourteen, 256).film;
+        Film film = film_of(scene, by_fourteen(scene), 256).film;
         CAPTURE(m.mean);
         CAPTURE(film.mean());
         CHECK(std::abs(m.mean - film.mean()) <
@@ -479,9 +482,9 @@ TEST_SUITE("ch19 photon mapping") {
         CHECK(film_by(none, {.photons = 100}, 2).mean() == 0);
         Scene mirror = light_before_mirror();
         Film film = film_by(mirror, {.photons = 100}, 8);
-        auto fourteen = trace_with<ch14::trace>(ch14::prepare(mirror));
-        CHECK(film.mean() ==
-              doctest::Approx(film_of(mirror, fourteen, 64).film.mean()).epsilon(0.05).scale(0));
+        CHECK(film.mean() == doctest::Approx(film_of(mirror, by_fourteen(mirror), 64).film.mean())
+                                 .epsilon(0.05)
+                                 .scale(0));
         Scene cornell = scene_from("scenes/cornell.pbrt", 8, 3);
         Film few = film_by(cornell, {.photons = 1}, 4);
         CHECK(std::isfinite(few.mean()));
@@ -514,17 +517,7 @@ TEST_SUITE("ch19 photon mapping slow") {
                 CAPTURE(scene.spp);
                 CAPTURE(std::string(classes));
                 Measured m = mean_over_seeds(scene, {.photons = 50000}, 16, 8, classes);
-                RunningStats means;
-                for (uint32_t seed = 1; seed <= 8; seed++) {
-                    Scene s = scene;
-                    s.spp = 512;
-                    RenderOptions options;
-                    options.seed = seed, options.threads = 2, options.quiet = true;
-                    options.paths = classes;
-                    means.add(render_film(s, options, trace_with<ch14::trace>(ch14::prepare(s)))
-                                  .film.mean());
-                }
-                Measured truth{means.mean(), means.standard_error()};
+                Measured truth = mean_over_seeds_of(scene, by_fourteen(scene), 512, 8, classes);
                 CAPTURE(m.mean);
                 CAPTURE(truth.mean);
                 CAPTURE(truth.se);
@@ -552,14 +545,7 @@ TEST_SUITE("ch19 photon mapping slow") {
             CAPTURE(std::string(c.classes));
             Settings settings{.photons = 10000, .gather = c.gather, .r = 0.01f * scene.radius};
             Measured m = mean_over_seeds(scene, settings, 48, 8, c.classes);
-            Rendering fourteen = [&] {
-                Scene s = scene;
-                s.spp = 512;
-                RenderOptions options;
-                options.threads = 2, options.quiet = true, options.paths = c.classes;
-                return render_film(s, options, trace_with<ch14::trace>(ch14::prepare(s)));
-            }();
-            Measured truth{fourteen.film.mean(), fourteen.film.standard_error()};
+            Measured truth = mean_over_seeds_of(scene, by_fourteen(scene), 64, 8, c.classes);
             CAPTURE(m.mean);
             CAPTURE(truth.mean);
             CHECK(std::abs(m.mean - truth.mean) <
@@ -599,7 +585,7 @@ TEST_SUITE("ch19 photon mapping slow") {
             "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Scale 2 1 2\n" +
             square(0, true));
         scene.max_depth = 1;
-        Film exact = film_of(scene, trace_with<ch14::trace>(ch14::prepare(scene)), 40000).film;
+        Film exact = film_of(scene, by_fourteen(scene), 40000).film;
         auto error = [&](int spp) {
             RunningStats mse;
             for (uint32_t seed = 1; seed <= 24; seed++) {
