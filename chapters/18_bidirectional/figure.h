@@ -1,8 +1,7 @@
 // The pyramid of strategies: a picture of each, alone and weighed, as one sheet.
 #pragma once
 #include "chapters/18_bidirectional/estimator.h"
-#include "common/base/files.h"
-#include "common/picture/image.h"
+#include "common/picture/sheet.h"
 #include "common/program/render.h"
 
 namespace ch18 {
@@ -10,29 +9,27 @@ namespace ch18 {
 /// A row for each number of edges, from 2 on; in it all strategies from s = 0 on. Left as they are,
 /// right each with its weight: a row sums to all light of its paths.
 inline Image pyramid(Scene scene, RenderOptions options) {
-    constexpr int side = 96, gap = 4, most = 5;  // pixels; edges
-    int rows = std::min(most, scene.max_depth + 1) - 1, half = (most + 1) * (side + gap) + gap;
+    constexpr int side = 96, most = 5;  // pixels; edges
+    int rows = std::min(most, scene.max_depth + 1) - 1;
     scene.width = scene.height = side;
     options.film.clear(), options.split.clear();
     options.quiet = true;
-    Image sheet(2 * half, std::max(1, rows) * (side + gap) + gap);
+    std::vector<Tile> tiles;
     for (int edges = 2; edges < rows + 2; edges++) {
-        for (int s = 0; s <= edges; s++) {
-            for (bool weighted : {false, true}) {
-                Prepared prepared = prepare(scene, s, edges + 1 - s, weighted);
-                Image picture =
+        for (bool weighted : {false, true}) {
+            for (int s = 0; s <= most; s++) {
+                Tile& tile = tiles.emplace_back();
+                int t = edges + 1 - s;
+                if (t < 1) continue;
+                Prepared prepared = prepare(scene, s, t, weighted);
+                tile.image =
                     render_film(scene, options, splat_trace_with<trace>(prepared)).film.image();
-                int left = (weighted ? half : 0) + gap + s * (side + gap);
-                int top = gap + (edges - 2) * (side + gap);
-                for (int y = 0; y < side; y++) {
-                    for (int x = 0; x < side; x++) {
-                        sheet.at(left + x, top + y) = picture.at(x, y);
-                    }
-                }
+                tile.lines = {"s " + std::to_string(s) + ", t " + std::to_string(t),
+                              weighted ? "weighed" : "alone"};
             }
         }
     }
-    return sheet;
+    return sheet(tiles, 2 * (most + 1));
 }
 
 }  // namespace ch18

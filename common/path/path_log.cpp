@@ -1,38 +1,9 @@
 #include "common/path/path_log.h"
 
-#include <cstdio>
-
 #include "common/path/class_filter.h"
 
-namespace {
-
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-    char text[512];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
-}
-
-std::string to_text(Vec3 v) {
-    return format("(%.6g, %.6g, %.6g)", double{v.x}, double{v.y}, double{v.z});
-}
-std::string to_text(Rgb c) {
-    return format("(%.6g, %.6g, %.6g)", double{c.r}, double{c.g}, double{c.b});
-}
-
-const char* name(MaterialType type) {
-    switch (type) {
-        case MaterialType::diffuse: return "diffuse";
-        case MaterialType::conductor: return "conductor";
-        case MaterialType::dielectric: return "dielectric";
-    }
-    return "";
-}
-
-}  // namespace
-
-PathLog::PathLog(const std::string& class_filter, bool keep_steps)
-    : listening_(true), keep_steps_(keep_steps) {
+PathLog::PathLog(const std::string& class_filter, PathStory* story)
+    : listening_(true), story_(story) {
     if (!class_filter.empty()) filter_ = std::make_shared<const ClassFilter>(class_filter);
 }
 
@@ -40,7 +11,6 @@ void PathLog::forget() {
     scattered_.clear();
     from_light_.clear();
     at_light_ = false;
-    steps_.clear();
     vertices_.clear();
     latest_.clear();
     contributions_.clear();
@@ -50,14 +20,12 @@ void PathLog::note_start_at_light(Vec3 p) {
     from_light_.clear();
     at_light_ = true;
     vertices_.push_back({p, -2});
-    if (keep_steps_) {
-        steps_ += format("vertex %zu  a light at ", vertices_.size()) + to_text(p) + "\n";
-    }
+    if (story_) story_->starts_at_light(p, vertices_.size());
 }
 
 void PathLog::note_start_at_eye() {
     at_light_ = false;
-    if (keep_steps_) steps_ += "from the eye:\n";
+    if (story_) story_->starts_at_eye();
 }
 
 void PathLog::note_vertex(const Hit& x) {
@@ -69,53 +37,45 @@ void PathLog::note_vertex(const Hit& x) {
         latest_[depth] = static_cast<int>(vertices_.size());
         vertices_.push_back({x.p, depth > 0 ? latest_[depth - 1] : -1});
     }
-    if (!keep_steps_) return;
-    steps_ += format("vertex %zu  %s at ", vertices_.size(), name(x.material->type)) +
-              to_text(x.p) + ", n " + to_text(x.n) +
-              format(", %s, distance %.6g\n", x.front ? "front" : "back", double{x.t});
+    if (story_) story_->meets(x, vertices_.size());
+}
+
+/// The number, from 1, of the vertex that the path from the eye has come to; 0: none.
+int PathLog::current_vertex() const {
+    size_t depth = std::min(scattered_.size() + 1, latest_.size());
+    return depth == 0 ? 0 : latest_[depth - 1] + 1;
 }
 
 void PathLog::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta) {
     std::string& scattered = at_light_ ? from_light_ : scattered_;
     scattered.insert(at_light_ ? scattered.end() : scattered.begin(), specular ? 'S' : 'D');
-    if (!keep_steps_) return;
-    steps_ +=
-        "    goes on along wi " + to_text(wi) + ": f " + to_text(f) +
-        format(" sr^-1, pdf_w %.6g%s, beta ", double{pdf_w}, specular ? " (delta)" : " sr^-1") +
-        to_text(beta) + "\n";
+    if (story_) story_->goes_on(wi, f, pdf_w, specular, beta);
 }
 
 void PathLog::note_roulette(float q, Rgb beta) {
-    if (keep_steps_)
-        steps_ += format("    survives roulette, q %.6g, beta ", double{q}) + to_text(beta) + "\n";
+    if (story_) story_->survives(q, beta);
 }
 
 void PathLog::note_step_back() {
     scattered_.erase(scattered_.begin());
-    if (keep_steps_)
-        steps_ += format("    steps back to the vertex after %zu scatterings\n", scattered_.size());
+    if (story_) story_->steps_back(current_vertex());
+}
+
+void PathLog::note_cut() {
+    if (story_) story_->is_cut();
 }
 
 Rgb PathLog::note_emitted(Rgb contribution, float mis_b) {
     if (is_black(contribution)) return contribution;
-    std::string path_class = "L" + scattered_ + "E";
-    if (keep_steps_) {
-        steps_ += "    finds light: adds " + to_text(contribution) +
-                  format(", mis_b %.6g, class ", double{mis_b}) + path_class + "\n";
-    }
-    return keep(path_class, contribution);
+    bool sky = story_ && story_->has_left();
+    return keep({current_vertex(), sky ? "sky met" : "light met", "L" + scattered_ + "E", mis_b,
+                 contribution});
 }
 
 Rgb PathLog::note_direct(Rgb contribution, Vec3 wi, float pdf_l, float pdf_b, float mis_l) {
     if (is_black(contribution)) return contribution;
-    std::string path_class = "LD" + scattered_ + "E";
-    if (keep_steps_) {
-        steps_ += "    light along wi " + to_text(wi) +
-                  format(": pdf_l %.6g, pdf_b %.6g sr^-1, mis_l %.6g, adds ", double{pdf_l},
-                         double{pdf_b}, double{mis_l}) +
-                  to_text(contribution) + ", class " + path_class + "\n";
-    }
-    return keep(path_class, contribution);
+    if (story_) story_->aims(wi, pdf_l, pdf_b);
+    return keep({current_vertex(), "light aimed at", "LD" + scattered_ + "E", mis_l, contribution});
 }
 
 Rgb PathLog::note_joined(Rgb contribution, int s, int t, float mis, size_t pixel) {
@@ -127,13 +87,8 @@ Rgb PathLog::note_joined(Rgb contribution, int s, int t, float mis, size_t pixel
     path_class += from_light_.substr(0, before);
     path_class.append(static_cast<size_t>(s > 1) + static_cast<size_t>(t > 1), 'D');
     path_class += scattered_.substr(scattered_.size() - after) + "E";
-    if (keep_steps_) {
-        steps_ += format("    %d vertices from the light and %d from the eye: ", s, t) +
-                  (pixel == Contribution::own_pixel ? "" : format("pixel number %zu, ", pixel)) +
-                  "adds " + to_text(contribution) + format(", mis %.6g, class ", double{mis}) +
-                  path_class + "\n";
-    }
-    return keep(path_class, contribution, pixel);
+    std::string way = "s " + std::to_string(s) + ", t " + std::to_string(t);
+    return keep({t == 1 ? s : current_vertex(), way, path_class, mis, contribution, pixel});
 }
 
 Rgb PathLog::note_gathered(Rgb contribution, uint32_t depth, uint32_t mirrors) {
@@ -143,16 +98,14 @@ Rgb PathLog::note_gathered(Rgb contribution, uint32_t depth, uint32_t mirrors) {
         path_class += i < 8 && (mirrors >> i & 1) != 0 ? 'S' : 'D';
     }
     path_class += "D" + scattered_ + "E";
-    if (keep_steps_) {
-        steps_ += "    photons: add " + to_text(contribution) + ", class " + path_class + "\n";
-    }
-    return keep(path_class, contribution);
+    return keep({current_vertex(), "photons", path_class, 1, contribution});
 }
 
-Rgb PathLog::keep(const std::string& path_class, Rgb contribution, size_t pixel) {
-    if (!counts(path_class)) return {};
-    contributions_.push_back({path_class, contribution, pixel});
-    return contribution;
+Rgb PathLog::keep(const PathStory::Addition& added) {
+    if (!counts(added.path_class)) return {};
+    contributions_.push_back({added.path_class, added.L, added.pixel});
+    if (story_) story_->adds(added);
+    return added.L;
 }
 
 bool PathLog::counts(const std::string& path_class) {

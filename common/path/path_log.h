@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "common/scene/intersect.h"
+#include "common/path/path_story.h"
 
 /// Part of a path's estimate: its class in Heckbert's notation, from light to eye, and how much.
 /// S: a vertex with one possible direction (mirror, glass); D: any other.
 struct Contribution {
-    static constexpr size_t own_pixel = SIZE_MAX;
+    static constexpr size_t own_pixel = PathStory::own_pixel;
 
     std::string path_class;  // such as "LDSE"
     Rgb L;
@@ -30,9 +30,9 @@ class PathLog {
 public:
     PathLog() = default;
     /// A log that listens. class_filter: a regular expression that the whole class of a path must
-    /// match to count; empty: all count. keep_steps: also writes each step down as text.
-    /// Throws UsageError when it is none.
-    explicit PathLog(const std::string& class_filter, bool keep_steps = false);
+    /// match to count; empty: all count. story: is told each step. Throws UsageError when it is
+    /// none.
+    explicit PathLog(const std::string& class_filter, PathStory* story = nullptr);
 
     /// Forgets the path before.
     void start() {
@@ -63,7 +63,10 @@ public:
         if (listening_) note_step_back();
     }
     /// The depth limit ended a path that could have gone on.
-    void cut() { paths_cut_++; }
+    void cut() {
+        paths_cut_++;
+        if (listening_) note_cut();
+    }
 
     /// Emission found by following the path: returns what of it counts.
     Rgb emitted(Rgb contribution, float mis_b = 1) {
@@ -92,7 +95,6 @@ public:
     bool listening() const { return listening_; }
     const std::vector<Contribution>& contributions() const { return contributions_; }
     const std::vector<PathVertex>& vertices() const { return vertices_; }
-    const std::string& steps() const { return steps_; }
     uint64_t paths_cut() const { return paths_cut_; }
 
 private:
@@ -103,20 +105,21 @@ private:
     void note_scatter(Vec3, Rgb, float, bool, Rgb);
     void note_roulette(float, Rgb);
     void note_step_back();
+    void note_cut();
     Rgb note_emitted(Rgb, float);
     Rgb note_direct(Rgb, Vec3, float, float, float);
     Rgb note_joined(Rgb, int, int, float, size_t);
     Rgb note_gathered(Rgb, uint32_t, uint32_t);
-    Rgb keep(const std::string& path_class, Rgb contribution,
-             size_t pixel = Contribution::own_pixel);
+    Rgb keep(const PathStory::Addition& added);
+    int current_vertex() const;
     bool counts(const std::string& path_class);
 
-    bool listening_ = false, keep_steps_ = false;
+    bool listening_ = false;
+    PathStory* story_ = nullptr;
     uint64_t paths_cut_ = 0;
     std::string scattered_;   // D and S of the vertices left so far, the first one last
     std::string from_light_;  // of those of the path from the light, the first one first
     bool at_light_ = false;   // that is the one that goes on
-    std::string steps_;
     std::vector<PathVertex> vertices_;
     std::vector<int> latest_;  // vertex for each number of scatterings before it
     std::vector<Contribution> contributions_;

@@ -100,20 +100,6 @@ std::string text_chunk(const std::string& comment) {
     return big_endian(body.size() - 4) + body + big_endian(crc32(body));
 }
 
-std::string encode_png(const Image& image, const std::string& comment) {
-    std::string pixels = srgb_bytes(image);
-    std::string png;
-    auto append = [](void* to, void* data, int size) {
-        static_cast<std::string*>(to)->append(static_cast<char*>(data), static_cast<size_t>(size));
-    };
-    if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, pixels.data(),
-                                3 * image.width)) {
-        throw std::bad_alloc();
-    }
-    constexpr size_t after_header = 8 + 25;  // signature, IHDR
-    return png.insert(after_header, text_chunk(comment));
-}
-
 // A cursor over a header of words between blanks, for both formats that we read.
 struct Header {
     const std::string& path;
@@ -224,6 +210,20 @@ Image decode_pfm(Header header, size_t channels) {
 bool is_image_path(const std::string& path) {
     std::string kind = extension(path);
     return kind == ".ppm" || kind == ".pfm" || kind == ".png";
+}
+
+std::string encode_png(const Image& image, const std::string& comment) {
+    std::string pixels = srgb_bytes(image);
+    std::string png;
+    auto append = [](void* to, void* data, int size) {
+        static_cast<std::string*>(to)->append(static_cast<char*>(data), static_cast<size_t>(size));
+    };
+    if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, pixels.data(),
+                                3 * image.width)) {
+        throw std::bad_alloc();
+    }
+    constexpr size_t after_header = 8 + 25;  // signature, IHDR
+    return png.insert(after_header, text_chunk(comment));
 }
 
 void write_image(const std::string& path, const Image& image, const std::string& comment) {

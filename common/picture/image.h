@@ -29,6 +29,9 @@ unsigned char to_srgb8(float linear);
 /// .pfm and is magenta in the others. Throws InputError; see files.h.
 void write_image(const std::string& path, const Image& image, const std::string& comment);
 
+/// The bytes of the .png that write_image writes.
+std::string encode_png(const Image& image, const std::string& comment);
+
 /// Whether write_image knows the extension of `path`.
 bool is_image_path(const std::string& path);
 

@@ -1,55 +1,149 @@
 #include "common/program/explain.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <regex>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/percent.h"
 #include "common/path/camera_sample.h"
 #include "common/program/path_drawing.h"
+#include "common/program/table.h"
+
+namespace {
+
+void check_sample(const Scene& scene, const RenderOptions& o, bool halves) {
+    if (o.explain_x >= scene.width || o.explain_y >= scene.height) {
+        throw UsageError("error: pixel " + std::to_string(o.explain_x) + "," +
+                         std::to_string(o.explain_y) + " lies outside the picture of " +
+                         std::to_string(scene.width) + "x" + std::to_string(scene.height));
+    }
+    if (o.time == 0 && o.explain_sample >= scene.spp && !halves) {
+        throw UsageError("error: sample " + std::to_string(o.explain_sample) +
+                         " is not one of the " + std::to_string(scene.spp) +
+                         " of a pixel; they count from 0");
+    }
+}
+
+struct Sum {
+    double r = 0, g = 0, b = 0;
+    void add(Rgb L) { r += double{L.r}, g += double{L.g}, b += double{L.b}; }
+    double total() const { return r + g + b; }
+    std::vector<std::string> cells() const { return {digits(r, 7), digits(g, 7), digits(b, 7)}; }
+};
+
+std::string place(const Scene& scene, size_t pixel) {
+    size_t w = static_cast<size_t>(scene.width);
+    return std::to_string(pixel % w) + "," + std::to_string(pixel / w);
+}
+
+/// All that the sample adds, pixel by pixel with their sums: its own first, then those that a path
+/// from a light has met.
+Table table_of(const Scene& scene, std::vector<PathStory::Addition> additions, size_t own) {
+    std::vector<size_t> pixels = {own};
+    for (PathStory::Addition& added : additions) {
+        if (added.pixel == PathStory::own_pixel) added.pixel = own;
+        if (std::find(pixels.begin(), pixels.end(), added.pixel) == pixels.end())
+            pixels.push_back(added.pixel);
+    }
+    Table table{{"pixel", "vertex", "found by", "class", "mis", "R", "G", "B"}, {}};
+    auto add_row = [&](std::vector<std::string> cells, const Sum& sum) {
+        for (const std::string& cell : sum.cells()) cells.push_back(cell);
+        table.rows.push_back(cells);
+    };
+    for (size_t pixel : pixels) {
+        Sum sum;
+        for (const PathStory::Addition& added : additions) {
+            if (added.pixel != pixel) continue;
+            Sum one;
+            one.add(added.L), sum.add(added.L);
+            add_row({place(scene, pixel), std::to_string(added.vertex), added.way, added.path_class,
+                     digits(double{added.mis}, 4)},
+                    one);
+        }
+        add_row({place(scene, pixel), "", "", "", "sum"}, sum);
+    }
+    return table;
+}
+
+/// Prints the table, and a warning where it lacks something of what the chapter has returned.
+void print_sums(const Scene& scene, const PathStory& story, size_t own, Rgb L,
+                const Splats& splats) {
+    std::printf("\n%s", aligned(table_of(scene, story.additions(), own)).c_str());
+    Sum told, returned;
+    for (const PathStory::Addition& added : story.additions()) told.add(added.L);
+    returned.add(L);
+    for (const Splat& splat : splats) returned.add(splat.L);
+    double difference = std::abs(told.total() - returned.total());
+    if (difference > 1e-4 * std::abs(returned.total())) {
+        std::printf("warning: the sample is (%s), though: the chapter's log lacks a part\n",
+                    (returned.cells()[0] + ", " + returned.cells()[1] + ", " + returned.cells()[2])
+                        .c_str());
+    }
+}
+
+}  // namespace
 
 int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
             bool halves) {
-    int x = options.explain_x, y = options.explain_y, s = options.explain_sample;
-    if (x >= scene.width || y >= scene.height) {
-        throw UsageError("error: pixel " + std::to_string(x) + "," + std::to_string(y) +
-                         " lies outside the picture of " + std::to_string(scene.width) + "x" +
-                         std::to_string(scene.height));
-    }
-
-    if (options.time == 0 && s >= scene.spp && !halves) {
-        throw UsageError("error: sample " + std::to_string(s) + " is not one of the " +
-                         std::to_string(scene.spp) + " of a pixel; they count from 0");
-    }
+    check_sample(scene, options, halves);
+    int x = options.explain_x, y = options.explain_y, s = std::max(0, options.explain_sample);
+    size_t pixel = static_cast<size_t>(y * scene.width + x);
 
     // Trace the sample just as render_film does, with a log that listens.
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     uint32_t number = static_cast<uint32_t>(halves ? s / 2 : s);
-    start_sample(sampler, static_cast<size_t>(y * scene.width + x), halves ? s % 2 : 0, number);
-    PathLog log(options.paths, true);
+    start_sample(sampler, pixel, halves ? s % 2 : 0, number);
+    PathStory story(scene.max_depth, options.search == LightSearch::photons);
+    PathLog log(options.paths, &story);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     auto [ray, film] = camera_sample(view, x, y, sampler, options.pixel_centre);
     Splats splats;
     Rgb L = trace(scene, ray, splats, sampler, log);
+    story.ends();
 
     std::printf(
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
         s, scene.file.c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
         double{film.x} - x, double{film.y} - y);
-    std::printf("%s", log.steps().c_str());
-    if (log.paths_cut() > 0) std::printf("    is ended by the depth limit %d\n", scene.max_depth);
-    std::printf("L (%.6g, %.6g, %.6g)\n", double{L.r}, double{L.g}, double{L.b});
-    for (const Splat& splat : splats) {
-        size_t w = static_cast<size_t>(scene.width);
-        std::printf("and (%.6g, %.6g, %.6g) in pixel %zu,%zu\n", double{splat.L.r},
-                    double{splat.L.g}, double{splat.L.b}, splat.pixel % w, splat.pixel / w);
-        L += splat.L;
+    if (options.explain_sample < 0) {
+        std::printf("No sample was named: 0 is the first. --explain %d,%d,S takes another one.\n",
+                    x, y);
     }
+    std::printf("%s", story.text().c_str());
+    print_sums(scene, story, pixel, L, splats);
 
     std::filesystem::path file = options.out[0];
     file.replace_extension(".svg");
     check_outputs({file.string()}, options.scene);
-    write_file_atomically(file.string(), draw_path(scene, ray.o, log.vertices()));
+    write_file_atomically(file.string(), draw_path(scene, ray.o, log.vertices(), story.rays()));
     if (!options.quiet) std::printf("wrote %s\n", file.string().c_str());
+    for (const Splat& splat : splats) L += splat.L;
     return is_finite(L) ? 0 : 1;
+}
+
+RenderOptions explain_brightest(const RenderOptions& options, const Rendering& rendering) {
+    const RenderStats& s = rendering.stats;
+    if (!(s.largest > 0)) {
+        throw InputError("error: --explain-brightest: all samples are black");
+    }
+    RenderOptions found = options;
+    found.explain = true, found.explain_brightest = false;
+    found.explain_x = s.largest_x, found.explain_y = s.largest_y;
+    found.explain_sample = s.largest_sample;
+    std::string place = std::to_string(s.largest_x) + "," + std::to_string(s.largest_y) + "," +
+                        std::to_string(s.largest_sample);
+    double all = rendering.film.mean() * static_cast<double>(rendering.film.samples());
+    std::printf(
+        "Of %llu samples the brightest brings %.4g, %s of all light that counts here: %s.\n",
+        static_cast<unsigned long long>(rendering.film.samples()), s.largest,
+        percent(s.largest / all).c_str(),
+        options.paths.empty() ? "paths of class L.*D.*E, without lamps that are merely seen"
+                              : "that of --paths");
+    static const std::regex word(" --explain-brightest(?= |$)");
+    std::printf("To see it again: %s\n\n",
+                std::regex_replace(options.command, word, " --explain " + place).c_str());
+    return found;
 }

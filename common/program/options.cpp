@@ -44,7 +44,7 @@ void parse_explain(const std::string& text, RenderOptions& options) {
     options.explain = true;
     options.explain_x = std::stoi(match[1]);
     options.explain_y = std::stoi(match[2]);
-    options.explain_sample = match[3].matched ? std::stoi(match[3]) : 0;
+    options.explain_sample = match[3].matched ? std::stoi(match[3]) : -1;
 }
 
 void parse_film(const std::string& text, RenderOptions& options) {
@@ -72,7 +72,7 @@ void check_together(const RenderOptions& o) {
     const char* split = "error: --split and --film: a film keeps the whole alone, no classes";
     const char* explain = "error: --explain and --film: a film keeps no paths";
     if (!o.split.empty()) throw UsageError(split);
-    if (o.explain) throw UsageError(explain);
+    if (o.explain || o.explain_brightest) throw UsageError(explain);
 }
 
 /// Remembers the values of a chapter's own options that change what is rendered.
@@ -151,9 +151,11 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
          [&](const std::string& text) { o.stats = text; }},
         {"explain", "X,Y[,SAMPLE]", "print one path step by step, and draw it",
          [&](const std::string& text) { parse_explain(text, o); }},
+        {"explain-brightest", "", "find the sample that is the worst firefly, and explain it",
+         [&](const std::string&) { o.explain_brightest = true; }},
         {"paths", "REGEX", "keep only these classes of path, such as 'LD(S|D)*E'",
          [&](const std::string& text) { o.paths = parse_class_filter(text); }},
-        {"split", "DIR", "write one picture for each class of path",
+        {"split", "DIR", "write one picture for each class of path, and all as one sheet",
          [&](const std::string& text) { o.split = text; }},
         {"film", "FILE.film", "keep the sums: go on where the film stopped, also after kill -9",
          [&](const std::string& text) { parse_film(text, o); }},

@@ -32,7 +32,8 @@ struct RenderOptions {
     std::vector<std::string> out;
     std::string stats;  // JSON file; empty: none
     bool explain = false;
-    int explain_x = 0, explain_y = 0, explain_sample = 0;
+    int explain_x = 0, explain_y = 0, explain_sample = -1;  // -1: none was named
+    bool explain_brightest = false;
     std::string paths;        // regular expression; empty: all
     std::string split;        // folder; empty: none
     std::string film;         // keeps the sums; empty: none

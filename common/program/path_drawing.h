@@ -6,5 +6,7 @@
 #include "common/path/path_log.h"
 #include "common/scene/scene.h"
 
-/// The scene from the front and from above, side by side, with the path from the eye on: an SVG.
-std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& path);
+/// An SVG with two panels: the scene as the camera sees it, and from above, each with the path and
+/// its shadow rays. eye: where the path from the eye begins; rays: all that it traced.
+std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& path,
+                      const std::vector<TracedRay>& rays);

@@ -118,6 +118,20 @@ int explain_plain(const Scene& scene, const RenderOptions& options, const Trace&
     return explain(scene, options, without_splats, halves);
 }
 
+/// Renders to find the brightest sample, and explains that. A lamp that is seen straight, or by way
+/// of mirrors and glass alone, is bright in all samples and no firefly: unless --paths says
+/// otherwise, only light counts that a diffuse or rough surface has scattered.
+template <class AnyTrace, class... More>
+int find_and_explain(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
+                     const More&... more) {
+    RenderOptions whole = options;
+    whole.split.clear();
+    if (whole.paths.empty()) whole.paths = "L.*D.*E";
+    Rendering r = render_film(scene, whole, trace, more...);
+    int code = render(scene, explain_brightest(options, r), trace, more...);
+    return code == 0 && r.stats.interrupted ? 3 : code;
+}
+
 }  // namespace
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
@@ -136,11 +150,13 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Pa
 
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation) {
+    if (options.explain_brightest) return find_and_explain(scene, options, trace, allocation);
     if (options.explain) return explain_plain(scene, options, trace, allocation.pilot > 0);
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace, allocation));
 }
 int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
+    if (options.explain_brightest) return find_and_explain(scene, options, trace);
     if (options.explain) return explain(scene, options, trace, false);
     check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace));
@@ -149,8 +165,9 @@ int render(const Scene& scene, const RenderOptions& options, const PassTrace& tr
     if (!options.paths.empty() && scene.max_depth > 9) {  // see PathLog::gathered()
         throw UsageError("error: --paths: photons know their first 8 events: try --max-depth 9");
     }
+    if (options.explain_brightest) return find_and_explain(scene, options, trace);
     if (options.explain) {
-        uint32_t pass = static_cast<uint32_t>(options.explain_sample);
+        uint32_t pass = static_cast<uint32_t>(std::max(0, options.explain_sample));
         trace.prepare(pass, options.threads, [] { return false; });
         RenderOptions as_rendered = options;
         as_rendered.sampler = SamplerType::independent;

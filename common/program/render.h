@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <string>
+#include <tuple>
 
 #include "common/path/trace.h"
 #include "common/picture/allocation.h"
@@ -15,6 +16,19 @@ struct RenderStats : SampleCounts {
     double seconds = 0;                            // without loading
     uint64_t samples_before = 0, rays_before = 0;  // of the film that it went on from
     bool interrupted = false;                      // by a signal, before all samples were taken
+    int largest_x = 0, largest_y = 0, largest_sample = 0;  // where the largest sample is
+
+    /// Notes a sample if it is the largest so far; of equal ones, that of the first pixel.
+    void add_largest(double value, int x, int y, int sample) {
+        if (value < largest || value == 0) return;
+        bool first = value > largest ||
+                     std::tie(y, x, sample) < std::tie(largest_y, largest_x, largest_sample);
+        if (first) largest = value, largest_x = x, largest_y = y, largest_sample = sample;
+    }
+    void add(const RenderStats& other) {
+        add_largest(other.largest, other.largest_x, other.largest_y, other.largest_sample);
+        SampleCounts::add(other);
+    }
 };
 
 struct Rendering {

@@ -10,6 +10,7 @@
 #include "common/base/json.h"
 #include "common/base/percent.h"
 #include "common/picture/heat_map.h"
+#include "common/program/class_sheet.h"
 #include "common/program/film_keeping.h"
 #include "common/program/warnings.h"
 
@@ -101,6 +102,25 @@ private:
     bool failed_ = false;
 };
 
+/// A picture of each class as .pfm and .png, and all of them as one sheet.
+void write_classes(const RenderOptions& options, const Rendering& r, Writer& writer) {
+    for (const auto& [path_class, film] : r.classes) {
+        std::string name = options.split + "/" + path_class;
+        writer.write(
+            name + ".pfm",
+            [&] {
+                for (const char* kind : {".png", ".pfm"}) {
+                    write_image(name + kind, film.image(), options.command);
+                }
+            },
+            "  mean " + json_number(film.mean()));
+    }
+    std::string path = options.split + "/classes.png";
+    writer.write(
+        path, [&] { write_image(path, class_sheet(r.classes), options.command); },
+        "  all of them with their shares; each also as .png");
+}
+
 bool write_files(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     Writer writer(options.quiet);
     if (!options.film.empty()) {
@@ -110,12 +130,7 @@ bool write_files(const Scene& scene, const RenderOptions& options, const Renderi
     for (const std::string& path : options.out) {
         writer.write(path, [&] { write_image(path, image, options.command); });
     }
-    for (const auto& [path_class, film] : r.classes) {
-        std::string path = options.split + "/" + path_class + ".pfm";
-        writer.write(
-            path, [&] { write_image(path, film.image(), options.command); },
-            "  mean " + json_number(film.mean()));
-    }
+    if (!options.split.empty()) write_classes(options, r, writer);
     if (!options.map.empty()) {
         float most = 4 * static_cast<float>(r.film.spp());
         Image map = r.film.counts();

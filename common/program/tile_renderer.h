@@ -144,10 +144,10 @@ private:
     Rgb add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
                    RenderStats& stats) {
         auto [L, total] = trace(at, at.half, sampler, splats, log);
+        int number = static_cast<int>(at.sample) * halves() + at.half;
         if (is_finite(total)) {
-            stats.largest = std::max(stats.largest, static_cast<double>(average(total)));
+            stats.add_largest(static_cast<double>(average(total)), at.x, at.y, number);
         } else {
-            int number = static_cast<int>(at.sample) * halves() + at.half;
             stats.add_not_finite(options_.seed, number, at.y, at.x);
         }
         result_.film.add(at.pixel, L, at.half);

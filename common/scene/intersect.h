@@ -1,10 +1,26 @@
 // What a ray meets, ready for shading, and how to leave a surface without meeting it again.
 #pragma once
+#include <vector>
+
 #include "common/material/hit.h"
 #include "common/scene/scene.h"
 
 /// Rays traced by this thread, for rays per second.
 inline constinit thread_local uint64_t rays_traced = 0;
+
+/// A ray that was traced: in search of the nearest surface, or as a shadow ray, of anything.
+struct TracedRay {
+    Ray ray;
+    bool shadow, met;
+    float t;  // where it met the nearest surface
+};
+
+/// Where this thread keeps the rays that it traces; null: nowhere. Who explains a path asks.
+inline constinit thread_local std::vector<TracedRay>* rays_kept = nullptr;
+
+[[gnu::noinline]] inline void keep_ray(const Ray& ray, bool shadow, bool met, float t) {
+    rays_kept->push_back({ray, shadow, met, t});
+}
 
 namespace hit_details {
 
@@ -85,14 +101,19 @@ inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
     std::optional<Hit> x;
     if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
     if (!scene.movers.empty()) intersect_movers(scene, ray, x);
+    if (rays_kept) [[unlikely]]
+        keep_ray(ray, false, x.has_value(), x ? x->t : infinity);
     return x;
 }
 
 /// Whether anything lies on the ray before t_max.
 inline bool occluded(const Scene& scene, const Ray& ray) {
     rays_traced++;
-    if (any_hit(scene.bvh, scene.geometry, ray)) return true;
-    return !scene.movers.empty() && occluded_by_movers(scene, ray);
+    bool met = any_hit(scene.bvh, scene.geometry, ray) ||
+               (!scene.movers.empty() && occluded_by_movers(scene, ray));
+    if (rays_kept) [[unlikely]]
+        keep_ray(ray, true, met, NAN);
+    return met;
 }
 
 /// A ray from x in direction wi that starts just off the surface, on the side it leaves to.

@@ -12,7 +12,7 @@ lint:
 #: make steps        how large the step of each chapter is from the one before
 steps:
 	@common/tools/steps
-#: make pictures     render the small pictures that the READMEs show, by the commands they name
+#: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
 pictures: programs
 	common/tools/make_pictures $(BUILD)
 #: make readmes      put code, diffs and what the programs print into the READMEs

@@ -342,14 +342,15 @@ TEST_SUITE("ch07 russian roulette") {
 
     TEST_CASE("identity: what roulette keeps, it hands on: --explain's log sees q and beta") {
         Scene scene = closed_sphere(0.5, 100);
-        PathLog log("", true);
+        PathStory story(100, false);
+        PathLog log("", &story);
         bool seen = false;
         for (uint32_t i = 0; i < 100 && !seen; i++) {
             Sampler sampler(SamplerType::independent, 1, 1);
             sampler.start(0, i);
             log.start();
             ch07::trace(scene, {{0, 0, 0}, {0, 0, 1}}, sampler, log);
-            seen = log.steps().find("survives roulette, q 0.") != std::string::npos;
+            seen = story.text().find("survives roulette, q 0.") != std::string::npos;
         }
         CHECK(seen);
     }

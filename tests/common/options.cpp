@@ -82,12 +82,12 @@ TEST_SUITE("options") {
         CHECK(o.quiet);
     }
 
-    TEST_CASE("input: a path to explain, with its sample or the first one") {
+    TEST_CASE("input: a path to explain, with its sample or without") {
         RenderOptions o = options_of({"--explain", "3,4"});
         CHECK(o.explain);
         CHECK(o.explain_x == 3);
         CHECK(o.explain_y == 4);
-        CHECK(o.explain_sample == 0);
+        CHECK(o.explain_sample == -1);
         CHECK(options_of({"--explain=3,4,17"}).explain_sample == 17);
     }
 

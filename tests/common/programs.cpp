@@ -6,53 +6,11 @@
 #include <map>
 
 #include "common/picture/image.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
+#include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-using Words = std::vector<std::string>;
-
-const std::string spheres = "scenes/cornell-spheres.pbrt";
-const std::string path_tracer = "06_path_tracing", light_tracer = "17_light_tracing";
-
-/// Becomes the program.
-int execute(const std::string& program, const Words& words) {
-    Words all = program_words(program);
-    all.insert(all.end(), words.begin(), words.end());
-    std::vector<char*> argv;
-    for (std::string& word : all) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    ::execvp(argv[0], argv.data());
-    return 127;
-}
-
-Process start(const std::string& program, const Words& words) {
-    return Process([&] { return execute(program, words); });
-}
-
-Finished run(const std::string& program, const Words& words) {
-    return start(program, words).wait();
-}
-
-/// The programs of the chapters; those that render a scene, or those that print a table.
-std::vector<std::string> programs(bool render) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator("chapters")) {
-        std::string name = entry.path().filename().string();
-        if (name == "05_bvh") continue;  // draws work instead of light: has its own test below
-        if (name == "20_radiosity") continue;  // renders no mirrors: has its own tests
-        std::string help = run(name, {"--help"}).out;
-        if ((help.find("[SCENE]") != std::string::npos) == render) names.push_back(name);
-    }
-    std::sort(names.begin(), names.end());
-    REQUIRE(!names.empty());
-    return names;
-}
-
-bool begins_at_lights(const std::string& program) { return program > "17" && program < "19"; }
 
 /// Options for a render of a few milliseconds.
 Words small(const Words& more) {
@@ -594,103 +552,6 @@ TEST_SUITE("programs") {
         CHECK(end.err == "scenes/cornell.pbrt: error: cannot read: No such file or directory\n");
     }
 
-    TEST_CASE("identity: a path that is explained is the sample of the picture") {
-        TemporaryFolder folder;
-        for (const std::string& program : programs(true)) {
-            if (begins_at_lights(program)) continue;  // many samples for one pixel: see below
-            CAPTURE(program);
-            Words words = {spheres, "--size", "24x24", "--max-depth", "6", "--seed", "4"};
-            Words render = words, outputs = {"--spp", "1", "--quiet", "--out", folder / "a.pfm"};
-            render.insert(render.end(), outputs.begin(), outputs.end());
-            REQUIRE(run(program, render).code == 0);
-            Image image = read_image(folder / "a.pfm");
-            for (auto [x, y] : {std::pair(12, 12), std::pair(5, 20), std::pair(12, 1)}) {
-                Words explain = words;
-                std::string pixel = std::to_string(x) + "," + std::to_string(y);
-                explain.insert(explain.end(),
-                               {"--spp", "1", "--explain", pixel, "--out", folder / "b.ppm"});
-                Finished end = run(program, explain);
-                CHECK(end.code == 0);
-                CHECK(end.err == "");
-                CHECK(end.out.starts_with("pixel " + pixel + " sample 0 of " + spheres + ": "));
-                CHECK(end.out.find("\nvertex 1  ") != std::string::npos);
-                char L[200];
-                Rgb p = image.at(x, y);
-                std::snprintf(L, sizeof L, "\nL (%.6g, %.6g, %.6g)\n", double{p.r}, double{p.g},
-                              double{p.b});
-                CHECK(end.out.find(L) != std::string::npos);
-
-                // The drawing is well-formed: all its elements are closed, and it has the path.
-                std::string svg = read_file(folder / "b.svg");
-                CHECK(svg.starts_with("<svg xmlns='http://www.w3.org/2000/svg' "));
-                CHECK(svg.ends_with("</svg>\n"));
-                CHECK(svg.find("nan") == std::string::npos);
-                CHECK(svg.find("stroke='#c03'") != std::string::npos);
-                std::ptrdiff_t opened = std::count(svg.begin(), svg.end(), '<');
-                std::ptrdiff_t closed = 0, ends = 0;
-                for (size_t i = 0; i + 1 < svg.size(); i++) {
-                    closed += svg[i] == '/' && svg[i + 1] == '>';
-                    ends += svg[i] == '<' && svg[i + 1] == '/';
-                }
-                CHECK(opened == closed + 2 * ends);
-            }
-            CHECK_FALSE(folder.names().contains("b.ppm"));
-        }
-    }
-
-    TEST_CASE("identity: paths from lights that are explained sum to the picture") {
-        TemporaryFolder folder;
-        Words words = {spheres, "--size", "5x4", "--max-depth", "4", "--spp", "1"};
-        for (const std::string& program : programs(true)) {
-            if (!begins_at_lights(program)) continue;
-            CAPTURE(program);
-            Words render = words;
-            render.insert(render.end(), {"--quiet", "--out", folder / "a.pfm"});
-            REQUIRE(run(program, render).code == 0);
-            Image image = read_image(folder / "a.pfm"), sum(5, 4);
-            for (int i = 0; i < 20; i++) {
-                Words explain = words;
-                std::string pixel = std::to_string(i % 5) + "," + std::to_string(i / 5);
-                explain.insert(explain.end(), {"--explain", pixel, "--out", folder / "b.ppm"});
-                Finished end = run(program, explain);
-                CHECK(end.code == 0);
-                CHECK(end.out.find("\nvertex 1  a light at ") != std::string::npos);
-                for (size_t at = 0; (at = end.out.find("\nand (", at)) != std::string::npos; at++) {
-                    Rgb L;
-                    int x = 0, y = 0;
-                    REQUIRE(std::sscanf(end.out.c_str() + at, "\nand (%f, %f, %f) in pixel %d,%d",
-                                        &L.r, &L.g, &L.b, &x, &y) == 5);
-                    sum.at(x, y) += L;
-                }
-                Rgb L;
-                const char* own = std::strstr(end.out.c_str(), "\nL (");
-                REQUIRE(std::sscanf(own, "\nL (%f, %f, %f)", &L.r, &L.g, &L.b) == 3);
-                sum.at(i % 5, i / 5) += L;
-            }
-            for (size_t i = 0; i < sum.pixels.size(); i++) {
-                double a = static_cast<double>(sum.pixels[i].g);
-                double b = static_cast<double>(image.pixels[i].g);
-                CHECK(std::abs(a - b) <= 1e-4 * b);
-            }
-        }
-    }
-
-    TEST_CASE("input: a path that is not of the picture cannot be explained") {
-        struct {
-            const char *path, *error;
-        } cases[] = {
-            {"24,0", "error: pixel 24,0 lies outside the picture of 24x12\n"},
-            {"0,12", "error: pixel 0,12 lies outside the picture of 24x12\n"},
-            {"0,0,2", "error: sample 2 is not one of the 2 of a pixel; they count from 0\n"},
-        };
-        for (const auto& c : cases) {
-            Finished end =
-                run(path_tracer, {spheres, "--size", "24x12", "--spp", "2", "--explain", c.path});
-            CHECK(end.code == 2);
-            CHECK(end.err == c.error);
-        }
-    }
-
     TEST_CASE("identity: the pictures of --split sum to the whole, in each chapter") {
         for (const std::string& program : programs(true)) {
             CAPTURE(program);
@@ -701,10 +562,16 @@ TEST_SUITE("programs") {
             Image whole = read_image(folder / "a.pfm"), sum(24, 24);
             std::set<std::string> classes;
             for (const auto& entry : fs::directory_iterator(folder / "d")) {
+                if (entry.path().extension() == ".png") continue;
                 classes.insert(entry.path().stem().string());
                 Image part = read_image(entry.path().string());
                 for (size_t i = 0; i < sum.pixels.size(); i++) sum.pixels[i] += part.pixels[i];
+                std::string png = fs::path(entry.path()).replace_extension(".png").string();
+                for (size_t i = 0; i < sum.pixels.size(); i++) {
+                    CHECK(to_srgb8(read_image(png).pixels[i].g) == to_srgb8(part.pixels[i].g));
+                }
             }
+            CHECK(read_image(folder / "d/classes.png").width > 24);
             for (const char* one : {"LE", "LDE"}) CHECK(classes.contains(one));
             for (size_t i = 0; i < sum.pixels.size(); i++) {
                 double a = static_cast<double>(sum.pixels[i].g);

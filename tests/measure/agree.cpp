@@ -6,6 +6,7 @@
 #include "tests/measure/agreement.h"
 #include "tests/measure/gnuplot.h"
 #include "tests/measure/measure.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -180,10 +181,11 @@ unset key
 
 /// Measures one scene with every method that can render it, and judges.
 SceneResult agree_on(const std::string& path, const std::vector<Method>& methods,
-                     const MeasureOptions& o, double cell_seconds) {
+                     const MeasureOptions& o, double cell_seconds, Work& work) {
     Scene scene = load_scene_for(path, o);
     SceneResult result{scene_name(path), {}};
     for (size_t m = 0; m < methods.size(); m++) {
+        work.next(result.scene + ", " + methods[m].name);
         if (!can_render(methods[m], scene)) continue;
         result.columns.push_back({&methods[m], measure(methods[m], m, scene, o, cell_seconds)});
     }
@@ -208,9 +210,12 @@ int main(int argc, char** argv) {
                       {}};
         std::string failures;
         double cell_seconds = o.seconds / static_cast<double>(o.words.size() * methods.size());
+        Work work("agree: " + std::to_string(methods.size()) + " methods against each other on " +
+                      std::to_string(o.words.size()) + " scenes",
+                  static_cast<double>(o.words.size() * methods.size()), o.seconds);
         for (const std::string& word : o.words) {
             try {
-                results.push_back(agree_on(find_scene(word), methods, o, cell_seconds));
+                results.push_back(agree_on(find_scene(word), methods, o, cell_seconds, work));
             } catch (const InputError& e) {
                 std::printf("left out: %s\n", e.what());
                 continue;

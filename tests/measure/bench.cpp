@@ -11,6 +11,7 @@
 #include "tests/measure/bench_embree.h"
 #include "tests/measure/bench_rays.h"
 #include "tests/measure/measure.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -303,13 +304,21 @@ BenchOptions parse_bench_options(int argc, char** argv) {
 int main(int argc, char** argv) {
     return run_program([&] {
         BenchOptions o = parse_bench_options(argc, argv);
-        Results results;
+        std::vector<BenchMesh> meshes;
         for (const BenchMesh& mesh : all_meshes()) {
             auto named = [&](const std::string& word) {
                 return mesh.name.find(word) != std::string::npos;
             };
-            if (!o.meshes.empty() && std::none_of(o.meshes.begin(), o.meshes.end(), named))
-                continue;
+            if (o.meshes.empty() || std::any_of(o.meshes.begin(), o.meshes.end(), named))
+                meshes.push_back(mesh);
+        }
+        Work work(have_embree ? "bench: rays per second on one thread, beside Embree"
+                              : "bench: rays per second on one thread. Embree is not installed "
+                                "(libembree-dev), so nothing stands beside it",
+                  static_cast<double>(meshes.size()));
+        Results results;
+        for (const BenchMesh& mesh : meshes) {
+            work.next(mesh.name);
             Bench(mesh, o).measure(results);
         }
         std::printf("%s\n%s\n%s", markdown(results.builds).c_str(), markdown(results.rays).c_str(),

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "tests/measure/measure.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -42,8 +43,9 @@ std::vector<Contender> contenders_on(const std::string& path, const std::vector<
 }
 
 /// Renders by turns, so that what else the machine does slows all of them alike.
-void run(std::vector<Contender>& contenders, const MeasureOptions& o) {
+void run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& work) {
     for (int run = 0; run < o.runs; run++) {
+        work.next(contenders[0].scene.file + ", render " + std::to_string(run + 1) + " of each");
         for (Contender& c : contenders) {
             Rendering r = render_once(*c.method, c.scene, o, c.spp, static_cast<uint32_t>(run));
             c.spread.add(r.film.image());
@@ -57,6 +59,7 @@ void run(std::vector<Contender>& contenders, const MeasureOptions& o) {
     Contender& best =
         *std::min_element(contenders.begin(), contenders.end(),
                           [&](const auto& a, const auto& b) { return noise(a) < noise(b); });
+    work.next(best.scene.file + ", the long render that all are held against");
     Image truth =
         render_once(*best.method, best.scene, o, 8 * best.spp, static_cast<uint32_t>(o.runs))
             .film.image();
@@ -125,17 +128,21 @@ int main(int argc, char** argv) {
         std::vector<Method> methods = methods_named(o.methods);
         std::printf("%dx%d pixels, %d renders each, %d threads\n", o.width, o.height, o.runs,
                     o.threads);
+        double rounds = static_cast<double>(o.words.size()) * (equal_time ? 2 : 1);
+        Work work("efficiency: " + std::to_string(methods.size()) + " methods at equal samples" +
+                      (equal_time ? ", then in equal time" : ""),
+                  rounds * (o.runs + 1));
         for (const std::string& word : o.words) {
             std::string path = find_scene(word), name = file_name(scene_name(path));
             std::vector<Contender> contenders = contenders_on(path, methods, o);
             if (contenders.empty()) continue;
-            run(contenders, o);
+            run(contenders, o, work);
             Table table = table_of(scene_name(path), contenders);
             std::printf("\n%s", markdown(table).c_str());
             write_table(o.out, "efficiency-" + name, table);
             if (!equal_time) continue;
             take_equal_time(contenders);
-            run(contenders, o);
+            run(contenders, o, work);
             table = table_of("in equal time", contenders);
             std::printf("\n%s", markdown(table).c_str());
             write_table(o.out, "equal-time-" + name, table);

@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/program/table.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -32,6 +33,7 @@ void draw_chart(const std::string& path, const std::string& script, int width, i
         throw InputError(file + ": error: gnuplot failed");
     }
     std::filesystem::remove(file);
+    say_wrote(path + ".svg and .png");
 }
 
 std::string quoted_for_gnuplot(const std::string& text) {

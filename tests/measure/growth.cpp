@@ -7,6 +7,7 @@
 #include "common/scene_file/reader.h"
 #include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -15,6 +16,7 @@ struct Growth {
     MeasureOptions o;
     std::vector<Method> methods;
     double largest;  // of what grows, as a share of the full size
+    Work& work;
 };
 
 double wall_clock() {
@@ -44,7 +46,10 @@ LinePanel panel_of(const Growth& growth, const std::string& title, const std::st
     LinePanel panel{title, x_label, "seconds", {}};
     for (const Method& m : growth.methods)
         panel.lines.push_back({m.label, m.color, theory, {}, {}});
+    double sum = 0;
+    for (double x = first; x <= 1.001 * last; x *= factor) sum += x;
     for (double x = first; x <= 1.001 * last; x *= factor) {
+        growth.work.next("seconds against " + x_label + ", " + short_number(x), x / sum);
         auto seconds_at = seconds(x);
         for (size_t i = 0; i < growth.methods.size(); i++) {
             panel.lines[i].x.push_back(x);
@@ -158,7 +163,7 @@ std::vector<LinePanel> over_samples_pixels_threads(const Growth& growth) {
 
     // What else the machine does comes and goes: let few and many threads take turns.
     for (int turn = 1; turn < 5; turn++) {
-        LinePanel again = panel_of(growth, "", "", "", 1, o.threads, 2, threads);
+        LinePanel again = panel_of(growth, "", "threads", "", 1, o.threads, 2, threads);
         for (size_t line = 0; line < again.lines.size(); line++) {
             for (size_t i = 0; i < again.lines[line].y.size(); i++) {
                 double& least = panels[2].lines[line].y[i];
@@ -184,7 +189,10 @@ int main(int argc, char** argv) {
             "Seconds against samples, pixels, threads, triangles and lights. Writes "
             "chart-growth.svg, .png and .tsv.",
             {.methods = {"06", "08", "10", "14"}, .width = 64, .height = 64}, {quick});
-        Growth growth{o, methods_named(o.methods), share};
+        constexpr int panels_measured = 9;  // five, one of them five times
+        Work work("growth: seconds against samples, pixels, threads, triangles and lights",
+                  panels_measured);
+        Growth growth{o, methods_named(o.methods), share, work};
         std::vector<LinePanel> panels = over_samples_pixels_threads(growth);
         panels.push_back(over_triangles(growth));
         panels.push_back(over_lights(growth));

@@ -10,6 +10,7 @@
 #include "common/base/files.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -95,7 +96,9 @@ Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& 
 
 void write_table(const std::string& folder, const std::string& name, const Table& table) {
     std::filesystem::create_directories(folder);
-    write_file_atomically(folder + "/" + name + ".tsv", tab_separated(table));
+    std::string file = folder + "/" + name + ".tsv";
+    write_file_atomically(file, tab_separated(table));
+    say_wrote(file);
 }
 
 std::string short_number(double x) {

@@ -6,6 +6,7 @@
 #include "common/picture/comparison.h"
 #include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -80,12 +81,17 @@ int main(int argc, char** argv) {
         ch20::tessellate(scene, o.threads);
         Trace fourteen = trace_with<ch14::trace>(ch14::prepare(scene));
         scene.spp = o.spp;
+        Work work("radiosity: patches of chapter 20 beside paths of 14, " + name, 10);
+        work.next("reference");
         Image reference = image_of(scene, fourteen, 0, o.threads);
         std::vector<Solved> solved;
-        for (size_t patches : {size_t{80}, size_t{320}, size_t{1280}, size_t{5120}})
+        for (size_t patches : {size_t{80}, size_t{320}, size_t{1280}, size_t{5120}}) {
+            work.next(std::to_string(patches) + " patches");
             solved.push_back(solve_and_compare(scene, patches, reference, o.threads));
+        }
         std::vector<std::array<double, 3>> paths;
         for (int spp : {1, 4, 16, 64, 256}) {
+            work.next(std::to_string(spp) + " paths a pixel");
             scene.spp = spp;
             Stopwatch watch;
             Image image = image_of(scene, fourteen, 1, o.threads);

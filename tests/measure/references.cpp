@@ -10,6 +10,7 @@
 #include "common/program/film_keeping.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/reference.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -135,7 +136,10 @@ int main(int argc, char** argv) {
              .out = "out/references"});
         std::filesystem::create_directories(o.out);
         if (o.words.empty()) o.words = own_scenes();
+        Work work("references: two for each of " + std::to_string(o.words.size()) + " scenes",
+                  static_cast<double>(o.words.size()));
         for (const std::string& word : o.words) {
+            work.next(word);
             Scene scene = load_scene_for(find_scene(word), o);
             std::vector<std::string> names = o.methods.empty() ? two_best(scene, o) : o.methods;
             remove_references(scene_name(scene.file));

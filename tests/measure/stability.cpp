@@ -181,7 +181,8 @@ struct Verdicts {
     }
 };
 
-void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdicts) {
+void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdicts, Work& work) {
+    work.next(c.name);
     Scene scene = parse_scene(c.name, c.scene, nullptr);
     prepare(scene, 1);
     for (const StabilityCase::Expected& expected : c.expected) {
@@ -228,15 +229,20 @@ int main(int argc, char** argv) {
             "errors are the real ones, for every chapter and sampler.",
             {.spp = 0, .runs = 200});
         Verdicts verdicts;
+        std::vector<StabilityCase> cases;
         for (const StabilityCase& c : stability_cases()) {
-            if (wanted(c.name, o.words)) judge_case(c, o, verdicts);
+            if (wanted(c.name, o.words)) cases.push_back(c);
         }
+        bool coverage = wanted("coverage", o.words);
+        Work work("stability: " + std::to_string(cases.size()) + " scenes on which methods fail" +
+                      (coverage ? ", then whether reported errors are the real ones" : ""),
+                  static_cast<double>(cases.size() + (coverage ? coverage_steps() : 0)));
+        for (const StabilityCase& c : cases) judge_case(c, o, verdicts, work);
         std::printf("%s\n", markdown(verdicts.rows).c_str());
         std::printf(legend, o.runs);
         std::printf("\n%s", markdown(verdicts.matrix()).c_str());
         write_table(o.out, "stability", verdicts.rows);
-        bool coverage = wanted("coverage", o.words);
-        int not_covered = coverage ? show_coverage(o) : 0;
+        int not_covered = coverage ? show_coverage(o, work) : 0;
         return verdicts.failures + not_covered == 0 ? 0 : 1;
     });
 }

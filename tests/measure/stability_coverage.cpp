@@ -63,7 +63,9 @@ Coverage coverage_of(const Method& method, const Scene& scene, SamplerType sampl
 
 }  // namespace
 
-int show_coverage(const MeasureOptions& options) {
+size_t coverage_steps() { return std::size(cases) * methods_named({"all"}).size(); }
+
+int show_coverage(const MeasureOptions& options, Work& work) {
     int failures = 0;
     for (const CoverageCase& c : cases) {
         MeasureOptions o;
@@ -72,6 +74,7 @@ int show_coverage(const MeasureOptions& options) {
         double truth = render_once(methods_named({"14"})[0], scene, o, 1 << 13, 999).film.mean();
         Table table{{c.scene, "independent", "stratified", "Sobol"}, {}};
         for (const Method& method : methods_named({"all"})) {
+            work.next(std::string("reported errors on ") + c.scene + ", " + method.name);
             if (!can_render(method, scene)) continue;
             std::vector<std::string> row = {method.label};
             for (SamplerType sampler : samplers) {

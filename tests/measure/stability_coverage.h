@@ -1,6 +1,7 @@
 // Do the standard errors that programs print hold, for every chapter and sampler?
 #pragma once
 #include "tests/measure/measure.h"
+#include "tests/support/work.h"
 
 /// Renders pictures with many seeds by every chapter and sampler, and prints for each the error
 /// that is reported over the real one (the spread of the pictures' means), and how often the
@@ -8,4 +9,6 @@
 ///
 ///   smooth scenes    the reported error is within a factor of 1.25 of the real one
 ///   all scenes       the intervals hold the truth, or most of the renders warn that they may not
-int show_coverage(const MeasureOptions& options);
+int show_coverage(const MeasureOptions& options, Work& work);
+/// The steps that it takes.
+size_t coverage_steps();

@@ -1,0 +1,66 @@
+// One path in words: what --explain prints.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common/scene/intersect.h"
+
+/// Follows one path as its PathLog hears of it, and writes down each step, what it adds, which
+/// shadow rays were blocked, and why it ends.
+///
+/// Of rays it sees all that this thread traces until ends(); without any (chapter 04 has a search
+/// of its own) it cannot tell how the path ends.
+class PathStory {
+public:
+    static constexpr size_t own_pixel = SIZE_MAX;
+
+    /// What a path adds.
+    struct Addition {
+        int vertex;  // number of the last one on the way; 0: none
+        std::string way, path_class;
+        float mis;
+        Rgb L;
+        size_t pixel = own_pixel;
+    };
+
+    /// counts_photons: a path may end where photons tell the rest, as in chapter 19.
+    PathStory(int max_depth, bool counts_photons);
+    ~PathStory();
+    PathStory(const PathStory&) = delete;
+    PathStory& operator=(const PathStory&) = delete;
+
+    void starts_at_light(Vec3 p, size_t number);
+    void starts_at_eye();
+    void meets(const Hit& x, size_t number);
+    void goes_on(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta);
+    void survives(float q, Rgb beta);
+    void steps_back(int vertex);
+    void is_cut();
+    void aims(Vec3 wi, float pdf_l, float pdf_b);
+    void adds(const Addition& added);
+    /// Tells why the path ends, once it has.
+    void ends();
+
+    const std::string& text() const { return text_; }
+    const std::vector<Addition>& additions() const { return additions_; }
+    const std::vector<TracedRay>& rays() const { return rays_; }
+    /// Whether what was met last is the sky.
+    bool has_left() const { return !rays_.empty() && !rays_.back().shadow && !rays_.back().met; }
+
+private:
+    enum class Last { start, vertex, goes_on, survived, left, cut };
+    void tell_rays();
+    std::string end_at_vertex() const;
+
+    const int max_depth_;
+    const bool counts_photons_;
+    std::string text_;
+    std::vector<Addition> additions_;
+    std::vector<TracedRay> rays_;
+    size_t told_ = 0;  // of the rays
+    Last last_ = Last::start;
+    bool from_light_ = false;
+    int events_ = 0;  // surfaces met on this path
+    size_t vertex_ = 0;
+    const Material* material_ = nullptr;  // of that vertex
+};

@@ -1,0 +1,329 @@
+// --explain: a path in words, as a table that adds up, and as a drawing.
+#include "common/program/explain.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <map>
+#include <sstream>
+
+#include "chapters/07_russian_roulette/estimator.h"
+#include "chapters/08_light_sampling/estimator.h"
+#include "chapters/12_glossy/estimator.h"
+#include "chapters/18_bidirectional/estimator.h"
+#include "common/picture/stats_file.h"
+#include "common/program/labels.h"
+#include "common/program/path_drawing.h"
+#include "common/program/scene_outline.h"
+#include "tests/support/meshes.h"
+#include "tests/support/run_program.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+struct Sum {
+    double r = 0, g = 0, b = 0;
+};
+
+/// What the table says that each pixel gets, "x,y": of its rows, added up here, and its last row.
+struct Told {
+    Sum rows, printed;
+    double scattered = 0;  // of the rows with a D in their class, all channels
+};
+std::map<std::string, Told> read_table(const std::string& text) {
+    std::map<std::string, Told> pixels;
+    std::istringstream lines(text.substr(text.rfind("\npixel ")));
+    std::string line;
+    std::getline(lines, line), std::getline(lines, line);  // a blank one, and the head
+    while (std::getline(lines, line)) {
+        if (line.starts_with("wrote ")) break;
+        std::istringstream words(line);
+        std::vector<std::string> cells;
+        for (std::string word; words >> word;) cells.push_back(word);
+        REQUIRE(cells.size() >= 5);
+        size_t n = cells.size();
+        bool is_sum = cells[n - 4] == "sum";
+        if (!is_sum && cells[n - 5].find('D') != std::string::npos) {
+            for (size_t i = n - 3; i < n; i++) pixels[cells[0]].scattered += std::stod(cells[i]);
+        }
+        Sum& to = is_sum ? pixels[cells[0]].printed : pixels[cells[0]].rows;
+        to.r += std::stod(cells[n - 3]), to.g += std::stod(cells[n - 2]);
+        to.b += std::stod(cells[n - 1]);
+    }
+    return pixels;
+}
+
+bool near(double a, double b) { return std::abs(a - b) <= 1e-5 * std::abs(b) + 1e-12; }
+
+/// How many elements of an SVG are opened, less those closed: 0 for one that is well-formed.
+std::ptrdiff_t left_open(const std::string& svg) {
+    std::ptrdiff_t open = std::count(svg.begin(), svg.end(), '<');
+    for (size_t i = 0; i + 1 < svg.size(); i++) {
+        open -= svg[i] == '/' && svg[i + 1] == '>';
+        open -= svg[i] == '<' && svg[i + 1] == '/' ? 2 : 0;
+    }
+    return open;
+}
+
+/// What is told of one path of a chapter.
+template <class AnyTrace>
+std::string story_of(const Scene& scene, const AnyTrace& trace, uint32_t number, Ray ray) {
+    Sampler sampler(SamplerType::independent, 1, 1);
+    sampler.start(0, number);
+    PathStory story(scene.max_depth, false);
+    PathLog log("", &story);
+    trace(scene, ray, sampler, log);
+    story.ends();
+    return story.text();
+}
+
+/// Whether one of 2000 paths is told with these words.
+template <class AnyTrace>
+bool tells(const Scene& scene, const AnyTrace& trace, Ray ray, const std::string& words) {
+    for (uint32_t i = 0; i < 2000; i++) {
+        if (story_of(scene, trace, i, ray).find(words) != std::string::npos) return true;
+    }
+    return false;
+}
+
+/// A ball around the y axis, of 48 x 24 faces in pairs of triangles, without its poles.
+void add_round_ball(Geometry& g) {
+    constexpr uint32_t around = 48, up = 24;
+    for (uint32_t j = 1; j < up; j++) {
+        for (uint32_t i = 0; i < around; i++) {
+            float theta = pi * static_cast<float>(j) / up;
+            Vec3 p = from_cylindrical(std::sin(theta), static_cast<float>(i) / around, 0);
+            g.positions.push_back({p.x, std::cos(theta), p.y});
+        }
+    }
+    for (uint32_t j = 0; j + 2 < up; j++) {
+        for (uint32_t i = 0; i < around; i++) {
+            uint32_t a = j * around + i, b = j * around + (i + 1) % around;
+            g.triangles.push_back({{a, b, b + around}, 0});
+            g.triangles.push_back({{a, b + around, a + around}, 0});
+        }
+    }
+}
+
+const char* black_floor = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+const char* lamp_above =
+    "AttributeBegin AreaLightSource \"diffuse\" Translate 0 2 0 Scale 0.2 1 0.2\n";
+
+}  // namespace
+
+TEST_SUITE("explain") {
+    TEST_CASE("identity: the table of an explained path adds up to the picture, in each chapter") {
+        TemporaryFolder folder;
+        Words words = {spheres, "--size", "3x2", "--max-depth", "5", "--spp", "1", "--seed", "4"};
+        for (const std::string& program : programs(true)) {
+            CAPTURE(program);
+            Words render = words;
+            render.insert(render.end(), {"--quiet", "--out", folder / "a.pfm"});
+            REQUIRE(run(program, render).code == 0);
+            Image image = read_image(folder / "a.pfm"), sum(3, 2);
+            int seen = 0;
+            for (int i = 0; i < 6; i++) {
+                Words explain = words;
+                std::string pixel = std::to_string(i % 3) + "," + std::to_string(i / 3);
+                explain.insert(explain.end(), {"--explain", pixel, "--out", folder / "b.ppm"});
+                Finished end = run(program, explain);
+                CHECK(end.code == 0);
+                CHECK(end.err == "");
+                CHECK(end.out.starts_with("pixel " + pixel + " sample 0 of " + spheres + ": "));
+                CHECK(end.out.find("No sample was named") != std::string::npos);
+                bool has_vertex = end.out.find("\nvertex 1  ") != std::string::npos;
+                seen += has_vertex;
+                CHECK(end.out.find("warning") == std::string::npos);
+                bool has_own_rays = program == "04_ray_casting";
+                CHECK((end.out.find("    ends: ") != std::string::npos) == !has_own_rays);
+                for (const auto& [at, told] : read_table(end.out)) {
+                    CHECK(near(told.rows.r, told.printed.r));
+                    CHECK(near(told.rows.g, told.printed.g));
+                    CHECK(near(told.rows.b, told.printed.b));
+                    int x = 0, y = 0;
+                    REQUIRE(std::sscanf(at.c_str(), "%d,%d", &x, &y) == 2);
+                    sum.at(x, y) +=
+                        Rgb{static_cast<float>(told.rows.r), static_cast<float>(told.rows.g),
+                            static_cast<float>(told.rows.b)};
+                }
+                std::string svg = read_file(folder / "b.svg");
+                CHECK(svg.starts_with("<svg xmlns='http://www.w3.org/2000/svg' "));
+                CHECK(svg.ends_with("</svg>\n"));
+                CHECK(svg.find("nan") == std::string::npos);
+                std::string drawn = svg.substr(0, svg.find("path from the eye"));
+                bool has_line = drawn.find("stroke='#c03' stroke-width='2'") != std::string::npos;
+                if (has_vertex && program != light_tracer) CHECK(has_line);
+                CHECK(left_open(svg) == 0);
+            }
+            for (size_t i = 0; i < sum.pixels.size(); i++) {
+                double a = static_cast<double>(sum.pixels[i].g);
+                double b = static_cast<double>(image.pixels[i].g);
+                CHECK(std::abs(a - b) <= 1e-4 * b);
+            }
+            CHECK(seen > 2);
+            CHECK_FALSE(folder.names().contains("b.ppm"));
+        }
+    }
+
+    TEST_CASE("truth: a path's story says why it ends") {
+        Ray ahead = {{0, 0, -4}, {0, 0, 1}};
+        const std::string white_sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
+        Scene sky = world_of(white_sky + "Translate 50 0 0 Shape \"sphere\"");
+        std::string left = story_of(sky, ch07::trace, 0, ahead);
+        CHECK(left.find("    sky met: adds (1, 1, 1), mis 1, class LE\n") != std::string::npos);
+        CHECK(left.ends_with("    ends: it has left the scene\n"));
+
+        Scene ball =
+            world_of(white_sky + "Shape \"sphere\" \"float radius\" 9");  // around the camera
+        CHECK(tells(ball, ch07::trace, ahead, "    ends: roulette stops it\n"));
+        ball.max_depth = 2;
+        CHECK(story_of(ball, ch07::trace, 0, ahead)
+                  .ends_with("    ends: the depth limit, 2 scattering events\n"));
+
+        Scene black = world_of(white_sky + black_floor + "Shape \"sphere\"");
+        CHECK(story_of(black, ch07::trace, 0, ahead)
+                  .ends_with("    ends: vertex 1 is black: it absorbs all\n"));
+
+        Scene metal =
+            world_of("Material \"conductor\" \"float roughness\" 0.8\nShape \"sphere\"\n" +
+                     std::string(lamp_above) + square(0, false) + "AttributeEnd");
+        Trace rough = trace_with<ch12::trace>(ch12::prepare(metal), ch12::Strategy::light);
+        CHECK(tells(metal, rough, {{0, 0.98f, -4}, {0, 0, 1}}, "drawn lies below the surface\n"));
+    }
+
+    TEST_CASE("truth: light paths of chapter 18 end at the depth limit, and say so") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 8, 1);
+        SplatTrace trace = splat_trace_with<ch18::trace>(ch18::prepare(scene));
+        Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+            Splats splats;
+            return trace(s, ray, splats, sampler, log);
+        };
+        CameraView view = camera_view(scene.camera, 8, 8);
+        std::string text = story_of(scene, own, 3, camera_ray(view, {4, 4}));
+        size_t first = text.find("    ends: "), eye = text.find("from the eye:\n");
+        REQUIRE(eye != std::string::npos);
+        CHECK(first < eye);
+        CHECK(text.find("    ends: the depth limit, 1 scattering events\nfrom the eye:\n") !=
+              std::string::npos);
+    }
+
+    TEST_CASE("truth: of a lamp behind a board the shadow rays are told as blocked, and drawn so") {
+        std::string board = "AttributeBegin Translate 0 1 0\n" + square(0, true) + "AttributeEnd\n";
+        std::string lamp = lamp_above + square(0, false) + "AttributeEnd\n";
+        Ray down = {{0, 0.5f, -2}, normalize(Vec3{0, -0.5f, 2})};
+        for (bool blocked : {false, true}) {
+            Scene scene = world_of(square(0, true) + lamp + (blocked ? board : ""));
+            PathStory story(1, false);
+            PathLog log("", &story);
+            scene.max_depth = 1;
+            Sampler sampler = random_numbers(3);
+            Trace trace = trace_with<ch08::trace>(ch08::LightMeasure::solid_angle);
+            Rgb L = trace(scene, down, sampler, log);
+            story.ends();
+            CHECK(is_black(L) == blocked);
+            CHECK((story.text().find(": blocked\n") != std::string::npos) == blocked);
+            std::string svg = draw_path(scene, down.o, log.vertices(), story.rays());
+            svg = svg.substr(0, svg.find("path from the eye"));  // without the legend
+            CHECK((svg.find("stroke='#555'") != std::string::npos) == blocked);
+            CHECK((svg.find("stroke='#080'") != std::string::npos) == !blocked);
+            CHECK(svg.find("stroke='#e0a800'") != std::string::npos);
+        }
+    }
+
+    TEST_CASE("truth: outlines have the edges of a box, no diagonals, and of a ball its rim") {
+        Scene scene = world_of(
+            "LightSource \"point\" Shape \"sphere\"");  // whose material and shape the others take
+        scene.geometry = {};
+        add_parallelogram(scene.geometry, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+        prepare(scene, 1);
+        CHECK(outline(scene, {0, 0, 1}).size() == 4);
+        scene.geometry = {};
+        add_box(scene.geometry, {0, 0, 0}, {1, 2, 3});
+        prepare(scene, 1);
+        CHECK(outline(scene, {0, 1, 0}).size() == 12);
+        CHECK(lamp_outline(scene, {0, 1, 0}).empty());
+        scene.geometry = {};
+        add_round_ball(scene.geometry);
+        prepare(scene, 1);
+        CHECK(outline(scene, {0, 1, 0}).size() ==
+              3 * 48);  // the rims of both holes, and the equator
+    }
+
+    TEST_CASE("truth: labels of many points at one place lie apart") {
+        Svg svg;
+        Labels labels;
+        labels.keep_free({200, 200});
+        for (int i = 0; i < 40; i++) labels.put(svg, {200, 200}, std::to_string(i + 1));
+        std::string text = svg.finish({400, 400});
+        std::vector<Vec2> corners;
+        for (size_t at = 0; (at = text.find("<text x='", at)) != std::string::npos; at++) {
+            Vec2 p;
+            REQUIRE(std::sscanf(text.c_str() + at, "<text x='%f' y='%f'", &p.x, &p.y) == 2);
+            corners.push_back(p);
+        }
+        REQUIRE(corners.size() == 40);
+        for (size_t i = 0; i < 40; i++) {
+            for (size_t j = 0; j < i; j++) {
+                float letters = j < 9 ? 8.0f : 16.0f;
+                bool apart = corners[i].x - corners[j].x > letters - 0.2f ||
+                             corners[j].x - corners[i].x > (i < 9 ? 7.8f : 15.8f) ||
+                             std::abs(corners[i].y - corners[j].y) > 12.8f;
+                CHECK(apart);
+            }
+        }
+    }
+
+    TEST_CASE("identity: --explain-brightest explains the largest sample of the picture") {
+        TemporaryFolder folder;
+        for (const std::string& program : programs(true)) {
+            if (program == "04_ray_casting") continue;  // all its samples of a lamp are alike
+            CAPTURE(program);
+            Words words = {spheres, "--size", "9x8", "--spp", "4", "--out", folder / "a.ppm"};
+            words.insert(words.end(), {"--max-depth", "6"});
+            Words render = words, explain = words;
+            render.insert(render.end(),
+                          {"--quiet", "--stats", folder / "a.json", "--paths", "L.*D.*E"});
+            REQUIRE(run(program, render).code == 0);
+            double largest =
+                StatsFile::beside(folder / "a.ppm").value().number("largest_sample").value();
+            explain.push_back("--explain-brightest");
+            Finished end = run(program, explain);
+            CHECK(end.code == 0);
+            CHECK(end.err == "");
+            double sum = 0;
+            for (const auto& [pixel, told] : read_table(end.out)) {
+                sum += told.scattered / 3;
+            }
+            CHECK(near(sum, largest));
+
+            // The command that it names prints the same path.
+            size_t at = end.out.find("To see it again: ") + std::strlen("To see it again: ");
+            std::string command = end.out.substr(at, end.out.find('\n', at) - at);
+            std::string place = command.substr(command.find("--explain ") + 10);
+            Words again = words;
+            again.insert(again.end(), {"--explain", place});
+            CHECK(end.out.ends_with("\n\n" + run(program, again).out));
+        }
+    }
+
+    TEST_CASE("input: a path that is not of the picture cannot be explained") {
+        struct {
+            const char *path, *error;
+        } cases[] = {
+            {"24,0", "error: pixel 24,0 lies outside the picture of 24x12\n"},
+            {"0,12", "error: pixel 0,12 lies outside the picture of 24x12\n"},
+            {"0,0,2", "error: sample 2 is not one of the 2 of a pixel; they count from 0\n"},
+        };
+        for (const auto& c : cases) {
+            Finished end =
+                run(path_tracer, {spheres, "--size", "24x12", "--spp", "2", "--explain", c.path});
+            CHECK(end.code == 2);
+            CHECK(end.err == c.error);
+        }
+        TemporaryFolder folder;
+        Finished end = run(path_tracer, {spheres, "--size", "4x4", "--max-depth", "0",
+                                         "--explain-brightest", "--out", folder / "a.ppm"});
+        CHECK(end.code == 1);
+        CHECK(end.err.ends_with("error: --explain-brightest: all samples are black\n"));
+    }
+}

@@ -1,0 +1,49 @@
+// Helper of the tests that run the programs of the chapters.
+#pragma once
+#include <algorithm>
+
+#include "tests/support/process.h"
+#include "tests/support/program.h"
+
+using Words = std::vector<std::string>;
+
+inline const std::string spheres = "scenes/cornell-spheres.pbrt";
+inline const std::string path_tracer = "06_path_tracing", light_tracer = "17_light_tracing";
+
+/// Becomes the program.
+inline int execute(const std::string& program, const Words& words) {
+    Words all = program_words(program);
+    all.insert(all.end(), words.begin(), words.end());
+    std::vector<char*> argv;
+    for (std::string& word : all) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    ::execvp(argv[0], argv.data());
+    return 127;
+}
+
+inline Process start(const std::string& program, const Words& words) {
+    return Process([&] { return execute(program, words); });
+}
+
+inline Finished run(const std::string& program, const Words& words) {
+    return start(program, words).wait();
+}
+
+/// The programs of the chapters; those that render a scene, or those that print a table.
+inline std::vector<std::string> programs(bool render) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator("chapters")) {
+        std::string name = entry.path().filename().string();
+        if (name == "05_bvh") continue;        // draws work instead of light: has tests of its own
+        if (name == "20_radiosity") continue;  // renders no mirrors: has its own
+        std::string help = run(name, {"--help"}).out;
+        if ((help.find("[SCENE]") != std::string::npos) == render) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    REQUIRE(!names.empty());
+    return names;
+}
+
+inline bool begins_at_lights(const std::string& program) {
+    return program > "17" && program < "19";
+}
