@@ -145,10 +145,11 @@ private:
                    RenderStats& stats) {
         auto [L, total] = trace(at, at.half, sampler, splats, log);
         int number = static_cast<int>(at.sample) * halves() + at.half;
-        if (is_finite(total)) {
-            stats.add_largest(static_cast<double>(average(total)), at.x, at.y, number);
-        } else {
+        double value = static_cast<double>(average(total));
+        if (!is_finite(total)) {
             stats.add_not_finite(options_.seed, number, at.y, at.x);
+        } else if (value >= stats.largest) {
+            stats.add_largest(value, at.x, at.y, number);
         }
         result_.film.add(at.pixel, L, at.half);
         if constexpr (has_splats) {

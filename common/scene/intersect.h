@@ -18,10 +18,6 @@ struct TracedRay {
 /// Where this thread keeps the rays that it traces; null: nowhere. Who explains a path asks.
 inline constinit thread_local std::vector<TracedRay>* rays_kept = nullptr;
 
-[[gnu::noinline]] inline void keep_ray(const Ray& ray, bool shadow, bool met, float t) {
-    rays_kept->push_back({ray, shadow, met, t});
-}
-
 namespace hit_details {
 
 inline uint32_t finish(const Geometry& g, const Triangle& tri, const PrimHit& found, Hit& x) {
@@ -94,26 +90,48 @@ inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, H
     make_hit(scene, scene.geometry, ray, found, x);
 }
 
-/// The nearest surface along the ray, if there is one.
-inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
-    rays_traced++;
+namespace hit_details {
+
+inline std::optional<Hit> nearest(const Scene& scene, const Ray& ray) {
     PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
     std::optional<Hit> x;
     if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
     if (!scene.movers.empty()) intersect_movers(scene, ray, x);
-    if (rays_kept) [[unlikely]]
-        keep_ray(ray, false, x.has_value(), x ? x->t : infinity);
     return x;
+}
+inline bool any(const Scene& scene, const Ray& ray) {
+    if (any_hit(scene.bvh, scene.geometry, ray)) return true;
+    return !scene.movers.empty() && occluded_by_movers(scene, ray);
+}
+
+/// The same, and keep the ray: apart, so that they cost nothing when nobody asks.
+[[gnu::noinline]] inline std::optional<Hit> nearest_kept(const Scene& scene, Ray ray) {
+    std::optional<Hit> x = nearest(scene, ray);
+    rays_kept->push_back({ray, false, x.has_value(), x ? x->t : infinity});
+    return x;
+}
+[[gnu::noinline]] inline bool any_kept(const Scene& scene, Ray ray) {
+    bool met = any(scene, ray);
+    rays_kept->push_back({ray, true, met, NAN});
+    return met;
+}
+
+}  // namespace hit_details
+
+/// The nearest surface along the ray, if there is one.
+inline std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
+    rays_traced++;
+    if (rays_kept) [[unlikely]]
+        return hit_details::nearest_kept(scene, ray);
+    return hit_details::nearest(scene, ray);
 }
 
 /// Whether anything lies on the ray before t_max.
 inline bool occluded(const Scene& scene, const Ray& ray) {
     rays_traced++;
-    bool met = any_hit(scene.bvh, scene.geometry, ray) ||
-               (!scene.movers.empty() && occluded_by_movers(scene, ray));
     if (rays_kept) [[unlikely]]
-        keep_ray(ray, true, met, NAN);
-    return met;
+        return hit_details::any_kept(scene, ray);
+    return hit_details::any(scene, ray);
 }
 
 /// A ray from x in direction wi that starts just off the surface, on the side it leaves to.
