@@ -127,7 +127,9 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
 RenderOptions explain_brightest(const RenderOptions& options, const Rendering& rendering) {
     const RenderStats& s = rendering.stats;
     if (!(s.largest > 0)) {
-        throw InputError("error: --explain-brightest: all samples are black");
+        throw InputError("error: --explain-brightest: no path of class " +
+                         (options.paths.empty() ? "L.*D.*E" : options.paths) +
+                         " brings light; --paths names others");
     }
     RenderOptions found = options;
     found.explain = true, found.explain_brightest = false;

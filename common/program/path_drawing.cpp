@@ -63,6 +63,12 @@ int longest_axis(Vec3 v) {
     Vec3 a = abs(v);
     return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
 }
+/// The axis of the world that points up: the camera's up, where that looks neither up nor down, and
+/// level with its right. In doubt y, as in most scenes.
+int upward_axis(const Camera& camera) {
+    Vec3 up = abs(camera.up), right = abs(camera.right);
+    return longest_axis({up.x * (1 - right.x), 3 * up.y * (1 - right.y), up.z * (1 - right.z)});
+}
 Vec3 signed_axis(int axis, Vec3 like) {
     Vec3 unit;
     unit[axis] = like[axis] < 0 ? -1.0f : 1.0f;
@@ -71,7 +77,7 @@ Vec3 signed_axis(int axis, Vec3 like) {
 
 /// From above, along an axis of the world; what the camera has on its right is on the right.
 View panel_from_above(const Scene& scene, Box box, float left) {
-    int up = longest_axis(scene.camera.up);
+    int up = upward_axis(scene.camera);
     Vec3 level = scene.camera.right;
     level[up] = 0;
     int across = longest_axis(level);
@@ -121,12 +127,13 @@ void draw_scene(Svg& svg, const View& view, const Scene& scene) {
         svg.picture(view.corner, view.size, base64(encode_png(image, "")));
     } else {
         Vec3 down = normalize(cross(view.rx, view.ry));
-        for (auto [a, b] : outline(scene, down)) {
-            draw_line(svg, view, a, b, "stroke='#bbb' stroke-width='1'");
-        }
-        for (auto [a, b] : lamp_outline(scene, down)) {
-            draw_line(svg, view, a, b, "stroke='#e0a800' stroke-width='3'");
-        }
+        auto draw = [&](const std::vector<Segment>& segments, const char* style) {
+            std::vector<std::pair<Vec2, Vec2>> lines;
+            for (auto [a, b] : segments) lines.push_back(view.project(a, b).value());
+            svg.lines(lines, style);
+        };
+        draw(outline(scene, down), "stroke='#bbb' stroke-width='1'");
+        draw(lamp_outline(scene, down), "stroke='#e0a800' stroke-width='3'");
     }
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point) continue;
@@ -215,7 +222,7 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
         draw_vertices(svg, view, eye, path);
         svg.end_clip();
         svg.rectangle(view.corner, view.size, "fill='none' stroke='#999'");
-        svg.text({view.corner.x, margin + side + 18},
+        svg.text({view.corner.x, view.corner.y + view.size.y + 18},
                  view.is_camera ? "as the camera sees it" : "from above");
     }
     draw_legend(svg, margin + side + 42);

@@ -2,8 +2,8 @@
 #pragma once
 #include <mutex>
 
-/// Shows on a terminal how far the work is and how long it will take, and leaves no trace when it
-/// is done.
+/// Shows how far the work is and how long it will take: on a terminal as a bar, of which no trace
+/// is left when it is done; in a file by a line each minute.
 class Progress {
 public:
     explicit Progress(bool quiet);
@@ -15,7 +15,7 @@ public:
     void show(double share, double seconds);
 
 private:
-    const bool on_;
+    const bool on_, is_terminal_;
     std::mutex mutex_;
     double last_ = 0;  // s, when it was drawn
 };

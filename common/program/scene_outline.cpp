@@ -48,8 +48,8 @@ void add_circle(Vec3 c, Vec3 n, float r, std::vector<Segment>& lines) {
     for (int i = 0; i < corners; i++) lines.push_back({corner(i), corner(i + 1)});
 }
 
-std::vector<Segment> outline_of(const Scene& scene, Vec3 axis, bool lamps) {
-    const Geometry& g = scene.geometry;
+void add_outline(const Scene& scene, const Geometry& g, Vec3 axis, bool lamps,
+                 std::vector<Segment>& lines) {
     auto wanted = [&](uint32_t shape) { return (scene.shapes[shape].light >= 0) == lamps; };
     std::vector<Edge> edges;
     for (size_t i = 0; i < g.triangles.size(); i++) {
@@ -60,12 +60,20 @@ std::vector<Segment> outline_of(const Scene& scene, Vec3 axis, bool lamps) {
                 {g.positions[t.v[k]], g.positions[t.v[(k + 1) % 3]], g.facet_normals[i]});
         }
     }
-    std::vector<Segment> lines = telling_edges(std::move(edges), axis);
+    for (const Segment& line : telling_edges(std::move(edges), axis)) lines.push_back(line);
     for (const Sphere& s : g.spheres) {
         if (wanted(s.shape)) add_circle(s.c, axis, s.r, lines);
     }
     for (const Disk& d : g.disks) {
         if (wanted(d.shape)) add_circle(d.c, d.n, d.r, lines);
+    }
+}
+
+std::vector<Segment> outline_of(const Scene& scene, Vec3 axis, bool lamps) {
+    std::vector<Segment> lines;
+    add_outline(scene, scene.geometry, axis, lamps, lines);
+    for (const Mover& mover : scene.movers) {
+        add_outline(scene, mover.geometry, axis, lamps, lines);
     }
 
     // Of a large mesh every k-th line says enough.

@@ -16,9 +16,9 @@ unsigned count = 0;  // of tests that are to run
 struct Reporter : doctest::ConsoleReporter {
     explicit Reporter(const doctest::ContextOptions& options) : ConsoleReporter(options) {}
     void report_query(const doctest::QueryData& data) override {
-        if (only_counts) {
+        if (only_counts && data.run_stats) {
             count = data.run_stats->numTestCasesPassingFilters;
-        } else {
+        } else if (!only_counts) {
             ConsoleReporter::report_query(data);
         }
     }
