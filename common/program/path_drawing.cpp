@@ -93,7 +93,7 @@ View panel_from_above(const Scene& scene, Box box, float left) {
 Box box_around(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& path) {
     Box box, all = bounds_of(scene.geometry);
     for (const PathVertex& x : path) box = {min(box.low, x.p), max(box.high, x.p)};
-    if (path.empty()) box = {eye, eye};
+    if (path.empty()) return {min(all.low, eye), max(all.high, eye)};
     Vec3 to_eye = abs(eye - 0.5f * (box.low + box.high));
     float reach = std::max(max_component(to_eye), max_component(box.high - box.low));
     Vec3 grow = {reach, reach, reach};
@@ -129,7 +129,9 @@ void draw_scene(Svg& svg, const View& view, const Scene& scene) {
         Vec3 down = normalize(cross(view.rx, view.ry));
         auto draw = [&](const std::vector<Segment>& segments, const char* style) {
             std::vector<std::pair<Vec2, Vec2>> lines;
-            for (auto [a, b] : segments) lines.push_back(view.project(a, b).value());
+            for (auto [a, b] : segments) {
+                if (auto line = view.project(a, b)) lines.push_back(*line);
+            }
             svg.lines(lines, style);
         };
         draw(outline(scene, down), "stroke='#bbb' stroke-width='1'");
