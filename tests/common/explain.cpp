@@ -36,7 +36,7 @@ std::map<std::string, Told> read_table(const std::string& text) {
     std::string line;
     std::getline(lines, line), std::getline(lines, line);  // a blank one, and the head
     while (std::getline(lines, line)) {
-        if (line.starts_with("wrote ")) break;
+        if (line.starts_with("wrote ") || line.starts_with("warning: ")) break;
         std::istringstream words(line);
         std::vector<std::string> cells;
         for (std::string word; words >> word;) cells.push_back(word);
@@ -162,6 +162,30 @@ TEST_SUITE("explain") {
             }
             CHECK(seen > 2);
             CHECK_FALSE(folder.names().contains("b.ppm"));
+        }
+    }
+
+    TEST_CASE("teeth: a chapter that does not log all that it adds is told so") {
+        for (bool forgets : {false, true}) {
+            TemporaryFolder folder;
+            Finished end = Process([&] {
+                               Scene scene = world_of("LightSource \"point\" Shape \"sphere\"", 4);
+                               RenderOptions options;
+                               options.out = {folder / "a.ppm"};
+                               SplatTrace trace = [&](const Scene&, Ray, Splats& splats, Sampler&,
+                                                      PathLog& log) {
+                                   splats.push_back({5, log.joined({1, 1, 2}, 2, 1, 1, 5)});
+                                   Rgb lost = forgets ? Rgb{0.5f, 0, 0} : Rgb{};
+                                   return log.emitted({1, 1, 1}) + lost;
+                               };
+                               return explain(scene, options, trace, false);
+                           }).wait();
+            CHECK(end.code == 0);
+            CHECK((end.out.find("warning: the sample is (2.5, 2, 3), though") !=
+                   std::string::npos) == forgets);
+            std::map<std::string, Told> pixels = read_table(end.out);
+            CHECK(pixels.at("0,0").printed.b == 1);
+            CHECK(pixels.at("1,1").printed.b == 2);
         }
     }
 

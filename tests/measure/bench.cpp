@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "chapters/05_bvh/estimator.h"
+#include "common/base/error.h"
 #include "tests/measure/bench_chart.h"
 #include "tests/measure/bench_embree.h"
 #include "tests/measure/bench_rays.h"
@@ -312,6 +313,7 @@ int main(int argc, char** argv) {
             if (o.meshes.empty() || std::any_of(o.meshes.begin(), o.meshes.end(), named))
                 meshes.push_back(mesh);
         }
+        if (meshes.empty()) throw UsageError("error: no mesh has a name with that in it");
         Work work(have_embree ? "bench: rays per second on one thread, beside Embree"
                               : "bench: rays per second on one thread. Embree is not installed "
                                 "(libembree-dev), so nothing stands beside it",
