@@ -41,6 +41,7 @@ Finished run(const std::string& program, const Words& words) {
 std::vector<std::string> programs(bool render) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator("chapters")) {
+        if (!entry.is_directory()) continue;
         std::string name = entry.path().filename().string();
         if (name == "05_bvh") continue;  // draws work instead of light: has its own test below
         if (name == "20_radiosity") continue;  // renders no mirrors: has its own tests
