@@ -15,6 +15,7 @@ steps:
 #: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
 pictures: programs
 	common/tools/make_pictures $(BUILD)
+	common/tools/make_strips $(BUILD)
 #: make readmes      put code, diffs and what the programs print into the READMEs
 readmes: programs
 	common/tools/fill_readmes

@@ -33,6 +33,7 @@ inline Finished run(const std::string& program, const Words& words) {
 inline std::vector<std::string> programs(bool render) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator("chapters")) {
+        if (!entry.is_directory()) continue;
         std::string name = entry.path().filename().string();
         if (name == "05_bvh") continue;        // draws work instead of light: has tests of its own
         if (name == "20_radiosity") continue;  // renders no mirrors: has its own
