@@ -46,6 +46,20 @@ inline bool is_finite(Vec3 a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+/// A vector in double precision, for the few places where float loses too much.
+struct Vec3d {
+    double x, y, z;
+
+    Vec3d(double a, double b, double c) : x(a), y(b), z(c) {}
+    explicit Vec3d(Vec3 a) : x(double{a.x}), y(double{a.y}), z(double{a.z}) {}
+};
+
+inline Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3d cross(Vec3d a, Vec3d b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 /// The point {r cos phi, r sin phi, z}, phi = 2 pi u: after the part u of a turn, 0 <= u <= 1.
 ///
 /// Taylor's series around the nearest quarter turn, right to 1e-7, and without a branch: of a

@@ -34,11 +34,73 @@ struct AxisRay {
 float next_below(float t) { return std::bit_cast<float>(std::bit_cast<uint32_t>(t) - 1); }
 float next_above(float t) { return std::bit_cast<float>(std::bit_cast<uint32_t>(t) + 1); }
 
-/// intersect_triangle() on a whole block: the same operations in the same order, so the same bits.
+/// These triangles of a block, one by one in double precision; their edges have the ray inside.
+[[gnu::noinline]] bool test_in_double(const BvhBlock& block, uint32_t hits, const Ray& ray,
+                                      const Shear& shear, PrimHit& best) {
+    bool found = false;
+    for (; hits != 0; hits &= hits - 1) {
+        int k = std::countr_zero(hits);
+        const auto& v = block.vertex;
+        Vec3 p0 = {v[0][k], v[1][k], v[2][k]}, p1 = {v[3][k], v[4][k], v[5][k]},
+             p2 = {v[6][k], v[7][k], v[8][k]};
+        TriangleHit hit = meet_plane(ray, p0, p1, p2);
+        if (!is_within(hit)) [[unlikely]] {
+            auto met = intersect_triangle({ray.o, ray.d}, shear, p0, p1, p2);
+            if (!met) continue;
+            hit = *met;
+        }
+        if (!(hit.t > 0 && hit.t <= best.t)) continue;
+        if (hit.t == best.t && block.prim[k] >= best.prim) continue;
+        best = {block.prim[k], hit.t, hit.b1, hit.b2};
+        found = true;
+    }
+    return found;
+}
+
+/// The same, with a copy of `best`, so that the caller can keep it in registers.
+bool in_double(const BvhBlock& block, uint32_t hits, const Ray& ray, const Shear& shear,
+               PrimHit& best) {
+    PrimHit nearer = best;
+    bool found = test_in_double(block, hits, ray, shear, nearer);
+    best = nearer;
+    return found;
+}
+
+/// Relative error of t in float at which double precision takes over.
+constexpr float float_error = 0x1p-8f;
+
+/// 1 / 2^k.
+float power_of_half(uint32_t k) { return std::bit_cast<float>((127 - k) << 23); }
+
+/// In which lanes t in float is good enough, on triangles that are not thin and whose sides,
+/// squared, are not longer than side2.
+///
+/// With u = 2^-24, R for the distance of the corners and m <= side for their distance from the ray:
+/// rounding moves each sheared corner by 6 u R, and so t by 12 u R tan at most; the products of the
+/// e_i are off by u m^2, and so t by 9 u m^2 side / |det|. On triangles that are not thin (the
+/// longest side, squared, is at most 64 times twice the area) both together are below
+///
+///   600 u (t + side) / cos,   cos >= |det| |d_z| / side^2      (d of length 1)
+///
+/// tested by  "truth: every hit as in double precision"
+[[gnu::always_inline]] inline uint32_t trusted(Floats t, Floats det, float side2,
+                                               const Shear& shear) {
+    float enough = 600 * 0x1p-24f / float_error * side2;
+    Floats per_t = splat(1.74f * enough);  // where d is not of length 1, t counts up to sqrt(3) d_z
+    Floats constant = splat(enough * std::sqrt(side2) * std::abs(shear.sz));
+    Floats product = t * det;
+    return less(per_t * t + constant, max(product, splat(0) - product));
+}
+
+/// intersect_triangle() on a whole block: the edges of all triangles at once, with the same bits.
 /// Hits up to best.t count, that included; of those at best.t only ones with a lower number.
+///
+/// t and the weights are worked out in float first. Where they may be wrong by more than
+/// float_error, in double precision, as intersect_triangle() does.
 template <bool any>
-[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, const Ray& ray,
-                                                  const Shear& shear, PrimHit& best) {
+[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, uint32_t leaf, float side2,
+                                                  const Ray& ray, const Shear& shear,
+                                                  PrimHit& best) {
     // Shear space, so that the ray is the z axis.
     auto [kx, ky, kz, sx, sy, sz] = shear;
     Floats ox = splat(ray.o[kx]), oy = splat(ray.o[ky]), oz = splat(ray.o[kz]);
@@ -57,10 +119,24 @@ template <bool any>
     Floats e0 = cx * by - cy * bx, e1 = ax * cy - ay * cx, e2 = bx * ay - by * ax;
     uint32_t outside = less(min(min(e0, e1), e2), zero) & less(zero, max(max(e0, e1), e2));
 
+    // Of thin ones t in float tells nothing: leave out those with all corners too near or too far.
+    Floats scale = splat(sz), reach = splat(best.t);
+    if ((leaf & BvhNode::careful) == BvhNode::careful) [[unlikely]] {
+        Floats ta = az * scale, tb = bz * scale, tc = cz * scale;
+        Floats near = min(min(ta, tb), tc), far = max(max(ta, tb), tc);
+        uint32_t hits = ~outside & less(zero, far) & less_equal(near, reach);
+        return hits != 0 && in_double(block, hits, ray, shear, best);
+    }
+
     Floats det = e0 + e1 + e2;
-    Floats t = (e0 * az + e1 * bz + e2 * cz) / det * splat(sz);
-    uint32_t hits = ~outside & less(zero, t) & less_equal(t, splat(best.t));
-    if (any) return hits != 0;
+    Floats t = (e0 * az + e1 * bz + e2 * cz) / det * scale;
+    uint32_t hits = ~outside & less(zero, t) & less_equal(t, reach);
+    if (hits == 0) return false;
+    side2 *= power_of_half(leaf >> BvhNode::side_at & 31);
+    uint32_t sure = hits & trusted(t, det, side2, shear);
+    if (any && sure != 0) return true;
+    if (hits != sure) [[unlikely]]
+        return in_double(block, hits, ray, shear, best);
 
     // Keep the nearest.
     alignas(64) float ts[lanes], e1s[lanes], e2s[lanes], dets[lanes];
@@ -68,13 +144,12 @@ template <bool any>
     store(e1, e1s);
     store(e2, e2s);
     store(det, dets);
-    bool found = hits != 0;
     for (; hits != 0; hits &= hits - 1) {
         int k = std::countr_zero(hits);
         if (ts[k] < best.t || (ts[k] == best.t && block.prim[k] < best.prim))
             best = {block.prim[k], ts[k], e1s[k] / dets[k], e2s[k] / dets[k]};
     }
-    return found;
+    return true;
 }
 
 /// The spheres and disks of a block, one by one.
@@ -106,12 +181,12 @@ void prefetch(const Bvh& bvh, uint32_t child) {
 /// What ray and block have in common becomes the best hit. Returns whether any was asked for, and
 /// is found.
 template <bool any, bool counting>
-[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, bool mixed, const Geometry& g,
-                                              const Ray& ray, const Shear& shear, PrimHit& best,
-                                              BvhCount* count) {
+[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, uint32_t leaf, float side2,
+                                              const Geometry& g, const Ray& ray, const Shear& shear,
+                                              PrimHit& best, BvhCount* count) {
     if (counting) count->blocks++;
-    bool found = test_triangles<any>(block, ray, shear, best);
-    if (mixed && !(any && found)) {
+    bool found = test_triangles<any>(block, leaf, side2, ray, shear, best);
+    if (leaf & BvhNode::mixed && !(any && found)) {
         PrimHit other = best;  // a copy, so that `best` can stay in registers
         found |= test_others(block, g, ray, other);
         best = other;
@@ -125,9 +200,9 @@ PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count)
     Shear shear = shear_to_ray(ray.d);
     PrimHit best;
     best.t = next_below(ray.t_max);
-    bool mixed = bvh.root & BvhNode::mixed;
     for (const BvhBlock& block : bvh.blocks)
-        if (test_block<any, counting>(block, mixed, g, ray, shear, best, count)) return {0};
+        if (test_block<any, counting>(block, bvh.root, bvh.side2, g, ray, shear, best, count))
+            return {0};
     return best.prim == PrimHit::none ? PrimHit{} : best;
 }
 
@@ -205,8 +280,8 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         if (current == BvhNode::nothing) break;
 
         const BvhBlock& block = bvh.blocks[current & BvhNode::index];
-        bool mixed = current & BvhNode::mixed;
-        if (test_block<any, counting>(block, mixed, g, ray, shear, best, count)) return {0};
+        if (test_block<any, counting>(block, current, bvh.side2, g, ray, shear, best, count))
+            return {0};
         reach = best.t * scale * slack;
         current = pop();
     }

@@ -15,7 +15,10 @@ struct alignas(64) BvhNode {
 
     static constexpr uint32_t leaf = 1u << 31;
     static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
-    static constexpr uint32_t index = mixed - 1;
+    // Five bits of a leaf: the square of the longest side is at most Bvh::side2 / 2^k; or all set:
+    // there are thin triangles in it, for which the distance needs care.
+    static constexpr uint32_t side_at = 25, careful = 31u << side_at;
+    static constexpr uint32_t index = (1u << side_at) - 1;
     static constexpr uint32_t nothing = ~0u;  // an unused child
 };
 
@@ -28,6 +31,7 @@ struct alignas(64) BvhBlock {
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.
 struct Bvh {
     uint32_t root = 0;  // as BvhNode::child; a leaf: all blocks belong to it
+    float side2 = 0;    // the longest side of a triangle that needs no care, squared
     std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
 };

@@ -295,18 +295,27 @@ private:
     Range make_refs() {
         refs_.resize(g_.size());
         std::array<Range, chunks> parts;
+        std::array<double, chunks> logs = {};
         in_chunks(refs_.size(), [&](size_t begin, size_t end, int chunk) {
             Range part{0, 0};
+            double log = 0;
             for (size_t i = begin; i < end; i++) {
                 refs_[i] = make_ref(g_, static_cast<uint32_t>(i));
                 if (refs_[i].prim() == PrimHit::none) continue;
                 part.grow(refs_[i].box);
                 part.end++;
+                Float4 e = refs_[i].box.neg_lo + refs_[i].box.hi;
+                log += std::ilogb(std::max({e[0], e[1], e[2], 1e-30f}));
             }
             parts[static_cast<size_t>(chunk)] = part;
+            logs[static_cast<size_t>(chunk)] = log;
         });
         Range all;
+        double log = 0;
         for (const Range& part : parts) all.grow(part);
+        for (double part : logs) log += part;
+        // What is far longer than is usual needs care, too.
+        if (all.size() > 0) bvh_.side2 = std::exp2(static_cast<float>(20 + 2 * log / all.size()));
         if (all.size() < refs_.size())
             std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
         return all;
@@ -464,7 +473,8 @@ private:
                 node.plane[2 * axis + 1][i] = box.hi[axis];
             }
             node.child[i] = child ? child->number : BvhNode::nothing;
-            if (child && child->fits_a_block()) node.child[i] |= mixed({child->begin, child->end});
+            if (child && child->fits_a_block())
+                node.child[i] |= flags_of({child->begin, child->end});
         }
         // What comes first for an octant comes last for the opposite one.
         for (uint32_t octant = 0; octant < 4; octant++) {
@@ -485,11 +495,35 @@ private:
         return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
     }
 
-    /// BvhNode::mixed when there are spheres or disks among the references.
-    uint32_t mixed(Leaf leaf) const {
-        for (uint32_t i = leaf.begin; i < leaf.end; i++)
-            if (refs_[i].prim() >= g_.triangles.size()) return BvhNode::mixed;
-        return 0;
+    /// The longest side of a triangle, squared; infinity when it needs care: it is thin, so that t
+    /// in float may be far off, or very large among the others.
+    double side2_of(const Triangle& triangle) const {
+        Vec3d p0(g_.positions[triangle.v[0]]), p1(g_.positions[triangle.v[1]]),
+            p2(g_.positions[triangle.v[2]]);
+        Vec3d a = p1 - p0, b = p2 - p1, c = p0 - p2, n = cross(a, b);
+        double side2 = std::max({dot(a, a), dot(b, b), dot(c, c)});
+        constexpr double thin = 64;
+        bool care = side2 * side2 > thin * thin * dot(n, n) || side2 > double{bvh_.side2};
+        return care ? double{infinity} : side2;
+    }
+
+    /// What is known of the primitives of a leaf: BvhNode::mixed when there are spheres or disks
+    /// among them, and the longest side.
+    uint32_t flags_of(Leaf leaf) const {
+        uint32_t flags = 0;
+        double side2 = 0;
+        for (uint32_t i = leaf.begin; i < leaf.end; i++) {
+            uint32_t prim = refs_[i].prim();
+            if (prim >= g_.triangles.size()) {
+                flags |= BvhNode::mixed;
+            } else {
+                side2 = std::max(side2, side2_of(g_.triangles[prim]));
+            }
+        }
+        if (side2 == double{infinity}) return flags | BvhNode::careful;
+        double largest = double{bvh_.side2};
+        int halvings = std::ilogb(largest / std::max(side2, 1e-18 * largest));
+        return flags | static_cast<uint32_t>(std::clamp(halvings, 0, 30)) << BvhNode::side_at;
     }
 
     /// One or two blocks and no node. The large primitives come first: most rays hit something in
@@ -499,7 +533,7 @@ private:
                   [](const Ref& a, const Ref& b) { return a.box.area() > b.box.area(); });
         uint32_t root = add_leaf({0, std::min(uint32_t{lanes}, size)});
         if (size > lanes) add_leaf({lanes, size});
-        return root | mixed({0, size});
+        return root | flags_of({0, size});
     }
 
     void fill_block(Leaf leaf, BvhBlock& block) {

@@ -8,8 +8,11 @@ std::vector<Vec3> facet_normals(const Geometry& g) {
     std::vector<Vec3> normals;
     normals.reserve(g.triangles.size());
     for (const Triangle& t : g.triangles) {
-        Vec3 p0 = g.positions[t.v[0]];
-        normals.push_back(normalize(cross(g.positions[t.v[1]] - p0, g.positions[t.v[2]] - p0)));
+        Vec3d p0(g.positions[t.v[0]]), p1(g.positions[t.v[1]]), p2(g.positions[t.v[2]]);
+        Vec3d n = cross(p1 - p0, p2 - p0);
+        double inverse = 1 / std::sqrt(dot(n, n));
+        auto along = [&](double x) { return static_cast<float>(x * inverse); };
+        normals.push_back({along(n.x), along(n.y), along(n.z)});
     }
     return normals;
 }
