@@ -54,6 +54,8 @@ struct Vec3d {
     explicit Vec3d(Vec3 a) : x(double{a.x}), y(double{a.y}), z(double{a.z}) {}
 };
 
+inline Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3d operator*(double s, Vec3d a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3d cross(Vec3d a, Vec3d b) {

@@ -16,9 +16,9 @@ struct AxisRay {
     uint32_t negative;
     size_t near_row, far_row;  // of BvhNode::plane
 
-    AxisRay(const Ray& ray, int axis, float inverse)
+    AxisRay(const Ray& ray, Vec3 centre, int axis, float inverse)
         : inv(splat(inverse)),
-          o_inv(splat(ray.o[axis] * inverse)),
+          o_inv(splat((ray.o[axis] - centre[axis]) * inverse)),
           negative(std::bit_cast<uint32_t>(ray.d[axis]) >> 31),
           near_row(2 * static_cast<size_t>(axis) + negative),
           far_row(near_row ^ 1) {}
@@ -220,7 +220,8 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     // Where d is 0, put one so small that the ray stays within the padding.
     auto not_zero = [&](float d) { return std::copysign(std::max(std::abs(d), tiny * scale), d); };
     Float4 inv = scale / Float4{not_zero(ray.d.x), not_zero(ray.d.y), not_zero(ray.d.z), 1};
-    const AxisRay x(ray, 0, inv[0]), y(ray, 1, inv[1]), z(ray, 2, inv[2]);
+    Vec3 centre = bvh.centre;
+    const AxisRay x(ray, centre, 0, inv[0]), y(ray, centre, 1, inv[1]), z(ray, centre, 2, inv[2]);
     uint32_t octant = x.negative | y.negative << 1 | z.negative << 2;
     float reach = best.t * scale * slack;
     // A hit may lie outside of its primitive's box by what rounding did to it, and the distances

@@ -31,6 +31,7 @@ struct alignas(64) BvhBlock {
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.
 struct Bvh {
     uint32_t root = 0;  // as BvhNode::child; a leaf: all blocks belong to it
+    Vec3 centre;        // of the geometry: the boxes are relative to it
     float side2 = 0;    // the longest side of a triangle that needs no care, squared
     std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;

@@ -61,29 +61,37 @@ struct Range {
     }
 };
 
-/// The box of a primitive, padded: a rounded hit may lie outside of the exact one. Nothing for a
-/// primitive with NaN or infinity in it, which no ray can hit.
-Ref make_ref(const Geometry& g, uint32_t prim) {
+/// The middle of it all. Boxes are relative to it, so that far from the origin they are no wider
+/// than near it.
+Vec3 centre_of(const Geometry& g) {
+    auto [low, high] = bounds_of(g);
+    Vec3 centre = 0.5f * low + 0.5f * high;
+    return is_finite(centre) ? centre : Vec3{};
+}
+
+/// The box of a primitive, relative to `centre`, and padded: a rounded hit may lie outside of the
+/// exact one. Nothing for a primitive with NaN or infinity in it, which no ray can hit.
+Ref make_ref(const Geometry& g, Vec3 centre, uint32_t prim) {
     Vec3 lo, hi;
     visit(
         g, prim,
         [&](const Triangle& tri) {
             Vec3 a = g.positions[tri.v[0]], b = g.positions[tri.v[1]], c = g.positions[tri.v[2]];
             bool finite = is_finite(a) && is_finite(b) && is_finite(c);
-            lo = finite ? min(min(a, b), c) : Vec3{infinity, infinity, infinity};
-            hi = max(max(a, b), c);
+            lo = finite ? min(min(a, b), c) - centre : Vec3{infinity, infinity, infinity};
+            hi = max(max(a, b), c) - centre;
         },
         [&](const Sphere& sphere) {
             float r = std::abs(sphere.r);
-            lo = sphere.c - Vec3{r, r, r};
-            hi = sphere.c + Vec3{r, r, r};
+            lo = sphere.c - centre - Vec3{r, r, r};
+            hi = sphere.c - centre + Vec3{r, r, r};
         },
         [&](const Disk& disk) {
             Vec3 n = disk.n / length(disk.n);
             Vec3 r = std::abs(disk.r) *
                      Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
-            lo = disk.c - r;
-            hi = disk.c + r;
+            lo = disk.c - centre - r;
+            hi = disk.c - centre + r;
         });
     if (!is_finite(lo) || !is_finite(hi)) prim = PrimHit::none;
     float pad = 0x1p-20f * max_component(max(abs(lo), abs(hi)));
@@ -294,13 +302,14 @@ private:
 
     Range make_refs() {
         refs_.resize(g_.size());
+        bvh_.centre = centre_of(g_);
         std::array<Range, chunks> parts;
         std::array<double, chunks> logs = {};
         in_chunks(refs_.size(), [&](size_t begin, size_t end, int chunk) {
             Range part{0, 0};
             double log = 0;
             for (size_t i = begin; i < end; i++) {
-                refs_[i] = make_ref(g_, static_cast<uint32_t>(i));
+                refs_[i] = make_ref(g_, bvh_.centre, static_cast<uint32_t>(i));
                 if (refs_[i].prim() == PrimHit::none) continue;
                 part.grow(refs_[i].box);
                 part.end++;

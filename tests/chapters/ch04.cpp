@@ -154,6 +154,25 @@ TEST_SUITE("ch04 lamps") {
     }
 }
 
+TEST_SUITE("ch04 triangles") {
+    TEST_CASE("truth: a ray that leaves a thin trim does not meet it, and misses what is far off") {
+        // In float t is 3.2e-5, in double precision -3.7e-6.
+        Vec3 corner = {0x1.3fbe76p+1f, 0x1.656e6ap+1f, -0x1.f024c4p+0f};
+        Vec3 d = {0x1.abdbp-1f, -0x1.8f5e66p-2f, 0x1.8c079p-2f};
+        Ray leaves = {{-0x1.3a5396p+0f, 0x1.656e5ep+1f, -0x1.f026ccp+0f}, d};
+        CHECK_FALSE(ch04::intersect_triangle(leaves, ch04::shear_to_ray(d), corner,
+                                             {-corner.x, corner.y, corner.z},
+                                             {-corner.x, corner.y, -0x1.f0506ap+0f}));
+        // This one passes 18.6 units from a triangle of size 0.0008.
+        d = {0x1.0996d4p-1f, 0x1.e0789cp-3f, -0x1.a4ecep-1f};
+        Ray passes = {{-0x1.2bbb02p+5f, -0x1.3a7f9ap-1f, 0x1.00fa7ep+5f}, d};
+        CHECK_FALSE(ch04::intersect_triangle(passes, ch04::shear_to_ray(d),
+                                             {0x1.7306p+1f, 0x1.185154p+1f, -0x1.3df352p+0f},
+                                             {0x1.7304acp+1f, 0x1.1855dap+1f, -0x1.3e031cp+0f},
+                                             {0x1.72ecdp+1f, 0x1.185692p+1f, -0x1.3de4f8p+0f}));
+    }
+}
+
 TEST_SUITE("ch04 mirrors and glass") {
     const std::string lamp_behind_camera =
         shining + "Translate 0 0 -10 Rotate 90 1 0 0 Scale 9 1 9 " + square(0, true);

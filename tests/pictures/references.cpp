@@ -18,9 +18,10 @@ namespace {
 struct Reference {
     Image image, error;
 
+    /// name: without .pfm, below tests/pictures
     explicit Reference(const std::string& name)
-        : image(read_image("tests/pictures/references/" + name + ".pfm")),
-          error(read_image("tests/pictures/references/" + name + ".err.pfm")) {}
+        : image(read_image("tests/pictures/" + name + ".pfm")),
+          error(read_image("tests/pictures/" + name + ".err.pfm")) {}
 
     Measured block(int x0, int y0, int side) const {
         double mean = 0, squares = 0, pixels = static_cast<double>(side) * side;
@@ -33,18 +34,25 @@ struct Reference {
     }
 };
 
-/// Renders the reference's scene and holds it against the picture, block by block.
+/// Renders a scene and holds it against the reference, block by block.
 ///
 /// make_trace  the chapter's trace, from the scene
 template <class MakeTrace>
-Agreement hold_against_reference(const std::string& name, const MakeTrace& make_trace, int spp,
-                                 int block_side) {
-    Reference reference(name);
-    Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
+Agreement hold_against_reference(const Scene& scene, const Reference& reference,
+                                 const MakeTrace& make_trace, int spp, int block_side) {
     Film film = film_of(scene, make_trace(scene), spp).film;
     return hold_against(
         128, block_side, [&](int x, int y, int side) { return block_of(film, x, y, side); },
         [&](int x, int y, int side) { return reference.block(x, y, side); });
+}
+
+/// The same with the scene that is beside the picture.
+template <class MakeTrace>
+Agreement hold_against_reference(const std::string& name, const MakeTrace& make_trace, int spp,
+                                 int block_side) {
+    Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
+    return hold_against_reference(scene, Reference("references/" + name), make_trace, spp,
+                                  block_side);
 }
 
 // Each chapter's trace, from the scene.
@@ -100,6 +108,13 @@ TEST_SUITE("references slow") {
         }
     }
 
+    TEST_CASE("agreement: a furnished hall made by others, with chapter 14") {
+        const std::string folder = "real-scenes/modern-hall";
+        Scene scene = scene_from("tests/pictures/" + folder + "/scene-v4.pbrt", 128, 16);
+        Reference reference(folder + "/reference");
+        check_agreement(hold_against_reference(scene, reference, fourteen, 128, 8), 0.002);
+    }
+
     TEST_CASE("agreement: plates, close lights and a box, with chapters 12 and 13") {
         struct {
             std::string name;
@@ -125,7 +140,7 @@ TEST_SUITE("references slow") {
     TEST_CASE("agreement: a caustic and plates, with chapter 18") {
         for (std::string name : {"glass-caustic", "veach-mis", "cornell-grey"}) {
             CAPTURE(name);
-            Reference reference(name);
+            Reference reference("references/" + name);
             Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
             SplatTrace trace = splat_trace_with<ch18::trace>(ch18::prepare(scene));
             BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
@@ -138,7 +153,7 @@ TEST_SUITE("references slow") {
     }
 
     TEST_CASE("agreement: a caustic, with chapters 17 and 19") {
-        Reference reference("glass-caustic");
+        Reference reference("references/glass-caustic");
         Scene scene = scene_from("tests/pictures/references/glass-caustic.pbrt", 128, 100);
         auto theirs = [&](int x, int y, int side) { return reference.block(x, y, side); };
         // From the light: the blocks that show no glass.
