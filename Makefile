@@ -22,7 +22,7 @@ chapters  := $(notdir $(wildcard chapters/[0-9]*))
 numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)/*/*.cpp)))
-common    := $(call objects,common,common/tools/%)
+common    := $(call objects,common,common/tools/% common/book/%)
 tests     := $(call objects,tests,tests/measure/% tests/fuzz/% tests/check/names.cpp)
 made      := $(addprefix scenes/,knot.ply pool.ply sky.pfm thousand-lights.pbrt zone-plate.pbrt)
 

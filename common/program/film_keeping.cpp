@@ -79,12 +79,3 @@ void save_film(const Scene& scene, const RenderOptions& options, const Rendering
     if (most > 0) label.samples = {{options.seed, first, first + most}};
     write_film(options.film, label, rendering.film);
 }
-
-void FilmClock::save(const Rendering& rendering) {
-    try {
-        save_film(scene_, options_, rendering);
-    } catch (const InputError& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-    }
-    last_ = Clock::now();
-}

@@ -1,7 +1,5 @@
 // The film of a render on disk: written now and then, and gone on from.
 #pragma once
-#include <chrono>
-
 #include "common/picture/film_file.h"
 #include "common/program/render.h"
 
@@ -15,26 +13,3 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
 
 /// Writes the film that the options name, if any. Throws InputError.
 void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
-
-/// Says when the film is to be written next, and writes it.
-class FilmClock {
-public:
-    FilmClock(const Scene& scene, const RenderOptions& options)
-        : scene_(scene), options_(options) {}
-
-    /// Any thread may ask.
-    bool due() const {
-        return !options_.film.empty() && Clock::now() - last_ >= Seconds(options_.film_every);
-    }
-    /// While nobody adds to the film. A film that cannot be written now is reported, and tried
-    /// again next time: the render goes on.
-    void save(const Rendering& rendering);
-
-private:
-    using Clock = std::chrono::steady_clock;
-    using Seconds = std::chrono::duration<double>;
-
-    const Scene& scene_;
-    const RenderOptions& options_;
-    Clock::time_point last_ = Clock::now();
-};

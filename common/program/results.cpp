@@ -108,7 +108,7 @@ void write_classes(const RenderOptions& options, const Rendering& r, Writer& wri
         std::string name = options.split + "/" + path_class;
         writer.write(
             name + ".pfm",
-            [&] {
+            [&, &film = film] {
                 for (const char* kind : {".png", ".pfm"}) {
                     write_image(name + kind, film.image(), options.command);
                 }

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "common/path/camera_sample.h"
-#include "common/program/film_keeping.h"
+#include "common/program/film_clock.h"
 #include "common/program/render.h"
 #include "common/program/stop.h"
 

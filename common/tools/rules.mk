@@ -1,5 +1,5 @@
 # Pages, and what looks at the text of the code.
-.PHONY: diff steps lint pictures readmes book tidy
+.PHONY: diff steps lint pictures readmes tidy
 
 #: make diff CH=07   what a chapter changes of the one before
 diff:
@@ -19,12 +19,9 @@ pictures: programs
 #: make readmes      put code, diffs and what the programs print into the READMEs
 readmes: programs
 	common/tools/fill_readmes
-#: make book         all READMEs as one page: out/book.html
-book:
-	common/tools/make_book out/book.html
 
 # One entry for each file that is compiled, in the form that editors and clang-tidy read.
-compiled := $(sort $(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp))
+compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp)))
 #: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
 	@printf '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CXX) $(CXXFLAGS) -c %s"}\n' \

@@ -1,0 +1,34 @@
+# The book: all pages as HTML, and in them the programs of all chapters as one WebAssembly module.
+.PHONY: book
+#: make book         all pages as HTML, with chapters that run in them: out/book/index.html
+book: $(made)
+	@command -v em++ >/dev/null || common/tools/install emscripten || true
+	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
+	    common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
+
+# The module has a film_clock.cpp of its own, in live.cpp.
+wasm          := $(BUILD)/wasm
+wasm_programs := $(chapters) merge
+wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
+    $(filter-out common/tools/% common/program/film_clock.cpp,$(wildcard common/*/*.cpp))
+wasm_flags    := -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
+    -ffp-contract=off -I. -isystem $(wasm)/include -include common/book/missing.h
+wasm_link     := -sMODULARIZE -sEXPORT_NAME=Live -sENVIRONMENT=worker,node -sINVOKE_RUN=0 \
+    -sALLOW_MEMORY_GROWTH -sFORCE_FILESYSTEM -sEXPORTED_RUNTIME_METHODS=callMain,FS
+
+# NODE_PATH: for where Debian has what em++ needs of node, when node itself is another one.
+$(wasm)/live.js: $(patsubst %.cpp,$(wasm)/obj/%.o,$(wasm_code))
+	@echo "link $@"; NODE_PATH=/usr/share/nodejs em++ $(wasm_flags) $(wasm_link) $^ -o $@
+$(wasm)/obj/%.o: %.cpp common/book/missing.h | $(wasm)/include/programs.h
+	@mkdir -p $(@D); echo "compile $< for the book"; em++ $(wasm_flags) $(main_as) -MMD -MP -c $< -o $@
+$(wasm)/obj/chapters/%/main.o: main_as = -Dmain=main_$(notdir $(<D))
+$(wasm)/obj/common/tools/merge.o: main_as = -Dmain=main_merge
+-include $(shell find $(wasm)/obj -name '*.d' 2>/dev/null)
+# The names of the programs; and stb, which is not in the compiler's own folders.
+$(wasm)/include/programs.h: $(chapters:%=chapters/%/main.cpp) | $(BUILD)/packages
+	@mkdir -p $(@D); { printf 'int main_%s(int, char**);\n' $(wasm_programs); \
+	    echo 'struct Program { const char* name; int (*main)(int, char**); };'; \
+	    echo 'inline constexpr Program programs[] = {'; \
+	    for name in $(wasm_programs); do echo "    {\"$$name\", main_$$name},"; done; echo '};'; } >$@
+	@ln -sfn "$$(echo '#include <stb/stb_image.h>' | $(CXX) $(CXXFLAGS) -M -x c++ - | tr ' ' '\n' | \
+	    sed -n 's|/stb_image.h$$||p')" $(@D)/stb

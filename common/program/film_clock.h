@@ -1,0 +1,28 @@
+// When the film of a render is written.
+#pragma once
+#include <chrono>
+
+#include "common/program/render.h"
+
+/// Says when the film is to be written next, and writes it.
+class FilmClock {
+public:
+    FilmClock(const Scene& scene, const RenderOptions& options)
+        : scene_(scene), options_(options) {}
+
+    /// Any thread may ask.
+    bool due() const {
+        return !options_.film.empty() && Clock::now() - last_ >= Seconds(options_.film_every);
+    }
+    /// While nobody adds to the film. A film that cannot be written now is reported, and tried
+    /// again next time: the render goes on.
+    void save(const Rendering& rendering);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    using Seconds = std::chrono::duration<double>;
+
+    const Scene& scene_;
+    const RenderOptions& options_;
+    Clock::time_point last_ = Clock::now();
+};
