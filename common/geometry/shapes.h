@@ -33,7 +33,7 @@ inline Shear shear_to_ray(const Vec3& d) {
 ///
 /// In double precision: in float, t is off by as much as 1e-6 (longest side)^2 / height, so that a
 /// ray would meet the long thin triangle that it leaves. Seen edge-on n.d is 0: infinity or NaN.
-/// source  Moeller, Trumbore 1997      tested by  "truth: t and the weights, in long double"
+/// source  Moeller, Trumbore 1997      tested by  "truth: every hit as in double precision"
 inline TriangleHit meet_plane(const Ray& ray, Vec3 p0, Vec3 p1, Vec3 p2) {
     Vec3d d(ray.d), corner(p0);
     Vec3d side1 = Vec3d(p1) - corner, side2 = Vec3d(p2) - corner, from = Vec3d(ray.o) - corner;
