@@ -431,7 +431,7 @@ inline Finder make_finder(const Scene& scene, Step step) {
     return {};
 }
 
-/// The same hit for every step, bit for bit.
+/// The same hit for every step, bit for bit; `wide` works in float, and differs in the last digits.
 inline PrimHit find(const Finder& f, const Geometry& g, const Ray& ray, Work& work) {
     switch (f.step) {
         case Step::linear: work.prims += g.size(); return linear_scan(g, ray);

@@ -51,10 +51,16 @@ std::vector<ch05::Finder> all_finders(const Scene& scene) {
     return finders;
 }
 
+/// All steps have the very bits of the linear scan, but `wide`, which works in float first.
+bool agrees(const ch05::Finder& finder, const PrimHit& hit, const PrimHit& truth) {
+    if (finder.step == ch05::Step::wide) return same_hit(hit, truth);
+    return hit.prim == truth.prim && hit.t == truth.t && hit.b1 == truth.b1 && hit.b2 == truth.b2;
+}
+
 }  // namespace
 
 TEST_SUITE("ch05 bvh") {
-    TEST_CASE("brute: every step finds what the linear scan finds, bit for bit") {
+    TEST_CASE("brute: every step finds what the linear scan finds") {
         Scene scene = clutter(500);
         std::vector<ch05::Finder> finders = all_finders(scene);
         int hits = 0;
@@ -66,11 +72,7 @@ TEST_SUITE("ch05 bvh") {
                 ch05::Work work;
                 PrimHit hit = find(finder, scene.geometry, ray, work);
                 CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
-                REQUIRE(hit.prim == truth.prim);
-                if (hit.prim == PrimHit::none) continue;
-                REQUIRE(hit.t == truth.t);
-                REQUIRE(hit.b1 == truth.b1);
-                REQUIRE(hit.b2 == truth.b2);
+                REQUIRE(agrees(finder, hit, truth));
             }
         }
         CHECK(hits > 5000);
@@ -107,8 +109,7 @@ TEST_SUITE("ch05 bvh") {
                     CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
                     ch05::Work work;
                     PrimHit hit = find(finder, g, ray, work);
-                    CHECK(hit.prim == truth.prim);
-                    CHECK(hit.t == truth.t);
+                    CHECK(agrees(finder, hit, truth));
                 }
             }
         }
@@ -134,8 +135,7 @@ TEST_SUITE("ch05 bvh") {
                 CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
                 ch05::Work work;
                 PrimHit hit = find(finder, g, ray, work);
-                CHECK(hit.prim == truth.prim);
-                CHECK(hit.t == truth.t);
+                CHECK(agrees(finder, hit, truth));
             }
         }
     }

@@ -172,7 +172,7 @@ TEST_SUITE("intersect shapes") {
             Ray ray = {from, at - from};
             PrimHit brute = linear_scan(g, ray), found = closest_hit(bvh, g, ray);
             leaks += brute.prim == PrimHit::none;
-            disagreements += brute.prim != found.prim || brute.t != found.t;
+            disagreements += !same_hit(found, brute);
         }
         CHECK(leaks == 0);
         CHECK(disagreements == 0);

@@ -6,6 +6,14 @@
 #include "common/geometry/geometry.h"
 #include "common/path/sampler.h"
 
+/// Whether two hits are the same, as far as float tells: the hierarchy works out most distances in
+/// float, the linear scan all of them in double precision (what is right: exact_hits.cpp). Where
+/// two primitives meet, either may be the one.
+inline bool same_hit(const PrimHit& a, const PrimHit& b) {
+    if (a.prim == PrimHit::none || b.prim == PrimHit::none) return a.prim == b.prim;
+    return std::abs(a.t / b.t - 1) <= 0x1p-12f;
+}
+
 /// A surface of nu x nv rectangles, each cut in two: point(a, b) for a, b in [0,1].
 template <typename Point>
 void add_surface(Geometry& g, uint32_t nu, uint32_t nv, const Point& point) {
