@@ -163,8 +163,8 @@ TEST_SUITE("ch04 triangles") {
         CHECK_FALSE(ch04::intersect_triangle(leaves, ch04::shear_to_ray(d), corner,
                                              {-corner.x, corner.y, corner.z},
                                              {-corner.x, corner.y, -0x1.f0506ap+0f}));
-        // This one passes 18.6 units from a triangle of size 0.0008.
-        d = {0x1.0996d4p-1f, 0x1.e0789cp-3f, -0x1.a4ecep-1f};
+        // This one passes 28 units from a triangle of size 0.0008, and two of its areas round to 0.
+        d = {0x1.71f122p-2f, 0x1.4f03fcp-2f, -0x1.c7eca4p-1f};
         Ray passes = {{-0x1.2bbb02p+5f, -0x1.3a7f9ap-1f, 0x1.00fa7ep+5f}, d};
         CHECK_FALSE(ch04::intersect_triangle(passes, ch04::shear_to_ray(d),
                                              {0x1.7306p+1f, 0x1.185154p+1f, -0x1.3df352p+0f},
