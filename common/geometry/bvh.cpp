@@ -69,8 +69,8 @@ bool in_double(const BvhBlock& block, uint32_t hits, const Ray& ray, const Shear
 /// Relative error of t in float at which double precision takes over.
 constexpr float float_error = 0x1p-8f;
 
-/// 1 / 2^k.
-float power_of_half(uint32_t k) { return std::bit_cast<float>((127 - k) << 23); }
+/// 1 / 4^k, k <= 30.
+float power_of_quarter(uint32_t k) { return std::bit_cast<float>((127 - 2 * k) << 23); }
 
 /// In which lanes t in float is good enough, on triangles that are not thin and whose sides,
 /// squared, are not longer than side2.
@@ -132,7 +132,7 @@ template <bool any>
     Floats t = (e0 * az + e1 * bz + e2 * cz) / det * scale;
     uint32_t hits = ~outside & less(zero, t) & less_equal(t, reach);
     if (hits == 0) return false;
-    side2 *= power_of_half(leaf >> BvhNode::side_at & 31);
+    side2 *= power_of_quarter(leaf >> BvhNode::side_at & 31);
     uint32_t sure = hits & trusted(t, det, side2, shear);
     if (any && sure != 0) return true;
     if (hits != sure) [[unlikely]]

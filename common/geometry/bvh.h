@@ -15,7 +15,7 @@ struct alignas(64) BvhNode {
 
     static constexpr uint32_t leaf = 1u << 31;
     static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
-    // Five bits of a leaf: the square of the longest side is at most Bvh::side2 / 2^k; or all set:
+    // Five bits of a leaf: the longest side, squared, is at most Bvh::side2 / 4^k; or all set:
     // there are thin triangles in it, for which the distance needs care.
     static constexpr uint32_t side_at = 25, careful = 31u << side_at;
     static constexpr uint32_t index = (1u << side_at) - 1;

@@ -324,7 +324,7 @@ private:
         for (const Range& part : parts) all.grow(part);
         for (double part : logs) log += part;
         // What is far longer than is usual needs care, too.
-        if (all.size() > 0) bvh_.side2 = std::exp2(static_cast<float>(20 + 2 * log / all.size()));
+        if (all.size() > 0) bvh_.side2 = std::exp2(static_cast<float>(30 + 2 * log / all.size()));
         if (all.size() < refs_.size())
             std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
         return all;
@@ -531,7 +531,7 @@ private:
         }
         if (side2 == double{infinity}) return flags | BvhNode::careful;
         double largest = double{bvh_.side2};
-        int halvings = std::ilogb(largest / std::max(side2, 1e-18 * largest));
+        int halvings = std::ilogb(largest / std::max(side2, 1e-30 * largest)) / 2;
         return flags | static_cast<uint32_t>(std::clamp(halvings, 0, 30)) << BvhNode::side_at;
     }
 
