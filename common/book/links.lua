@@ -30,6 +30,11 @@ function Link(link)
     return link
 end
 
+-- A formula of its own line scrolls where it is too wide: not every browser lets <math> itself do that.
+function Math(formula)
+    if formula.mathtype == "DisplayMath" then return pandoc.Span({formula}, {class = "formula"}) end
+end
+
 local kinds = {png = "image/png", svg = "image/svg+xml"}
 function Image(image)
     if image.src:match("^%a+:") then error("a picture from elsewhere: " .. image.src) end

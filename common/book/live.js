@@ -137,7 +137,7 @@ class Live {
         this.workers = parts;
         const runs = Array.from({length: parts}, (_, k) => this.start(this.name, [
             this.sceneName(), ...this.options(), '--film', `out/${k}.film`, '--film-every', '0.1', '--part',
-            `${k + 1}/${parts}`, '--out', 'out/picture.pfm', '--stats', 'out/stats.json'
+            `${k + 1}/${parts}`, '--out', 'out/picture.pfm'
         ], message => { shown[k] = message; this.progress(shown.filter(Boolean)); }));
         const results = await Promise.all(runs);
         const failed = results.find(result => result.code !== 0);
@@ -147,8 +147,7 @@ class Live {
             files[`in/${k}.film`] = result.files[`out/${k}.film`];
             films.push(`in/${k}.film`);
         });
-        const merge = new Run(this.data, 'merge', ['out/picture.pfm', ...films, '--stats', 'out/stats.json'],
-            files, () => {});
+        const merge = new Run(this.data, 'merge', ['out/picture.pfm', ...films], files, () => {});
         const whole = await merge.done;
         return {...whole, out: [...results[0].out.slice(0, 1), ...whole.out]};
     }
@@ -176,13 +175,13 @@ class Live {
         if (code !== 0) this.status.textContent = `the program ended with code ${code}`;
         else {
             this.status.textContent = `done in ${this.seconds()} s; first picture after ` +
-                `${this.first.toFixed(0)} ms${this.speed(files)}`;
+                `${this.first.toFixed(0)} ms${this.speed()}`;
         }
     }
-    speed(files) {
-        if (!files['out/stats.json']) return '';
-        const {width, height, spp} = JSON.parse(new TextDecoder().decode(files['out/stats.json']));
-        const rate = width * height * spp / (performance.now() - this.began) / 1000;
+    speed() {
+        if (this.about.kind !== 'film') return '';
+        const {width, height} = this.viewer.pictures[0];
+        const rate = width * height * this.form.elements.spp.value / (performance.now() - this.began) / 1000;
         return `; ${rate.toPrecision(2)} M samples/s with ${this.workers} worker${this.workers > 1 ? 's' : ''}`;
     }
     /// Lists errors; a click, or the first of them, goes to the place in the scene that it names.

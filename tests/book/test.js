@@ -1,9 +1,10 @@
-// The book in headless Chromium, from the file system and without a network: that its links lead
+// The book in a headless browser, from the file system and without a network: that its links lead
 // somewhere, that its pictures and its live parts do what they say, and that a chapter makes the same
-// bytes in a page as on the command line. Usage: node test.js BOOK BUILD CHROMIUM
-const {execFileSync} = require('child_process'), fs = require('fs'), path = require('path');
-const {Browser} = require('./browser.js');
-const [book, build, chromium] = [path.resolve(process.argv[2]), process.argv[3], process.argv[4]];
+// bytes in a page as on the command line; then the same in Firefox.
+// Usage: node test.js BOOK BUILD CHROMIUM [FIREFOX]
+const {execFileSync} = require('child_process'), fs = require('fs'), os = require('os'), path = require('path');
+const {Browser} = require('./browser.js'), {Firefox} = require('./firefox.js');
+const [build, chromium, firefox] = process.argv.slice(3), book = path.resolve(process.argv[2]);
 
 let failed = 0;
 function check(claim, holds, detail = '') {
@@ -142,6 +143,36 @@ async function wrong_scene(browser) {
     check('a mistake in the scene is named and marked', marked === 'WorldBegn', `${said} marks ${marked}`);
 }
 
+/// Samples a second in the page, with one worker and with two, beside the program on one thread.
+async function speed(browser) {
+    const seconds = {native: [], one: [], two: []}, spp = 32;
+    await browser.open(page('14_mis_ris'));
+    await browser.until(`document.querySelector('.go')`);
+    await browser.value(`live.fill({scene: 'cornell', size: '256x256', spp: ${spp}})`);
+    for (let round = 0; round < 3; round++) {
+        const begin = performance.now();
+        execFileSync(`${build}/14_mis_ris`, ['scenes/cornell.pbrt', '--size', '256x256', '--spp', `${spp}`, '--threads', '1',
+            '--out', `${build}/book-test.pfm`, '--quiet']);
+        seconds.native.push((performance.now() - begin) / 1000);
+        for (const [n, name] of [[1, 'one'], [2, 'two']]) {
+            await browser.value(`Object.defineProperty(navigator, 'hardwareConcurrency', {value: ${n}, configurable: true});
+                live.render().then(() => 0)`);
+            seconds[name].push(await browser.value(`(performance.now() - live.began) / 1000`));
+        }
+    }
+    fs.rmSync(`${build}/book-test.pfm`);
+    const {native, one, two} = Object.fromEntries(Object.entries(seconds).map(([name, all]) => [name, Math.min(...all)]));
+    check('one worker has a third of the speed of the program on one thread', native / one > 1 / 3,
+        `${(native / one).toFixed(2)} of it`);
+    const busy = os.cpus().length < 2 || os.loadavg()[0] > 2.5;
+    check('two workers are nearly twice as fast as one', busy || one / two > 1.5,
+        `${(one / two).toFixed(2)} times${busy ? ', on a busy machine: not judged' : ''}`);
+}
+function size(folder = book) {
+    return fs.readdirSync(folder, {withFileTypes: true}).reduce((sum, entry) => sum + (entry.isDirectory()
+        ? size(path.join(folder, entry.name)) : fs.statSync(path.join(folder, entry.name)).size), 0);
+}
+
 async function races(browser) {
     await browser.open(page('14_mis_ris'));
     await browser.until(`document.querySelector('.go')`);
@@ -169,18 +200,22 @@ async function holding(browser) {
 }
 
 async function main() {
-    const browser = new Browser(chromium);
-    try {
-        await browser.start();
-        await every_page(browser);
-        await holding(browser);
-        await live(browser);
-        await races(browser);
-        await all_same_bytes(browser, await browser.value('chapters'));
-        check('no error, and nothing asked of the network', browser.problems.length === 0,
-            browser.problems.slice(0, 5).join('; '));
-    } finally {
-        await browser.close();
+    check('the book has less than 15 MB', size() < 15e6, `${(size() / 1e6).toFixed(1)} MB`);
+    for (const browser of [new Browser(chromium), ...(firefox ? [new Firefox(firefox)] : [])]) {
+        console.log(`in ${browser.constructor === Firefox ? 'Firefox' : 'Chromium'}:`);
+        try {
+            await browser.start();
+            await every_page(browser);
+            await holding(browser);
+            await live(browser);
+            await races(browser);
+            await all_same_bytes(browser, await browser.value('chapters'));
+            await speed(browser);
+            check('no error, and nothing asked of the network', browser.problems.length === 0,
+                browser.problems.slice(0, 5).join('; '));
+        } finally {
+            await browser.close();
+        }
     }
     console.log(failed === 0 ? 'the book does what it says' : `${failed} failed`);
     process.exitCode = failed === 0 ? 0 : 1;
