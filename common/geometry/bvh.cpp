@@ -69,11 +69,11 @@ bool in_double(const BvhBlock& block, uint32_t hits, const Ray& ray, const Shear
 /// Relative error of t in float at which double precision takes over.
 constexpr float float_error = 0x1p-8f;
 
-/// 1 / 4^k, k <= 30.
-float power_of_quarter(uint32_t k) { return std::bit_cast<float>((127 - 2 * k) << 23); }
+/// 1 / 2^k.
+float power_of_half(uint32_t k) { return std::bit_cast<float>((127 - k) << 23); }
 
-/// In which lanes t in float is good enough, on triangles that are not thin and whose sides,
-/// squared, are not longer than side2.
+/// In which lanes t in float is good enough, on triangles that are not thin and whose sides are
+/// not longer than `side`.
 ///
 /// With u = 2^-24, R for the distance of the corners and m <= side for their distance from the ray:
 /// rounding moves each sheared corner by 6 u R, and so t by 12 u R tan at most; the products of the
@@ -83,11 +83,11 @@ float power_of_quarter(uint32_t k) { return std::bit_cast<float>((127 - 2 * k) <
 ///   600 u (t + side) / cos,   cos >= |det| |d_z| / side^2      (d of length 1)
 ///
 /// tested by  "truth: every hit as in double precision"
-[[gnu::always_inline]] inline uint32_t trusted(Floats t, Floats det, float side2,
+[[gnu::always_inline]] inline uint32_t trusted(Floats t, Floats det, float side,
                                                const Shear& shear) {
-    float enough = 600 * 0x1p-24f / float_error * side2;
+    float enough = 600 * 0x1p-24f / float_error * side * side;
     Floats per_t = splat(1.74f * enough);  // where d is not of length 1, t counts up to sqrt(3) d_z
-    Floats constant = splat(enough * std::sqrt(side2) * std::abs(shear.sz));
+    Floats constant = splat(enough * side * std::abs(shear.sz));
     Floats product = t * det;
     return less(per_t * t + constant, max(product, splat(0) - product));
 }
@@ -98,7 +98,7 @@ float power_of_quarter(uint32_t k) { return std::bit_cast<float>((127 - 2 * k) <
 /// t and the weights are worked out in float first. Where they may be wrong by more than
 /// float_error, in double precision, as intersect_triangle() does.
 template <bool any>
-[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, uint32_t leaf, float side2,
+[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, uint32_t leaf, float side,
                                                   const Ray& ray, const Shear& shear,
                                                   PrimHit& best) {
     // Shear space, so that the ray is the z axis.
@@ -132,8 +132,8 @@ template <bool any>
     Floats t = (e0 * az + e1 * bz + e2 * cz) / det * scale;
     uint32_t hits = ~outside & less(zero, t) & less_equal(t, reach);
     if (hits == 0) return false;
-    side2 *= power_of_quarter(leaf >> BvhNode::side_at & 31);
-    uint32_t sure = hits & trusted(t, det, side2, shear);
+    side *= power_of_half(leaf >> BvhNode::side_at & 31);
+    uint32_t sure = hits & trusted(t, det, side, shear);
     if (any && sure != 0) return true;
     if (hits != sure) [[unlikely]]
         return in_double(block, hits, ray, shear, best);
@@ -181,11 +181,11 @@ void prefetch(const Bvh& bvh, uint32_t child) {
 /// What ray and block have in common becomes the best hit. Returns whether any was asked for, and
 /// is found.
 template <bool any, bool counting>
-[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, uint32_t leaf, float side2,
+[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, uint32_t leaf, float side,
                                               const Geometry& g, const Ray& ray, const Shear& shear,
                                               PrimHit& best, BvhCount* count) {
     if (counting) count->blocks++;
-    bool found = test_triangles<any>(block, leaf, side2, ray, shear, best);
+    bool found = test_triangles<any>(block, leaf, side, ray, shear, best);
     if (leaf & BvhNode::mixed && !(any && found)) {
         PrimHit other = best;  // a copy, so that `best` can stay in registers
         found |= test_others(block, g, ray, other);
@@ -201,7 +201,7 @@ PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count)
     PrimHit best;
     best.t = next_below(ray.t_max);
     for (const BvhBlock& block : bvh.blocks)
-        if (test_block<any, counting>(block, bvh.root, bvh.side2, g, ray, shear, best, count))
+        if (test_block<any, counting>(block, bvh.root, bvh.side, g, ray, shear, best, count))
             return {0};
     return best.prim == PrimHit::none ? PrimHit{} : best;
 }
@@ -281,7 +281,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         if (current == BvhNode::nothing) break;
 
         const BvhBlock& block = bvh.blocks[current & BvhNode::index];
-        if (test_block<any, counting>(block, current, bvh.side2, g, ray, shear, best, count))
+        if (test_block<any, counting>(block, current, bvh.side, g, ray, shear, best, count))
             return {0};
         reach = best.t * scale * slack;
         current = pop();

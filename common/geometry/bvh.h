@@ -15,7 +15,7 @@ struct alignas(64) BvhNode {
 
     static constexpr uint32_t leaf = 1u << 31;
     static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
-    // Five bits of a leaf: the longest side, squared, is at most Bvh::side2 / 4^k; or all set:
+    // Five bits of a leaf: the longest side is at most Bvh::side / 2^k; or all set:
     // there are thin triangles in it, for which the distance needs care.
     static constexpr uint32_t side_at = 25, careful = 31u << side_at;
     static constexpr uint32_t index = (1u << side_at) - 1;
@@ -32,7 +32,7 @@ struct alignas(64) BvhBlock {
 struct Bvh {
     uint32_t root = 0;  // as BvhNode::child; a leaf: all blocks belong to it
     Vec3 centre;        // of the geometry: the boxes are relative to it
-    float side2 = 0;    // the longest side of a triangle that needs no care, squared
+    float side = 0;     // the longest one of a triangle that needs no care
     std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
 };

@@ -324,7 +324,7 @@ private:
         for (const Range& part : parts) all.grow(part);
         for (double part : logs) log += part;
         // What is far longer than is usual needs care, too.
-        if (all.size() > 0) bvh_.side2 = std::exp2(static_cast<float>(30 + 2 * log / all.size()));
+        if (all.size() > 0) bvh_.side = std::exp2(static_cast<float>(15 + log / all.size()));
         if (all.size() < refs_.size())
             std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
         return all;
@@ -504,34 +504,34 @@ private:
         return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
     }
 
-    /// The longest side of a triangle, squared; infinity when it needs care: it is thin, so that t
-    /// in float may be far off, or very large among the others.
-    double side2_of(const Triangle& triangle) const {
+    /// The longest side of a triangle; infinity when it needs care: it is thin, so that t in float
+    /// may be far off, or very large among the others.
+    double longest_side(const Triangle& triangle) const {
         Vec3d p0(g_.positions[triangle.v[0]]), p1(g_.positions[triangle.v[1]]),
             p2(g_.positions[triangle.v[2]]);
         Vec3d a = p1 - p0, b = p2 - p1, c = p0 - p2, n = cross(a, b);
-        double side2 = std::max({dot(a, a), dot(b, b), dot(c, c)});
+        double side = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
         constexpr double thin = 64;
-        bool care = side2 * side2 > thin * thin * dot(n, n) || side2 > double{bvh_.side2};
-        return care ? double{infinity} : side2;
+        bool care = side * side > thin * length(n) || side > double{bvh_.side};
+        return care ? double{infinity} : side;
     }
 
     /// What is known of the primitives of a leaf: BvhNode::mixed when there are spheres or disks
     /// among them, and the longest side.
     uint32_t flags_of(Leaf leaf) const {
         uint32_t flags = 0;
-        double side2 = 0;
+        double side = 0;
         for (uint32_t i = leaf.begin; i < leaf.end; i++) {
             uint32_t prim = refs_[i].prim();
             if (prim >= g_.triangles.size()) {
                 flags |= BvhNode::mixed;
             } else {
-                side2 = std::max(side2, side2_of(g_.triangles[prim]));
+                side = std::max(side, longest_side(g_.triangles[prim]));
             }
         }
-        if (side2 == double{infinity}) return flags | BvhNode::careful;
-        double largest = double{bvh_.side2};
-        int halvings = std::ilogb(largest / std::max(side2, 1e-30 * largest)) / 2;
+        if (side == double{infinity}) return flags | BvhNode::careful;
+        double largest = double{bvh_.side};
+        int halvings = std::ilogb(largest / std::max(side, 1e-15 * largest));
         return flags | static_cast<uint32_t>(std::clamp(halvings, 0, 30)) << BvhNode::side_at;
     }
 
