@@ -512,7 +512,7 @@ private:
         Vec3d a = p1 - p0, b = p2 - p1, c = p0 - p2, n = cross(a, b);
         double side = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
         constexpr double thin = 64;
-        bool care = side * side > thin * length(n) || side > double{bvh_.side};
+        bool care = side * side > thin * std::sqrt(dot(n, n)) || side > double{bvh_.side};
         return care ? double{infinity} : side;
     }
 
