@@ -11,10 +11,10 @@ int main(int argc, char** argv) {
                                   "stats", "film", "film-every", "quiet"});
         ch20::check_together(options, settings);
         Scene scene = load(options);
-        bool has_noise = settings.show == ch20::Show::gather;
+        bool has_noise = settings.show == Show::gather;
         if (options.spp == 0 && !has_noise) scene.spp = std::min(scene.spp, 16);  // for edges alone
-        ch20::refuse(scene);
-        ch20::tessellate(scene, options.threads);
+        refuse(scene);
+        tessellate(scene, options.threads);
         ch20::check_all_outputs(options, settings);
         return ch20::Run(scene, options, settings).run();
     });

@@ -4,13 +4,14 @@
 #include "chapters/14_mis_ris/estimator.h"
 #include "chapters/20_radiosity/run.h"
 #include "tests/support/estimators.h"
+#include "tests/support/meshes.h"
 #include "tests/support/process.h"
 #include "tests/support/program.h"
 
 namespace {
 
 using Words = std::vector<std::string>;
-using ch20::FormFactors, ch20::Patch, ch20::Patches, ch20::Radiosity, ch20::Solution;
+using ch20::FormFactors, ch20::Sweep;
 
 // Values of unit squares: opposite at distance 1, and with a common edge.
 constexpr double opposite = 0.1998248956984, beside = 0.2000437760754;
@@ -83,8 +84,8 @@ double form_factor(const std::vector<Patch>& from, const std::vector<Patch>& to,
         area += double{from[i].area};
         for (uint32_t j = 0; j < to.size(); j++) {
             uint32_t key = hash32(i, hash32(j, seed));
-            ch20::Exchange G = ch20::exchange(empty, from[i], to[j], way, key);
-            sum += (G.from_p + G.from_q) / 2;
+            Exchange G = ch20::exchange(empty, from[i], to[j], way, key);
+            sum += (G.from_i + G.from_j) / 2;
         }
     }
     return sum / area;
@@ -130,7 +131,7 @@ std::vector<Vec3> sphere(float r, int depth, bool outside) {
 
 /// The room of TRUTHS' cube: six patches of area 1, the first of which emits 1.
 struct SixPatches {
-    ch20::Matrix G;
+    Matrix G;
     std::vector<Patch> patch = std::vector<Patch>(6);
 
     explicit SixPatches(double rho, int emitters = 1) {
@@ -145,12 +146,18 @@ struct SixPatches {
 };
 
 double B_of(const Patch& p, const Solution& s, size_t i) { return ch20::radiosity_of(p, s.H[i]).g; }
-const auto never = [](double) { return false; };
+
+/// The patch with most to shoot shoots it; false when there is none.
+bool shoot_next(const Patches& patches, const Matrix& G, Solution& s) {
+    std::optional<size_t> i = ch20::brightest(patches.patch, s);
+    if (i) ch20::shoot(patches, *i, G[*i], s);
+    return i.has_value();
+}
 
 /// Solved to the last digits by Gauss-Seidel.
-Solution solved(const ch20::Matrix& G, const std::vector<Patch>& patch) {
+Solution solved(const Matrix& G, const std::vector<Patch>& patch) {
     Solution s;
-    ch20::solve(G, patch, 1e-12, s, ch20::sweep_gauss_seidel, never);
+    ch20::solve(G, patch, Sweep::gauss_seidel, 1e-12, s);
     s.escaped = ch20::escaped_by(G, patch, s);
     return s;
 }
@@ -158,14 +165,14 @@ Solution solved(const ch20::Matrix& G, const std::vector<Patch>& patch) {
 /// A room as a matrix of its patches.
 struct Room {
     Patches patches;
-    ch20::Matrix G;
-    ch20::Faults faults;
+    Matrix G;
+    Faults faults;
 
     Room(const Scene& scene, size_t wanted, FormFactors way = FormFactors::contour,
          bool repaired = true)
-        : patches(ch20::make_patches(scene, wanted, all_threads())) {
-        ch20::Rows rows(scene, patches, way, 0, all_threads());
-        G = ch20::make_matrix(rows, patches.patch.size());
+        : patches(make_patches(scene, wanted, all_threads())) {
+        Rows rows = ch20::form_factors(scene, patches, way, 0, all_threads());
+        G = rows.take_all();
         faults = rows.faults();
         if (repaired) ch20::repair(G, patches.patch, patches.closed);
     }
@@ -188,19 +195,19 @@ struct Room {
 };
 
 /// The room as the program shows it.
-Trace by_radiosity(const Scene& scene, size_t wanted, ch20::Show how) {
+Trace by_radiosity(const Scene& scene, size_t wanted, Show how) {
     Room room(scene, wanted);
     Solution s = solved(room.G, room.patches.patch);
     auto patches = std::make_shared<Patches>(room.patches);
     return trace_with<ch20::trace>(ch20::show(scene, patches, s, how, all_threads()));
 }
 
-/// The program on the Cornell box, small; `more` may say otherwise.
-Process start_program(const Words& more) {
+/// The program on a scene, small; `more` may say otherwise.
+Process start_program(const Words& more, const std::string& scene = "scenes/cornell.pbrt") {
     return Process([&] {
         Words all = program_words("20_radiosity");
-        for (const char* word :
-             {"scenes/cornell.pbrt", "--size", "33x17", "--spp", "2", "--patches", "300"})
+        for (const std::string& word :
+             Words{scene, "--size", "33x17", "--spp", "2", "--patches", "300"})
             all.push_back(word);
         all.insert(all.end(), more.begin(), more.end());
         std::vector<char*> argv;
@@ -310,9 +317,9 @@ TEST_SUITE("ch20 form factors") {
         auto low = patch_of({}, 0.5f * x, y), here = patch_of(z, z + y, z + 0.5f * x);
         auto beyond = patch_of(z + x, z + 0.6f * x, z + 0.8f * x + y);
         REQUIRE(dot(beyond.n, z) < 0);
-        CHECK(ch20::exchange(scene, low, here, FormFactors::contour, 1).from_p > 0);
+        CHECK(ch20::exchange(scene, low, here, FormFactors::contour, 1).from_i > 0);
         for (FormFactors way : {FormFactors::point, FormFactors::chance, FormFactors::contour})
-            CHECK(ch20::exchange(scene, low, beyond, way, 1).from_p == 0);
+            CHECK(ch20::exchange(scene, low, beyond, way, 1).from_i == 0);
     }
 
     TEST_CASE("identity: repaired rows sum to 1, and both ends agree") {
@@ -341,7 +348,7 @@ TEST_SUITE("ch20 form factors") {
 TEST_SUITE("ch20 patches") {
     TEST_CASE("identity: patches cover what has light, and each point finds its patch") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
-        Patches patches = ch20::make_patches(scene, 2000, all_threads());
+        Patches patches = make_patches(scene, 2000, all_threads());
         CHECK(patches.patch.size() >= 2000);
         CHECK(patches.patch.size() < 2200);
         double area = 0, whole = 0;
@@ -351,14 +358,14 @@ TEST_SUITE("ch20 patches") {
                 Vec3 at = b[0] * p.p[0] + b[1] * p.p[1] + b[2] * p.p[2];
                 auto x = intersect(scene, {at + 1e-2f * p.n, -p.n});
                 REQUIRE(x);
-                ch20::Place place = ch20::place_of(patches, *x);
-                REQUIRE(place.patch != ch20::Piece::none);
+                Place place = place_of(patches, *x);
+                REQUIRE(place.patch != Piece::none);
                 CHECK(&patches.patch[place.patch] == &p);
                 for (size_t c = 0; c < 3; c++) CHECK(std::abs(place.b[c] - b[c]) < 2e-3);
             }
         }
         for (uint32_t prim = 0; prim < scene.geometry.triangles.size(); prim++) {
-            auto t = ch20::corners(scene, prim);
+            auto t = corners(scene, prim);
             whole += double{length(cross(t[1] - t[0], t[2] - t[0])) / 2};
         }
         // All but what is below the blocks; the lamp has two sides, one of which sees the ceiling.
@@ -368,13 +375,13 @@ TEST_SUITE("ch20 patches") {
 
     TEST_CASE("truth: a room is closed or open, and sides without light have no patches") {
         std::string far_away = diffuse(0.5) + "Translate 0 0 9 " + mesh(cube_faces()[0]);
-        Patches closed = ch20::make_patches(cube_room(0.5, 1, far_away), 12, 2);
+        Patches closed = make_patches(cube_room(0.5, 1, far_away), 12, 2);
         CHECK(closed.closed);
         CHECK(closed.patch.size() == 12);
         for (const Patch& p : closed.patch) CHECK(p.centre.z <= 1);
         std::string text;
         for (size_t f = 0; f < 5; f++) text += mesh(cube_faces()[f]);
-        Patches open = ch20::make_patches(world_of(emitting(1, 0.5, text)), 10, 2);
+        Patches open = make_patches(world_of(emitting(1, 0.5, text)), 10, 2);
         CHECK_FALSE(open.closed);
     }
 
@@ -384,7 +391,7 @@ TEST_SUITE("ch20 patches") {
         std::string wall = diffuse(0.5) + mesh(quad({0.37f, 0, 0}, y, z));
         std::string lamp = emitting(1, 0, mesh(quad({0.1f, 0.1f, 0.9f}, 0.2f * y, {0.2f, 0, 0})));
         Scene scene = cube_room(0.5, 0, wall + lamp);
-        auto patches = std::make_shared<Patches>(ch20::make_patches(scene, 300, all_threads()));
+        auto patches = std::make_shared<Patches>(make_patches(scene, 300, all_threads()));
         Room room(scene, 300);
         Solution s = solved(room.G, room.patches.patch);
         int bright = 0;
@@ -399,7 +406,7 @@ TEST_SUITE("ch20 patches") {
         }
         CHECK(bright >= 300);
         // Nor does the smooth picture leak.
-        ch20::Shown shown = ch20::show(scene, patches, s, ch20::Show::smooth, 2);
+        Shown shown = ch20::show(scene, patches, s, Show::smooth, 2);
         PathLog log;
         Sampler numbers = random_numbers(1);
         for (float x : {0.1f, 0.3f, 0.369f, 0.371f, 0.4f, 0.9f}) {
@@ -409,10 +416,67 @@ TEST_SUITE("ch20 patches") {
         }
     }
 
+    TEST_CASE("brute: triangles are cut by those near them as by all") {
+        // Blocks that pass through each other. A triangle of a part of the scene is cut as in the
+        // whole when the part has all that touches it, whatever else is there.
+        std::string text;
+        for (int i = 0; i < 6; i++) {
+            float at = 0.1f * static_cast<float>(i), side = 0.5f + 0.07f * static_cast<float>(i);
+            for (auto face : cube_faces()) {
+                for (Vec3& p : face) p = Vec3{at, at / 2, at * at} + side * p;
+                text += mesh(face);
+            }
+        }
+        std::string far_away = "Translate 5 0 0\n";
+        for (int i = 0; i < 50; i++) {
+            far_away += "Translate 0.3 0.1 0\n" + mesh(quad({}, {0.2f, 0, 0}, {0, 0.2f, 0.1f}));
+        }
+        std::string lamp = emitting(1, 0.5, mesh(quad({0, 9, 0}, {9, 0, 0}, {0, 0, 9})));
+        Scene few = world_of(lamp + text), many = world_of(lamp + text + far_away);
+        many.radius = few.radius;  // how near is near
+        auto a = cut_at_contacts(few, 1), b = cut_at_contacts(many, 3);
+        size_t cut = 0;
+        for (size_t prim = 0; prim < a.size(); prim++) {
+            cut += a[prim].size() > 1;
+            CHECK(a[prim] == b[prim]);
+        }
+        CHECK(cut > 30);
+        // All parts of a triangle have its area together.
+        for (uint32_t prim = 0; prim < a.size(); prim++) {
+            auto area = [](const Polygon& p) {
+                Vec3 sum;
+                for (size_t i = 2; i < p.size(); i++) sum += cross(p[i - 1] - p[0], p[i] - p[0]);
+                return double{length(sum)} / 2;
+            };
+            auto t = corners(few, prim);
+            double sum = 0;
+            for (const Polygon& piece : a[prim]) sum += area(piece);
+            CHECK(sum == doctest::Approx(area({t[0], t[1], t[2]})).epsilon(1e-4).scale(0));
+        }
+    }
+
+    TEST_CASE("input: what makes patches ends when it is asked to") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
+        size_t n = scene.geometry.triangles.size();
+        for (int asked : {0, 5, static_cast<int>(n) + 5}) {
+            CAPTURE(asked);
+            std::atomic<int> left = asked;
+            Patches patches = make_patches(scene, 300, 2, [&] { return left-- <= 0; });
+            CHECK(patches.patch.empty());
+            CHECK_FALSE(patches.closed);
+            CHECK(patches.first_piece.size() == n + 1);  // so that place_of() has an answer
+            CHECK(patches.pieces.size() >= n);
+            size_t sides = 2 * patches.pieces.size();
+            // It asks before each triangle and each side, and then does nothing more for them.
+            CHECK(asked - left == static_cast<int>(n + sides) + 1);
+        }
+        CHECK(make_patches(scene, 300, 2, [] { return false; }).patch.size() >= 300);
+    }
+
     TEST_CASE("input: what has no radiosity is refused, with its place in the file") {
         std::string lamp = emitting(1, 0.5, mesh(cube_faces()[0]));
         auto refusal = [&](const std::string& more) {
-            return error_of([&] { ch20::refuse(world_of(lamp + '\n' + more)); });
+            return error_of([&] { refuse(world_of(lamp + '\n' + more)); });
         };
         CHECK(refusal(mesh(cube_faces()[1])) == "");
         const std::string at = "test.pbrt:9:1: error: radiosity knows ";
@@ -433,8 +497,7 @@ TEST_SUITE("ch20 patches") {
 
     TEST_CASE("input: a closed room that reflects all light is refused, an open one is not") {
         auto is_refused = [](const Scene& scene) {
-            std::string text =
-                error_of([&] { ch20::refuse_no_loss(scene, ch20::make_patches(scene, 12, 2)); });
+            std::string text = error_of([&] { refuse_no_loss(scene, make_patches(scene, 12, 2)); });
             return text.find("has no solution") != std::string::npos;
         };
         CHECK(is_refused(cube_room(1, 1)));
@@ -489,7 +552,7 @@ TEST_SUITE("ch20 solvers") {
             SixPatches even(expected.rho, 6), one(expected.rho);
             double rho = double{even.patch[0].rho.g};
             // The error of B against 1 / (1 - rho), from nothing on: H = 0 is one bounce less.
-            auto sweeps = [&](auto sweep) {
+            auto sweeps = [&](Sweep kind) {
                 Solution s;
                 s.H.resize(6);
                 double truth = 1 / (1 - rho), first = truth - 1;
@@ -498,11 +561,11 @@ TEST_SUITE("ch20 solvers") {
                     for (size_t i = 0; i < 6; i++)
                         off = std::max(off, std::abs(B_of(even.patch[i], s, i) - truth));
                     if (off <= 1e-6 * first || s.steps > 20000) return static_cast<int>(s.steps);
-                    sweep(even.G, even.patch, s);
+                    ch20::sweep(even.G, even.patch, kind, s);
                 }
             };
-            CHECK(std::abs(sweeps(ch20::sweep_jacobi) - expected.jacobi) <= 1);
-            CHECK(std::abs(sweeps(ch20::sweep_gauss_seidel) - expected.gauss_seidel) <= 1);
+            CHECK(std::abs(sweeps(Sweep::jacobi) - expected.jacobi) <= 1);
+            CHECK(std::abs(sweeps(Sweep::gauss_seidel) - expected.gauss_seidel) <= 1);
             Solution truth = solved(one.G, one.patch), s;
             Patches room{one.patch, {}, {}, true};
             ch20::start(room.patch, s);
@@ -515,9 +578,7 @@ TEST_SUITE("ch20 solvers") {
                 }
                 return worst / largest;
             };
-            while (off() > 1e-6 && s.steps < 20000)
-                ch20::shoot(
-                    room, [&](size_t i) { return std::span<const float>(one.G[i]); }, s);
+            while (off() > 1e-6 && s.steps < 20000) shoot_next(room, one.G, s);
             CHECK(std::abs(static_cast<int>(s.steps) - expected.shots) <= 1);
         }
     }
@@ -527,9 +588,9 @@ TEST_SUITE("ch20 solvers") {
         SixPatches cube(0.99, 6);
         double rho = double{cube.patch[0].rho.g}, truth = 1 / (1 - rho);
         for (double wanted : {1e-2, 1e-4, 1e-8}) {
-            for (auto sweep : {ch20::sweep_jacobi, ch20::sweep_gauss_seidel}) {
+            for (Sweep kind : {Sweep::jacobi, Sweep::gauss_seidel}) {
                 Solution s;
-                ch20::solve(cube.G, cube.patch, wanted, s, sweep, never);
+                ch20::solve(cube.G, cube.patch, kind, wanted, s);
                 double off = std::abs(B_of(cube.patch[0], s, 0) / truth - 1);
                 CHECK(off < 1.05 * wanted);
                 CHECK(off > wanted / 100);
@@ -545,17 +606,14 @@ TEST_SUITE("ch20 solvers") {
             REQUIRE(room.patches.closed == closed);
             const std::vector<Patch>& patch = room.patches.patch;
             std::vector<Solution> solutions(3);
-            ch20::solve(room.G, patch, 1e-13, solutions[0], ch20::sweep_jacobi, never);
-            ch20::solve(room.G, patch, 1e-13, solutions[1], ch20::sweep_gauss_seidel, never);
+            ch20::solve(room.G, patch, Sweep::jacobi, 1e-13, solutions[0]);
+            ch20::solve(room.G, patch, Sweep::gauss_seidel, 1e-13, solutions[1]);
             for (size_t i : {size_t{0}, size_t{1}})
                 solutions[i].escaped = ch20::escaped_by(room.G, patch, solutions[i]);
             ch20::start(patch, solutions[2]);
-            for (int i = 0; i < 777; i++)
-                ch20::shoot(
-                    room.patches, [&](size_t j) { return std::span<const float>(room.G[j]); },
-                    solutions[2]);
+            for (int i = 0; i < 777; i++) shoot_next(room.patches, room.G, solutions[2]);
             for (const Solution& s : solutions) {
-                ch20::Balance b = ch20::balance_of(patch, s);
+                Balance b = balance_of(patch, s);
                 CHECK(std::abs(b.error()) < 1e-9);
                 CHECK(b.absorbed > 0.3 * b.emitted);
                 if (closed) CHECK(std::abs(b.escaped) < 1e-6 * b.emitted);
@@ -568,10 +626,9 @@ TEST_SUITE("ch20 solvers") {
         Room room(scene_from("scenes/cornell.pbrt", 32, 5), 150);
         const std::vector<Patch>& patch = room.patches.patch;
         Solution a, b = solved(room.G, patch), c;
-        ch20::solve(room.G, patch, 1e-12, a, ch20::sweep_jacobi, never);
+        ch20::solve(room.G, patch, Sweep::jacobi, 1e-12, a);
         ch20::start(patch, c);
-        auto row = [&](size_t i) { return std::span<const float>(room.G[i]); };
-        while (ch20::share_to_come(patch, c) > 1e-9 && ch20::shoot(room.patches, row, c)) {
+        while (ch20::share_to_come(patch, c) > 1e-9 && shoot_next(room.patches, room.G, c)) {
         }
         CHECK(a.steps > b.steps);
         for (size_t i = 0; i < patch.size(); i++) {
@@ -585,7 +642,7 @@ TEST_SUITE("ch20 solvers") {
                                 mesh(sphere(2, 2, false)));
         std::string outside = "ReverseOrientation Shape \"sphere\" \"float radius\" 2\n";
         Scene spheres = world_of(emitting(1, 0.5, "Shape \"sphere\"\n") + diffuse(0.5) + outside);
-        ch20::tessellate(spheres, 2);
+        tessellate(spheres, 2);
         for (const Scene* scene : {&meshes, &spheres}) {
             Room room(*scene, 256);
             REQUIRE(room.patches.closed);
@@ -605,7 +662,7 @@ TEST_SUITE("ch20 solvers") {
             emitting(2, 0.5, "Translate 9 0 0 ReverseOrientation Shape \"sphere\"\n") +
             emitting(3, 0.5, mesh(cube_faces()[1])) + "Shape \"disk\"\n";
         Scene before = world_of(shapes), after = world_of(shapes);
-        ch20::tessellate(after, 2);
+        tessellate(after, 2);
         CHECK(after.geometry.spheres.empty());
         CHECK(after.geometry.disks.empty());
         CHECK(after.geometry.triangles.size() == 4 + 2 * 512 + 2 * 32);
@@ -619,7 +676,7 @@ TEST_SUITE("ch20 solvers") {
                 uint32_t prim = light.first_prim + k;
                 CHECK(after.shapes[after.geometry.triangles[prim].shape].light ==
                       static_cast<int>(i));
-                auto t = ch20::corners(after, prim);
+                auto t = corners(after, prim);
                 Vec3 at = (t[0] + t[1] + t[2]) / 3, n = after.geometry.facet_normals[prim];
                 for (float side : {1.0f, -1.0f}) {
                     Ray ray = {at + side * 0.1f * n, -side * n};
@@ -676,8 +733,7 @@ TEST_SUITE("ch20 solvers") {
         const std::vector<Patch>& patch = room.patches.patch;
         Solution truth = solved(room.G, patch), early;
         ch20::start(patch, early);
-        auto row = [&](size_t i) { return std::span<const float>(room.G[i]); };
-        for (int i = 0; i < 40; i++) ch20::shoot(room.patches, row, early);
+        for (int i = 0; i < 40; i++) shoot_next(room.patches, room.G, early);
         Radiosity more = ch20::ambient(patch, early);
         double all = 0, got = 0, guessed = 0;
         for (size_t i = 0; i < patch.size(); i++) {
@@ -691,13 +747,13 @@ TEST_SUITE("ch20 solvers") {
 
     TEST_CASE("identity: rows that are not kept are the rows that are, for any threads and order") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
-        Patches patches = ch20::make_patches(scene, 150, 2);
-        ch20::Rows a(scene, patches, FormFactors::contour, 3, 1);
-        ch20::Rows b(scene, patches, FormFactors::contour, 3, 7);
-        ch20::Rows other(scene, patches, FormFactors::contour, 4, 2);
+        Patches patches = make_patches(scene, 150, 2);
+        Rows a = ch20::form_factors(scene, patches, FormFactors::contour, 3, 1);
+        Rows b = ch20::form_factors(scene, patches, FormFactors::contour, 3, 7);
+        Rows other = ch20::form_factors(scene, patches, FormFactors::contour, 4, 2);
         size_t n = patches.patch.size();
         bool differs = false;
-        ch20::Matrix all = ch20::make_matrix(a, n);
+        Matrix all = a.take_all();
         for (size_t i = n; i-- > 0;) {
             auto row = b.row(i), with_seed = other.row(i);
             CHECK(std::equal(row.begin(), row.end(), all[i].begin()));
@@ -709,14 +765,14 @@ TEST_SUITE("ch20 solvers") {
 
 TEST_SUITE("ch20 radiosity") {
     TEST_CASE("furnace: a closed cube that emits 1 shows 1 / (pi (1 - rho)) in every way") {
-        for (ch20::Show how : {ch20::Show::constant, ch20::Show::smooth, ch20::Show::gather}) {
+        for (Show how : {Show::constant, Show::smooth, Show::gather}) {
             Scene scene = cube_room(0.5, 6);
             scene.camera.o = {0.5f, 0.4f, 0.3f};
             scene.width = scene.height = 16;
             Film film = film_of(scene, by_radiosity(scene, 48, how), 16).film;
-            double truth = 2 / pi_exact, loose = how == ch20::Show::gather ? 0.02 : 1e-5;
+            double truth = 2 / pi_exact, loose = how == Show::gather ? 0.02 : 1e-5;
             CHECK(film.mean() == doctest::Approx(truth).epsilon(loose).scale(0));
-            if (how == ch20::Show::gather) continue;
+            if (how == Show::gather) continue;
             for (Rgb L : film.image().pixels)
                 CHECK(double{L.g} == doctest::Approx(truth).epsilon(1e-4).scale(0));
         }
@@ -730,7 +786,7 @@ TEST_SUITE("ch20 radiosity") {
         double before = 1;
         for (size_t wanted : {size_t{80}, size_t{320}, size_t{1280}}) {
             CAPTURE(wanted);
-            Film film = film_of(scene, by_radiosity(scene, wanted, ch20::Show::smooth), spp).film;
+            Film film = film_of(scene, by_radiosity(scene, wanted, Show::smooth), spp).film;
             double squares = 0;
             for (int y = 0; y < 64; y += 4)
                 for (int x = 0; x < 64; x += 4) {
@@ -837,6 +893,39 @@ TEST_SUITE("ch20 program") {
         CHECK(read_image(folder / "a.pfm").width == 33);
     }
 
+    TEST_CASE("files: Ctrl-C ends the cutting of many triangles, and leaves a film as it was") {
+        TemporaryFolder folder;
+        Geometry floor;
+        add_surface(floor, 200, 200, [](float u, float v) { return Vec3{u, u * v * (1 - v), v}; });
+        std::vector<Vec3> all;
+        for (const Triangle& t : floor.triangles)
+            for (uint32_t v : t.v) all.push_back(floor.positions[v]);
+        std::string lamp = emitting(1, 0.5, mesh(quad({0, 2, 0}, {1, 0, 0}, {0, 0, 1})));
+        write_file_atomically(
+            folder / "a.pbrt",
+            "LookAt 0 5 -5 0 0 0 0 1 0\nCamera \"perspective\"\nPixelFilter \"box\"\nWorldBegin\n" +
+                lamp + diffuse(0.5) + mesh(all));
+        write_file_atomically(folder / "a.film", "a film");
+        Finished end;
+        double seconds = 0;
+        for (int ms = 500; ms < 30000; ms *= 2) {
+            Process process = start_program(
+                {"--out", folder / "a.pfm", "--film", folder / "a.film"}, folder / "a.pbrt");
+            ::usleep(static_cast<useconds_t>(1000 * ms));
+            auto asked = std::chrono::steady_clock::now();
+            process.kill(SIGINT);
+            end = process.wait();
+            seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+            if (end.signal == 0) break;
+        }
+        CHECK(end.code == 3);
+        CHECK(end.err == "");
+        CHECK(seconds < 5);  // of some 30 that it would take
+        CHECK(read_image(folder / "a.pfm").width == 33);
+        CHECK(read_file(folder / "a.film") == "a film");
+    }
+
     TEST_CASE("files: radiosity says its costs first, writes pictures on the way, and a mesh") {
         TemporaryFolder folder;
         Finished end = run_program_with({"--every", "20", "--shots", "50", "--out",
@@ -851,7 +940,7 @@ TEST_SUITE("ch20 program") {
             "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
             "Shape \"plymesh\" \"string filename\" \"" +
             folder / "a.ply" + "\"\n");
-        Patches patches = ch20::make_patches(scene_from("scenes/cornell.pbrt", 32, 5), 300, 2);
+        Patches patches = make_patches(scene_from("scenes/cornell.pbrt", 32, 5), 300, 2);
         CHECK(scene.geometry.triangles.size() == patches.patch.size());
         CHECK(scene.geometry.positions.size() == 3 * patches.patch.size());
     }
@@ -885,8 +974,7 @@ TEST_SUITE("ch20 slow") {
         Scene scene = scene_from("tests/pictures/references/cornell-grey.pbrt", 128, 60);
         Image reference = read_image("tests/pictures/references/cornell-grey.pfm");
         REQUIRE(reference.width == 128);
-        Image image =
-            film_of(scene, by_radiosity(scene, 5000, ch20::Show::smooth), 256).film.image();
+        Image image = film_of(scene, by_radiosity(scene, 5000, Show::smooth), 256).film.image();
         double a = 0, b = 0, error = 0;
         for (size_t i = 0; i < image.pixels.size(); i++) {
             double x = double{average(image.pixels[i])}, y = double{average(reference.pixels[i])};
@@ -899,7 +987,7 @@ TEST_SUITE("ch20 slow") {
 
     TEST_CASE("agreement: the final gather with chapter 14, block by block within 2 %") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 60);
-        Film film = film_of(scene, by_radiosity(scene, 2000, ch20::Show::gather), 2048, 1).film;
+        Film film = film_of(scene, by_radiosity(scene, 2000, Show::gather), 2048, 1).film;
         Film paths = film_of(scene, trace_with<ch14::trace>(ch14::prepare(scene)), 2048, 1).film;
         for (int y = 0; y < 32; y += 8)
             for (int x = 0; x < 32; x += 8) {

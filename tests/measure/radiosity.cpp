@@ -1,7 +1,6 @@
 // Error against time of radiosity with ever more patches, beside path tracing with ever more paths.
 #include <cstdio>
 
-#include "chapters/14_mis_ris/estimator.h"
 #include "chapters/20_radiosity/run.h"
 #include "common/picture/comparison.h"
 #include "tests/measure/lines.h"
@@ -16,29 +15,27 @@ struct Solved {
     double seconds, constant, smooth;
 };
 
-Image image_of(const Scene& scene, const Trace& trace, uint32_t seed, int threads) {
-    RenderOptions options;
-    options.quiet = true, options.threads = threads, options.seed = seed;
-    return render_film(scene, options, trace).film.image();
-}
-
 /// The reference has the same points of each pixel, so that its edges cancel and light is left.
-Solved solve_and_compare(const Scene& scene, size_t wanted, const Image& reference, int threads) {
+Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
+                         const MeasureOptions& o) {
     Stopwatch watch;
-    auto patches = std::make_shared<ch20::Patches>(ch20::make_patches(scene, wanted, threads));
-    const std::vector<ch20::Patch>& patch = patches->patch;
-    ch20::Rows rows(scene, *patches, ch20::FormFactors::contour, 0, threads);
-    ch20::Matrix m = ch20::make_matrix(rows, patch.size());
-    ch20::repair(m, patch, patches->closed);
-    ch20::Solution s;
-    ch20::solve(m, patch, 1e-6, s, ch20::sweep_gauss_seidel, [](double) { return false; });
+    int threads = o.threads;
+    auto patches = std::make_shared<Patches>(make_patches(scene, wanted, threads));
+    const std::vector<Patch>& patch = patches->patch;
+    Rows rows = ch20::form_factors(scene, *patches, ch20::FormFactors::contour, 0, threads);
+    Matrix G = rows.take_all();
+    ch20::repair(G, patch, patches->closed);
+    Solution s;
+    ch20::solve(G, patch, ch20::Sweep::gauss_seidel, 1e-6, s);
     Solved result{patch.size(), watch.seconds() / threads, 0, 0};
-    auto error = [&](ch20::Show how) {
-        ch20::Shown shown = ch20::show(scene, patches, s, how, threads);
-        return compare(image_of(scene, trace_with<ch20::trace>(shown), 0, threads), reference)
-            .rel_mse;
+    auto error = [&](Show how) {
+        Shown shown = ch20::show(scene, patches, s, how, threads);
+        Method method{.name = "20", .render = by_trace([&](const Scene&) {
+                                        return trace_with<ch20::trace>(shown);
+                                    })};
+        return compare(render_once(method, scene, o, o.spp, 0).film.image(), reference).rel_mse;
     };
-    result.constant = error(ch20::Show::constant), result.smooth = error(ch20::Show::smooth);
+    result.constant = error(Show::constant), result.smooth = error(Show::smooth);
     return result;
 }
 
@@ -75,28 +72,26 @@ int main(int argc, char** argv) {
             "relMSE against time: patches of chapter 20, paths of chapter 14. Writes "
             "chart-radiosity.svg, .png and .tsv.",
             {.spp = 1024, .width = 64, .height = 64, .max_depth = 60});
-        std::string name = o.words.empty() ? "cornell" : o.words[0];
-        Scene scene = load_scene_for("scenes/" + name + ".pbrt", o);
-        ch20::refuse(scene);
-        ch20::tessellate(scene, o.threads);
-        Trace fourteen = trace_with<ch14::trace>(ch14::prepare(scene));
-        scene.spp = o.spp;
+        std::string path = find_scene(o.words.empty() ? "cornell" : o.words[0]);
+        std::string name = scene_name(path);
+        Scene scene = load_scene_for(path, o);
+        refuse(scene);
+        tessellate(scene, o.threads);
+        Method fourteen = methods_named({"14"})[0];
         Work work("radiosity: patches of chapter 20 beside paths of 14, " + name, 10);
         work.next("reference");
-        Image reference = image_of(scene, fourteen, 0, o.threads);
+        Image reference = render_once(fourteen, scene, o, o.spp, 0).film.image();
         std::vector<Solved> solved;
         for (size_t patches : {size_t{80}, size_t{320}, size_t{1280}, size_t{5120}}) {
             work.next(std::to_string(patches) + " patches");
-            solved.push_back(solve_and_compare(scene, patches, reference, o.threads));
+            solved.push_back(solve_and_compare(scene, patches, reference, o));
         }
         std::vector<std::array<double, 3>> paths;
         for (int spp : {1, 4, 16, 64, 256}) {
             work.next(std::to_string(spp) + " paths a pixel");
-            scene.spp = spp;
-            Stopwatch watch;
-            Image image = image_of(scene, fourteen, 1, o.threads);
-            double seconds = watch.seconds() / o.threads;
-            paths.push_back({double(spp), seconds, compare(image, reference).rel_mse});
+            Rendering r = render_once(fourteen, scene, o, spp, 1);
+            paths.push_back(
+                {double(spp), r.stats.seconds, compare(r.film.image(), reference).rel_mse});
         }
         report(solved, paths, o, name);
         return 0;

@@ -1,45 +1,14 @@
-// Chapter 20, the patches: small triangles, each with one radiosity.
-#pragma once
-#include "chapters/20_radiosity/contacts.h"
+#include "common/radiosity/patches.h"
+
 #include "common/base/parallel.h"
 #include "common/material/cosine.h"
 #include "common/path/sampler.h"
-#include "common/scene/intersect.h"
 
-namespace ch20 {
-
-/// One side of a small triangle.
-struct Patch {
-    std::array<Vec3, 3> p;  // corners, counter-clockwise seen from this side
-    Vec3 n, centre;
-    float area = 0;  // m^2
-    float eps = 0;   // m: how far points may be off the surface
-    Rgb E, rho;      // W m^-2 that it emits; the share that it reflects
-};
-
-/// A triangle of the scene, or a part of one, cut into k x k patches on each side that has light.
-struct Piece {
-    std::array<Vec3, 3> p;
-    uint32_t prim = 0;  // into Scene::geometry
-    uint32_t k = 0;
-    std::array<uint32_t, 2> first = {none, none};  // front, back: the first patch
-    static constexpr uint32_t none = ~0u;
-};
-
-/// All patches, and where those of a triangle are.
-struct Patches {
-    std::vector<Patch> patch;
-    std::vector<Piece> pieces;
-    std::vector<uint32_t> first_piece;  // of each triangle, and one more
-    bool closed = false;                // no light gets out of the room
-};
+namespace {
 
 /// The triangles' pieces; they have no patches yet.
-inline Patches make_pieces(const Scene& scene, int threads) {
-    std::vector<std::vector<Polygon>> polygons(scene.geometry.triangles.size());
-    parallel_for(static_cast<int>(polygons.size()), threads, [&](int prim) {
-        polygons[static_cast<size_t>(prim)] = cut_at_contacts(scene, static_cast<uint32_t>(prim));
-    });
+Patches make_pieces(const Scene& scene, int threads, const Stopped& stopped) {
+    std::vector<std::vector<Polygon>> polygons = cut_at_contacts(scene, threads, stopped);
     Patches result;
     for (uint32_t prim = 0; prim < polygons.size(); prim++) {
         result.first_piece.push_back(static_cast<uint32_t>(result.pieces.size()));
@@ -59,7 +28,7 @@ struct PiecePlace {
 };
 
 /// The piece that x lies in, or nearest to: where its least weight is largest.
-inline PiecePlace find_piece(const Patches& patches, const Hit& x) {
+PiecePlace find_piece(const Patches& patches, const Hit& x) {
     PiecePlace found;
     float best = -infinity;
     for (uint32_t i = patches.first_piece[x.prim]; i < patches.first_piece[x.prim + 1]; i++) {
@@ -73,13 +42,13 @@ inline PiecePlace find_piece(const Patches& patches, const Hit& x) {
 }
 
 /// What a side of triangle number `prim` emits, W m^-2, and reflects.
-inline Rgb emitted(const Scene& scene, uint32_t prim, bool front) {
+Rgb emitted(const Scene& scene, uint32_t prim, bool front) {
     const Shape& shape = scene.shapes[scene.geometry.triangles[prim].shape];
     if (shape.light < 0) return {};
     const Light& light = scene.lights[static_cast<size_t>(shape.light)];
     return front || light.two_sided ? pi * light.L : Rgb{};
 }
-inline Rgb reflectance(const Scene& scene, uint32_t prim) {
+Rgb reflectance(const Scene& scene, uint32_t prim) {
     return scene.materials[scene.shapes[scene.geometry.triangles[prim].shape].material].reflectance;
 }
 
@@ -90,7 +59,7 @@ struct Sides {
 };
 
 /// The sides that rays from this side meet; Piece::none when one meets nothing.
-inline std::vector<uint32_t> sides_seen(const Scene& scene, const Patches& pieces, uint32_t side) {
+std::vector<uint32_t> sides_seen(const Scene& scene, const Patches& pieces, uint32_t side) {
     constexpr uint32_t rays = 256;
     const Piece& piece = pieces.pieces[side / 2];
     Vec3 n = scene.geometry.facet_normals[piece.prim];
@@ -114,10 +83,12 @@ inline std::vector<uint32_t> sides_seen(const Scene& scene, const Patches& piece
 }
 
 /// Spreads from the lamps to what they see, and on from all that reflects.
-inline Sides find_lit_sides(const Scene& scene, const Patches& pieces, int threads) {
+Sides find_lit_sides(const Scene& scene, const Patches& pieces, int threads,
+                     const Stopped& stopped) {
     size_t count = 2 * pieces.pieces.size();
     std::vector<std::vector<uint32_t>> seen(count), also(count);
     parallel_for(static_cast<int>(count), threads, [&](int side) {
+        if (stopped && stopped()) return;
         seen[static_cast<size_t>(side)] = sides_seen(scene, pieces, static_cast<uint32_t>(side));
     });
     for (size_t a = 0; a < count; a++) {
@@ -150,7 +121,7 @@ inline Sides find_lit_sides(const Scene& scene, const Patches& pieces, int threa
 }
 
 /// The k x k patches of one side of a piece, row by row.
-inline void add_patches(const Piece& piece, Patch patch, bool front, std::vector<Patch>& patches) {
+void add_patches(const Piece& piece, Patch patch, bool front, std::vector<Patch>& patches) {
     float k = static_cast<float>(piece.k);
     auto at = [&](uint32_t i, uint32_t j) {
         return piece.p[0] + static_cast<float>(i) / k * (piece.p[1] - piece.p[0]) +
@@ -173,7 +144,7 @@ inline void add_patches(const Piece& piece, Patch patch, bool front, std::vector
 }
 
 /// Divides the sides that have light: no edge of a patch is longer than h.
-inline void divide(const Scene& scene, const Sides& sides, float h, Patches& patches) {
+void divide(const Scene& scene, const Sides& sides, float h, Patches& patches) {
     patches.patch.clear();
     for (size_t i = 0; i < patches.pieces.size(); i++) {
         Piece& piece = patches.pieces[i];
@@ -192,10 +163,12 @@ inline void divide(const Scene& scene, const Sides& sides, float h, Patches& pat
     }
 }
 
-/// At least `wanted` patches, all about alike in size.
-inline Patches make_patches(const Scene& scene, size_t wanted, int threads) {
-    Patches patches = make_pieces(scene, threads);
-    Sides sides = find_lit_sides(scene, patches, threads);
+}  // namespace
+
+Patches make_patches(const Scene& scene, size_t wanted, int threads, const Stopped& stopped) {
+    Patches patches = make_pieces(scene, threads, stopped);
+    Sides sides = find_lit_sides(scene, patches, threads, stopped);
+    if (stopped && stopped()) return patches;
     patches.closed = sides.closed;
     float h = 2 * scene.radius;
     divide(scene, sides, h, patches);
@@ -206,13 +179,7 @@ inline Patches make_patches(const Scene& scene, size_t wanted, int threads) {
     return patches;
 }
 
-/// Where a point lies: its patch (Piece::none: on a side without light), and its weights there.
-struct Place {
-    uint32_t patch = Piece::none;
-    std::array<float, 3> b = {1, 0, 0};
-};
-
-inline Place place_of(const Patches& patches, const Hit& x) {
+Place place_of(const Patches& patches, const Hit& x) {
     PiecePlace in = find_piece(patches, x);
     size_t back = x.front ? 0 : 1;
     if (in.piece == Piece::none) return {};
@@ -234,4 +201,14 @@ inline Place place_of(const Patches& patches, const Hit& x) {
     return place;
 }
 
-}  // namespace ch20
+std::array<Vec3, 4> points_on(const Patch& p, uint32_t key) {
+    std::array<Vec3, 4> points;
+    auto parts = quarters(p.p);
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t bits = hash32(key + i);
+        float s = std::sqrt(to_unit_float(bits)), v = to_unit_float(hash32(bits));
+        const auto& t = parts[i];
+        points[i] = (1 - s) * t[0] + s * (1 - v) * t[1] + s * v * t[2] + p.eps * p.n;
+    }
+    return points;
+}

@@ -1,12 +1,11 @@
-// Chapter 20: spheres and disks made meshes, since patches are triangles.
-#pragma once
-#include "common/scene/prepare.h"
-#include "common/scene/scene.h"
+#include "common/radiosity/tessellate.h"
 
-namespace ch20 {
+#include "common/scene/prepare.h"
+
+namespace {
 
 /// Adds the triangle a b c to the scene's geometry.
-inline void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
+void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
     uint32_t first = static_cast<uint32_t>(g.positions.size());
     for (Vec3 p : {a, b, c}) {
         g.positions.push_back(p);
@@ -27,7 +26,7 @@ void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth, const Use& use) {
 }
 
 /// 512 triangles with the area of the sphere: an octahedron, divided.
-inline void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
+void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
     constexpr int depth = 3;
     std::vector<std::array<Vec3, 3>> parts;
     for (int octant = 0; octant < 8; octant++) {
@@ -48,7 +47,7 @@ inline void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
 }
 
 /// 32 triangles with the area of the disk.
-inline void add_disk(Geometry& g, const Disk& disk) {
+void add_disk(Geometry& g, const Disk& disk) {
     constexpr int sides = 32;
     constexpr double turn = 2 * std::numbers::pi / sides;
     float r = disk.r * static_cast<float>(std::sqrt(turn / std::sin(turn)));
@@ -62,8 +61,9 @@ inline void add_disk(Geometry& g, const Disk& disk) {
     }
 }
 
-/// Puts meshes in place of all spheres and disks, and makes the scene ready again.
-inline void tessellate(Scene& scene, int threads) {
+}  // namespace
+
+void tessellate(Scene& scene, int threads) {
     Geometry& g = scene.geometry;
     uint32_t before = static_cast<uint32_t>(g.triangles.size());
     if (before == g.size()) return;
@@ -85,5 +85,3 @@ inline void tessellate(Scene& scene, int threads) {
     g.spheres.clear(), g.disks.clear();
     prepare(scene, threads);
 }
-
-}  // namespace ch20

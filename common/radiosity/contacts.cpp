@@ -1,21 +1,12 @@
-// Chapter 20: triangles cut where others stand on them or pass through them.
-#pragma once
-#include <array>
+#include "common/radiosity/contacts.h"
 
-#include "common/scene/intersect.h"
+#include "common/base/parallel.h"
+#include "common/geometry/box_tree.h"
 
-namespace ch20 {
-
-inline std::array<Vec3, 3> corners(const Scene& scene, uint32_t prim) {
-    const Geometry& g = scene.geometry;
-    const Triangle& t = g.triangles[prim];
-    return {g.positions[t.v[0]], g.positions[t.v[1]], g.positions[t.v[2]]};
-}
-
-using Polygon = std::vector<Vec3>;  // convex
+namespace {
 
 /// Cuts the polygon by a plane through o: its part on the side to which m points.
-inline Polygon clip(const Polygon& polygon, Vec3 o, Vec3 m) {
+Polygon clip(const Polygon& polygon, Vec3 o, Vec3 m) {
     Polygon kept;
     for (size_t i = 0; i < polygon.size(); i++) {
         Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
@@ -28,7 +19,7 @@ inline Polygon clip(const Polygon& polygon, Vec3 o, Vec3 m) {
 
 /// The line along which triangle s touches or crosses the plane through o with normal n: two
 /// points. Three when it lies in the plane, where it hides nothing; else fewer.
-inline Polygon contact(const std::array<Vec3, 3>& s, Vec3 o, Vec3 n, float eps) {
+Polygon contact(const std::array<Vec3, 3>& s, Vec3 o, Vec3 n, float eps) {
     Polygon points;
     float d[3];
     for (size_t i = 0; i < 3; i++) {
@@ -43,7 +34,7 @@ inline Polygon contact(const std::array<Vec3, 3>& s, Vec3 o, Vec3 n, float eps) 
 }
 
 /// Cuts those pieces of a triangle with normal n that the line from a to b crosses.
-inline void cut(std::vector<Polygon>& pieces, Vec3 a, Vec3 b, Vec3 n, float eps) {
+void cut(std::vector<Polygon>& pieces, Vec3 a, Vec3 b, Vec3 n, float eps) {
     if (length(b - a) <= eps) return;
     Vec3 along = normalize(b - a), across = cross(n, along);
     std::vector<Polygon> result;
@@ -69,22 +60,37 @@ inline void cut(std::vector<Polygon>& pieces, Vec3 a, Vec3 b, Vec3 n, float eps)
     pieces = result;
 }
 
-/// The pieces of a triangle, cut where others stand on it or pass through it: no patch then has
-/// light on one side of a wall and dark on the other.
-inline std::vector<Polygon> cut_at_contacts(const Scene& scene, uint32_t prim) {
-    auto t = corners(scene, prim);
-    Vec3 n = scene.geometry.facet_normals[prim];
-    float eps = 1e-5f * scene.radius;
-    Vec3 low = min(min(t[0], t[1]), t[2]), high = max(max(t[0], t[1]), t[2]);
-    std::vector<Polygon> pieces = {{t[0], t[1], t[2]}};
-    for (uint32_t other = 0; other < scene.geometry.triangles.size(); other++) {
-        auto s = corners(scene, other);
-        Vec3 gap = max(min(min(s[0], s[1]), s[2]) - high, low - max(max(s[0], s[1]), s[2]));
-        if (other == prim || max_component(gap) > eps) continue;
-        Polygon points = contact(s, t[0], n, eps);
-        if (points.size() == 2) cut(pieces, points[0], points[1], n, eps);
-    }
-    return pieces;
+Box box_of(const std::array<Vec3, 3>& t) {
+    return {min(min(t[0], t[1]), t[2]), max(max(t[0], t[1]), t[2])};
 }
 
-}  // namespace ch20
+}  // namespace
+
+std::array<Vec3, 3> corners(const Scene& scene, uint32_t prim) {
+    const Geometry& g = scene.geometry;
+    const Triangle& t = g.triangles[prim];
+    return {g.positions[t.v[0]], g.positions[t.v[1]], g.positions[t.v[2]]};
+}
+
+std::vector<std::vector<Polygon>> cut_at_contacts(const Scene& scene, int threads,
+                                                  const Stopped& stopped) {
+    size_t n = scene.geometry.triangles.size();
+    float eps = 1e-5f * scene.radius;
+    std::vector<Box> boxes;
+    for (uint32_t prim = 0; prim < n; prim++) boxes.push_back(box_of(corners(scene, prim)));
+    BoxTree tree(boxes);
+    std::vector<std::vector<Polygon>> pieces(n);
+    parallel_for(static_cast<int>(n), threads, [&](int index) {
+        uint32_t prim = static_cast<uint32_t>(index);
+        auto t = corners(scene, prim);
+        Vec3 normal = scene.geometry.facet_normals[prim];
+        pieces[prim] = {{t[0], t[1], t[2]}};
+        if (stopped && stopped()) return;
+        for (uint32_t other : tree.near(boxes[prim], eps)) {
+            if (other == prim) continue;
+            Polygon points = contact(corners(scene, other), t[0], normal, eps);
+            if (points.size() == 2) cut(pieces[prim], points[0], points[1], normal, eps);
+        }
+    });
+    return pieces;
+}

@@ -1,0 +1,75 @@
+// What the user asks for beside what all programs know.
+#pragma once
+#include "chapters/20_radiosity/estimator.h"
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/program/command_line.h"
+#include "common/program/options.h"
+
+namespace ch20 {
+
+enum class Solver : uint8_t { southwell, gauss_seidel, jacobi };
+
+/// What the user asks for beside what all programs know.
+struct Settings {
+    size_t patches = 5000;
+    FormFactors way = FormFactors::contour;
+    Solver solver = Solver::southwell;
+    Show show = Show::smooth;
+    uint64_t shots = 0;  // at most; 0: until little is unshot
+    uint64_t every = 0;  // shots from one picture to the next; 0: none
+    std::string mesh;    // .ply; empty: none
+};
+
+/// The options that set them.
+inline std::vector<Option> own_options(Settings& s) {
+    auto choice = [](const char* name, auto& value, std::vector<std::string> words) {
+        return [=, &value](const std::string& text) {
+            value = static_cast<std::decay_t<decltype(value)>>(parse_choice(name, text, words));
+        };
+    };
+    auto number = [](const char* name, auto& value, int64_t low) {
+        return [=, &value](const std::string& text) {
+            value =
+                static_cast<std::decay_t<decltype(value)>>(parse_integer(name, text, low, 1 << 30));
+        };
+    };
+    return {
+        {"patches", "N", "at least so many (default 5000)", number("patches", s.patches, 1)},
+        {"form-factors", "WAY", "point, chance or contour (default)",
+         choice("form-factors", s.way, {"point", "chance", "contour"})},
+        {"solver", "KIND", "southwell (default: progressive), gauss-seidel or jacobi",
+         choice("solver", s.solver, {"southwell", "gauss-seidel", "jacobi"})},
+        {"show", "HOW", "constant patches, smooth (default), or a final gather",
+         choice("show", s.show, {"constant", "smooth", "gather"})},
+        {"shots", "N", "at most so many (default: until 0.1 % of the light is unshot)",
+         number("shots", s.shots, 1)},
+        {"every", "K", "write a picture after each K shots: NAME-000100.png, ...",
+         number("every", s.every, 1)},
+        {"mesh", "FILE.ply", "also write the patches with their colours", [&](const auto& text) {
+             if (!text.ends_with(".ply")) fail_value("mesh", text, "a .ply file");
+             s.mesh = text;
+         }}};
+}
+
+/// Throws UsageError for what belongs to shots alone.
+inline void check_together(const RenderOptions& options, const Settings& s) {
+    if (s.solver == Solver::southwell) return;
+    const char* name = !options.film.empty() ? "film"
+                       : s.shots > 0         ? "shots"
+                       : s.every > 0         ? "every"
+                                             : nullptr;
+    if (name) {
+        throw UsageError(std::string("error: --") + name +
+                         " is of shots: it needs --solver southwell");
+    }
+}
+
+/// Throws now what writing would throw later.
+inline void check_all_outputs(const RenderOptions& options, const Settings& s) {
+    check_outputs(options);
+    if (s.mesh.empty()) return;
+    check_outputs({s.mesh}, options.scene);
+}
+
+}  // namespace ch20

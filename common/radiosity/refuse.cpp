@@ -1,0 +1,42 @@
+#include "common/radiosity/refuse.h"
+
+#include "common/base/position.h"
+
+void refuse(const Scene& scene) {
+    for (const Light& light : scene.lights) {
+        if (light.type == LightType::area) continue;
+        const char* name = light.type == LightType::point     ? "a point light"
+                           : light.type == LightType::distant ? "a distant light"
+                                                              : "a sky";
+        fail({scene.file, light.line, light.column},
+             std::string("radiosity knows lamps with a surface alone: ") + name +
+                 " has no patches; chapters from 08 on render it");
+    }
+    auto refuse_material = [&](uint32_t shape) {
+        const Material& m = scene.materials[scene.shapes[shape].material];
+        if (m.type == MaterialType::diffuse) return;
+        fail({scene.file, m.line, m.column},
+             std::string("radiosity knows diffuse surfaces alone (LD*E): ") +
+                 (m.type == MaterialType::dielectric ? "glass"
+                  : m.alpha > 0                      ? "rough metal"
+                                                     : "a mirror") +
+                 " sends light on by direction");
+    };
+    const Geometry& g = scene.geometry;
+    for (const Triangle& t : g.triangles) refuse_material(t.shape);
+    for (const Sphere& s : g.spheres) refuse_material(s.shape);
+    for (const Disk& d : g.disks) refuse_material(d.shape);
+}
+
+void refuse_no_loss(const Scene& scene, const Patches& patches) {
+    if (!patches.closed) return;
+    Rgb least = {1, 1, 1};
+    for (const Patch& p : patches.patch) {
+        least = {std::min(least.r, p.rho.r), std::min(least.g, p.rho.g),
+                 std::min(least.b, p.rho.b)};
+    }
+    if (max_component(least) < 1) return;
+    fail({scene.file},
+         "a closed room whose surfaces reflect all light has no solution: it would "
+         "grow with each bounce");
+}

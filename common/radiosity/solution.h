@@ -1,0 +1,47 @@
+// The state of a radiosity solution, and where the light went.
+#pragma once
+#include "common/radiosity/patches.h"
+
+/// W m^-2 in red, green and blue. In double: a thousand sweeps must not lose energy.
+struct Radiosity {
+    double r = 0, g = 0, b = 0;
+
+    Radiosity() = default;
+    Radiosity(double red, double green, double blue) : r(red), g(green), b(blue) {}
+    Radiosity(Rgb x) : r(double{x.r}), g(double{x.g}), b(double{x.b}) {}
+};
+inline Radiosity operator+(Radiosity x, Radiosity y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
+inline Radiosity operator-(Radiosity x, Radiosity y) { return {x.r - y.r, x.g - y.g, x.b - y.b}; }
+inline Radiosity operator*(Radiosity x, Radiosity y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
+inline Radiosity operator*(double s, Radiosity x) { return {s * x.r, s * x.g, s * x.b}; }
+inline Radiosity& operator+=(Radiosity& x, Radiosity y) { return x = x + y; }
+/// x / y; 0 where y is none.
+inline Radiosity ratio(Radiosity x, Radiosity y) {
+    return {y.r > 0 ? x.r / y.r : 0, y.g > 0 ? x.g / y.g : 0, y.b > 0 ? x.b / y.b : 0};
+}
+inline Radiosity min(Radiosity x, Radiosity y) {
+    return {std::min(x.r, y.r), std::min(x.g, y.g), std::min(x.b, y.b)};
+}
+inline double sum_of(Radiosity x) { return x.r + x.g + x.b; }
+inline double largest_of(Radiosity x) {
+    return std::max({std::abs(x.r), std::abs(x.g), std::abs(x.b)});
+}
+inline Rgb to_rgb(Radiosity x) {
+    return {static_cast<float>(x.r), static_cast<float>(x.g), static_cast<float>(x.b)};
+}
+
+/// What each patch receives so far.
+struct Solution {
+    std::vector<Radiosity> H;       // W m^-2
+    std::vector<Radiosity> unshot;  // of B: what others have not received; progressive alone
+    uint64_t steps = 0;             // sweeps, or shots
+    Radiosity escaped;              // W, out of the room
+};
+
+/// Where the power of the lamps went, W: emitted = absorbed + escaped + unshot.
+/// tested by  "identity: all that lamps emit is absorbed, escapes, or is unshot"
+struct Balance {
+    double emitted = 0, absorbed = 0, escaped = 0, unshot = 0;
+    double error() const { return (absorbed + escaped + unshot) / emitted - 1; }
+};
+Balance balance_of(const std::vector<Patch>& patch, const Solution& s);
