@@ -109,7 +109,8 @@ private:
         if (n() == 0) return;
         auto begin = limit_.elapsed();
         constexpr size_t tried = 3;
-        for (size_t i = 0; i < tried; i++) rows_.row(i * (n() - 1) / tried);
+        for (size_t i = 0; i < tried && (i == 0 || !limit_.interrupted()); i++)
+            rows_.row(i * (n() - 1) / tried);
         double seconds = (limit_.elapsed() - begin) / tried * static_cast<double>(n());
         if (rows_.keeps()) seconds /= 2;  // each pair once
         double size = static_cast<double>(n());
