@@ -10,6 +10,7 @@
 #include "common/picture/stats_file.h"
 #include "common/picture/verdict.h"
 #include "tests/measure/agreement.h"
+#include "tests/measure/finding.h"
 #include "tests/measure/spread.h"
 #include "tests/support/folder.h"
 
@@ -258,5 +259,51 @@ TEST_SUITE("measuring") {
             CHECK(judge(e, i).known);
             CHECK((std::abs(judge(e, i).z) > 5) == (i == 3));
         }
+    }
+}
+
+TEST_SUITE("charts") {
+    TEST_CASE("truth: times faster at equal error") {
+        auto is = [](double x) { return doctest::Approx(x).epsilon(1e-9).scale(0); };
+        ErrorLine slow{{1, 4, 16}, {8, 2, 0.5}};  // error * seconds: 8
+        ErrorLine fast{{2, 8}, {0.05, 0.0125}};   // 0.1
+        CHECK(seconds_at(slow, 4) == is(2));      // between two points
+        CHECK(seconds_at(slow, 80) == is(0.1));   // before the first, after the last
+        CHECK(seconds_at(slow, 0.05) == is(160));
+        CHECK(times_faster(fast, slow) == is(80));
+        CHECK(times_faster(slow, fast) == is(1 / 80.0));
+        CHECK(times_faster(slow, slow) == is(1));
+        // One that falls faster counts at the error that both have reached, not where it ends.
+        ErrorLine steep{{1, 4, 16}, {4, 0.25, 0.015625}};
+        CHECK(times_faster(steep, slow) == is(16 / std::sqrt(8.0)));
+        // What rises again is there for good when it falls for the last time.
+        CHECK(seconds_at({{1, 2, 3, 4}, {4, 1, 3, 1}}, 2) ==
+              is(3 * std::pow(4 / 3.0, 0.369070246428)));
+        CHECK(std::isnan(times_faster(fast, {})));
+    }
+
+    TEST_CASE("truth: the simplest of the best, and its ratio with two digits") {
+        CHECK(simplest_of_the_best({1, 74, 103, 115, 127}) == 2);
+        CHECK(simplest_of_the_best({1, 74, 101, 115, 127}) == 3);
+        CHECK(simplest_of_the_best({1, 0.5, 0}) == 0);
+        CHECK(two_digits(0.0744) == "0.074");
+        CHECK(two_digits(1.333) == "1.3");
+        CHECK(two_digits(74.4) == "74");
+        CHECK(two_digits(99.7) == "100");
+        CHECK(two_digits(127) == "130");
+        CHECK(two_digits(18234) == "18000");
+        CHECK(two_digits(NAN) == "nan");
+    }
+
+    TEST_CASE("truth: labels in their order, apart, and as near as can be to where they belong") {
+        using Heights = std::vector<double>;
+        CHECK(spread_out({50, 10, 90}, 20, 0, 100) == Heights{50, 10, 90});
+        CHECK(spread_out({50, 50}, 20, 0, 100) == Heights{40, 60});
+        CHECK(spread_out({50, 48, 52, 90}, 20, 0, 100) == Heights{50, 30, 70, 90});
+        CHECK(spread_out({50, 50, 65}, 20, 0, 100) == Heights{35, 55, 75});
+        CHECK(spread_out({2, 1, 3}, 20, 0, 100) == Heights{20, 0, 40});
+        CHECK(spread_out({99, 98}, 20, 0, 100) == Heights{100, 80});
+        CHECK(spread_out({5, 5, 5}, 20, 0, 30) == Heights{0, 20, 40});  // no room: beyond the end
+        CHECK(spread_out({}, 20, 0, 100).empty());
     }
 }

@@ -35,21 +35,19 @@ void add_points(const std::string& scene, const std::vector<Curve>& curves, Tabl
 }
 
 void add_summary(const std::string& scene, const std::vector<Curve>& curves, Table& summary) {
-    double first = NAN;  // the first that converges is the measure of the others
+    const Curve* first = measure_of_all(curves);
     for (const Curve& c : curves) {
-        if (std::isnan(first) && !c.flat()) first = c.cost();
-        std::string slope = "exact", faster = "-";
+        std::string slope = "exact";
         if (!c.points.empty()) {
             char text[32];
             std::snprintf(text, sizeof text, "%.2f", c.slope);
             slope = text;
-            faster = c.flat() ? "never" : short_number(first / c.cost());
         }
         const CurvePoint none{0, 0, {}, {}};
         const CurvePoint& last = c.points.empty() ? none : c.points.back();
         summary.rows.push_back({scene, c.method->label, std::to_string(last.spp),
                                 short_number(last.seconds), short_number(mean_of(last.rel_mse)),
-                                slope, faster});
+                                slope, times_faster(c, first)});
     }
 }
 
@@ -110,6 +108,7 @@ int main(int argc, char** argv) {
             add_summary(name, curves, summary);
             std::string file = file_name(name);
             write_table(o.out, "chart-" + file, points);
+            std::printf("%s\n", finding(name, curves).c_str());
             draw_curves(o.out + "/chart-" + file, name, curves);
             Scene scene = load_scene_for(path, o);
             draw_equal_time(

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/measure/finding.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/reference.h"
 
@@ -18,11 +19,20 @@ struct Curve {
     std::vector<CurvePoint> points;
     double slope = NAN;  // fitted: log RMSE over log spp, last 3 points; in theory -1/2
 
-    /// relMSE times seconds: where the error falls as it should, the same for any number of
-    /// samples, and the time that a relMSE of 1 takes.
-    double cost() const;
+    ErrorLine rel_mse_over_time() const;
     bool flat() const { return slope > -0.25; }
+    bool falls() const { return !points.empty() && !flat(); }
 };
+
+/// The first of those whose error falls: the measure of the others; null: none.
+const Curve* measure_of_all(const std::vector<Curve>& curves);
+
+/// How many times faster than `first` at equal error; "never" for one that stays at its bias, "-"
+/// for one that is exact from the first sample on.
+std::string times_faster(const Curve& curve, const Curve* first);
+
+/// What the curves say: "cornell: 14 is 97 times faster than 06 at equal error".
+std::string finding(const std::string& scene, const std::vector<Curve>& curves);
 
 /// Root of the mean of the squares; mean.
 double root_mean_square(const std::vector<double>& values);
@@ -33,8 +43,9 @@ double mean_of(const std::vector<double>& values);
 Curve measure_curve(const Method& method, Scene& scene, const Reference& reference,
                     const MeasureOptions& o, double seconds);
 
-/// Draws RMSE and relMSE over seconds, with bands from the least to the largest of the runs.
-void draw_curves(const std::string& path, const std::string& title,
+/// Draws relMSE over seconds, with bands from the least to the largest of the runs; the title is
+/// what they say, and each line is named at its end.
+void draw_curves(const std::string& path, const std::string& scene,
                  const std::vector<Curve>& curves);
 
 /// The pictures that all methods make in the same time, and their errors on one scale.

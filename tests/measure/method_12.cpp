@@ -18,7 +18,7 @@ static Method method(const char* name, const char* label, const char* color,
 /// Directions of the BSDF alone never meet a point light.
 static Method bsdf_alone() {
     Method m =
-        method("12-bsdf", "12 glossy, by the BSDF alone", "#e377c2", "by chance", Strategy::bsdf);
+        method("12-bsdf", "12 glossy, by the BSDF alone", "#ff0077", "by chance", Strategy::bsdf);
     m.refuse = {refuse_delta_lights};
     return m;
 }

@@ -41,7 +41,7 @@ static Method clamp() {
 }
 
 static Method depth_cap() {
-    Method m = method("depth-cap", "14, paths cut after 2", "#636363");
+    Method m = method("depth-cap", "14, paths cut after 2", "#eebb88");
     m.render = [render = m.render](const Scene& scene, const RenderOptions& options) {
         Scene cut = scene;
         cut.max_depth = std::min(2, scene.max_depth);

@@ -21,7 +21,7 @@ static Method method(const char* name, const char* label, const char* color, Sam
 static Method by_chance() {
     return {.name = "15-chance",
             .label = "15, light by chance",
-            .color = "#9467bd",
+            .color = "#0077ff",
             .finds_light = "by chance",
             .refuse = {refuse_delta_lights},
             .render = by_trace([](const Scene&) -> Trace {
@@ -34,7 +34,7 @@ static Method by_chance() {
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("15", "15 lens, time, color, sky", "#17becf", SamplerType::independent)),
+    add_method(method("15", "15 lens, time, color, sky", "#0000ff", SamplerType::independent)),
     add_method(by_chance()),
     add_method(method("15-sobol", "15, Sobol", "#9edae5", SamplerType::sobol)),
 };

@@ -22,8 +22,8 @@ static Method method(const char* name, const char* label, const char* color, Sam
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("16", "16 adaptive", "#bcbd22", SamplerType::independent)),
+    add_method(method("16", "16 adaptive", "#e000e0", SamplerType::independent)),
     add_method(method("16-own", "16, own judge (biased)", "#dbdb8d", SamplerType::independent,
                       ch16::Judge::own)),
-    add_method(method("16-sobol", "16, Sobol", "#8c8d12", SamplerType::sobol)),
+    add_method(method("16-sobol", "16, Sobol", "#aa0099", SamplerType::sobol)),
 };

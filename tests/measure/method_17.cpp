@@ -17,7 +17,7 @@ static Rendering by_light(const Scene& scene, RenderOptions options) {
 
 [[maybe_unused]] static const bool added = add_method({.name = "17",
                                                        .label = "17 light tracing",
-                                                       .color = "#bcbd22",
+                                                       .color = "#224400",
                                                        .finds_light = "from the light",
                                                        .scenes = {"cornell", "two-lights"},
                                                        .refuse = {refuse_seen_mirrors},

@@ -14,13 +14,13 @@ static auto by_photons(ch19::Gather gather) {
 [[maybe_unused]] static const bool added = [] {
     add_method({.name = "19-direct",
                 .label = "19, photons where the eye looks",
-                .color = "#9edae5",
+                .color = "#006655",
                 .finds_light = "by photons",
                 .render = by_photons(ch19::Gather::direct),
                 .biased = true});
     return add_method({.name = "19",
                        .label = "19 photon mapping",
-                       .color = "#17becf",
+                       .color = "#00c896",
                        .finds_light = "by photons",
                        .scenes = {"pool", "sds", "cornell-spheres"},
                        .render = by_photons(ch19::Gather::final),

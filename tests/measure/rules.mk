@@ -5,7 +5,7 @@ comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))
 
-.PHONY: chart stability agree efficiency compare radiosity references bench teeth break
+.PHONY: chart front stability agree efficiency compare radiosity references bench teeth break
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
@@ -13,10 +13,15 @@ $(BUILD)/bench: LIBS := $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3
 $(BUILD)/gnuplot:
 	@command -v gnuplot >/dev/null || common/tools/install gnuplot-nox; mkdir -p $(@D); touch $@
 
-#: make chart        error against time of all chapters, and how time grows (QUICK=1: 2 minutes)
+#: make chart        error against time of all chapters, and how time grows (QUICK=1: 2 minutes; SCENE=cornell)
 chart: $(BUILD)/chart $(BUILD)/growth $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
-	$(BUILD)/growth $(call quick,--quick)
+	$(if $(SCENE),,$(BUILD)/growth $(call quick,--quick))
+#: make front        the chart of the front page, anew (3 minutes)
+front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
+	$(BUILD)/chart cornell --methods all --seconds 60
+	cp out/chart-cornell.svg tests/measure/front.svg; cp out/chart-summary.tsv tests/measure/front.tsv
+	common/tools/fill_readmes --text README.md
 #: make stability    do methods fail where theory says, as it says, and nowhere else?
 stability: $(BUILD)/stability $(made)
 	$<

@@ -1,0 +1,89 @@
+// What a chart of error against time says: how many times faster, and where the names stand.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+/// An error that falls with time: relMSE, which is inverse to the time where all is well.
+struct ErrorLine {
+    std::vector<double> seconds, error;
+};
+
+/// Seconds until the line is at this error for good: between two of its points on the straight line
+/// of their logarithms, before the first and after the last as if error times seconds stayed what
+/// it is there. NaN for a line without points; tested by "truth: times faster at equal error".
+inline double seconds_at(const ErrorLine& line, double error) {
+    size_t n = line.error.size(), above = n;
+    if (n == 0) return NAN;
+    for (size_t i = 0; i < n; i++)
+        if (line.error[i] >= error) above = i;
+    if (above == n) return line.seconds[0] * line.error[0] / error;
+    if (above == n - 1) return line.seconds[above] * line.error[above] / error;
+    double part =
+        std::log(line.error[above] / error) / std::log(line.error[above] / line.error[above + 1]);
+    return line.seconds[above] * std::pow(line.seconds[above + 1] / line.seconds[above], part);
+}
+
+/// How many times less time the one takes than the other, at the smallest error that both have
+/// reached.
+inline double times_faster(const ErrorLine& one, const ErrorLine& other) {
+    if (one.error.empty() || other.error.empty()) return NAN;
+    double error = std::max(one.error.back(), other.error.back());
+    return seconds_at(other, error) / seconds_at(one, error);
+}
+
+/// The first of those that come within 1.25 of the largest: less is noise of the clock, or not
+/// worth a chapter; tested by "truth: the simplest of the best".
+inline size_t simplest_of_the_best(const std::vector<double>& ratios) {
+    double most = *std::max_element(ratios.begin(), ratios.end());
+    auto good = [&](double ratio) { return 1.25 * ratio >= most; };
+    return static_cast<size_t>(std::find_if(ratios.begin(), ratios.end(), good) - ratios.begin());
+}
+
+/// 0.074, 1.3, 74, 110: measured times are not better than that.
+inline std::string two_digits(double x) {
+    char text[64];
+    double unit = x >= 99.5 ? std::pow(10, std::floor(std::log10(x + 0.5)) - 1) : 0;
+    std::snprintf(text, sizeof text, unit > 0 ? "%.0f" : "%.2g",
+                  unit > 0 ? std::round(x / unit) * unit : x);
+    return text;
+}
+
+/// Where labels stand that want to be at these heights: in the same order, `gap` apart or more,
+/// the first not below `low`, and where there is room the last not above `high`. Those that crowd
+/// share the space around the middle of where they want to be; tested by "truth: labels ...".
+inline std::vector<double> spread_out(const std::vector<double>& wanted, double gap, double low,
+                                      double high) {
+    std::vector<size_t> order(wanted.size());
+    for (size_t i = 0; i < order.size(); i++) order[i] = i;
+    std::sort(order.begin(), order.end(),
+              [&](size_t a, size_t b) { return wanted[a] < wanted[b]; });
+    struct Crowd {
+        double sum;  // of where they would begin
+        size_t count;
+        double begin(double gap, double low, double high) const {
+            double n = static_cast<double>(count);
+            return std::max(low, std::min(sum / n, high - (n - 1) * gap));
+        }
+    };
+    std::vector<Crowd> crowds;
+    for (size_t i : order) {
+        crowds.push_back({wanted[i], 1});
+        while (crowds.size() > 1) {
+            Crowd last = crowds.back(), before = crowds[crowds.size() - 2];
+            double width = static_cast<double>(before.count) * gap;
+            if (before.begin(gap, low, high) + width <= last.begin(gap, low, high)) break;
+            crowds.pop_back();
+            crowds.back() = {before.sum + last.sum - static_cast<double>(last.count) * width,
+                             before.count + last.count};
+        }
+    }
+    std::vector<double> heights(wanted.size());
+    size_t next = 0;
+    for (const Crowd& crowd : crowds)
+        for (size_t i = 0; i < crowd.count; i++)
+            heights[order[next++]] = crowd.begin(gap, low, high) + static_cast<double>(i) * gap;
+    return heights;
+}
