@@ -29,6 +29,13 @@ public:
         auto cell = row->second.find(name);
         return cell == row->second.end() ? Quantity{} : cell->second;
     }
+    /// Whether no class of path brings anything, in any probe.
+    bool black() const {
+        for (const auto& [probe, row] : measured_)
+            for (const auto& [name, q] : row)
+                if (is_class(name) && q.mean != 0) return false;
+        return true;
+    }
     bool has(const std::string& probe) const { return measured_.contains(probe); }
 
     /// Measured over expected, with its standard error; NaN where nothing is expected.

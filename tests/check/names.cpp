@@ -229,6 +229,12 @@ int check(const std::string& chapter, const MeasureOptions& o) {
     for (const Method& m : all_methods())
         if (m.name == chapter + "-area" || m.name == chapter + "-bsdf")
             other.push_back(findings_of(m, o));
+    if (found.black()) {
+        std::printf(
+            "All pictures are black: trace brings no light at all. Is it written, and does it "
+            "return L?\n");
+        return 1;
+    }
     const Findings* second = other.empty() ? nullptr : &other[0];
     const char* way = chapter == "08" ? "by area" : "by the BSDF alone";
     std::vector<Name> names = name_mistake(std::stoi(chapter), found, second);

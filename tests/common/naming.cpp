@@ -50,6 +50,17 @@ constexpr double pi_here = 3.14159265358979;
 }  // namespace
 
 TEST_SUITE("naming") {
+    TEST_CASE("identity: black is what brings nothing anywhere") {
+        Quantities dark = all_right();
+        for (auto& [probe, row] : dark)
+            for (auto& [name, q] : row)
+                if (is_class(name)) q.mean = 0;
+        CHECK(Findings(dark, all_right()).black());
+        dark["floor"]["LDE"].mean = 1e-9;
+        CHECK(!Findings(dark, all_right()).black());
+        CHECK(Findings({}, all_right()).black());
+    }
+
     TEST_CASE("truth: ratios and the mistakes that make them") {
         CHECK(named(8, {}) == "");
         double p = pi_here;
