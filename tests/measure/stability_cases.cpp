@@ -181,7 +181,7 @@ StabilityCase two_points(bool hidden) {
     auto even = chosen(with_pmf(other, 0.5), with_pmf(near, 0.5));
     return {hidden ? "bright light behind a wall" : "far and bright, near and weak",
             look("0 0.5 -1  0 0 0  0 1 0") + ground +
-                "LightSource \"point\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n"
+                "LightSource \"point\" \"point3 from\" [0 1 0]\n"
                 "LightSource \"point\" \"rgb I\" [1000 1000 1000] \"point3 from\" " +
                 (hidden ? "[0 2 0]\n" : "[0 1000 0]\n") + (hidden ? black + disk(1, 1.5) : ""),
             0.5 / pi * (near.f + other.f),
