@@ -3,6 +3,7 @@
 #include <emscripten.h>
 #include <programs.h>  // written by rules.mk: of each program its name and its main()
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -24,6 +25,8 @@ void FilmClock::save(const Rendering& rendering) {
         pixels.insert(pixels.end(), {L.r, L.g, L.b, static_cast<float>(film.count_of(i))});
     }
     show(film.width, film.height, pixels.data(), film.mean(), film.standard_error());
+    // Soon after the start often; later more seldom, since drawing takes time from the workers.
+    interval_ = std::min(1.5 * interval_, Seconds(1));
     last_ = Clock::now();
 }
 

@@ -138,7 +138,11 @@ class Live {
         const runs = Array.from({length: parts}, (_, k) => this.start(this.name, [
             this.sceneName(), ...this.options(), '--film', `out/${k}.film`, '--film-every', '0.1', '--part',
             `${k + 1}/${parts}`, '--out', 'out/picture.pfm'
-        ], message => { shown[k] = message; this.progress(shown.filter(Boolean)); }));
+        ], message => {
+            // Drawn once for all workers, since they are about equally far.
+            shown[k] = message;
+            if (k === 0) this.progress(shown.filter(Boolean));
+        }));
         const results = await Promise.all(runs);
         const failed = results.find(result => result.code !== 0);
         if (failed || parts === 1) return failed || results[0];

@@ -8,12 +8,10 @@
 class FilmClock {
 public:
     FilmClock(const Scene& scene, const RenderOptions& options)
-        : scene_(scene), options_(options) {}
+        : scene_(scene), options_(options), interval_(options.film_every) {}
 
     /// Any thread may ask.
-    bool due() const {
-        return !options_.film.empty() && Clock::now() - last_ >= Seconds(options_.film_every);
-    }
+    bool due() const { return !options_.film.empty() && Clock::now() - last_ >= interval_; }
     /// While nobody adds to the film. A film that cannot be written now is reported, and tried
     /// again next time: the render goes on.
     void save(const Rendering& rendering);
@@ -24,5 +22,6 @@ private:
 
     const Scene& scene_;
     const RenderOptions& options_;
+    Seconds interval_;
     Clock::time_point last_ = Clock::now();
 };
