@@ -66,7 +66,7 @@ inline std::optional<Sight> sight_of(const Pinhole& camera, Vec3 away) {
     return Sight{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
 }
 
-/// Where paths begin: the lights, by power, with the scene's middle; and the camera.
+/// Where paths begin: the lights, three in four by power, with the scene's middle; and the camera.
 struct Ends {
     LightTable lights;
     Vec3 centre;
@@ -74,7 +74,8 @@ struct Ends {
 };
 inline Ends ends_of(const Scene& scene) {
     Box box = bounds_of(scene.geometry);
-    return {build_light_table(light_pmf(scene, 0)), (box.low + box.high) / 2, pinhole_of(scene)};
+    LightTable lights = build_light_table(light_pmf(scene, 0.25));  // as in chapter 10
+    return {lights, (box.low + box.high) / 2, pinhole_of(scene)};
 }
 
 /// A ray that leaves a light: where from, where to, and how likely.

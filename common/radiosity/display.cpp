@@ -80,7 +80,7 @@ Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patches,
     } else {
         shown.B = smooth_corners(scene, patches->patch, B, threads);
     }
-    if (how == Show::gather) shown.lights = build_light_table(light_pmf(scene, 0));
+    if (how == Show::gather) shown.lights = build_light_table(light_pmf(scene, 0.25));
     return shown;
 }
 

@@ -397,6 +397,21 @@ TEST_SUITE("ch19 photon mapping") {
         }
     }
 
+    TEST_CASE("agreement: a lamp over a wide land, whose sky has a million times its power") {
+        Scene scene = scene_of(
+            "LookAt 0 0.5 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 40\n"
+            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
+            "LightSource \"infinite\" \"rgb L\" [1 1 1]\nAttributeBegin Scale 500 1 500\n" +
+            square(0, true) + "AttributeEnd\nAreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\n" +
+            "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + square(1, false));
+        Measured m = mean_over_seeds(scene, {.photons = 500}, 64, 10, "LDE");
+        Measured truth = mean_over_seeds_of(scene, by_fourteen(scene), 64, 10, "LDE");
+        CAPTURE(m.mean);
+        CAPTURE(truth.mean);
+        CHECK(std::abs(m.mean - truth.mean) < 5 * std::hypot(m.se, truth.se));
+        CHECK(std::hypot(m.se, truth.se) < 0.02 * truth.mean);
+    }
+
     TEST_CASE("agreement: smoothed normals with chapter 14") {
         // A coarse ball with the normals of a sphere, in the sun: photons alone, at small radii.
         Scene scene =

@@ -824,7 +824,7 @@ TEST_SUITE("ch20 program") {
         auto words = [&](const std::string& name, const Words& more = {}) {
             Words all = {
                 "--quiet",   "--film", folder / name + ".film", "--out", folder / name + ".pfm",
-                "--patches", "500"};
+                "--patches", "250"};
             all.insert(all.end(), more.begin(), more.end());
             return all;
         };

@@ -1,5 +1,6 @@
 // names NN: renders small scenes by chapter NN, and says which mistake would make them as they are.
 #include <cstdio>
+#include <set>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -51,7 +52,10 @@ bool fits(const Probe& probe, const Method& method) {
     int chapter = std::stoi(method.name.substr(0, 2));
     // From a sky, hardly any path meets what these small pictures show.
     if (chapter == 17 && probe.text.find("infinite") != std::string::npos) return false;
-    return chapter >= probe.first_chapter && chapter <= probe.last_chapter;
+    // Photons are counted around a point, which blurs light that is not even.
+    static const std::set<std::string> uneven = {"bulb", "mirror", "leaning mirror"};
+    if (chapter == 19 && uneven.contains(probe.name)) return false;
+    return chapter >= probe.first_chapter && std::min(chapter, 18) <= probe.last_chapter;
 }
 
 /// Of chapter 17 what it can see: where the last vertex is no mirror and no glass.
@@ -223,7 +227,7 @@ int write_references(const MeasureOptions& o) {
 }
 
 int check(const std::string& chapter, const MeasureOptions& o) {
-    const Method method = methods_named({chapter}).at(0);
+    const Method method = methods_named({chapter == "19" ? "19-few" : chapter}).at(0);
     Findings found = findings_of(method, o);
     std::vector<Findings> other;
     for (const Method& m : all_methods())

@@ -1,12 +1,12 @@
 #include "chapters/19_photon_mapping/estimator.h"
 #include "tests/measure/methods.h"
 
-static auto by_photons(ch19::Gather gather) {
-    return [gather](const Scene& scene, RenderOptions options) {
+static auto by_photons(ch19::Gather gather, int photons = ch19::Settings().photons) {
+    return [=](const Scene& scene, RenderOptions options) {
         options.search = LightSearch::photons;
         ch19::Settings settings;
         settings.sampler = options.sampler, settings.seed = options.seed;
-        settings.gather = gather;
+        settings.gather = gather, settings.photons = photons;
         return render_film(scene, options, ch19::photon_passes(scene, settings));
     };
 }
@@ -17,6 +17,12 @@ static auto by_photons(ch19::Gather gather) {
                 .color = "#006655",
                 .finds_light = "by photons",
                 .render = by_photons(ch19::Gather::direct),
+                .biased = true});
+    add_method({.name = "19-few",
+                .label = "19 with few photons",
+                .color = "#66dfc0",
+                .finds_light = "by photons",
+                .render = by_photons(ch19::Gather::final, 200),
                 .biased = true});
     return add_method({.name = "19",
                        .label = "19 photon mapping",
