@@ -835,7 +835,7 @@ TEST_SUITE("ch20 program") {
         Finished end;
         for (int stops = 0; stops < 200; stops++) {
             Process process = start_program(words("b", {"--film-every", "0.1"}));
-            ::usleep(static_cast<useconds_t>(100000 + 50000 * stops));
+            ::usleep(static_cast<useconds_t>(100000 + 100000 * stops));
             process.kill(stops % 4 == 3 ? SIGKILL : SIGTERM);
             end = process.wait();
             if (end.code == 0) break;

@@ -47,6 +47,10 @@ const std::vector<Rule> rules_of_paths = {
      "light comes through a board: nothing casts a shadow. Is the shadow ray traced?",
      [](const Case& c) { return c.right("floor") && c.ratio("half") > 1.6; }},
     {"box", "leak",
+     "light leaks into a closed box: photons of other surfaces count (or rays start at the point "
+     "itself, not just off the surface)",
+     [](const Case& c) { return c.chapter == 19 && c.leaks("box") && !c.f.leaks("box", "LDE"); }},
+    {"box", "leak",
      "light leaks into a closed box: rays start at the point itself, not just off the surface",
      [](const Case& c) { return c.leaks("box"); }},
     {"sphere", "longer",
@@ -92,6 +96,12 @@ const std::vector<Rule> rules_of_everything = {
      [](const Case& c) {
          return c.chapter == 18 && c.ratio("floor") > 1.8 &&
                 c.ratio("room", "LDDE") > c.ratio("floor");
+     }},
+    {"sky", "LDE",
+     "light counts twice: it is aimed at, and met again by the ray that goes on to where photons "
+     "are counted",
+     [](const Case& c) {
+         return c.chapter == 19 && c.ratio("floor") > 1.8 && c.ratio("sky") > 1.8;
      }},
     {"sky", "LDE",
      "light that both ways find counts 3/2: what was aimed at counts in full, and what is met "

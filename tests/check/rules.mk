@@ -1,9 +1,10 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check names
+.PHONY: exercise check checkers names
 
 #: make exercise CH=08   write my/08_light_sampling/estimator.h, its new functions left to you
 exercise:
 	@common/tools/exercise '$(CH)'
+	@MAKEFLAGS= $(MAKE) --no-print-directory checkers
 checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp) tests/measure/methods.cpp \
             tests/measure/measure.cpp tests/support/main.cpp)
 $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
@@ -11,8 +12,9 @@ $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
 # Compiled in advance, with the flags that tests/check/check compiles with.
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "compile $<"; $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -x c++-header $< -o $@
+checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
 #: make check CH=08      is it right? one line for each claim, and the name of the mistake (15 s)
-check: $(checkers) $(common) $(made) $(BUILD)/check/support.h.gch \
+check: checkers $(made) \
        $(if $(wildcard tests/measure/method_$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
