@@ -197,7 +197,10 @@ int main(int argc, char** argv) {
         panels.push_back(over_triangles(growth));
         panels.push_back(over_lights(growth));
         write_table(o.out, "chart-growth", points_table(panels));
-        draw_panels(o.out + "/chart-growth", "How the time of a render grows", panels, 3);
+        draw_panels(
+            o.out + "/chart-growth",
+            "Time grows with samples and pixels in proportion, hardly with triangles and lights",
+            panels, 3);
         std::printf("exponents of the time\n%s", markdown(slopes_table(panels)).c_str());
         return 0;
     });

@@ -20,8 +20,8 @@ struct LinePanel {
         "set xtics autofreq\nset xrange [*:*]\nset format x '1e%T'";  // for gnuplot
 };
 
-/// Draws panels side by side, `columns` in a row, to PATH.svg and PATH.png, with one legend on the
-/// right for the lines of all: a label stands for the same line everywhere.
+/// Draws panels side by side, `columns` in a row, to PATH.svg and PATH.png. Each says what its
+/// slopes are, and names its lines at their ends.
 void draw_panels(const std::string& path, const std::string& title,
                  const std::vector<LinePanel>& panels, int columns);
 

@@ -123,10 +123,12 @@ void chart_points(const std::string& folder, uint32_t largest, uint32_t runs) {
     write(folder, "01-darts", "Four times the darts, half the error", panels, 2);
     std::printf("chapter 01\n%s\n", markdown(slopes_table({panels[0]})).c_str());
     panels = point_sets(largest, runs);
-    write(folder, "02-points", "Error of each point set, over samples and over time", panels, 3);
+    write(folder, "02-points",
+          "Points that keep apart err less, most where the integrand is smooth", panels, 3);
     panels.resize(3);
     std::printf("chapter 02\n%s\n", markdown(slopes_table(panels)).c_str());
     panels = densities(largest, runs);
-    write(folder, "03-densities", "The integral of x^2, drawn by different densities", panels, 2);
+    write(folder, "03-densities",
+          "A density like x^2 errs least; one that leaves part of it out stays wrong", panels, 2);
     std::printf("chapter 03\n%s\n", markdown(slopes_table({panels[0]})).c_str());
 }
