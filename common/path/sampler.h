@@ -51,6 +51,17 @@ inline uint32_t sobol_second(uint32_t index) {
     return x;
 }
 
+/// reverse_bits(sobol_second(index)): the same steps, the other way.
+/// tested by  "identity: Sobol's second coordinate from either end"
+inline uint32_t sobol_second_reversed(uint32_t x) {
+    x ^= (x >> 16) & 0x0000ffffu;
+    x ^= (x >> 8) & 0x00ff00ffu;
+    x ^= (x >> 4) & 0x0f0f0f0fu;
+    x ^= (x >> 2) & 0x33333333u;
+    x ^= (x >> 1) & 0x55555555u;
+    return x;
+}
+
 /// Owen's scrambling of a 32-bit fraction: each bit is flipped or not by a random function of the
 /// bits above it. The points stay as evenly spread as they were, and each becomes uniform.
 /// source  Laine, Karras 2011; constants: Vegdahl 2021
@@ -162,15 +173,16 @@ private:
         return {sobol_x_[i], sobol_y_[i]};
     }
     /// The points of the next dimensions, all at once: the compiler makes vector instructions of
-    /// the loop. index is owen_scramble(sample), x owen_scramble(reverse_bits(index)).
+    /// the loop. index is owen_scramble(sample), x owen_scramble(reverse_bits(index)), y
+    /// owen_scramble(sobol_second(index)); of bits that are reversed twice neither is done.
     void draw_sobol() {
         for (uint32_t i = 0; i < at_once; i++) {
             uint32_t set = key_of_set(dimension_ + i);
             uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, set));
-            uint32_t x = reverse_bits(scramble_reversed(index, set * 0x9e3779b1u + 1));
-            sobol_x_[i] = to_unit_float(x);
-            uint32_t y = owen_scramble(sobol_second(index), set * 0x85ebca77u + 2);
-            sobol_y_[i] = to_unit_float(y);
+            uint32_t x = scramble_reversed(index, set * 0x9e3779b1u + 1);
+            uint32_t y = scramble_reversed(sobol_second_reversed(index), set * 0x85ebca77u + 2);
+            sobol_x_[i] = to_unit_float(reverse_bits(x));
+            sobol_y_[i] = to_unit_float(reverse_bits(y));
         }
     }
 

@@ -185,6 +185,12 @@ TEST_SUITE("sampler: bits") {
         CHECK(reverse_bits(reverse_bits(0x12345678u)) == 0x12345678u);
     }
 
+    TEST_CASE("identity: Sobol's second coordinate from either end") {
+        for (uint32_t k = 0; k < 32; k++)  // linear: what holds for each bit holds for all
+            CHECK(sobol_second_reversed(1u << k) == reverse_bits(sobol_second(1u << k)));
+        CHECK(sobol_second_reversed(0x12345678u) == reverse_bits(sobol_second(0x12345678u)));
+    }
+
     TEST_CASE("identity: hash32 has no collisions") {
         std::vector<uint32_t> hashes;
         for (uint32_t i = 0; i < 1u << 20; i++) hashes.push_back(hash32(i));
