@@ -69,27 +69,39 @@ bool in_double(const BvhBlock& block, uint32_t hits, const Ray& ray, const Shear
 /// Relative error of t in float at which double precision takes over.
 constexpr float float_error = 0x1p-8f;
 
-/// 1 / 2^k.
-float power_of_half(uint32_t k) { return std::bit_cast<float>((127 - k) << 23); }
+/// Corners of eight or sixteen triangles, relative to the origin of the ray, which is the z axis.
+struct Corners {
+    Floats x[3], y[3], z[3];
 
-/// In which lanes t in float is good enough, on triangles that are not thin and whose sides are
-/// not longer than `side`.
+    Corners(const BvhBlock& block, const Ray& ray, const Shear& shear) {
+        auto [kx, ky, kz, sx, sy, sz] = shear;
+        Floats ox = splat(ray.o[kx]), oy = splat(ray.o[ky]), oz = splat(ray.o[kz]);
+        for (int k = 0; k < 3; k++) {
+            z[k] = load(block.vertex[3 * k + kz]) - oz;
+            x[k] = load(block.vertex[3 * k + kx]) - ox - splat(sx) * z[k];
+            y[k] = load(block.vertex[3 * k + ky]) - oy - splat(sy) * z[k];
+        }
+    }
+};
+
+Floats min3(const Floats (&a)[3]) { return min(min(a[0], a[1]), a[2]); }
+Floats max3(const Floats (&a)[3]) { return max(max(a[0], a[1]), a[2]); }
+Floats farthest(const Floats (&a)[3]) { return max(max(abs(a[0]), abs(a[1])), abs(a[2])); }
+
+/// How far z_t = sum of e_i z_i may be off, where the ray is inside of the triangle.
 ///
-/// With u = 2^-24, R for the distance of the corners and m <= side for their distance from the ray:
-/// rounding moves each sheared corner by 6 u R, and so t by 12 u R tan at most; the products of the
-/// e_i are off by u m^2, and so t by 9 u m^2 side / |det|. On triangles that are not thin (the
-/// longest side, squared, is at most 64 times twice the area) both together are below
+/// With u = 2^-24, m the largest |x| and |y| of the corners, Z the largest |z|, D the difference of
+/// their z, and det = sum of e_i: the sum of the sides is 6.9 m at most, so that the slope is
+/// 3.5 m D / |det|, and |det| is 4 m^2 at most. Rounding moves each corner by 2 u m + 4 u Z in x
+/// and in y; each e_i is off by u (2 m^2 + |e_i|); the products and their sum by 3 u |det| Z, where
+/// Z <= z_t / det + D. All in all
 ///
-///   600 u (t + side) / cos,   cos >= |det| |d_z| / side^2      (d of length 1)
+///   error of z_t / det < 32 u (m + Z) m D / |det| + 3 u z_t / det
 ///
 /// tested by  "truth: every hit as in double precision"
-[[gnu::always_inline]] inline uint32_t trusted(Floats t, Floats det, float side,
-                                               const Shear& shear) {
-    float enough = 600 * 0x1p-24f / float_error * side * side;
-    Floats per_t = splat(1.74f * enough);  // where d is not of length 1, t counts up to sqrt(3) d_z
-    Floats constant = splat(enough * side * std::abs(shear.sz));
-    Floats product = t * det;
-    return less(per_t * t + constant, max(product, splat(0) - product));
+[[gnu::always_inline]] inline Floats error_of(const Corners& c) {
+    Floats m = max(farthest(c.x), farthest(c.y)), depth = max3(c.z) - min3(c.z);
+    return splat(32 * 0x1p-24f) * (m + farthest(c.z)) * m * depth;
 }
 
 /// intersect_triangle() on a whole block: the edges of all triangles at once, with the same bits.
@@ -98,58 +110,52 @@ float power_of_half(uint32_t k) { return std::bit_cast<float>((127 - k) << 23); 
 /// t and the weights are worked out in float first. Where they may be wrong by more than
 /// float_error, in double precision, as intersect_triangle() does.
 template <bool any>
-[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, uint32_t leaf, float side,
-                                                  const Ray& ray, const Shear& shear,
-                                                  PrimHit& best) {
-    // Shear space, so that the ray is the z axis.
-    auto [kx, ky, kz, sx, sy, sz] = shear;
-    Floats ox = splat(ray.o[kx]), oy = splat(ray.o[ky]), oz = splat(ray.o[kz]);
-    Floats shear_x = splat(sx), shear_y = splat(sy), zero = splat(0);
-    Floats az = load(block.vertex[kz]) - oz;
-    Floats ax = load(block.vertex[kx]) - ox - shear_x * az;
-    Floats ay = load(block.vertex[ky]) - oy - shear_y * az;
-    Floats bz = load(block.vertex[3 + kz]) - oz;
-    Floats bx = load(block.vertex[3 + kx]) - ox - shear_x * bz;
-    Floats by = load(block.vertex[3 + ky]) - oy - shear_y * bz;
-    Floats cz = load(block.vertex[6 + kz]) - oz;
-    Floats cx = load(block.vertex[6 + kx]) - ox - shear_x * cz;
-    Floats cy = load(block.vertex[6 + ky]) - oy - shear_y * cz;
+[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, const Ray& ray,
+                                                  const Shear& shear, PrimHit& best) {
+    // Leave out the triangles that the ray passes by, and what has no corners.
+    Corners c(block, ray, shear);
+    Floats e[3] = {c.x[2] * c.y[1] - c.y[2] * c.x[1], c.x[0] * c.y[2] - c.y[0] * c.x[2],
+                   c.x[1] * c.y[0] - c.y[1] * c.x[0]};
+    Floats zero = splat(0), scale = splat(shear.sz), reach = splat(best.t);
+    Floats low = min3(e), high = max3(e);
+    uint32_t inside = less_equal(zero, low) | less_equal(high, zero);
+    if (inside == 0) return false;
+    inside &= ~equal(load(block.prim), ray.from);
 
-    // Leave out the triangles that the ray passes by.
-    Floats e0 = cx * by - cy * bx, e1 = ax * cy - ay * cx, e2 = bx * ay - by * ax;
-    uint32_t outside = less(min(min(e0, e1), e2), zero) & less(zero, max(max(e0, e1), e2));
-
-    // Of thin ones t in float tells nothing: leave out those with all corners too near or too far.
-    Floats scale = splat(sz), reach = splat(best.t);
-    if ((leaf & BvhNode::careful) == BvhNode::careful) [[unlikely]] {
-        Floats ta = az * scale, tb = bz * scale, tc = cz * scale;
-        Floats near = min(min(ta, tb), tc), far = max(max(ta, tb), tc);
-        uint32_t hits = ~outside & less(zero, far) & less_equal(near, reach);
-        return hits != 0 && in_double(block, hits, ray, shear, best);
-    }
-
-    Floats det = e0 + e1 + e2;
-    Floats t = (e0 * az + e1 * bz + e2 * cz) / det * scale;
-    uint32_t hits = ~outside & less(zero, t) & less_equal(t, reach);
-    if (hits == 0) return false;
-    side *= power_of_half(leaf >> BvhNode::side_at & 31);
-    uint32_t sure = hits & trusted(t, det, side, shear);
-    if (any && sure != 0) return true;
-    if (hits != sure) [[unlikely]]
-        return in_double(block, hits, ray, shear, best);
+    // In float is only known what is off by little. An e_i of 0 may be so by rounding alone, and
+    // the triangle elsewhere.
+    Floats z_t = e[0] * c.z[0] + e[1] * c.z[1] + e[2] * c.z[2], det = e[0] + e[1] + e[2];
+    Floats t = z_t / det * scale, error = error_of(c), size = abs(z_t);
+    inside &= ~(less(t, zero) & less(error, size));
+    uint32_t in_float = less(zero, low) | less(high, zero);
+    in_float &= inside & less(error, size * splat(float_error));
+    uint32_t sure = in_float & less(zero, t) & less_equal(t, reach);
+    bool found = sure != 0;
+    if (any && found) return true;
 
     // Keep the nearest.
-    alignas(64) float ts[lanes], e1s[lanes], e2s[lanes], dets[lanes];
-    store(t, ts);
-    store(e1, e1s);
-    store(e2, e2s);
-    store(det, dets);
-    for (; hits != 0; hits &= hits - 1) {
-        int k = std::countr_zero(hits);
-        if (ts[k] < best.t || (ts[k] == best.t && block.prim[k] < best.prim))
-            best = {block.prim[k], ts[k], e1s[k] / dets[k], e2s[k] / dets[k]};
+    if (found) {
+        alignas(64) float ts[lanes], e1s[lanes], e2s[lanes], dets[lanes];
+        store(t, ts);
+        store(e[1], e1s);
+        store(e[2], e2s);
+        store(det, dets);
+        for (; sure != 0; sure &= sure - 1) {
+            int k = std::countr_zero(sure);
+            if (ts[k] < best.t || (ts[k] == best.t && block.prim[k] < best.prim))
+                best = {block.prim[k], ts[k], e1s[k] / dets[k], e2s[k] / dets[k]};
+        }
     }
-    return true;
+
+    // Of the others, leave out those with all corners too near or too far.
+    uint32_t unsure = inside ^ in_float;
+    if (unsure != 0) [[unlikely]] {
+        Floats ends[2] = {min3(c.z) * scale, max3(c.z) * scale};
+        Floats near = min(ends[0], ends[1]), far = max(ends[0], ends[1]);
+        unsure &= less(zero, far) & less_equal(near, reach);
+        if (unsure != 0) found |= in_double(block, unsure, ray, shear, best);
+    }
+    return found;
 }
 
 /// The spheres and disks of a block, one by one.
@@ -181,12 +187,12 @@ void prefetch(const Bvh& bvh, uint32_t child) {
 /// What ray and block have in common becomes the best hit. Returns whether any was asked for, and
 /// is found.
 template <bool any, bool counting>
-[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, uint32_t leaf, float side,
-                                              const Geometry& g, const Ray& ray, const Shear& shear,
-                                              PrimHit& best, BvhCount* count) {
+[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, bool mixed, const Geometry& g,
+                                              const Ray& ray, const Shear& shear, PrimHit& best,
+                                              BvhCount* count) {
     if (counting) count->blocks++;
-    bool found = test_triangles<any>(block, leaf, side, ray, shear, best);
-    if (leaf & BvhNode::mixed && !(any && found)) {
+    bool found = test_triangles<any>(block, ray, shear, best);
+    if (mixed && !(any && found)) {
         PrimHit other = best;  // a copy, so that `best` can stay in registers
         found |= test_others(block, g, ray, other);
         best = other;
@@ -200,9 +206,10 @@ PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count)
     Shear shear = shear_to_ray(ray.d);
     PrimHit best;
     best.t = next_below(ray.t_max);
-    for (const BvhBlock& block : bvh.blocks)
-        if (test_block<any, counting>(block, bvh.root, bvh.side, g, ray, shear, best, count))
-            return {0};
+    for (size_t i = 0; i < bvh.blocks.size(); i++) {
+        bool mixed = i >= (bvh.root & BvhNode::index);
+        if (test_block<any, counting>(bvh.blocks[i], mixed, g, ray, shear, best, count)) return {0};
+    }
     return best.prim == PrimHit::none ? PrimHit{} : best;
 }
 
@@ -281,8 +288,8 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         if (current == BvhNode::nothing) break;
 
         const BvhBlock& block = bvh.blocks[current & BvhNode::index];
-        if (test_block<any, counting>(block, current, bvh.side, g, ray, shear, best, count))
-            return {0};
+        bool mixed = current & BvhNode::mixed;
+        if (test_block<any, counting>(block, mixed, g, ray, shear, best, count)) return {0};
         reach = best.t * scale * slack;
         current = pop();
     }

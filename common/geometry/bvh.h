@@ -15,10 +15,7 @@ struct alignas(64) BvhNode {
 
     static constexpr uint32_t leaf = 1u << 31;
     static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
-    // Five bits of a leaf: the longest side is at most Bvh::side / 2^k; or all set:
-    // there are thin triangles in it, for which the distance needs care.
-    static constexpr uint32_t side_at = 25, careful = 31u << side_at;
-    static constexpr uint32_t index = (1u << side_at) - 1;
+    static constexpr uint32_t index = mixed - 1;
     static constexpr uint32_t nothing = ~0u;  // an unused child
 };
 
@@ -30,9 +27,9 @@ struct alignas(64) BvhBlock {
 
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.
 struct Bvh {
-    uint32_t root = 0;  // as BvhNode::child; a leaf: all blocks belong to it
+    uint32_t root = 0;  // as BvhNode::child; or leaf | number of blocks of triangles alone, which
+                        // come first: then there are no nodes
     Vec3 centre;        // of the geometry: the boxes are relative to it
-    float side = 0;     // the longest one of a triangle that needs no care
     std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
 };

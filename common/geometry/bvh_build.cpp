@@ -10,7 +10,7 @@ namespace {
 
 constexpr int bins = 16;
 constexpr uint32_t small = lanes / 2;      // references that are not split any further
-constexpr uint32_t few = 2 * lanes;        // references for which boxes cost more than they save
+constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
 constexpr uint32_t reported = 16384;       // references of a subtree whose end is reported
@@ -304,27 +304,18 @@ private:
         refs_.resize(g_.size());
         bvh_.centre = centre_of(g_);
         std::array<Range, chunks> parts;
-        std::array<double, chunks> logs = {};
         in_chunks(refs_.size(), [&](size_t begin, size_t end, int chunk) {
             Range part{0, 0};
-            double log = 0;
             for (size_t i = begin; i < end; i++) {
                 refs_[i] = make_ref(g_, bvh_.centre, static_cast<uint32_t>(i));
                 if (refs_[i].prim() == PrimHit::none) continue;
                 part.grow(refs_[i].box);
                 part.end++;
-                Float4 e = refs_[i].box.neg_lo + refs_[i].box.hi;
-                log += std::ilogb(std::max({e[0], e[1], e[2], 1e-30f}));
             }
             parts[static_cast<size_t>(chunk)] = part;
-            logs[static_cast<size_t>(chunk)] = log;
         });
         Range all;
-        double log = 0;
         for (const Range& part : parts) all.grow(part);
-        for (double part : logs) log += part;
-        // What is far longer than is usual needs care, too.
-        if (all.size() > 0) bvh_.side = std::exp2(static_cast<float>(15 + log / all.size()));
         if (all.size() < refs_.size())
             std::erase_if(refs_, [](const Ref& ref) { return ref.prim() == PrimHit::none; });
         return all;
@@ -504,45 +495,30 @@ private:
         return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
     }
 
-    /// The longest side of a triangle; infinity when it needs care: it is thin, so that t in float
-    /// may be far off, or very large among the others.
-    double longest_side(const Triangle& triangle) const {
-        Vec3d p0(g_.positions[triangle.v[0]]), p1(g_.positions[triangle.v[1]]),
-            p2(g_.positions[triangle.v[2]]);
-        Vec3d a = p1 - p0, b = p2 - p1, c = p0 - p2, n = cross(a, b);
-        double side = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
-        constexpr double thin = 64;
-        bool care = side * side > thin * std::sqrt(dot(n, n)) || side > double{bvh_.side};
-        return care ? double{infinity} : side;
-    }
+    bool is_triangle(const Ref& ref) const { return ref.prim() < g_.triangles.size(); }
 
-    /// What is known of the primitives of a leaf: BvhNode::mixed when there are spheres or disks
-    /// among them, and the longest side.
+    /// BvhNode::mixed when there are spheres or disks in the leaf.
     uint32_t flags_of(Leaf leaf) const {
-        uint32_t flags = 0;
-        double side = 0;
-        for (uint32_t i = leaf.begin; i < leaf.end; i++) {
-            uint32_t prim = refs_[i].prim();
-            if (prim >= g_.triangles.size()) {
-                flags |= BvhNode::mixed;
-            } else {
-                side = std::max(side, longest_side(g_.triangles[prim]));
-            }
-        }
-        if (side == double{infinity}) return flags | BvhNode::careful;
-        double largest = double{bvh_.side};
-        int halvings = std::ilogb(largest / std::max(side, 1e-15 * largest));
-        return flags | static_cast<uint32_t>(std::clamp(halvings, 0, 30)) << BvhNode::side_at;
+        auto first = refs_.begin() + leaf.begin, last = refs_.begin() + leaf.end;
+        bool alone = std::all_of(first, last, [&](const Ref& ref) { return is_triangle(ref); });
+        return alone ? 0 : BvhNode::mixed;
     }
 
-    /// One or two blocks and no node. The large primitives come first: most rays hit something in
-    /// the first block and nothing in the second, so that the processor can foresee it.
+    /// A few blocks and no node: triangles first, and of these the large ones. Most rays hit
+    /// something in the first block and nothing in the others, so that the processor can foresee
+    /// it.
     uint32_t add_few(uint32_t size) {
-        std::sort(refs_.begin(), refs_.begin() + size,
-                  [](const Ref& a, const Ref& b) { return a.box.area() > b.box.area(); });
-        uint32_t root = add_leaf({0, std::min(uint32_t{lanes}, size)});
-        if (size > lanes) add_leaf({lanes, size});
-        return root | flags_of({0, size});
+        std::sort(refs_.begin(), refs_.begin() + size, [&](const Ref& a, const Ref& b) {
+            bool first = is_triangle(a), second = is_triangle(b);
+            return first != second ? first : a.box.area() > b.box.area();
+        });
+        uint32_t of_triangles = 0;
+        for (uint32_t i = 0; i < size; i += lanes) {
+            Leaf leaf = {i, std::min(i + lanes, size)};
+            of_triangles += flags_of(leaf) == 0;
+            add_leaf(leaf);
+        }
+        return BvhNode::leaf | of_triangles;
     }
 
     void fill_block(Leaf leaf, BvhBlock& block) {

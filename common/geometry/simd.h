@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #ifdef __AVX2__
 #include <immintrin.h>
@@ -39,9 +40,13 @@ inline Floats multiply_subtract(Floats a, Floats b, Floats c) {
 /// a < b ? a : b, so that b comes back when either is NaN; max likewise.
 inline Floats min(Floats a, Floats b) { return {_mm512_maskz_min_ps(all_lanes, a.v, b.v)}; }
 inline Floats max(Floats a, Floats b) { return {_mm512_maskz_max_ps(all_lanes, a.v, b.v)}; }
+inline Floats abs(Floats a) { return {_mm512_abs_ps(a.v)}; }
 /// Bit k is set where lane k of a is less than (or equal to) that of b; not where either is NaN.
 inline uint32_t less(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
 inline uint32_t less_equal(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ); }
+inline uint32_t equal(Ints a, uint32_t b) {
+    return _mm512_cmpeq_epi32_mask(a.v, _mm512_set1_epi32(static_cast<int>(b)));
+}
 inline Ints lanes_of(LaneOrder order) {
     // The lower half of the order goes to the lower eight lanes.
     const __m512i shifts =
@@ -107,11 +112,16 @@ inline Floats multiply_subtract(Floats a, Floats b, Floats c) { return {a.v * b.
 #endif
 inline Floats min(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Floats max(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
+inline Floats abs(Floats a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
 inline uint32_t less(Floats a, Floats b) {
     return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)));
 }
 inline uint32_t less_equal(Floats a, Floats b) {
     return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
+}
+inline uint32_t equal(Ints a, uint32_t b) {
+    __m256i same = _mm256_cmpeq_epi32(a.v, _mm256_set1_epi32(static_cast<int>(b)));
+    return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(same)));
 }
 inline Ints lanes_of(LaneOrder order) {
     return {_mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(order)),
@@ -156,6 +166,7 @@ inline Floats min(Floats a, Floats b) {
 inline Floats max(Floats a, Floats b) {
     return {wasm_f32x4_pmax(b.low, a.low), wasm_f32x4_pmax(b.high, a.high)};
 }
+inline Floats abs(Floats a) { return {wasm_f32x4_abs(a.low), wasm_f32x4_abs(a.high)}; }
 namespace simd_details {
 inline uint32_t mask_of(v128_t low, v128_t high) {
     return static_cast<uint32_t>(wasm_i32x4_bitmask(low) | wasm_i32x4_bitmask(high) << 4);
@@ -174,6 +185,10 @@ inline uint32_t less(Floats a, Floats b) {
 }
 inline uint32_t less_equal(Floats a, Floats b) {
     return simd_details::mask_of(wasm_f32x4_le(a.low, b.low), wasm_f32x4_le(a.high, b.high));
+}
+inline uint32_t equal(Ints a, uint32_t b) {
+    v128_t all = wasm_u32x4_splat(b);
+    return simd_details::mask_of(wasm_i32x4_eq(a.low, all), wasm_i32x4_eq(a.high, all));
 }
 /// Each lane keeps its digit of the order, moves it to the top, and all of them to the bottom.
 inline Ints lanes_of(LaneOrder order) {
@@ -251,11 +266,17 @@ inline Floats max(const Floats& a, const Floats& b) {
     return simd_details::each_lane<Floats>(
         [&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
 }
+inline Floats abs(const Floats& a) {
+    return simd_details::each_lane<Floats>([&](int k) { return std::abs(a.v[k]); });
+}
 inline uint32_t less(const Floats& a, const Floats& b) {
     return simd_details::mask_of([&](int k) { return a.v[k] < b.v[k]; });
 }
 inline uint32_t less_equal(const Floats& a, const Floats& b) {
     return simd_details::mask_of([&](int k) { return a.v[k] <= b.v[k]; });
+}
+inline uint32_t equal(const Ints& a, uint32_t b) {
+    return simd_details::mask_of([&](int k) { return a.v[k] == b; });
 }
 inline Ints lanes_of(LaneOrder order) {
     return simd_details::each_lane<Ints>([&](int k) { return order >> 4 * k & 7; });

@@ -29,8 +29,8 @@ struct PassTrace {
 /// gnu::flatten makes one piece of code of all that trace() calls: a fifth faster.
 template <auto trace, class... Own>
 Trace trace_with(Own... own) {
-    return [... own = std::move(own)](const Scene& scene, Ray ray, Sampler& sampler, PathLog& log)
-        __attribute__((flatten)) {
+    return [... own = std::move(own)](const Scene& scene, const Ray& ray, Sampler& sampler,
+                                      PathLog& log) __attribute__((flatten)) {
         return trace(scene, own..., ray, sampler, log);
     };
 }
@@ -38,8 +38,8 @@ Trace trace_with(Own... own) {
 /// The same for a chapter whose trace() also adds splats.
 template <auto trace, class... Own>
 SplatTrace splat_trace_with(Own... own) {
-    return [... own = std::move(own)](const Scene& scene, Ray ray, Splats& splats, Sampler& sampler,
-                                      PathLog& log) __attribute__((flatten)) {
+    return [... own = std::move(own)](const Scene& scene, const Ray& ray, Splats& splats,
+                                      Sampler& sampler, PathLog& log) __attribute__((flatten)) {
         return trace(scene, own..., ray, splats, sampler, log);
     };
 }

@@ -137,7 +137,7 @@ inline bool occluded(const Scene& scene, const Ray& ray) {
 /// A ray from x in direction wi that starts just off the surface, on the side it leaves to.
 inline Ray spawn_ray(const Hit& x, Vec3 wi, float t_max = infinity) {
     float side = dot(wi, x.ng) < 0 ? -x.eps : x.eps;
-    return {x.p + side * x.ng, wi, t_max, x.time};
+    return {x.p + side * x.ng, wi, t_max, x.time, x.prim};
 }
 
 /// Le at x towards where the ray came from.

@@ -160,10 +160,12 @@ TEST_SUITE("ch05 exact hits") {
                 float cos = dot(wi, x->ng);
                 if (i % 2 == 0) wi = normalize(wi - (1 - random.between(0, 1e-3f)) * cos * x->ng);
                 if (dot(wi, x->ng) < 0) wi = -wi;
-                Ray ray = spawn_ray(*x, wi);
+                Ray ray = spawn_ray(*x, wi), unaware = ray;
+                unaware.from = PrimHit::none;
                 left++;
                 PrimHit next = closest_hit(scene.bvh, scene.geometry, ray);
                 again += next.prim == x->prim;
+                again += closest_hit(scene.bvh, scene.geometry, unaware).prim == x->prim;
                 // A shadow ray that ends before the next hit meets nothing.
                 if (next.prim != PrimHit::none) ray.t_max = 0.99f * next.t;
                 again += next.prim != x->prim && any_hit(scene.bvh, scene.geometry, ray);
