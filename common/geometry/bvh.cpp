@@ -86,7 +86,7 @@ struct Corners {
 
 Floats min3(const Floats (&a)[3]) { return min(min(a[0], a[1]), a[2]); }
 Floats max3(const Floats (&a)[3]) { return max(max(a[0], a[1]), a[2]); }
-Floats farthest(const Floats (&a)[3]) { return max(max(abs(a[0]), abs(a[1])), abs(a[2])); }
+Floats farthest(const Floats (&a)[3]) { return max_abs(max_abs(a[0], a[1]), a[2]); }
 
 /// How far z_t = sum of e_i z_i may be off, where the ray is inside of the triangle.
 ///
@@ -100,8 +100,8 @@ Floats farthest(const Floats (&a)[3]) { return max(max(abs(a[0]), abs(a[1])), ab
 ///
 /// tested by  "truth: every hit as in double precision"
 [[gnu::always_inline]] inline Floats error_of(const Corners& c) {
-    Floats m = max(farthest(c.x), farthest(c.y)), depth = max3(c.z) - min3(c.z);
-    return splat(32 * 0x1p-24f) * (m + farthest(c.z)) * m * depth;
+    Floats m = max_abs(farthest(c.x), farthest(c.y)), low = min3(c.z), high = max3(c.z);
+    return splat(32 * 0x1p-24f) * (m + max_abs(low, high)) * m * (high - low);
 }
 
 /// intersect_triangle() on a whole block: the edges of all triangles at once, with the same bits.
@@ -126,7 +126,6 @@ template <bool any>
     // the triangle elsewhere.
     Floats z_t = e[0] * c.z[0] + e[1] * c.z[1] + e[2] * c.z[2], det = e[0] + e[1] + e[2];
     Floats t = z_t / det * scale, error = error_of(c), size = abs(z_t);
-    inside &= ~(less(t, zero) & less(error, size));
     uint32_t in_float = less(zero, low) | less(high, zero);
     in_float &= inside & less(error, size * splat(float_error));
     uint32_t sure = in_float & less(zero, t) & less_equal(t, reach);
@@ -152,6 +151,7 @@ template <bool any>
     if (unsure != 0) [[unlikely]] {
         Floats ends[2] = {min3(c.z) * scale, max3(c.z) * scale};
         Floats near = min(ends[0], ends[1]), far = max(ends[0], ends[1]);
+        unsure &= ~(less(t, zero) & less(error, size));
         unsure &= less(zero, far) & less_equal(near, reach);
         if (unsure != 0) found |= in_double(block, unsure, ray, shear, best);
     }

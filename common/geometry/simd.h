@@ -16,7 +16,7 @@
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int32_t __attribute__((vector_size(16)));
 
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
 
 inline constexpr int lanes = 16;
 using LaneOrder = uint64_t;  // lane k of the result is lane (order >> 4 k) & 15 of the source
@@ -41,6 +41,8 @@ inline Floats multiply_subtract(Floats a, Floats b, Floats c) {
 inline Floats min(Floats a, Floats b) { return {_mm512_maskz_min_ps(all_lanes, a.v, b.v)}; }
 inline Floats max(Floats a, Floats b) { return {_mm512_maskz_max_ps(all_lanes, a.v, b.v)}; }
 inline Floats abs(Floats a) { return {_mm512_abs_ps(a.v)}; }
+/// The larger of |a| and |b|.
+inline Floats max_abs(Floats a, Floats b) { return {_mm512_range_ps(a.v, b.v, 0b1011)}; }
 /// Bit k is set where lane k of a is less than (or equal to) that of b; not where either is NaN.
 inline uint32_t less(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
 inline uint32_t less_equal(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ); }
@@ -113,6 +115,7 @@ inline Floats multiply_subtract(Floats a, Floats b, Floats c) { return {a.v * b.
 inline Floats min(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Floats max(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline Floats abs(Floats a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+inline Floats max_abs(Floats a, Floats b) { return max(abs(a), abs(b)); }
 inline uint32_t less(Floats a, Floats b) {
     return static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)));
 }
@@ -167,6 +170,7 @@ inline Floats max(Floats a, Floats b) {
     return {wasm_f32x4_pmax(b.low, a.low), wasm_f32x4_pmax(b.high, a.high)};
 }
 inline Floats abs(Floats a) { return {wasm_f32x4_abs(a.low), wasm_f32x4_abs(a.high)}; }
+inline Floats max_abs(Floats a, Floats b) { return max(abs(a), abs(b)); }
 namespace simd_details {
 inline uint32_t mask_of(v128_t low, v128_t high) {
     return static_cast<uint32_t>(wasm_i32x4_bitmask(low) | wasm_i32x4_bitmask(high) << 4);
@@ -269,6 +273,7 @@ inline Floats max(const Floats& a, const Floats& b) {
 inline Floats abs(const Floats& a) {
     return simd_details::each_lane<Floats>([&](int k) { return std::abs(a.v[k]); });
 }
+inline Floats max_abs(const Floats& a, const Floats& b) { return max(abs(a), abs(b)); }
 inline uint32_t less(const Floats& a, const Floats& b) {
     return simd_details::mask_of([&](int k) { return a.v[k] < b.v[k]; });
 }
