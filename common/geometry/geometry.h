@@ -10,8 +10,8 @@ struct Ray {
     Vec3 o;
     Vec3 d;
     float t_max = infinity;
-    float time = 0;      // of shapes that move
-    uint32_t from = ~0;  // number of the triangle that it leaves, and need not be tested against
+    float time = 0;       // of shapes that move
+    uint32_t from = ~0u;  // number of the triangle that it leaves, and need not be tested against
 };
 
 // `shape` is the index into Scene::shapes of the directive that made the primitive.
