@@ -18,7 +18,7 @@ LightBounds bounds_of(const Scene& scene, const LightTable& table, size_t i) {
     } else if (light.type == LightType::distant) {
         b.has_place = 0;
     } else if (light.type == LightType::infinite) {  // all around
-        b.centre = {0, 0, 1}, b.has_place = 0, b.least_cos_x = 1;
+        b.centre = {0, 0, 1}, b.has_place = 0, b.radius = 1;
         b.power *= pi;
     }
     float pmf = table[i].pmf;
@@ -41,10 +41,9 @@ inline float potential(const LightBounds& y, const Hit& x) {
     float inv_d = 1 / std::sqrt(d2), least = y.radius * inv_d;
     float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d;
     cos_y = std::max(cos_y, y.back * cos_y);
-    float least_x = y.least_cos_x, least_y = y.least_cos_y;  // copies: std::max of y's own numbers
-    least_x = std::max(least, least_x);                      // would be branches
-    float seen = ((cos_x < -1.00001f * least_x) | (cos_y < -least)) ? 0.0f : 1.0f;
-    cos_x = std::max(cos_x, least_x), cos_y = std::max(cos_y, std::max(least, least_y));
+    float least_y = y.least_cos_y;  // a copy: std::max of y's own number would be a branch
+    float seen = ((cos_x < -1.00001f * least) | (cos_y < -least)) ? 0.0f : 1.0f;
+    cos_x = std::max(cos_x, least), cos_y = std::max(cos_y, std::max(least, least_y));
     return seen * y.power * cos_x * cos_y / d2;
 }
 

@@ -5,12 +5,11 @@
 
 /// A light of any type in one form, from which its potential at a point follows without a branch.
 struct LightBounds {
-    Vec3 centre;            // m; unit, towards a light without a place
-    float has_place = 1;    // 0: distant and infinite lights
-    Vec3 n;                 // unit, of a flat light; else 0
-    float back = 1;         // -1: a flat light that shines to both sides
-    float radius = 0;       // m, of a sphere around it
-    float least_cos_x = 0;  // 1: this cosine does not count
+    Vec3 centre;          // m; unit, towards a light without a place
+    float has_place = 1;  // 0: distant and infinite lights
+    Vec3 n;               // unit, of a flat light; else 0
+    float back = 1;       // -1: a flat light that shines to both sides
+    float radius = 0;     // m, of a sphere around it; 1: the sky, which is around x
     float least_cos_y = 1;
     float power = 0;    // L A or what corresponds to it
     float inv_pmf = 0;  // 1 / its probability in the table
