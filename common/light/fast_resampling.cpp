@@ -1,6 +1,9 @@
 #include "common/light/fast_resampling.h"
 
+#include <cstring>
 #include <limits>
+
+#include "common/geometry/simd.h"
 
 namespace {
 
@@ -33,6 +36,47 @@ inline int pick(const AliasColumn* table, int N, double u) {
     auto [own, other, pmf] = table[column];
     return at - column < double{own} ? column : static_cast<int>(other);
 }
+
+/// The numbers of a light's bounds, each beside that of the other candidates, so that the compiler
+/// makes vector instructions of what is worked out from them.
+struct SideBySide {
+    static constexpr size_t numbers = sizeof(LightBounds) / sizeof(float);
+    static_assert(numbers == 12);
+    static constexpr int size = 16;
+    float of[numbers][size];
+
+    /// The bounds of candidates i to i + 3: three times four numbers of each, turned by 90 degrees.
+    void put(const LightBounds* bounds, const int* light, int i) {
+        for (size_t k = 0; k < numbers; k += 4) {
+            Float4 a, b, c, d;
+            auto load = [&](int candidate, Float4& four) {
+                const char* from = reinterpret_cast<const char*>(bounds + light[candidate]);
+                std::memcpy(&four, from + k * sizeof(float), sizeof(four));
+            };
+            load(i, a), load(i + 1, b), load(i + 2, c), load(i + 3, d);
+            Float4 ab0 = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                   ab2 = __builtin_shufflevector(a, b, 2, 6, 3, 7),
+                   cd0 = __builtin_shufflevector(c, d, 0, 4, 1, 5),
+                   cd2 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+            Float4 turned[4] = {__builtin_shufflevector(ab0, cd0, 0, 1, 4, 5),
+                                __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7),
+                                __builtin_shufflevector(ab2, cd2, 0, 1, 4, 5),
+                                __builtin_shufflevector(ab2, cd2, 2, 3, 6, 7)};
+            for (size_t j = 0; j < 4; j++) std::memcpy(&of[k + j][i], &turned[j], sizeof(Float4));
+        }
+    }
+
+    LightBounds bounds(int i) const {
+        return {{of[0][i], of[1][i], of[2][i]},
+                of[3][i],
+                {of[4][i], of[5][i], of[6][i]},
+                of[7][i],
+                of[8][i],
+                of[9][i],
+                of[10][i],
+                of[11][i]};
+    }
+};
 
 /// Chapter 11's potential, as one formula for all lights, for the sake of vector instructions.
 inline float potential(const LightBounds& y, const Hit& x) {
@@ -67,11 +111,16 @@ Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u) {
     for (int i = 0; i < M; i++) {
         c.light[i] = pick(table, N, (i + u) * slice);
     }
-    const LightBounds* bounds = lights.bounds.data();
-    for (int i = 0; i < M; i++) {
-        const LightBounds& y = bounds[c.light[i]];
-        c.p_hat[i] = potential(y, x);
-        c.weight[i] = c.p_hat[i] * y.inv_pmf;
+    for (int i = M; i % SideBySide::size != 0; i++) c.light[i] = 0;
+    for (int begin = 0; begin < M; begin += SideBySide::size) {
+        SideBySide part;
+        for (int i = 0; i < SideBySide::size; i += 4)
+            part.put(lights.bounds.data(), c.light + begin, i);
+        for (int i = 0; i < SideBySide::size; i++) {
+            LightBounds y = part.bounds(i);
+            c.p_hat[begin + i] = potential(y, x);
+            c.weight[begin + i] = c.p_hat[begin + i] * y.inv_pmf;
+        }
     }
     return c;
 }
