@@ -112,12 +112,11 @@ inline Rgb join(const Scene& scene, const Prepared& prepared, float share, const
     return log.joined(L * mis, s, t, mis);
 }
 
-/// What mirrors and glass alone bring from lights to z, where mirrors and glass alone show it to
-/// the eye: LS+DS+E, of which no join is possible but s = 0, by chance. So it is given more
-/// chances.
+/// What mirrors and glass alone bring from lights to z, where no join was possible on the way to
+/// it: LS+DS+E, LS+DS+DS+E, ... are left to s = 0, by chance. So it is given more chances.
 inline Rgb through_mirrors(const Scene& scene, const Prepared& prepared, const Vertex& z, int t,
                            Sampler& sampler, PathLog& log) {
-    constexpr int chances = 8;
+    constexpr int chances = 16;
     sampler.jump(1 << 13);
     Rgb L;
     for (int i = 0; i < chances; i++) {
@@ -170,8 +169,8 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& 
     Vertex before, z;
     z.x.p = ray.o, z.x.ng = ray.d;
     float pdf_w = importance_cos(prepared.ends.camera, ray.d), back_w = 0;
-    bool only_mirrors = true;  // so far
-    bool split = false;        // the last vertex that is no mirror is the first one
+    bool only_chance = true;  // no join was possible so far
+    bool split = false;       // the last vertex that is no mirror was given more chances
     for (int t = 2;; t++) {
         std::optional<Hit> x = intersect(scene, ray);
         if (x) log.vertex(*x);
@@ -218,8 +217,8 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& 
             }
         }
         if (!z.specular) {
-            split = only_mirrors && t > 2;
-            only_mirrors = false;
+            only_chance &= before.specular;
+            split = only_chance;
             if (split) L += through_mirrors(scene, prepared, z, t, sampler, log);
         }
 

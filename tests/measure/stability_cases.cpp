@@ -353,7 +353,7 @@ StabilityCase blurred_lamp() {
 }
 
 /// A lamp with its back to the ground, under a mirror in which the eye sees the ground: LSDSE, met
-/// by chance alone, from which no strategy of both ends saves. 18 gives it eight chances.
+/// by chance alone, from which no strategy of both ends saves. 18 gives it sixteen chances.
 StabilityCase lit_and_seen_by_mirror() {
     double d2 = 1, h2 = 1.8 * 1.8, r2 = 0.1 * 0.1, sum = d2 + h2 + r2;
     double hit = 0.5 * (1 - (d2 + h2 - r2) / std::sqrt(sum * sum - 4 * d2 * r2));  // form factor
@@ -367,7 +367,7 @@ StabilityCase lit_and_seen_by_mirror() {
             N,
             {{{"09", "10", "11", "12", "12-bsdf", "13", "14", "15"},
               {bad_relvar(1 / hit - 1), covers(coverage_of_rare(hit, N))}},
-             {{"18"}, {bad_relvar((1 / hit - 1) / 8)}}},
+             {{"18"}, {bad_relvar((1 / hit - 1) / 16)}}},
             {"17"}};
 }
 
