@@ -47,8 +47,8 @@ inline Vec3 from_bits(uint16_t bits) {
     return {x, y, z};
 }
 
-/// Photons as a k-d tree: a plane through the middle one, across the longest side of the box around
-/// them, parts them in two halves, and those again, down to leaves of 16.
+/// Photons as a k-d tree: a plane through the middle one, across the axis along which they vary
+/// most, parts them in two halves, and those again, down to leaves of 16.
 ///
 /// No pointers: leaves first .. last-1 have one plane, and that has the number of the leaf in their
 /// middle. The places of a leaf's photons stand apart from the rest, so that all are tested at
@@ -121,18 +121,28 @@ private:
         return box;
     }
 
+    /// The axis along which photons vary most. Not the longest side of the box around them: where
+    /// that holds a floor and a few photons of a wall, the middle photon's height parts nothing.
+    static int widest_axis(const Photon* photons, size_t n) {
+        double sum[3] = {}, squares[3] = {}, variance[3];
+        for (size_t i = 0; i < n; i++) {
+            for (int k = 0; k < 3; k++) {
+                double x = double{photons[i].p[k]};
+                sum[k] += x, squares[k] += x * x;
+            }
+        }
+        for (int k = 0; k < 3; k++)
+            variance[k] = squares[k] - sum[k] * sum[k] / static_cast<double>(n);
+        return static_cast<int>(std::max_element(variance, variance + 3) - variance);
+    }
+
     void build(std::vector<Photon>& photons, size_t first, size_t last, int threads) {
         auto at = [&](size_t i) { return photons.begin() + static_cast<std::ptrdiff_t>(i); };
         if (last - first < 2) {
             std::sort(at(first * leaf), at(end_of(last)), Before{0});
             return;
         }
-        Box box;
-        for (size_t i = first * leaf; i < end_of(last); i++) {
-            box = {min(box.low, photons[i].p), max(box.high, photons[i].p)};
-        }
-        Vec3 side = box.high - box.low;
-        int axis = side.x > side.y && side.x > side.z ? 0 : side.y > side.z ? 1 : 2;
+        int axis = widest_axis(&photons[first * leaf], end_of(last) - first * leaf);
         size_t middle = (first + last) / 2;
         std::nth_element(at(first * leaf), at(middle * leaf), at(end_of(last)), Before{axis});
         planes_[middle] = {photons[middle * leaf].p[axis], axis};
@@ -172,23 +182,30 @@ private:
     std::vector<Arrival> arrivals_;
 };
 
-/// A sphere is searched that holds more than k photons, if its size is guessed from the leaf around
-/// p.
+/// Searches a sphere that is to hold twice k photons, going by the half of the leaf around p that
+/// is nearest to p; and a larger one where it holds less than k.
 inline float PhotonMap::kth_distance(Vec3 p, size_t k, float r) const {
     if (size() < k) return r;
-    Box box = box_of_leaf(leaf_at(p));
-    float guess = length(max(abs(box.low - p), abs(box.high - p)));
-    std::vector<float> found;
-    for (guess *= std::sqrt(static_cast<float>(k) / leaf);; guess *= 1.5f) {
+    auto kth_of = [](std::vector<float>& d2, size_t number) {
+        auto at = d2.begin() + static_cast<std::ptrdiff_t>(number) - 1;
+        std::nth_element(d2.begin(), at, d2.end());
+        return *at;
+    };
+    static thread_local std::vector<float> found;  // squares of distances
+    found.clear();
+    size_t number = leaf_at(p);
+    for (size_t i = number * leaf; i < end_of(number + 1); i++) {
+        found.push_back(length_squared(place(i) - p));
+    }
+    float half = static_cast<float>(found.size() + 1) / 2;
+    float guess = kth_of(found, static_cast<size_t>(half)) * 2 * static_cast<float>(k) / half;
+    for (guess = std::sqrt(guess);; guess *= 1.5f) {
         float searched = guess > 0 ? std::min(guess, r) : r;
         found.clear();
         for_each_near(p, searched, [&](const Arrival&, Vec3 v) { found.push_back(dot(v, v)); });
-        if (found.size() >= k) break;
+        if (found.size() >= k) return std::nextafter(std::sqrt(kth_of(found, k)), 0.0f);
         if (searched == r) return r;
     }
-    auto kth = found.begin() + static_cast<std::ptrdiff_t>(k) - 1;
-    std::nth_element(found.begin(), kth, found.end());
-    return std::nextafter(std::sqrt(*kth), 0.0f);
 }
 
 inline std::vector<float> PhotonMap::kth_distances(size_t k, float r, int threads) const {
