@@ -22,7 +22,8 @@ inline double relative_variance(const PixelSum& p) {
     return p.m2() / (p.n - 1) / (p.mean() * p.mean() + 0.01);
 }
 
-/// The mean of s over the 5 x 5 pixels around each: a few samples of one alone tell little.
+/// The mean of s over the 5 x 5 pixels around each: a few samples of one alone tell little. Done
+/// twice, what is near counts more than what is far.
 inline std::vector<double> smooth(const std::vector<double>& s, int width) {
     int height = static_cast<int>(s.size()) / width;
     std::vector<double> result;
@@ -42,19 +43,19 @@ inline std::vector<double> smooth(const std::vector<double>& s, int width) {
 
 /// The share of each pixel in the samples to come, on the mean 1, from those that were taken.
 ///
-///   share = 0.2 + 0.8 s / (mean of s),    s = sqrt(v), smooth
+///   share = 0.1 + 0.9 s / (mean of s),    s = sqrt(v), smooth
 ///
-/// 0.2: what looks even so far may not be so. No share is above 16, for the same reason.
+/// 0.1: what looks even so far may not be so. No share is above 16, for the same reason.
 /// source  Neyman 1934      tested by  "truth: shares are those of the least error"
 inline std::vector<float> shares(const std::vector<PixelSum>& pixels, int width) {
     std::vector<double> s;
     for (const PixelSum& p : pixels) s.push_back(std::sqrt(relative_variance(p)));
-    s = smooth(s, width);
+    s = smooth(smooth(s, width), width);
     double mean = 0;
     for (double s_i : s) mean += s_i / static_cast<double>(s.size());
     std::vector<float> result;
     for (double s_i : s) {
-        double share = mean > 0 ? 0.2 + 0.8 * s_i / mean : 1;
+        double share = mean > 0 ? 0.1 + 0.9 * s_i / mean : 1;
         result.push_back(static_cast<float>(std::min(share, 16.0)));
     }
     return result;
