@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
         constexpr int rings = 400;
         std::string scene = head;
         for (int i = 0; i <= rings; i++) {
-            double radius = 1.5 * std::sqrt((rings + 1 - i) / (rings + 1.0)), z = -1e-6 * i;
+            double radius = 1.5 * std::sqrt((rings + 1 - i) / (rings + 1.0)), z = -1e-5 * i;
             char disk[400];
             const char* light =
                 i % 2 == 0 ? "AreaLightSource \"diffuse\" \"bool twosided\" true " : "";
