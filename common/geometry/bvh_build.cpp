@@ -9,7 +9,6 @@
 namespace {
 
 constexpr int bins = 16;
-constexpr uint32_t small = lanes / 2;      // references that are not split any further
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
@@ -151,13 +150,11 @@ struct Bins {
 ///   cost = area(left) n(left) + area(right) n(right)
 ///
 /// A ray that meets the whole box meets a part with probability area(part) / area(whole). n counts
-/// blocks, as each takes one test, however full; primitives where all fit into one block.
+/// blocks, as each takes one test, however full.
 /// source  MacDonald, Booth 1990; in bins: Wald 2007
 Split find_split(const Bins& binned, uint32_t size) {
     // Sweep from the right, then from the left.
-    auto tests = [&](uint32_t n) {
-        return static_cast<float>(size <= lanes ? n : (n + lanes - 1) / lanes);
-    };
+    auto blocks = [](uint32_t n) { return static_cast<float>((n + lanes - 1) / lanes); };
     Split best;
     for (int axis = 0; axis < 3; axis++) {
         float right_cost[bins];
@@ -166,14 +163,14 @@ Split find_split(const Bins& binned, uint32_t size) {
         for (int bin = bins - 1; bin > 0; bin--) {
             part.grow(binned.box[axis][bin]);
             n += binned.count[axis][bin];
-            right_cost[bin] = part.area() * tests(n);
+            right_cost[bin] = part.area() * blocks(n);
         }
         part = {};
         n = 0;
         for (int bin = 1; bin < bins; bin++) {
             part.grow(binned.box[axis][bin - 1]);
             n += binned.count[axis][bin - 1];
-            float cost = part.area() * tests(n) + right_cost[bin];
+            float cost = part.area() * blocks(n) + right_cost[bin];
             if (cost < best.cost && n > 0 && n < size) best = {cost, axis, bin};
         }
     }
@@ -200,11 +197,12 @@ using Costs = std::array<float, lanes + 1>;
 
 /// The cheapest way to make wide nodes of a binary tree.
 ///
-///   cost(node, 1) = area + (0 if it fits a block, else split(node, lanes))
+///   cost(node, 1) = area + split(node, lanes)
 ///   cost(node, k) = min(cost(node, k - 1), split(node, k))
 ///   split(node, k) = min over j of cost(left, j) + cost(right, k - j)
 ///
-/// Areas are probabilities, as above; to visit a node costs as much as to test a block.
+/// Areas are probabilities, as above; to visit a node costs as much as to test a block, and a block
+/// costs its area, in however many places.
 /// source  Ylitie, Karras, Laine 2017, section 3.1
 Costs share_places(Node& node, const Costs& left, const Costs& right) {
     Costs split, cost;
@@ -219,7 +217,7 @@ Costs share_places(Node& node, const Costs& left, const Costs& right) {
             }
         }
     }
-    cost[1] = node.box.area() + (node.fits_a_block() ? 0 : split[lanes]);
+    cost[1] = node.box.area() + split[lanes];
     for (size_t k = 2; k <= lanes; k++) {
         bool better = split[k] < cost[k - 1];
         cost[k] = better ? split[k] : cost[k - 1];
@@ -326,7 +324,7 @@ private:
         node.box = range.box;
         node.begin = range.begin;
         node.end = range.end;
-        if (range.size() <= small) {
+        if (node.fits_a_block()) {
             Costs cost;
             cost.fill(range.box.area());
             return cost;
