@@ -1,8 +1,9 @@
 // Chapter 16: adaptive sampling. A few samples of each pixel tell where the error is; the others
 // go there. Chapter 15 traces the paths.
 //
-//   error^2 = sum over the pixels of  v_i / n_i   is least, for a given sum of n_i, where
-//   n_i is proportional to sqrt(v_i),             v_i: the variance of a pixel's samples
+//   error^2 = sum over the pixels of  v_i / n_i   is least, for a given sum of n_i c_i, where
+//   n_i is proportional to sqrt(v_i / c_i)        v_i: the variance of a pixel's samples
+//                                                 c_i: what a sample costs, in rays
 #pragma once
 #include <memory>
 
@@ -41,15 +42,19 @@ inline std::vector<double> smooth(const std::vector<double>& s, int width) {
     return result;
 }
 
-/// The share of each pixel in the samples to come, on the mean 1, from those that were taken.
+/// The share of each pixel in the samples to come, on the mean 1, from those that were taken and
+/// the rays that they took, as many samples of each pixel.
 ///
-///   share = 0.1 + 0.9 s / (mean of s),    s = sqrt(v), smooth
+///   share = 0.1 + 0.9 s / (mean of s),    s = sqrt(v / c), smooth
 ///
 /// 0.1: what looks even so far may not be so. No share is above 16, for the same reason.
 /// source  Neyman 1934      tested by  "truth: shares are those of the least error"
-inline std::vector<float> shares(const std::vector<PixelSum>& pixels, int width) {
+inline std::vector<float> shares(const std::vector<PixelSum>& pixels,
+                                 const std::vector<uint32_t>& rays, int width) {
     std::vector<double> s;
-    for (const PixelSum& p : pixels) s.push_back(std::sqrt(relative_variance(p)));
+    for (size_t i = 0; i < pixels.size(); i++) {
+        s.push_back(std::sqrt(relative_variance(pixels[i]) / std::max(rays[i], 1u)));
+    }
     s = smooth(smooth(s, width), width);
     double mean = 0;
     for (double s_i : s) mean += s_i / static_cast<double>(s.size());
@@ -73,10 +78,10 @@ struct Shares {
     Judge judge = Judge::other;
     std::vector<float> of_half[2] = {};
 };
-inline void share_out(Shares& s, const Film& pilot) {
+inline void share_out(Shares& s, const Film& pilot, const RayCounts& rays) {
     for (int half : {0, 1}) {
         int judge = s.judge == Judge::other ? 1 - half : half;
-        s.of_half[half] = shares(pilot.half(judge), pilot.width);
+        s.of_half[half] = shares(pilot.half(judge), rays[judge], pilot.width);
     }
 }
 
@@ -97,7 +102,8 @@ inline uint32_t samples_of(const Shares& s, size_t pixel, int half, uint32_t spp
 /// The same for the loop that renders. A pixel is then  (mean of half 0 + mean of half 1) / 2.
 inline Allocation allocation(const Shares& wanted) {
     auto s = std::make_shared<Shares>(wanted);
-    return {wanted.pilot, [s](const Film& pilot) { share_out(*s, pilot); },
+    return {wanted.pilot,
+            [s](const Film& pilot, const RayCounts& rays) { share_out(*s, pilot, rays); },
             [s](size_t pixel, int half, uint32_t spp) { return samples_of(*s, pixel, half, spp); }};
 }
 

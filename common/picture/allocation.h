@@ -1,16 +1,21 @@
 // Samples that are not shared out evenly.
 #pragma once
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "common/picture/film.h"
+
+/// How many rays the samples of each pixel took, in each half.
+using RayCounts = std::vector<uint32_t>[2];
 
 /// How samples are shared out unevenly among the pixels, after a pilot that gives all alike. Those
 /// of a pixel belong to two halves by turns: sample number 2 k + h is number k of half h.
 struct Allocation {
     uint32_t pilot = 0;  // samples of each pixel; 0: no allocation, all pixels get the same
 
-    /// Decides, from the film of the pilot.
-    std::function<void(const Film& pilot)> share_out = {};
+    /// Decides, from the film of the pilot and the rays that it took. Empty: has decided.
+    std::function<void(const Film& pilot, const RayCounts& rays)> share_out = {};
 
     /// How many samples a half of a pixel has when there are `spp` a pixel on the mean. Grows with
     /// spp, and up to the pilot it is the same for all pixels.

@@ -20,14 +20,6 @@ uint32_t fewest_samples(const Film& film) {
     return fewest;
 }
 
-/// Whether the film has more than the pilot's samples.
-bool has_more(const Film& film, uint32_t pilot) {
-    for (size_t i = 0; i < film.pixels().size(); i++) {
-        if (film.count_of(i) > pilot) return true;
-    }
-    return false;
-}
-
 /// Takes samples `wanted.first` to `wanted.last` - 1 of each pixel, but for those that the film
 /// has.
 ///
@@ -43,7 +35,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
     Progress progress(options.quiet);
     TileRenderer renderer(scene, options, trace, allocation, limit, clock, result, wanted.first);
     uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
-    uint32_t most_per_pass = std::max(1u, (1u << 18) / pixels), spp = wanted.last - wanted.first;
+    uint32_t most_per_pass = std::max(1u, (1u << 20) / pixels), spp = wanted.last - wanted.first;
     while (done < spp && !limit.reached()) {
         uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
         bool in_pilot = wanted.first == 0 && done < allocation.pilot;
@@ -68,8 +60,8 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         }
         done = next;
         bool decides = in_pilot && done == allocation.pilot && !limit.reached();
-        if (decides && !has_more(result.film, done)) {
-            allocation.share_out(result.film);
+        if (decides && allocation.share_out) {
+            allocation.share_out(result.film, renderer.pilot_rays());
         }
     }
 }
@@ -91,16 +83,17 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     SampleRange wanted = wanted_samples(scene, options);
 
     // Make the pilot again where this render does not begin with it.
-    bool is_shared_out = allocation.pilot > 0;
-    if (is_shared_out && (wanted.first > 0 || has_more(result.film, allocation.pilot))) {
+    Allocation shared_out = allocation;
+    if (allocation.pilot > 0 && (wanted.first > 0 || result.film.samples() > 0)) {
         RenderOptions alone = options;
         alone.film.clear(), alone.split.clear();
         Rendering again{Film(scene.width, scene.height), {}, {}};
         again.film.start_halves();
         SampleRange pilot = {options.seed, 0, allocation.pilot};
         take_samples(scene, alone, trace, allocation, limit, pilot, again);
+        shared_out.share_out = {};
     }
-    take_samples(scene, options, trace, allocation, limit, wanted, result);
+    take_samples(scene, options, trace, shared_out, limit, wanted, result);
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
     uint64_t all = uint64_t{static_cast<uint32_t>(scene.width)} *

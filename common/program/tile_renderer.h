@@ -49,7 +49,14 @@ public:
           result_(result),
           first_(first),
           view_(camera_view(scene.camera, scene.width, scene.height)),
-          tiles_x_((scene.width + side - 1) / side) {}
+          tiles_x_((scene.width + side - 1) / side) {
+        for (int half = 0; allocation.pilot > 0 && half < halves(); half++) {
+            rays_[half].resize(result.film.pixels().size());
+        }
+    }
+
+    /// Of the pilot, if there is one.
+    const RayCounts& pilot_rays() const { return rays_; }
 
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
 
@@ -72,11 +79,15 @@ public:
             bool audited = result_.film.is_audited(pixel);
             for (int half = 0; half < halves(); half++) {
                 auto [s, last] = samples(pixel, half, end);
+                uint64_t rays_of_others = rays_traced;
                 for (; s < last; s++) {
                     if (++taken % between_looks == 0 && limit_.reached()) return false;
                     Rgb L = add_sample({x, y, pixel, half, s}, sampler, splats, log, stats);
                     if constexpr (has_passes) of_pass.add(L);
                     if (audited) audit({x, y, pixel, half, s}, sampler, audit_splats, audit_log);
+                }
+                if (end <= allocation_.pilot) {
+                    rays_[half][pixel] += static_cast<uint32_t>(rays_traced - rays_of_others);
                 }
             }
             return true;
@@ -194,6 +205,7 @@ private:
     uint32_t first_;  // number of the first sample
     CameraView view_;
     int tiles_x_;
+    RayCounts rays_;
     std::mutex mutex_;
     std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats meet
 };

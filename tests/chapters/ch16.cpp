@@ -68,7 +68,8 @@ TEST_SUITE("ch16 adaptive") {
                 film.add(static_cast<size_t>(i), {L, L, L});
             }
         }
-        std::vector<float> shares = ch16::shares(film.half(0), width);
+        std::vector<uint32_t> rays(width * height, 200);
+        std::vector<float> shares = ch16::shares(film.half(0), rays, width);
         // n in proportion to s, beside the 0.1 that all have: 0.1 + 0.9 (4 or 1) / 2.5
         CHECK(shares[16 * width + 10] == doctest::Approx(1.54).epsilon(0.02).scale(0));
         CHECK(shares[16 * width + 50] == doctest::Approx(0.46).epsilon(0.02).scale(0));
@@ -79,6 +80,19 @@ TEST_SUITE("ch16 adaptive") {
         auto error = [](double left) { return 16 / left + 1 / (2 - left); };
         CHECK(error(1.6) < error(1.59));
         CHECK(error(1.6) < error(1.61));
+
+        // Where samples cost nine times as many rays, a third as many: 0.1 + 0.9 (4/3 or 1) 6/7.
+        for (int i = 0; i < width * height; i++) {
+            if (i % width < width / 2) rays[static_cast<size_t>(i)] = 1800;
+        }
+        shares = ch16::shares(film.half(0), rays, width);
+        CHECK(shares[16 * width + 10] == doctest::Approx(1.1286).epsilon(0.02).scale(0));
+        CHECK(shares[16 * width + 50] == doctest::Approx(0.8714).epsilon(0.02).scale(0));
+        // The same error in less time: of all shares x and y with 9 x + y rays, the one with the
+        // least of 16 / x + 1 / y.
+        auto error_at = [](double x) { return 16 / x + 1 / (13 - 9 * x); };
+        CHECK(error_at(4.0 / 3) < error_at(1.32));
+        CHECK(error_at(4.0 / 3) < error_at(1.34));
     }
 
     TEST_CASE("truth: a picture of one color is shared out evenly, and a spike within bounds") {
@@ -86,13 +100,14 @@ TEST_SUITE("ch16 adaptive") {
         for (size_t i = 0; i < 64; i++) {
             for (int k = 0; k < 4; k++) film.add(i, {0.3f, 0.2f, 0.1f});
         }
-        for (float share : ch16::shares(film.half(0), 8)) CHECK(share == 1);
+        const std::vector<uint32_t> no_rays(10000);
+        for (float share : ch16::shares(film.half(0), no_rays, 8)) CHECK(share == 1);
         Film spiky(100, 100);
         for (size_t i = 0; i < 10000; i++) {
             for (int k = 0; k < 4; k++)
                 spiky.add(i, Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
         }
-        for (float share : ch16::shares(spiky.half(0), 100)) {
+        for (float share : ch16::shares(spiky.half(0), no_rays, 100)) {
             CHECK(share >= 0.1f);
             CHECK(share <= 16);
         }
