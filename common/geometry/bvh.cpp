@@ -245,6 +245,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     stack[0] = BvhNode::nothing;
     stack_enter[0] = -infinity;
     auto pop = [&] {
+        if (any) return stack[--size];  // where it is does not matter
         do size--;
         while (!(stack_enter[size] <= reach));
         return stack[size];
@@ -268,7 +269,6 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
                 // Any hit will do: no order but that of the lanes, in which the builder puts last
                 // what is likeliest to stop a ray.
                 store(compress(load(node.child), hits), stack + size);
-                store(compress(enter, hits), stack_enter + size);
                 size += std::popcount(hits) - 1;
                 current = node.child[31 - std::countl_zero(hits)];
             } else {
