@@ -309,3 +309,7 @@ PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, Bv
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
     return traverse<true, false>(bvh, geometry, ray, nullptr).prim != PrimHit::none;
 }
+
+bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count) {
+    return traverse<true, true>(bvh, geometry, ray, &count).prim != PrimHit::none;
+}

@@ -49,3 +49,5 @@ PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);
 /// Whether the ray hits anything.
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
+/// The same, and adds to `count`.
+bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);
