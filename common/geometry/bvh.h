@@ -41,9 +41,9 @@ struct BvhCount {
 
 /// The first primitive that the ray hits, as linear_scan() finds it; of two at the same t the one
 /// with the lower number. t is right to 1 part in 256 at the worst, and mostly to 1 in 100,000; of
-/// a triangle seen next to edge-on, as far as the ray is. Beyond coordinates of 1e9 float
-/// overflows. tested by  "truth: every hit as in double precision", "truth: no ray meets the
-/// triangle that"
+/// a triangle seen next to edge-on, as far as the ray is; of one that the ray all but begins on, to
+/// 2^-50 length^2 / height of it. Beyond coordinates of 1e9 float overflows.
+/// tested by  "truth: every hit as in double precision", "truth: no ray meets the triangle that"
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
 /// The same, and adds to `count`.
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);
