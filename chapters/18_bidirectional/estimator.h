@@ -30,8 +30,10 @@ struct Prepared {
     Ends ends;
     int s = -1, t = -1;
 };
+
 inline Prepared prepare(const Scene& scene) { return {ends_of(scene)}; }
 inline bool is_far(LightType t) { return t == LightType::distant || t == LightType::infinite; }
+inline Vec3 unit(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
 
 /// The vertex that a walk comes to along the ray: x, or the sky where it meets nothing.
 inline Vertex vertex_at(const Scene& scene, const Ends& ends, const std::optional<Hit>& x,
@@ -100,9 +102,6 @@ inline Path walk_from_light(const Scene& scene, const Ends& ends, Sampler& sampl
     walk(scene, ends, true, {e.y.p + e.y.eps * e.y.n, e.d}, flux, path, sampler, log);
     return path;
 }
-
-/// The direction from one vertex to another.
-inline Vec3 unit(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
 
 /// The path of s vertices from the light and t from the eye, from the light on.
 ///

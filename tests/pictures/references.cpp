@@ -7,8 +7,8 @@
 #include "chapters/13_mis/estimator.h"
 #include "chapters/14_mis_ris/estimator.h"
 #include "chapters/17_light_tracing/estimator.h"
-#include "chapters/18_bidirectional/estimator.h"
 #include "chapters/19_photon_mapping/estimator.h"
+#include "common/path/bidirectional.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
 
@@ -145,7 +145,8 @@ TEST_SUITE("references slow") {
             CAPTURE(name);
             Reference reference("references/" + name);
             Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
-            SplatTrace trace = splat_trace_with<ch18::trace>(ch18::prepare(scene));
+            SplatTrace trace =
+                splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
             BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
             check_agreement(
                 hold_against(
