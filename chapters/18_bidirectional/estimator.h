@@ -158,7 +158,7 @@ inline std::vector<double> densities(const Scene& scene, const Ends& ends, bool 
 ///   mis_s = p_s / sum over i of p_i,    p_i = light_0 ... light_i-1  eye_i ... eye_k
 ///
 /// light, eye: the density of each vertex from either side. Of p_i / p_s only factors are left that
-/// differ: no product is too large or too small for a number.
+/// differ: no product is too large or too small for a number. 0 where vertices touch (0 / 0).
 /// source  Veach 1997, sec. 10.2
 /// tested by  "identity: weights are p_s / sum p_i over the densities of whole paths"
 inline float mis_weight(const Scene& scene, const Ends& ends, const Path& path, size_t s) {
@@ -172,7 +172,7 @@ inline float mis_weight(const Scene& scene, const Ends& ends, const Path& path, 
         for (size_t j = s; j < i; j++) p *= light[j] / eye[j];
         sum += p;
     }
-    return static_cast<float>(1 / sum);
+    return sum > 0 ? static_cast<float>(1 / sum) : 0;
 }
 
 /// t = 1: shows y, the last vertex from the light, to the camera.      flux f cos We V / d^2

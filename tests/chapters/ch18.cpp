@@ -226,6 +226,18 @@ TEST_SUITE("ch18 weights") {
         }
     }
 
+    TEST_CASE("truth: vertices that touch have a weight, of 0, and not one that is no number") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 7);
+        Ends ends = ends_of(scene);
+        std::optional<Hit> floor = intersect(scene, {{278, 273, 250}, {0, -1, 0}});
+        REQUIRE(floor);
+        ch18::Path path(4);
+        path[0].x.p = {278, 548, 280}, path[0].x.ng = {0, -1, 0}, path[0].pdf = 1e-4f;
+        path[1].x = path[2].x = *floor;
+        path[3].x.p = ends.camera.view.o;
+        for (size_t s = 0; s < 4; s++) CHECK(ch18::mis_weight(scene, ends, path, s) == 0);
+    }
+
     TEST_CASE("truth: densities and weights of a path of three edges") {
         // The pinhole at (0, -1, 0.5) looks at the origin, with a film of area 1 at distance 1;
         // x = (0.2, 0.1, 0) on the floor, y = (0.1, -0.2, 1) on a unit light that faces it.
