@@ -155,7 +155,7 @@ inline std::vector<double> densities(const Scene& scene, const Ends& ends, bool 
 
 /// The weight of strategy s of a path: the balance heuristic.
 ///
-///   mis_s = p_s / sum over i of p_i,    p_i = light_0 ... light_i-1  eye_i ... eye_k
+///   mis_s = p_s / sum over i of p_i,    p_i = light_0 ... light_i-1  eye_i ... eye_k-1
 ///
 /// light, eye: the density of each vertex from either side. Of p_i / p_s only factors are left that
 /// differ: no product is too large or too small for a number. 0 where vertices touch (0 / 0).
