@@ -1,6 +1,6 @@
 // The pyramid of strategies: a picture of each, alone and weighed, as one sheet.
 #pragma once
-#include "chapters/18_bidirectional/estimator.h"
+#include "common/path/bidirectional.h"
 #include "common/picture/sheet.h"
 #include "common/program/render.h"
 
@@ -21,9 +21,9 @@ inline Image pyramid(Scene scene, RenderOptions options) {
                 Tile& tile = tiles.emplace_back();
                 int t = edges + 1 - s;
                 if (t < 1) continue;
-                Prepared prepared = prepare(scene, s, t, weighted);
-                tile.image =
-                    render_film(scene, options, splat_trace_with<trace>(prepared)).film.image();
+                auto trace = splat_trace_with<bidirectional::trace>(
+                    bidirectional::prepare(scene, s, t, weighted));
+                tile.image = render_film(scene, options, trace).film.image();
                 tile.lines = {"s " + std::to_string(s) + ", t " + std::to_string(t),
                               weighted ? "weighed" : "alone"};
             }

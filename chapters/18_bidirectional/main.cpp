@@ -1,10 +1,17 @@
 // Chapter 18 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/18_bidirectional/estimator.h"
 #include "chapters/18_bidirectional/figure.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {
         int s = -1, t = -1;
         std::string sheet;
+        bool plain = false;
+        Option form = {"form", "fast|plain", "as common/ has it, or the lesson itself: slow",
+                       [&](const std::string& text) {
+                           plain = parse_choice("form", text, {"fast", "plain"}) == 1;
+                       },
+                       "fast"};
         Option strategy = {
             "strategy", "S,T", "one alone, without a weight: S vertices from the light, T the eye",
             [&](const std::string& text) {
@@ -15,11 +22,15 @@ int main(int argc, char** argv) {
             "all"};
         Option pyramid = {"pyramid", "FILE", "also write all short strategies as one sheet",
                           [&](const std::string& text) { sheet = text; }, ""};
-        RenderOptions options = parse_render_options(
-            argc, argv, "18_bidirectional", "scenes/cornell-spheres.pbrt", {strategy, pyramid});
+        RenderOptions options =
+            parse_render_options(argc, argv, "18_bidirectional", "scenes/cornell-spheres.pbrt",
+                                 {form, strategy, pyramid});
         options.search = LightSearch::both_ends;
         Scene scene = load(options);
         if (!sheet.empty()) write_image(sheet, ch18::pyramid(scene, options), options.command);
-        return render(scene, options, splat_trace_with<ch18::trace>(ch18::prepare(scene, s, t)));
+        ch18::Prepared prepared = {ends_of(scene), s, t};
+        if (plain) return render(scene, options, splat_trace_with<ch18::trace>(prepared));
+        return render(scene, options,
+                      splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene, s, t)));
     });
 }

@@ -53,7 +53,8 @@ const chapters = {
     '17_light_tracing': {kind: 'film', scene: 'caustic', against: '14_mis_ris'},
     '18_bidirectional': {
         kind: 'film', scene: 'cornell-spheres', against: '14_mis_ris',
-        own: [choice('strategy', 'strategy s,t', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2')]
+        own: [choice('strategy', 'strategy s,t', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2'),
+              choice('form', 'form', 'fast', 'plain')]
     },
     '19_photon_mapping': {
         kind: 'film', scene: 'pool', against: '18_bidirectional', spp: 8,

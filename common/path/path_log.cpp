@@ -41,8 +41,11 @@ void PathLog::note_vertex(const Hit& x) {
 }
 
 /// The number, from 1, of the vertex that the path from the eye has come to; 0: none.
-int PathLog::current_vertex() const {
-    size_t depth = std::min(scattered_.size() + 1, latest_.size());
+int PathLog::current_vertex() const { return eye_vertex(scattered_.size()); }
+
+/// The same after so many scattering events; the last one there is, if the sky lies behind it.
+int PathLog::eye_vertex(size_t events) const {
+    size_t depth = std::min(events + 1, latest_.size());
     return depth == 0 ? 0 : latest_[depth - 1] + 1;
 }
 
@@ -85,10 +88,10 @@ Rgb PathLog::note_joined(Rgb contribution, int s, int t, float mis, size_t pixel
     size_t after = static_cast<size_t>(std::max(t - 2, 0));
     std::string path_class = "L";
     path_class += from_light_.substr(0, before);
-    path_class.append(static_cast<size_t>(s > 1) + static_cast<size_t>(t > 1), 'D');
+    if (s > 0) path_class.append(static_cast<size_t>(s > 1) + static_cast<size_t>(t > 1), 'D');
     path_class += scattered_.substr(scattered_.size() - after) + "E";
     std::string way = "s " + std::to_string(s) + ", t " + std::to_string(t);
-    return keep({t == 1 ? s : current_vertex(), way, path_class, mis, contribution, pixel});
+    return keep({t == 1 ? s : eye_vertex(after), way, path_class, mis, contribution, pixel});
 }
 
 Rgb PathLog::note_gathered(Rgb contribution, uint32_t depth, uint32_t mirrors) {

@@ -79,7 +79,8 @@ public:
     }
 
     /// The first s vertices from the light joined with the first t from the eye, of which the light
-    /// and the eye are one each: returns what of it counts. t = 1: in the pixel that the eye sees.
+    /// and the eye are one each: returns what of it counts. s = 0: the t-th is the light. t = 1: in
+    /// the pixel that the eye sees.
     Rgb joined(Rgb contribution, int s, int t, float mis = 1,
                size_t pixel = Contribution::own_pixel) {
         return listening_ ? note_joined(contribution, s, t, mis, pixel) : contribution;
@@ -112,6 +113,7 @@ private:
     Rgb note_gathered(Rgb, uint32_t, uint32_t);
     Rgb keep(const PathStory::Addition& added);
     int current_vertex() const;
+    int eye_vertex(size_t events) const;
     bool counts(const std::string& path_class);
 
     bool listening_ = false;

@@ -227,7 +227,8 @@ int write_references(const MeasureOptions& o) {
 }
 
 int check(const std::string& chapter, const MeasureOptions& o) {
-    const Method method = methods_named({chapter == "19" ? "19-few" : chapter}).at(0);
+    const std::map<std::string, std::string> as = {{"18", "18-plain"}, {"19", "19-few"}};
+    const Method method = methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0);
     Findings found = findings_of(method, o);
     std::vector<Findings> other;
     for (const Method& m : all_methods())

@@ -11,6 +11,7 @@
 #include "chapters/08_light_sampling/estimator.h"
 #include "chapters/12_glossy/estimator.h"
 #include "chapters/18_bidirectional/estimator.h"
+#include "common/path/bidirectional.h"
 #include "common/picture/stats_file.h"
 #include "common/program/labels.h"
 #include "common/program/path_drawing.h"
@@ -217,18 +218,21 @@ TEST_SUITE("explain") {
 
     TEST_CASE("truth: light paths of chapter 18 end at the depth limit, and say so") {
         Scene scene = scene_from("scenes/cornell.pbrt", 8, 1);
-        SplatTrace trace = splat_trace_with<ch18::trace>(ch18::prepare(scene));
-        Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
-            Splats splats;
-            return trace(s, ray, splats, sampler, log);
-        };
-        CameraView view = camera_view(scene.camera, 8, 8);
-        std::string text = story_of(scene, own, 3, camera_ray(view, {4, 4}));
-        size_t first = text.find("    ends: "), eye = text.find("from the eye:\n");
-        REQUIRE(eye != std::string::npos);
-        CHECK(first < eye);
-        CHECK(text.find("    ends: the depth limit, 1 scattering events\nfrom the eye:\n") !=
-              std::string::npos);
+        SplatTrace lesson = splat_trace_with<ch18::trace>(ch18::prepare(scene));
+        SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
+        for (const SplatTrace& trace : {lesson, fast}) {
+            Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+                Splats splats;
+                return trace(s, ray, splats, sampler, log);
+            };
+            CameraView view = camera_view(scene.camera, 8, 8);
+            std::string text = story_of(scene, own, 3, camera_ray(view, {4, 4}));
+            size_t first = text.find("    ends: "), eye = text.find("from the eye:\n");
+            REQUIRE(eye != std::string::npos);
+            CHECK(first < eye);
+            CHECK(text.find("    ends: the depth limit, 1 scattering events\nfrom the eye:\n") !=
+                  std::string::npos);
+        }
     }
 
     TEST_CASE("truth: of a lamp behind a board the shadow rays are told as blocked, and drawn so") {

@@ -1,7 +1,15 @@
 #include "chapters/18_bidirectional/estimator.h"
+#include "common/path/bidirectional.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
+static SplatTrace fast(const Scene& scene) {
+    return splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
+}
+static SplatTrace plain(const Scene& scene) {
+    return splat_trace_with<ch18::trace>(ch18::prepare(scene));
+}
+static Method method(const char* name, const char* label, const char* color,
+                     SplatTrace (*trace)(const Scene&), SamplerType sampler) {
     return {.name = name,
             .label = label,
             .color = color,
@@ -10,12 +18,12 @@ static Method method(const char* name, const char* label, const char* color, Sam
             .render = [=](const Scene& scene, RenderOptions options) {
                 options.search = LightSearch::both_ends;
                 if (sampler != SamplerType::independent) options.sampler = sampler;
-                return render_film(scene, options,
-                                   splat_trace_with<ch18::trace>(ch18::prepare(scene)));
+                return render_film(scene, options, trace(scene));
             }};
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("18", "18 bidirectional", "#e377c2", SamplerType::independent)),
-    add_method(method("18-sobol", "18, Sobol", "#f7b6d2", SamplerType::sobol)),
+    add_method(method("18", "18 bidirectional", "#e377c2", fast, SamplerType::independent)),
+    add_method(method("18-plain", "18, the lesson", "#8c2d72", plain, SamplerType::independent)),
+    add_method(method("18-sobol", "18, Sobol", "#f7b6d2", fast, SamplerType::sobol)),
 };

@@ -9,6 +9,7 @@
 #include "chapters/17_light_tracing/estimator.h"
 #include "chapters/18_bidirectional/estimator.h"
 #include "chapters/19_photon_mapping/estimator.h"
+#include "common/path/bidirectional.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
 
@@ -145,13 +146,16 @@ TEST_SUITE("references slow") {
             CAPTURE(name);
             Reference reference("references/" + name);
             Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
-            SplatTrace trace = splat_trace_with<ch18::trace>(ch18::prepare(scene));
-            BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
-            check_agreement(
-                hold_against(
-                    128, 32, [&](int x, int y, int side) { return means.block(x, y, side); },
-                    [&](int x, int y, int side) { return reference.block(x, y, side); }),
-                0.01);
+            SplatTrace lesson = splat_trace_with<ch18::trace>(ch18::prepare(scene));
+            SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
+            for (const SplatTrace& trace : {lesson, fast}) {
+                BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
+                check_agreement(
+                    hold_against(
+                        128, 32, [&](int x, int y, int side) { return means.block(x, y, side); },
+                        [&](int x, int y, int side) { return reference.block(x, y, side); }),
+                    0.01);
+            }
         }
     }
 

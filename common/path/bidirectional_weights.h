@@ -1,9 +1,9 @@
-// Chapter 18, the weights: what each vertex of a path remembers, so that the weight of a strategy
-// costs the same however long its path is.
+// The weights of chapter 18, at a constant price: what each vertex of a path remembers, so that the
+// weight of a strategy costs the same however long its path is.
 #pragma once
 #include "common/path/light_paths.h"
 
-namespace ch18 {
+namespace bidirectional {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 
@@ -145,4 +145,4 @@ inline float mis_emission(const Scene& scene, const Prepared& prepared, const Ve
     return mis_weight(prepared, 0, mis_sum(z, before, can, pdf, pdf_w * z.to_area));
 }
 
-}  // namespace ch18
+}  // namespace bidirectional
