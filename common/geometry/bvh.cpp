@@ -162,7 +162,7 @@ template <bool any>
 bool test_others(const BvhBlock& block, const Geometry& g, Ray ray, PrimHit& best) {
     bool found = false;
     for (uint32_t prim : block.prim) {
-        if (prim == PrimHit::none) continue;
+        if (prim == PrimHit::none) break;  // what follows is unused, too
         ray.t_max = next_above(best.t);
         auto t = visit(
             g, prim, [](const Triangle&) { return std::optional<float>{}; },

@@ -22,7 +22,7 @@ struct alignas(64) BvhNode {
 /// One leaf: primitives side by side. Lanes that hold no triangle have NaN for vertices.
 struct alignas(64) BvhBlock {
     float vertex[9][lanes];  // row 3 k + axis: vertex k
-    uint32_t prim[lanes];    // PrimHit::none: unused
+    uint32_t prim[lanes];    // PrimHit::none: unused, as all lanes behind it
 };
 
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.

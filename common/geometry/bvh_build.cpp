@@ -638,16 +638,17 @@ private:
     void fill_block(Leaf leaf, BvhBlock& block) {
         std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
         std::fill_n(block.prim, lanes, PrimHit::none);
-        for (uint32_t i = 0; i < leaf.end - leaf.begin; i++) {
-            uint32_t prim = refs_[leaf.begin + i].prim();
-            if (std::find(block.prim, block.prim + i, prim) != block.prim + i) continue;
-            block.prim[i] = prim;
-            if (prim >= g_.triangles.size()) continue;  // its lane stays NaN
-            for (size_t k = 0; k < 3; k++) {
+        uint32_t lane = 0;
+        for (uint32_t i = leaf.begin; i < leaf.end; i++) {
+            uint32_t prim = refs_[i].prim();
+            if (std::find(block.prim, block.prim + lane, prim) != block.prim + lane) continue;
+            block.prim[lane] = prim;
+            for (size_t k = 0; prim < g_.triangles.size() && k < 3; k++) {  // else NaN
                 Vec3 p = g_.positions[g_.triangles[prim].v[k]];
                 for (int axis = 0; axis < 3; axis++)
-                    block.vertex[3 * k + static_cast<size_t>(axis)][i] = p[axis];
+                    block.vertex[3 * k + static_cast<size_t>(axis)][lane] = p[axis];
             }
+            lane++;
         }
     }
 
