@@ -338,13 +338,8 @@ TEST_SUITE("ch17 light tracing") {
                 means.add(film_of(scene, by_seventeen(scene), spp, 100 + seed).film.mean());
             CHECK(z_between(a, {means.mean(), means.standard_error()}) < 5);
         }
-        for (double unit : {0.001, 1000.0}) {
-            Scene other = parse_scene("cornell.pbrt", read_file("scenes/cornell.pbrt"), nullptr);
-            float scale = static_cast<float>(unit);
-            for (Vec3& p : other.geometry.positions) p = scale * p;
-            other.camera.o = scale * other.camera.o;
-            prepare(other, 1);
-            other.width = other.height = 32, other.max_depth = 4;
+        for (float unit : {0.001f, 1000.0f}) {
+            Scene other = in_units("scenes/cornell.pbrt", unit, 32, 4);
             Film film = film_of(other, by_seventeen(other), 64, 3).film;
             CHECK(z_between(a, {film.mean(), film.standard_error()}) < 5);
         }

@@ -383,6 +383,30 @@ TEST_SUITE("ch18 bidirectional") {
         }
     }
 
+    TEST_CASE("agreement: sizes of samples and units leave the mean alone, by both ends") {
+        auto over_seeds = [](const Scene& scene, const Form& form, int spp, uint32_t first) {
+            RunningStats means;
+            for (uint32_t seed = first; seed < first + 32; seed++)
+                means.add(film_of(scene, form(scene), spp, seed).film.mean());
+            return Measured{means.mean(), means.standard_error()};
+        };
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 5);
+        Measured a = over_seeds(scene, forms[0], 16, 1);
+        CHECK(a.se < 0.005 * a.mean);
+        for (const Form& form : forms) {
+            CAPTURE(form.name);
+            for (int spp : {1, 2, 3, 7}) {
+                CAPTURE(spp);
+                CHECK(z_between(a, over_seeds(scene, form, spp, 100)) < 5);
+            }
+            for (float unit : {0.001f, 1000.0f}) {
+                CAPTURE(unit);
+                Scene other = in_units("scenes/cornell-spheres.pbrt", unit, 32, 5);
+                CHECK(z_between(a, over_seeds(other, form, 4, 200)) < 5);
+            }
+        }
+    }
+
     TEST_CASE("variance: a lamp in a shade: a tenth of the error of chapter 14") {
         Scene scene = scene_from("scenes/lamp.pbrt", 32, 8);
         auto error_of = [&](const auto& trace) {

@@ -8,6 +8,7 @@
 #include "common/path/bidirectional.h"
 #include "common/program/warnings.h"
 #include "tests/support/known_lights.h"
+#include "tests/support/light_paths.h"
 
 namespace {
 
@@ -458,6 +459,23 @@ TEST_SUITE("ch19 photon mapping") {
             for (int threads : {2, 7}) {
                 CHECK(film_by(scene, settings, 3, 1, threads).image().pixels == one.pixels);
             }
+        }
+    }
+
+    TEST_CASE("agreement: sizes of samples and units leave the mean alone") {
+        const std::string path = "scenes/cornell-spheres.pbrt";
+        Settings settings{.photons = 10000};
+        Scene scene = scene_from(path, 32, 5);
+        Measured a = mean_over_seeds(scene, settings, 12, 32);
+        CHECK(a.se < 0.005 * a.mean);
+        for (float unit : {0.001f, 1000.0f}) {
+            CAPTURE(unit);
+            Scene other = in_units(path, unit, 32, 5);
+            CHECK(z_between(a, mean_over_seeds(other, settings, 4, 32)) < 5);
+        }
+        for (int spp : {1, 2, 3, 7}) {
+            CAPTURE(spp);
+            CHECK(z_between(a, mean_over_seeds(scene, settings, spp, 16)) < 5);
         }
     }
 

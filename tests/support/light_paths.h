@@ -53,5 +53,16 @@ inline Agreement hold_against(const BlockMeans& a, const BlockMeans& b) {
         [&](int x, int y, int side) { return b.block(x, y, side); });
 }
 
+/// A scene whose metres are `unit` of those in the file: the same picture.
+inline Scene in_units(const std::string& path, float unit, int size, int max_depth) {
+    Scene scene = parse_scene(path, read_file(path), nullptr);
+    for (Vec3& p : scene.geometry.positions) p = unit * p;
+    for (Sphere& s : scene.geometry.spheres) s.c = unit * s.c, s.r *= unit;
+    scene.camera.o = unit * scene.camera.o;
+    prepare(scene, 1);
+    scene.width = scene.height = size, scene.max_depth = max_depth;
+    return scene;
+}
+
 /// Paths that a light can show to a pinhole: those whose last vertex is no mirror and no glass.
 inline const std::string shown_by_light = "L((D|S)*D)?E";
