@@ -111,6 +111,14 @@ Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u) {
     for (int i = 0; i < M; i++) {
         c.light[i] = pick(table, N, (i + u) * slice);
     }
+    if (M <= 8) {  // not worth the turning
+        for (int i = 0; i < M; i++) {
+            const LightBounds& y = lights.bounds[static_cast<size_t>(c.light[i])];
+            c.p_hat[i] = potential(y, x);
+            c.weight[i] = c.p_hat[i] * y.inv_pmf;
+        }
+        return c;
+    }
     for (int i = M; i % SideBySide::size != 0; i++) c.light[i] = 0;
     for (int begin = 0; begin < M; begin += SideBySide::size) {
         SideBySide part;
