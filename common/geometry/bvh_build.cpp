@@ -10,6 +10,8 @@
 namespace {
 
 constexpr int bins = 16;
+constexpr uint32_t small = lanes / 2;      // references of a block that is not parted
+constexpr float worth_parting = 0.75f;     // of a block's surface, that its parts have together
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
@@ -272,12 +274,11 @@ using Costs = std::array<float, lanes + 1>;
 
 /// The cheapest way to make wide nodes of a binary tree.
 ///
-///   cost(node, 1) = area + split(node, lanes)
+///   cost(node, 1) = area + (0 if it fits a block, else split(node, lanes))
 ///   cost(node, k) = min(cost(node, k - 1), split(node, k))
 ///   split(node, k) = min over j of cost(left, j) + cost(right, k - j)
 ///
-/// Areas are probabilities, as above; to visit a node costs as much as to test a block, and a block
-/// costs its area, in however many places.
+/// Areas are probabilities, as above; to visit a node costs as much as to test a block.
 /// source  Ylitie, Karras, Laine 2017, section 3.1
 Costs share_places(Node& node, const Costs& left, const Costs& right) {
     Costs split, cost;
@@ -292,11 +293,12 @@ Costs share_places(Node& node, const Costs& left, const Costs& right) {
             }
         }
     }
-    cost[1] = node.box.area() + split[lanes];
+    bool one_block = node.fits_a_block();
+    cost[1] = node.box.area() + (one_block ? 0 : split[lanes]);
     for (size_t k = 2; k <= lanes; k++) {
         bool better = split[k] < cost[k - 1];
         cost[k] = better ? split[k] : cost[k - 1];
-        node.share[k - 2] = better || k == lanes ? share[k] : 0;
+        node.share[k - 2] = better || (k == lanes && !one_block) ? share[k] : 0;
     }
     return cost;
 }
@@ -440,13 +442,13 @@ private:
         node.box = range.box;
         node.begin = range.begin;
         node.end = range.end;
-        if (node.fits_a_block()) {
-            Costs cost;
-            cost.fill(range.box.area());
-            return cost;
-        }
+        Costs one_block;
+        one_block.fill(range.box.area());
+        if (range.size() <= small) return one_block;
         Range left, right;
         node.axis = split(range, level < cost_levels, left, right);
+        float parts = left.box.area() + right.box.area();
+        if (node.fits_a_block() && parts > worth_parting * range.box.area()) return one_block;
         node.children = new (&pairs_[next_pair_++]) Node[2];
         Costs left_cost, right_cost;
         both(
