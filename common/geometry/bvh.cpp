@@ -119,15 +119,15 @@ template <bool any>
     Floats zero = splat(0), scale = splat(shear.sz), reach = splat(best.t);
     Floats low = min3(e), high = max3(e);
     uint32_t inside = less_equal(zero, low) | less_equal(high, zero);
-    if (inside == 0) return false;
     inside &= ~equal(load(block.prim), ray.from);
+    if (inside == 0) return false;
 
     // In float is only known what is off by little. An e_i of 0 may be so by rounding alone, and
     // the triangle elsewhere.
     Floats z_t = e[0] * c.z[0] + e[1] * c.z[1] + e[2] * c.z[2], det = e[0] + e[1] + e[2];
-    Floats t = z_t / det * scale, error = error_of(c), size = abs(z_t);
+    Floats t = z_t / det * scale;
     uint32_t in_float = less(zero, low) | less(high, zero);
-    in_float &= inside & less(error, size * splat(float_error));
+    in_float &= inside & less(error_of(c), abs(z_t) * splat(float_error));
     uint32_t sure = in_float & less(zero, t) & less_equal(t, reach);
     bool found = sure != 0;
     if (any && found) return true;
@@ -146,23 +146,20 @@ template <bool any>
         }
     }
 
-    // Of the others, leave out those with all corners too near or too far.
     uint32_t unsure = inside ^ in_float;
-    if (unsure != 0) [[unlikely]] {
-        Floats ends[2] = {min3(c.z) * scale, max3(c.z) * scale};
-        Floats near = min(ends[0], ends[1]), far = max(ends[0], ends[1]);
-        unsure &= ~(less(t, zero) & less(error, size));
-        unsure &= less(zero, far) & less_equal(near, reach);
-        if (unsure != 0) found |= in_double(block, unsure, ray, shear, best);
-    }
+    if (unsure != 0) [[unlikely]]
+        found |= in_double(block, unsure, ray, shear, best);
     return found;
 }
 
-/// The spheres and disks of a block, one by one.
+/// The spheres and disks of a block, one by one: the lanes without corners, up to the unused ones.
 bool test_others(const BvhBlock& block, const Geometry& g, Ray ray, PrimHit& best) {
+    Floats corner = load(block.vertex[0]);
+    uint32_t others = less_equal(corner, corner) ^ ((1u << lanes) - 1);
     bool found = false;
-    for (uint32_t prim : block.prim) {
-        if (prim == PrimHit::none) break;  // what follows is unused, too
+    for (; others != 0; others &= others - 1) {
+        uint32_t prim = block.prim[std::countr_zero(others)];
+        if (prim == PrimHit::none) break;
         ray.t_max = next_above(best.t);
         auto t = visit(
             g, prim, [](const Triangle&) { return std::optional<float>{}; },
