@@ -45,9 +45,9 @@ inline std::vector<double> smooth(const std::vector<double>& s, int width) {
 /// The share of each pixel in the samples to come, on the mean 1, from those that were taken and
 /// the rays that they took, as many samples of each pixel.
 ///
-///   share = 0.1 + 0.9 s / (mean of s),    s = sqrt(v / c), smooth
+///   share = 0.05 + 0.95 s / (mean of s),    s = sqrt(v / c), smooth
 ///
-/// 0.1: what looks even so far may not be so. No share is above 16, for the same reason.
+/// 0.05: what looks even so far may not be so. No share is above 16, for the same reason.
 /// source  Neyman 1934      tested by  "truth: shares are those of the least error"
 inline std::vector<float> shares(const std::vector<PixelSum>& pixels,
                                  const std::vector<uint32_t>& rays, int width) {
@@ -60,7 +60,7 @@ inline std::vector<float> shares(const std::vector<PixelSum>& pixels,
     for (double s_i : s) mean += s_i / static_cast<double>(s.size());
     std::vector<float> result;
     for (double s_i : s) {
-        double share = mean > 0 ? 0.1 + 0.9 * s_i / mean : 1;
+        double share = mean > 0 ? 0.05 + 0.95 * s_i / mean : 1;
         result.push_back(static_cast<float>(std::min(share, 16.0)));
     }
     return result;
