@@ -125,9 +125,9 @@ template <bool any>
     // In float is only known what is off by little. An e_i of 0 may be so by rounding alone, and
     // the triangle elsewhere.
     Floats z_t = e[0] * c.z[0] + e[1] * c.z[1] + e[2] * c.z[2], det = e[0] + e[1] + e[2];
-    Floats t = z_t / det * scale;
+    Floats t = z_t / det * scale, error = error_of(c), size = abs(z_t);
     uint32_t in_float = less(zero, low) | less(high, zero);
-    in_float &= inside & less(error_of(c), abs(z_t) * splat(float_error));
+    in_float &= inside & less(error, size * splat(float_error));
     uint32_t sure = in_float & less(zero, t) & less_equal(t, reach);
     bool found = sure != 0;
     if (any && found) return true;
@@ -146,9 +146,15 @@ template <bool any>
         }
     }
 
+    // Of the others, leave out those with all corners too near or too far.
     uint32_t unsure = inside ^ in_float;
-    if (unsure != 0) [[unlikely]]
-        found |= in_double(block, unsure, ray, shear, best);
+    if (unsure != 0) [[unlikely]] {
+        Floats ends[2] = {min3(c.z) * scale, max3(c.z) * scale};
+        Floats near = min(ends[0], ends[1]), far = max(ends[0], ends[1]);
+        unsure &= ~(less(t, zero) & less(error, size));
+        unsure &= less(zero, far) & less_equal(near, reach);
+        if (unsure != 0) found |= in_double(block, unsure, ray, shear, best);
+    }
     return found;
 }
 
