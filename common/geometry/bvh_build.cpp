@@ -11,7 +11,7 @@ namespace {
 
 constexpr int bins = 16;
 constexpr uint32_t small = lanes / 2;      // references of a block that is not parted
-constexpr float worth_parting = 0.75f;     // of a block's surface, that its parts have together
+constexpr float worth_parting = 0.67f;     // of a block's surface, that its parts have together
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
