@@ -22,7 +22,7 @@ inline Vec2 random_pair(uint32_t seed, uint32_t i) {
 ///   the square is cut into about sqrt(n) columns, as wide as the number of cells in each, so that
 ///   n = k^2 gives the k x k grid, and no other n has to drop or repeat a sample
 inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
-    uint32_t columns = static_cast<uint32_t>(std::lround(std::sqrt(static_cast<double>(n))));
+    uint32_t columns = static_cast<uint32_t>(std::rint(std::sqrt(static_cast<double>(n))));
     uint64_t c = (uint64_t{i + 1} * columns - 1) / n;
     uint32_t first = static_cast<uint32_t>(c * n / columns);
     uint32_t last = static_cast<uint32_t>((c + 1) * n / columns);

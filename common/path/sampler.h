@@ -80,7 +80,7 @@ inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
 ///   the square is cut into about sqrt(n) columns, as wide as the number of cells in each, so that
 ///   n = k^2 gives the k x k grid, and no other n has to drop or repeat a sample
 inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
-    uint32_t columns = static_cast<uint32_t>(std::lround(std::sqrt(static_cast<double>(n))));
+    uint32_t columns = static_cast<uint32_t>(std::rint(std::sqrt(static_cast<double>(n))));
     uint64_t c = (uint64_t{i + 1} * columns - 1) / n;
     uint32_t first = static_cast<uint32_t>(c * n / columns);
     uint32_t last = static_cast<uint32_t>((c + 1) * n / columns);
@@ -161,7 +161,7 @@ private:
         return std::rotr(bits, static_cast<int>(state_ >> 59));
     }
     Vec2 independent() { return Vec2{to_unit_float(random_bits()), to_unit_float(random_bits())}; }
-    Vec2 stratified() {
+    [[gnu::noinline]] Vec2 stratified() {
         uint32_t set = key_of_set(dimension_++ + (sample_ / spp_ << 16));
         return jitter_in_stratum(permute(sample_ % spp_, spp_, set), spp_, independent());
     }
@@ -175,7 +175,7 @@ private:
     /// The points of the next dimensions, all at once: the compiler makes vector instructions of
     /// the loop. index is owen_scramble(sample), x owen_scramble(reverse_bits(index)), y
     /// owen_scramble(sobol_second(index)); of bits that are reversed twice neither is done.
-    void draw_sobol() {
+    [[gnu::noinline]] void draw_sobol() {
         for (uint32_t i = 0; i < at_once; i++) {
             uint32_t set = key_of_set(dimension_ + i);
             uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, set));

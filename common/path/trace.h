@@ -24,6 +24,13 @@ struct PassTrace {
     Trace trace;
 };
 
+/// A copy, number by number: `volatile` forbids to copy more at once, for which the processor would
+/// have to wait until all that was just written is in memory.
+inline Ray copy_of(const volatile Ray& ray) {
+    return {
+        {ray.o.x, ray.o.y, ray.o.z}, {ray.d.x, ray.d.y, ray.d.z}, ray.t_max, ray.time, ray.from};
+}
+
 /// A chapter's trace(), and what the chapter has prepared for it and hands in behind the scene.
 ///
 /// gnu::flatten makes one piece of code of all that trace() calls: a fifth faster.
@@ -31,7 +38,7 @@ template <auto trace, class... Own>
 Trace trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Sampler& sampler,
                                       PathLog& log) __attribute__((flatten)) {
-        return trace(scene, own..., ray, sampler, log);
+        return trace(scene, own..., copy_of(ray), sampler, log);
     };
 }
 
@@ -40,7 +47,7 @@ template <auto trace, class... Own>
 SplatTrace splat_trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Splats& splats,
                                       Sampler& sampler, PathLog& log) __attribute__((flatten)) {
-        return trace(scene, own..., ray, splats, sampler, log);
+        return trace(scene, own..., copy_of(ray), splats, sampler, log);
     };
 }
 
