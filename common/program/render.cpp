@@ -46,9 +46,10 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
             if (limit.reached()) break;
         }
         result.begun = std::max(result.begun, next);
+        renderer.aim_at(wanted.first + next);
         std::atomic<int> tiles = 0;
         parallel_for(renderer.tiles(), options.threads, [&](int tile) {
-            renderer.render(tile, wanted.first + next);
+            renderer.render(tile);
             double of_pass = static_cast<double>(++tiles) / renderer.tiles();
             double seconds = limit.elapsed();
             double by_time = options.time > 0 ? seconds / options.time : 0;
@@ -61,7 +62,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         done = next;
         bool decides = in_pilot && done == allocation.pilot && !limit.reached();
         if (decides && allocation.share_out) {
-            allocation.share_out(result.film, renderer.pilot_rays());
+            allocation.share_out(result.film, renderer.pilot_rays(), options.threads);
         }
     }
 }

@@ -53,6 +53,7 @@ public:
         for (int half = 0; allocation.pilot > 0 && half < halves(); half++) {
             rays_[half].resize(result.film.pixels().size());
         }
+        if (allocation.pilot > 0) from_ = allocation.samples(first);
     }
 
     /// Of the pilot, if there is one.
@@ -60,9 +61,14 @@ public:
 
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
 
-    /// Takes samples until each pixel has those up to `end`, the number of a sample; none while the
-    /// film waits to be saved.
-    void render(int tile, uint32_t end) {
+    /// From here on, render() takes samples up to `end`, the number of a sample.
+    void aim_at(uint32_t end) {
+        end_ = end;
+        if (allocation_.pilot > 0) to_ = allocation_.samples(end);
+    }
+
+    /// Takes the samples of a tile's pixels; none while the film waits to be saved.
+    void render(int tile) {
         if (limit_.reached() || clock_.due()) return;
         Sampler sampler(has_passes ? SamplerType::independent : options_.sampler, options_.seed,
                         static_cast<uint32_t>(scene_.spp));
@@ -78,7 +84,7 @@ public:
                 static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
             bool audited = result_.film.is_audited(pixel);
             for (int half = 0; half < halves(); half++) {
-                auto [s, last] = samples(pixel, half, end);
+                auto [s, last] = samples(pixel, half);
                 uint64_t rays_of_others = rays_traced;
                 for (; s < last; s++) {
                     if (++taken % between_looks == 0 && limit_.reached()) return false;
@@ -86,7 +92,7 @@ public:
                     if constexpr (has_passes) of_pass.add(L);
                     if (audited) audit({x, y, pixel, half, s}, sampler, audit_splats, audit_log);
                 }
-                if (end <= allocation_.pilot) {
+                if (end_ <= allocation_.pilot) {
                     rays_[half][pixel] += static_cast<uint32_t>(rays_traced - rays_of_others);
                 }
             }
@@ -96,18 +102,17 @@ public:
         stats.paths_cut = log.paths_cut();
         std::lock_guard lock(mutex_);
         result_.stats.add(stats);
-        if constexpr (has_passes) result_.film.add_to_batch(end - 1, of_pass);
+        if constexpr (has_passes) result_.film.add_to_batch(end_ - 1, of_pass);
     }
 
 private:
     int halves() const { return allocation_.pilot > 0 ? 2 : 1; }
 
-    /// The numbers of the next sample of a pixel's half, and of the one after the last up to `end`.
-    std::pair<uint32_t, uint32_t> samples(size_t pixel, int half, uint32_t end) const {
+    /// The numbers of the next sample of a pixel's half, and of the one after the last to take.
+    std::pair<uint32_t, uint32_t> samples(size_t pixel, int half) const {
         uint32_t done = result_.film.half(half)[pixel].n;
-        if (allocation_.pilot == 0) return {first_ + done, end};
-        uint32_t first = first_ == 0 ? 0 : allocation_.samples(pixel, half, first_);
-        return {first + done, allocation_.samples(pixel, half, end)};
+        if (allocation_.pilot == 0) return {first_ + done, end_};
+        return {from_(pixel, half) + done, to_(pixel, half)};
     }
 
     /// Calls work(x, y) for the pixels of the tile, as long as it returns true.
@@ -202,7 +207,8 @@ private:
     const Limit& limit_;
     const FilmClock& clock_;
     Rendering& result_;
-    uint32_t first_;  // number of the first sample
+    uint32_t first_, end_ = 0;  // numbers of the first sample, and of the one after the last
+    HalfCounts from_, to_;      // the same for each half of each pixel
     CameraView view_;
     int tiles_x_;
     RayCounts rays_;

@@ -70,24 +70,24 @@ TEST_SUITE("ch16 adaptive") {
         }
         std::vector<uint32_t> rays(width * height, 200);
         std::vector<float> shares = ch16::shares(film.half(0), rays, width);
-        // n in proportion to s, beside the 0.05 that all have: 0.05 + 0.95 (4 or 1) / 2.5
-        CHECK(shares[16 * width + 10] == doctest::Approx(1.57).epsilon(0.02).scale(0));
-        CHECK(shares[16 * width + 50] == doctest::Approx(0.43).epsilon(0.02).scale(0));
+        // n in proportion to s: (4 or 1) / 2.5
+        CHECK(shares[16 * width + 10] == doctest::Approx(1.6).epsilon(0.02).scale(0));
+        CHECK(shares[16 * width + 50] == doctest::Approx(0.4).epsilon(0.02).scale(0));
         double sum = 0;
         for (float share : shares) sum += double{share};
         CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
-        // Without the 0.05 no other share of the same samples has less error.
+        // No other share of the same samples has less error.
         auto error = [](double left) { return 16 / left + 1 / (2 - left); };
         CHECK(error(1.6) < error(1.59));
         CHECK(error(1.6) < error(1.61));
 
-        // Where samples cost nine times as many rays, a third as many: 0.05 + 0.95 (4/3 or 1) 6/7.
+        // Where samples cost nine times as many rays, a third as many: (4/3 or 1) 6/7.
         for (int i = 0; i < width * height; i++) {
             if (i % width < width / 2) rays[static_cast<size_t>(i)] = 1800;
         }
         shares = ch16::shares(film.half(0), rays, width);
-        CHECK(shares[16 * width + 10] == doctest::Approx(1.1357).epsilon(0.02).scale(0));
-        CHECK(shares[16 * width + 50] == doctest::Approx(0.8643).epsilon(0.02).scale(0));
+        CHECK(shares[16 * width + 10] == doctest::Approx(8.0 / 7).epsilon(0.02).scale(0));
+        CHECK(shares[16 * width + 50] == doctest::Approx(6.0 / 7).epsilon(0.02).scale(0));
         // The same error in less time: of all shares x and y with 9 x + y rays, the one with the
         // least of 16 / x + 1 / y.
         auto error_at = [](double x) { return 16 / x + 1 / (13 - 9 * x); };
@@ -107,17 +107,46 @@ TEST_SUITE("ch16 adaptive") {
             for (int k = 0; k < 4; k++)
                 spiky.add(i, Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
         }
-        for (float share : ch16::shares(spiky.half(0), no_rays, 100)) {
-            CHECK(share >= 0.05f);
-            CHECK(share <= 16);
+        auto shares = std::make_shared<ch16::Shares>();
+        for (auto& half : shares->of_half) half = ch16::shares(spiky.half(0), no_rays, 100);
+        uint32_t most = 0, least = 1000;
+        for (size_t i = 0; i < 10000; i++) {
+            uint32_t n = ch16::samples_of(shares, 216)(i, 0);  // 108 on the mean
+            most = std::max(most, n);
+            least = std::min(least, n);
+        }
+        CHECK(least == 13);  // 8 of the pilot, and 0.05 of 100
+        CHECK(most == 16 * 108);
+    }
+
+    TEST_CASE("truth: pixels that have enough leave what their shares ask for to the others") {
+        // Shares of 0.1 and 1.9, a pilot of 16. Of 64 the former would get 6.4: they have more.
+        auto shares = std::make_shared<ch16::Shares>();
+        constexpr size_t pixels = 4000;
+        for (auto& half : shares->of_half) {
+            for (size_t i = 0; i < pixels; i++) half.push_back(i % 2 == 0 ? 0.1f : 1.9f);
+        }
+        struct Expected {
+            uint32_t spp;
+            double few, many;  // of both halves
+        };
+        for (auto [spp, few, many] : {Expected{64, 16 + 0.05 * 48, 128 - (16 + 0.05 * 48)},
+                                      Expected{640, 0.1 * 640, 1.9 * 640}}) {
+            CAPTURE(spp);
+            auto counts = ch16::samples_of(shares, spp);
+            double sum[2] = {};
+            for (size_t i = 0; i < pixels; i++) sum[i % 2] += counts(i, 0) + counts(i, 1);
+            double rounding = 5 * std::sqrt(2.0 / 4 / (pixels / 2));
+            CHECK(std::abs(sum[0] / (pixels / 2) - few) < rounding);
+            CHECK(std::abs(sum[1] / (pixels / 2) - many) < rounding);
         }
     }
 
     TEST_CASE("identity: samples are as many as the shares say") {
-        ch16::Shares shares;
-        shares.pilot = 7;  // 4 and 3
+        auto shares = std::make_shared<ch16::Shares>();
+        shares->pilot = 7;  // 4 and 3
         constexpr size_t pixels = 4000;
-        for (auto& half : shares.of_half) {
+        for (auto& half : shares->of_half) {
             for (size_t i = 0; i < pixels; i++)
                 half.push_back(0.2f +
                                1.6f * (static_cast<float>(i) + 0.5f) / static_cast<float>(pixels));
@@ -125,11 +154,12 @@ TEST_SUITE("ch16 adaptive") {
         for (uint32_t spp : {1u, 2u, 3u, 7u, 8u, 20u, 63u, 1000u}) {
             CAPTURE(spp);
             double sum = 0;
+            auto counts = ch16::samples_of(shares, spp), more = ch16::samples_of(shares, spp + 1);
             for (size_t i = 0; i < pixels; i++) {
                 for (int half : {0, 1}) {
-                    uint32_t n = ch16::samples_of(shares, i, half, spp);
+                    uint32_t n = counts(i, half);
                     sum += n;
-                    CHECK(n <= ch16::samples_of(shares, i, half, spp + 1));  // none is taken back
+                    CHECK(n <= more(i, half));  // none is taken back
                     if (spp <= 7) CHECK(n == (half == 0 ? (spp + 1) / 2 : spp / 2));
                 }
             }
