@@ -5,7 +5,6 @@
 //   n_i is proportional to sqrt(v_i / c_i)        v_i: the variance of a pixel's samples
 //                                                 c_i: what a sample costs, in rays
 #pragma once
-#include <array>
 #include <memory>
 
 #include "common/base/parallel.h"
@@ -22,8 +21,7 @@ using distribution::trace, distribution::prepare;
 ///   v = variance of Y / (mean^2 + 0.01)        0 for fewer than two samples
 inline double relative_variance(const PixelSum& p) {
     if (p.n < 2) return 0;
-    double mean = p.mean();
-    return p.m2() / (p.n - 1) / (mean * mean + 0.01);
+    return p.m2() / (p.n - 1) / (p.mean() * p.mean() + 0.01);
 }
 
 /// The mean of s over the 5 x 5 pixels around each: a few samples of one alone tell little. Done
@@ -45,14 +43,13 @@ inline std::vector<double> smooth(const std::vector<double>& s, int width) {
     return result;
 }
 
-/// The share of each pixel in all samples, on the mean 1, from those that were taken and the rays
-/// that they took, as many samples of each pixel.
+/// The share of each pixel in all samples, on the mean 1, from equally many of each and their rays.
 ///
 ///   share = s / (mean of s),    s = sqrt(v / c), smooth
 ///
 /// source  Neyman 1934      tested by  "truth: shares are those of the least error"
-inline std::vector<float> shares(const std::vector<PixelSum>& pixels,
-                                 const std::vector<uint32_t>& rays, int width) {
+inline std::vector<double> shares(const std::vector<PixelSum>& pixels,
+                                  const std::vector<uint32_t>& rays, int width) {
     std::vector<double> s;
     for (size_t i = 0; i < pixels.size(); i++) {
         s.push_back(std::sqrt(relative_variance(pixels[i]) / std::max(rays[i], 1u)));
@@ -60,9 +57,8 @@ inline std::vector<float> shares(const std::vector<PixelSum>& pixels,
     s = smooth(smooth(s, width), width);
     double mean = 0;
     for (double s_i : s) mean += s_i / static_cast<double>(s.size());
-    std::vector<float> result;
-    for (double s_i : s) result.push_back(static_cast<float>(mean > 0 ? s_i / mean : 1));
-    return result;
+    for (double& s_i : s) s_i = mean > 0 ? s_i / mean : 1;
+    return s;
 }
 
 /// Who decides how many samples a half of a pixel gets: the other half's pilot, or its own.
@@ -75,7 +71,7 @@ enum class Judge { other, own };
 struct Shares {
     uint32_t pilot = 16;  // samples of each pixel, of both halves
     Judge judge = Judge::other;
-    std::vector<float> of_half[2] = {};
+    std::vector<double> of_half[2] = {};
 };
 inline void share_out(Shares& s, const Film& pilot, const RayCounts& rays, int threads) {
     parallel_for(2, threads, [&](int half) {
@@ -84,60 +80,43 @@ inline void share_out(Shares& s, const Film& pilot, const RayCounts& rays, int t
     });
 }
 
-/// The level at which max(least, level share) is `wanted` on the mean: pixels get what their shares
-/// ask for, but for those that have more already, and what these do not need the others get.
-///
-/// Lowered until no further pixel is below: never lower than the answer, as a pixel that is left
-/// out lowers it the less.
-inline double level_of(const std::vector<float>& shares, double least, double wanted) {
-    double level = infinity;
-    while (true) {
-        double sum = 0, left = wanted * static_cast<double>(shares.size());
-        for (float share : shares) {
-            if (double{share} * level > least) {
-                sum += double{share};
-            } else {
-                left -= least;
-            }
+/// The level at which max(least, level share) is `wanted` on the mean: lowered from above as long
+/// as further pixels come to have enough already, and leave less for the others.
+inline double level_of(const std::vector<double>& shares, double least, double wanted) {
+    for (double level = infinity;;) {
+        double sum = 0, left = 0;
+        for (double share : shares) {
+            bool asks = share * level > least;
+            sum += asks ? share : 0, left += asks ? wanted : wanted - least;
         }
         if (!(left / sum < level)) return level;
         level = left / sum;
     }
 }
 
-/// How many samples the halves of pixels have when there are `spp` a pixel on the mean.
+/// How many samples a half of each pixel has when there are `spp` a pixel on the mean.
 ///
 ///   n = floor(max(least, level share) + u),    least = pilot / 2 + 0.05 (spp - pilot) / 2
 ///
 /// 0.05: what looks even so far may not be so. None has over 16 times the mean, for the same
 /// reason. u in [0,1) is another for each pixel and half, so that rounding favours none.
 /// tested by  "identity: samples are as many as the shares say"
-inline HalfCounts samples_of(std::shared_ptr<const Shares> s, uint32_t spp) {
-    uint32_t pilot = std::min(spp, s->pilot);
-    double more = (spp - pilot) / 2.0, most = 8.0 * spp;
-    std::array<uint32_t, 2> of_pilot = {(pilot + 1) / 2, pilot / 2};
-    std::array<double, 2> level = {};
-    for (size_t half = 0; more > 0 && half < 2; half++) {
-        uint32_t first = of_pilot[half];
-        level[half] = level_of(s->of_half[half], first + 0.05 * more, first + more);
-    }
-    return [=](size_t pixel, int half) {
-        uint32_t first = of_pilot[static_cast<size_t>(half)];
-        if (more == 0) return first;
+inline SamplesOf samples_of(std::shared_ptr<const Shares> s, int half, uint32_t spp) {
+    uint32_t pilot = std::min(spp, s->pilot), first = (pilot + (half == 0)) / 2;
+    if (spp == pilot) return [=](size_t) { return first; };
+    double more = (spp - pilot) / 2.0, least = first + 0.05 * more, most = 8.0 * spp;
+    double level = level_of(s->of_half[half], least, first + more);
+    return [=](size_t pixel) {
         double u = to_unit_float(hash32(static_cast<uint32_t>(pixel), static_cast<uint32_t>(half)));
-        double wanted = level[static_cast<size_t>(half)] * double{s->of_half[half][pixel]};
-        return static_cast<uint32_t>(std::clamp(wanted, first + 0.05 * more, most) + u);
+        return static_cast<uint32_t>(std::clamp(level * s->of_half[half][pixel], least, most) + u);
     };
 }
 
 /// The same for the loop that renders. A pixel is then  (mean of half 0 + mean of half 1) / 2.
 inline Allocation allocation(const Shares& wanted) {
     auto s = std::make_shared<Shares>(wanted);
-    return {wanted.pilot,
-            [s](const Film& pilot, const RayCounts& rays, int threads) {
-                share_out(*s, pilot, rays, threads);
-            },
-            [s](uint32_t spp) { return samples_of(s, spp); }};
+    return {wanted.pilot, [s](const auto&... decided) { share_out(*s, decided...); },
+            [s](int half, uint32_t spp) { return samples_of(s, half, spp); }};
 }
 
 }  // namespace ch16

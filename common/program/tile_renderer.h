@@ -52,8 +52,8 @@ public:
           tiles_x_((scene.width + side - 1) / side) {
         for (int half = 0; allocation.pilot > 0 && half < halves(); half++) {
             rays_[half].resize(result.film.pixels().size());
+            from_[half] = allocation.samples(half, first);
         }
-        if (allocation.pilot > 0) from_ = allocation.samples(first);
     }
 
     /// Of the pilot, if there is one.
@@ -64,7 +64,8 @@ public:
     /// From here on, render() takes samples up to `end`, the number of a sample.
     void aim_at(uint32_t end) {
         end_ = end;
-        if (allocation_.pilot > 0) to_ = allocation_.samples(end);
+        for (int half = 0; allocation_.pilot > 0 && half < halves(); half++)
+            to_[half] = allocation_.samples(half, end);
     }
 
     /// Takes the samples of a tile's pixels; none while the film waits to be saved.
@@ -112,7 +113,7 @@ private:
     std::pair<uint32_t, uint32_t> samples(size_t pixel, int half) const {
         uint32_t done = result_.film.half(half)[pixel].n;
         if (allocation_.pilot == 0) return {first_ + done, end_};
-        return {from_(pixel, half) + done, to_(pixel, half)};
+        return {from_[half](pixel) + done, to_[half](pixel)};
     }
 
     /// Calls work(x, y) for the pixels of the tile, as long as it returns true.
@@ -207,8 +208,8 @@ private:
     const Limit& limit_;
     const FilmClock& clock_;
     Rendering& result_;
-    uint32_t first_, end_ = 0;  // numbers of the first sample, and of the one after the last
-    HalfCounts from_, to_;      // the same for each half of each pixel
+    uint32_t first_, end_ = 0;   // numbers of the first sample, and of the one after the last
+    SamplesOf from_[2], to_[2];  // the same for the halves of each pixel
     CameraView view_;
     int tiles_x_;
     RayCounts rays_;

@@ -69,12 +69,12 @@ TEST_SUITE("ch16 adaptive") {
             }
         }
         std::vector<uint32_t> rays(width * height, 200);
-        std::vector<float> shares = ch16::shares(film.half(0), rays, width);
+        std::vector<double> shares = ch16::shares(film.half(0), rays, width);
         // n in proportion to s: (4 or 1) / 2.5
         CHECK(shares[16 * width + 10] == doctest::Approx(1.6).epsilon(0.02).scale(0));
         CHECK(shares[16 * width + 50] == doctest::Approx(0.4).epsilon(0.02).scale(0));
         double sum = 0;
-        for (float share : shares) sum += double{share};
+        for (double share : shares) sum += share;
         CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
         // No other share of the same samples has less error.
         auto error = [](double left) { return 16 / left + 1 / (2 - left); };
@@ -101,7 +101,7 @@ TEST_SUITE("ch16 adaptive") {
             for (int k = 0; k < 4; k++) film.add(i, {0.3f, 0.2f, 0.1f});
         }
         const std::vector<uint32_t> no_rays(10000);
-        for (float share : ch16::shares(film.half(0), no_rays, 8)) CHECK(share == 1);
+        for (double share : ch16::shares(film.half(0), no_rays, 8)) CHECK(share == 1);
         Film spiky(100, 100);
         for (size_t i = 0; i < 10000; i++) {
             for (int k = 0; k < 4; k++)
@@ -110,8 +110,9 @@ TEST_SUITE("ch16 adaptive") {
         auto shares = std::make_shared<ch16::Shares>();
         for (auto& half : shares->of_half) half = ch16::shares(spiky.half(0), no_rays, 100);
         uint32_t most = 0, least = 1000;
+        auto counts = ch16::samples_of(shares, 0, 216);  // 108 on the mean
         for (size_t i = 0; i < 10000; i++) {
-            uint32_t n = ch16::samples_of(shares, 216)(i, 0);  // 108 on the mean
+            uint32_t n = counts(i);
             most = std::max(most, n);
             least = std::min(least, n);
         }
@@ -124,7 +125,7 @@ TEST_SUITE("ch16 adaptive") {
         auto shares = std::make_shared<ch16::Shares>();
         constexpr size_t pixels = 4000;
         for (auto& half : shares->of_half) {
-            for (size_t i = 0; i < pixels; i++) half.push_back(i % 2 == 0 ? 0.1f : 1.9f);
+            for (size_t i = 0; i < pixels; i++) half.push_back(i % 2 == 0 ? 0.1 : 1.9);
         }
         struct Expected {
             uint32_t spp;
@@ -133,9 +134,9 @@ TEST_SUITE("ch16 adaptive") {
         for (auto [spp, few, many] : {Expected{64, 16 + 0.05 * 48, 128 - (16 + 0.05 * 48)},
                                       Expected{640, 0.1 * 640, 1.9 * 640}}) {
             CAPTURE(spp);
-            auto counts = ch16::samples_of(shares, spp);
+            auto a = ch16::samples_of(shares, 0, spp), b = ch16::samples_of(shares, 1, spp);
             double sum[2] = {};
-            for (size_t i = 0; i < pixels; i++) sum[i % 2] += counts(i, 0) + counts(i, 1);
+            for (size_t i = 0; i < pixels; i++) sum[i % 2] += a(i) + b(i);
             double rounding = 5 * std::sqrt(2.0 / 4 / (pixels / 2));
             CHECK(std::abs(sum[0] / (pixels / 2) - few) < rounding);
             CHECK(std::abs(sum[1] / (pixels / 2) - many) < rounding);
@@ -148,18 +149,18 @@ TEST_SUITE("ch16 adaptive") {
         constexpr size_t pixels = 4000;
         for (auto& half : shares->of_half) {
             for (size_t i = 0; i < pixels; i++)
-                half.push_back(0.2f +
-                               1.6f * (static_cast<float>(i) + 0.5f) / static_cast<float>(pixels));
+                half.push_back(0.2 + 1.6 * (static_cast<double>(i) + 0.5) / pixels);
         }
         for (uint32_t spp : {1u, 2u, 3u, 7u, 8u, 20u, 63u, 1000u}) {
             CAPTURE(spp);
             double sum = 0;
-            auto counts = ch16::samples_of(shares, spp), more = ch16::samples_of(shares, spp + 1);
-            for (size_t i = 0; i < pixels; i++) {
-                for (int half : {0, 1}) {
-                    uint32_t n = counts(i, half);
+            for (int half : {0, 1}) {
+                auto counts = ch16::samples_of(shares, half, spp);
+                auto more = ch16::samples_of(shares, half, spp + 1);
+                for (size_t i = 0; i < pixels; i++) {
+                    uint32_t n = counts(i);
                     sum += n;
-                    CHECK(n <= more(i, half));  // none is taken back
+                    CHECK(n <= more(i));  // none is taken back
                     if (spp <= 7) CHECK(n == (half == 0 ? (spp + 1) / 2 : spp / 2));
                 }
             }
