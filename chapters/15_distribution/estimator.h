@@ -27,7 +27,7 @@ inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
 
 /// A wavelength, and what a path of it counts for in each channel.
 struct Wavelength {
-    float micrometres = 0;  // 0: none yet
+    float micrometres = 0;
     Rgb weight;
 };
 
@@ -101,9 +101,9 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
     if (camera.lens_radius > 0) ray = through_lens(camera, ray, sampler.u2());
     if (!scene.movers.empty())
         ray.time = std::lerp(camera.shutter_open, camera.shutter_close, sampler.u1());
+    std::optional<Wavelength> light;  // that the path is of, once it has met such glass
+    std::optional<Material> glass;    // as this light sees it
     Rgb L, beta = {1, 1, 1};
-    Wavelength light;      // that the path is of, once it has met such glass
-    Material glass;        // as this light sees it
     Hit last;              // the vertex before
     float pdf_b = 0;       // of the direction that was drawn there
     bool only_way = true;  // nothing but this path could find what shines next
@@ -132,13 +132,13 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
 
         // Glass that disperses: from the first on, the path has one wavelength.
         if (x->material->glass != nullptr) {
-            if (light.micrometres == 0) {
+            if (!light) {
                 light = sample_wavelength(prepared.white, sampler.u1());
-                beta *= light.weight;
+                beta *= light->weight;
             }
             glass = *x->material;
-            glass.ior = index_of_refraction(*glass.glass, double{light.micrometres});
-            x->material = &glass;
+            glass->ior = index_of_refraction(*glass->glass, double{light->micrometres});
+            x->material = &*glass;
         }
 
         // Draw the direction to go on in.
