@@ -16,12 +16,13 @@ namespace ch16 {
 using distribution::trace, distribution::prepare;
 
 /// How much a pixel's samples vary, in the measure in which pictures are compared here: that of
-/// relMSE, in which dark pixels count as much as bright ones.
+/// relMSE, in which what is dark counts as much as what is bright.
 ///
-///   v = variance of Y / (mean^2 + 0.01)        0 for fewer than two samples
-inline double relative_variance(const PixelSum& p) {
-    if (p.n < 2) return 0;
-    return p.m2() / (p.n - 1) / (p.mean() * p.mean() + 0.01);
+///   v = average over the channels of  variance / (mean^2 + 0.01)      0 for fewer than two samples
+inline double relative_variance(const PilotPixel& p) {
+    double v = 0;
+    for (int c : {0, 1, 2}) v += p.m2[c] / (p.mean[c] * p.mean[c] + 0.01) / 3;
+    return v / std::max(p.n - 1.0, 1.0);
 }
 
 /// The mean of s over the 5 x 5 pixels around each: a few samples of one alone tell little. Done
@@ -48,12 +49,10 @@ inline std::vector<double> smooth(const std::vector<double>& s, int width) {
 ///   share = s / (mean of s),    s = sqrt(v / c), smooth
 ///
 /// source  Neyman 1934      tested by  "truth: shares are those of the least error"
-inline std::vector<double> shares(const std::vector<PixelSum>& pixels,
-                                  const std::vector<uint32_t>& rays, int width) {
+inline std::vector<double> shares(const std::vector<PilotPixel>& pixels, int width) {
     std::vector<double> s;
-    for (size_t i = 0; i < pixels.size(); i++) {
-        s.push_back(std::sqrt(relative_variance(pixels[i]) / std::max(rays[i], 1u)));
-    }
+    for (const PilotPixel& p : pixels)
+        s.push_back(std::sqrt(relative_variance(p) / std::max(p.rays, 1u)));
     s = smooth(smooth(s, width), width);
     double mean = 0;
     for (double s_i : s) mean += s_i / static_cast<double>(s.size());
@@ -73,10 +72,10 @@ struct Shares {
     Judge judge = Judge::other;
     std::vector<double> of_half[2] = {};
 };
-inline void share_out(Shares& s, const Film& pilot, const RayCounts& rays, int threads) {
+inline void share_out(Shares& s, const Pilot& pilot, int threads) {
     parallel_for(2, threads, [&](int half) {
         int judge = s.judge == Judge::other ? 1 - half : half;
-        s.of_half[half] = shares(pilot.half(judge), rays[judge], pilot.width);
+        s.of_half[half] = shares(pilot.half[judge], pilot.width);
     });
 }
 

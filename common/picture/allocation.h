@@ -4,10 +4,27 @@
 #include <functional>
 #include <vector>
 
-#include "common/picture/film.h"
+#include "common/base/vec.h"
 
-/// How many rays the samples of each pixel took, in each half.
-using RayCounts = std::vector<uint32_t>[2];
+/// What the pilot has seen of a pixel, in one half: of each channel its mean, and the sum of
+/// (sample - mean)^2. The same steps as in RunningStats, of three channels at once.
+struct PilotPixel {
+    uint32_t n = 0, rays = 0;
+    double mean[3] = {}, m2[3] = {};
+
+    void add(Rgb L) {
+        double x[3] = {double{L.r}, double{L.g}, double{L.b}}, share = 1.0 / ++n;
+        for (int c : {0, 1, 2}) {
+            double delta = x[c] - mean[c];
+            mean[c] += share * delta;
+            m2[c] += delta * (x[c] - mean[c]);
+        }
+    }
+};
+struct Pilot {
+    int width = 0;
+    std::vector<PilotPixel> half[2] = {};
+};
 
 /// How many samples of each pixel there are.
 using SamplesOf = std::function<uint32_t(size_t pixel)>;
@@ -17,8 +34,8 @@ using SamplesOf = std::function<uint32_t(size_t pixel)>;
 struct Allocation {
     uint32_t pilot = 0;  // samples of each pixel; 0: no allocation, all pixels get the same
 
-    /// Decides, from the film of the pilot and the rays that it took. Empty: has decided.
-    std::function<void(const Film& pilot, const RayCounts& rays, int threads)> share_out = {};
+    /// Decides, by the pilot. Empty: has decided.
+    std::function<void(const Pilot& pilot, int threads)> share_out = {};
 
     /// How many there are in a half when there are `spp` a pixel on the mean. Grows with spp, and
     /// up to the pilot it is the same for all pixels.

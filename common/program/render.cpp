@@ -62,7 +62,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         done = next;
         bool decides = in_pilot && done == allocation.pilot && !limit.reached();
         if (decides && allocation.share_out) {
-            allocation.share_out(result.film, renderer.pilot_rays(), options.threads);
+            allocation.share_out(renderer.take_pilot(), options.threads);
         }
     }
 }

@@ -49,15 +49,16 @@ public:
           result_(result),
           first_(first),
           view_(camera_view(scene.camera, scene.width, scene.height)),
-          tiles_x_((scene.width + side - 1) / side) {
+          tiles_x_((scene.width + side - 1) / side),
+          pilot_{scene.width} {
         for (int half = 0; allocation.pilot > 0 && half < halves(); half++) {
-            rays_[half].resize(result.film.pixels().size());
+            if (has_pilot()) pilot_.half[half].resize(result.film.pixels().size());
             from_[half] = allocation.samples(half, first);
         }
     }
 
-    /// Of the pilot, if there is one.
-    const RayCounts& pilot_rays() const { return rays_; }
+    /// What its pilot has seen, for those who decide by it. Not kept.
+    Pilot take_pilot() { return std::move(pilot_); }
 
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
 
@@ -80,22 +81,23 @@ public:
         PixelSum of_pass;
         uint64_t rays_before = rays_traced;
         int taken = 0;
+        bool in_pilot = has_pilot() && end_ <= allocation_.pilot;
         for_pixels(tile, [&](int x, int y) {
             size_t pixel =
                 static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
             bool audited = result_.film.is_audited(pixel);
             for (int half = 0; half < halves(); half++) {
                 auto [s, last] = samples(pixel, half);
+                PilotPixel* seen = in_pilot ? &pilot_.half[half][pixel] : nullptr;
                 uint64_t rays_of_others = rays_traced;
                 for (; s < last; s++) {
                     if (++taken % between_looks == 0 && limit_.reached()) return false;
                     Rgb L = add_sample({x, y, pixel, half, s}, sampler, splats, log, stats);
                     if constexpr (has_passes) of_pass.add(L);
+                    if (seen) seen->add(L);
                     if (audited) audit({x, y, pixel, half, s}, sampler, audit_splats, audit_log);
                 }
-                if (end_ <= allocation_.pilot) {
-                    rays_[half][pixel] += static_cast<uint32_t>(rays_traced - rays_of_others);
-                }
+                if (seen) seen->rays += static_cast<uint32_t>(rays_traced - rays_of_others);
             }
             return true;
         });
@@ -108,6 +110,7 @@ public:
 
 private:
     int halves() const { return allocation_.pilot > 0 ? 2 : 1; }
+    bool has_pilot() const { return allocation_.share_out && first_ == 0; }
 
     /// The numbers of the next sample of a pixel's half, and of the one after the last to take.
     std::pair<uint32_t, uint32_t> samples(size_t pixel, int half) const {
@@ -212,7 +215,7 @@ private:
     SamplesOf from_[2], to_[2];  // the same for the halves of each pixel
     CameraView view_;
     int tiles_x_;
-    RayCounts rays_;
+    Pilot pilot_;
     std::mutex mutex_;
     std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats meet
 };

@@ -59,17 +59,18 @@ TEST_SUITE("ch16 adaptive") {
         // The left half of the picture varies four times as much as the right: its standard
         // deviation is four times as large, and its mean the same.
         constexpr int width = 64, height = 32;
-        Film film(width, height);
+        std::vector<PilotPixel> pilot(width * height);
         Sampler sampler(SamplerType::independent, 1, 1);
         for (int i = 0; i < width * height; i++) {
+            PilotPixel& pixel = pilot[static_cast<size_t>(i)];
             sampler.start(static_cast<uint32_t>(i), 0);
             for (int k = 0; k < 200; k++) {
                 float L = 1 + (i % width < width / 2 ? 0.4f : 0.1f) * (sampler.u1() - 0.5f);
-                film.add(static_cast<size_t>(i), {L, L, L});
+                pixel.add({L, L, L});
             }
+            pixel.rays = 200;
         }
-        std::vector<uint32_t> rays(width * height, 200);
-        std::vector<double> shares = ch16::shares(film.half(0), rays, width);
+        std::vector<double> shares = ch16::shares(pilot, width);
         // n in proportion to s: (4 or 1) / 2.5
         CHECK(shares[16 * width + 10] == doctest::Approx(1.6).epsilon(0.02).scale(0));
         CHECK(shares[16 * width + 50] == doctest::Approx(0.4).epsilon(0.02).scale(0));
@@ -83,9 +84,9 @@ TEST_SUITE("ch16 adaptive") {
 
         // Where samples cost nine times as many rays, a third as many: (4/3 or 1) 6/7.
         for (int i = 0; i < width * height; i++) {
-            if (i % width < width / 2) rays[static_cast<size_t>(i)] = 1800;
+            if (i % width < width / 2) pilot[static_cast<size_t>(i)].rays = 1800;
         }
-        shares = ch16::shares(film.half(0), rays, width);
+        shares = ch16::shares(pilot, width);
         CHECK(shares[16 * width + 10] == doctest::Approx(8.0 / 7).epsilon(0.02).scale(0));
         CHECK(shares[16 * width + 50] == doctest::Approx(6.0 / 7).epsilon(0.02).scale(0));
         // The same error in less time: of all shares x and y with 9 x + y rays, the one with the
@@ -95,20 +96,31 @@ TEST_SUITE("ch16 adaptive") {
         CHECK(error_at(4.0 / 3) < error_at(1.34));
     }
 
+    TEST_CASE("truth: a pixel varies as relMSE measures it, channel by channel") {
+        // r is 0 or 2, g is 0.1, b is 0 or 0.02: variances 1, 0 and 10^-4 about 1, 0.1 and 0.01.
+        PilotPixel pixel;
+        CHECK(ch16::relative_variance(pixel) == 0);
+        pixel.add({2, 0.1f, 0.02f});
+        CHECK(ch16::relative_variance(pixel) == 0);
+        for (int k = 1; k < 6; k++)
+            pixel.add({k % 2 == 0 ? 2.f : 0.f, 0.1f, k % 2 == 0 ? 0.02f : 0.f});
+        double v = (1 / 1.01 + 1e-4 / 0.0101) / 3;
+        CHECK(ch16::relative_variance(pixel) ==
+              doctest::Approx(v * 6 / 5).epsilon(1e-6).scale(0));  // 6 / 5: by their own mean
+    }
+
     TEST_CASE("truth: a picture of one color is shared out evenly, and a spike within bounds") {
-        Film film(8, 8);
-        for (size_t i = 0; i < 64; i++) {
-            for (int k = 0; k < 4; k++) film.add(i, {0.3f, 0.2f, 0.1f});
+        std::vector<PilotPixel> even(64), spiky(10000);
+        for (PilotPixel& pixel : even) {
+            for (int k = 0; k < 5; k++) pixel.add({0.3f, 0.2f, 0.1f});
         }
-        const std::vector<uint32_t> no_rays(10000);
-        for (double share : ch16::shares(film.half(0), no_rays, 8)) CHECK(share == 1);
-        Film spiky(100, 100);
+        for (double share : ch16::shares(even, 8)) CHECK(share == 1);
         for (size_t i = 0; i < 10000; i++) {
             for (int k = 0; k < 4; k++)
-                spiky.add(i, Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
+                spiky[i].add(Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
         }
         auto shares = std::make_shared<ch16::Shares>();
-        for (auto& half : shares->of_half) half = ch16::shares(spiky.half(0), no_rays, 100);
+        for (auto& half : shares->of_half) half = ch16::shares(spiky, 100);
         uint32_t most = 0, least = 1000;
         auto counts = ch16::samples_of(shares, 0, 216);  // 108 on the mean
         for (size_t i = 0; i < 10000; i++) {
