@@ -6,6 +6,7 @@
 //                                                 c_i: what a sample costs, in rays
 #pragma once
 #include <memory>
+#include <numeric>
 
 #include "common/base/parallel.h"
 #include "common/path/distribution.h"
@@ -25,20 +26,17 @@ inline double relative_variance(const PilotPixel& p) {
     return v / std::max(p.n - 1.0, 1.0);
 }
 
-/// The mean of s over the 5 x 5 pixels around each: a few samples of one alone tell little. Done
-/// twice, what is near counts more than what is far.
+/// The mean of s over the 5 pixels of a row around each, rows turned to columns: twice, the mean
+/// over 5 x 5. A few samples of one pixel alone tell little.
 inline std::vector<double> smooth(const std::vector<double>& s, int width) {
     int height = static_cast<int>(s.size()) / width;
     std::vector<double> result;
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            double sum = 0, count = 0;
-            for (int j = std::max(y - 2, 0); j <= std::min(y + 2, height - 1); j++) {
-                for (int i = std::max(x - 2, 0); i <= std::min(x + 2, width - 1); i++) {
-                    sum += s[static_cast<size_t>(j * width + i)], count++;
-                }
-            }
-            result.push_back(sum / count);
+    for (int x = 0; x < width; x++) {
+        int first = std::max(x - 2, 0), last = std::min(x + 2, width - 1);
+        for (int y = 0; y < height; y++) {
+            auto row = s.begin() + y * width;
+            double sum = std::accumulate(row + first, row + last + 1, 0.0);
+            result.push_back(sum / (last - first + 1));
         }
     }
     return result;
@@ -53,7 +51,8 @@ inline std::vector<double> shares(const std::vector<PilotPixel>& pixels, int wid
     std::vector<double> s;
     for (const PilotPixel& p : pixels)
         s.push_back(std::sqrt(relative_variance(p) / std::max(p.rays, 1u)));
-    s = smooth(smooth(s, width), width);
+    int height = static_cast<int>(s.size()) / width;
+    for (int side : {width, height, width, height}) s = smooth(s, side);  // 5 x 5, twice
     double mean = 0;
     for (double s_i : s) mean += s_i / static_cast<double>(s.size());
     for (double& s_i : s) s_i = mean > 0 ? s_i / mean : 1;
