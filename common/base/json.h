@@ -1,19 +1,33 @@
 // JSON objects, written.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// A text in JSON's quotes; control characters are blanks.
-inline std::string json_quoted(const std::string& text) {
+#include "common/base/utf8.h"
+
+/// A text in JSON's quotes; what is not UTF-8, such as a name in Latin-1, becomes U+FFFD.
+inline std::string json_quoted(std::string_view text) {
     std::string json = "\"";
-    for (char c : text) {
-        if (c == '"' || c == '\\') json += '\\';
-        json += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    for (size_t i = 0; i < text.size();) {
+        size_t length = utf8_length(text, i);
+        if (text[i] == '"' || text[i] == '\\') json += '\\';
+        if (length == 0) {
+            json += "\\ufffd";
+        } else if (static_cast<unsigned char>(text[i]) < 32) {
+            char escape[8];
+            std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(text[i]));
+            json += escape;
+        } else {
+            json += text.substr(i, length);
+        }
+        i += std::max(length, size_t{1});
     }
-    return json + "\"";
+    return json + '"';
 }
 
 /// A number with nine digits; null for what is not finite.

@@ -16,14 +16,16 @@ struct Position {
 };
 
 /// `text` made fit for one line of a terminal: what is no character to print becomes '?'.
-inline std::string printable(std::string text) {
+inline std::string printable(std::string_view text) {
+    std::string line;
     for (size_t i = 0; i < text.size();) {
         size_t length = utf8_length(text, i);
-        bool control = static_cast<unsigned char>(text[i]) < 0x20 || text[i] == 0x7f;
-        if (control || length == 0) text[i] = '?';
-        i += std::max(length, size_t{1});
+        std::string_view character = text.substr(i, std::max(length, size_t{1}));
+        bool plain = length > 0 && !utf8_is_control(character);
+        line += plain ? character : "?";
+        i += character.size();
     }
-    return text;
+    return line;
 }
 
 /// A word of the input in quotes, cut off where it is too long to print.
@@ -34,6 +36,13 @@ inline std::string quote(std::string_view word) {
     size_t end = longest;
     while (end > 0 && (word[end] & 0xc0) == 0x80) end--;
     return '"' + std::string(word.substr(0, end)) + "...\"";
+}
+
+/// The name of a file in quotes, never cut off: the end of a path says which file it is. Only what
+/// is too long to be the name of a file is cut.
+inline std::string quote_file(const std::string& name) {
+    constexpr size_t longest = 4096;
+    return name.size() <= longest ? '"' + name + '"' : quote(name);
 }
 
 /// "file:line:column: kind: text", the form in which compilers and editors know it; for a file as a

@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/percent.h"
+#include "common/base/position.h"
 #include "common/path/camera_sample.h"
 #include "common/program/path_drawing.h"
 #include "common/program/table.h"
@@ -106,7 +107,7 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
 
     std::printf(
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
-        s, scene.file.c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
+        s, printable(scene.file).c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
         double{film.x} - x, double{film.y} - y);
     if (options.explain_sample < 0) {
         std::printf("No sample was named: 0 is the first. --explain %d,%d,S takes another one.\n",

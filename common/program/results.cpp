@@ -9,6 +9,7 @@
 #include "common/base/files.h"
 #include "common/base/json.h"
 #include "common/base/percent.h"
+#include "common/base/position.h"
 #include "common/picture/heat_map.h"
 #include "common/program/class_sheet.h"
 #include "common/program/film_keeping.h"
@@ -58,8 +59,8 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
 void print_summary(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
     double samples = static_cast<double>(r.film.samples());
-    std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), scene.file.c_str(), r.film.width,
-                r.film.height, json_number(r.film.spp()).c_str(),
+    std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), printable(scene.file).c_str(),
+                r.film.width, r.film.height, json_number(r.film.spp()).c_str(),
                 s.interrupted ? " (interrupted)" : "");
     double error = r.film.standard_error();
     if (std::isnan(error)) {

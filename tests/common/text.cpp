@@ -1,0 +1,83 @@
+// Text from files as it is printed: on a terminal, in messages, in JSON.
+#include <doctest/doctest.h>
+
+#include "common/base/json.h"
+#include "common/base/position.h"
+
+namespace {
+
+/// The character of a code point, in UTF-8.
+std::string utf8(uint32_t code) {
+    auto tail = [&](int shift) { return static_cast<char>(0x80 | (code >> shift & 0x3f)); };
+    if (code < 0x80) return {static_cast<char>(code)};
+    if (code < 0x800) return {static_cast<char>(0xc0 | code >> 6), tail(0)};
+    if (code < 0x10000) return {static_cast<char>(0xe0 | code >> 12), tail(6), tail(0)};
+    return {static_cast<char>(0xf0 | code >> 18), tail(12), tail(6), tail(0)};
+}
+
+}  // namespace
+
+TEST_SUITE("text") {
+    TEST_CASE("truth: of all characters, those that a terminal may obey are printed as ?") {
+        // Those of Unicode's categories Cc, Zl and Zp, and those with the property Bidi_Control.
+        const std::vector<std::pair<uint32_t, uint32_t>> obeyed = {
+            {0, 0x1f},        {0x7f, 0x9f},     {0x61c, 0x61c},  {0x200e, 0x200f},
+            {0x2028, 0x2029}, {0x202a, 0x202e}, {0x2066, 0x2069}};
+        size_t next = 0, wrong = 0;
+        for (uint32_t code = 0; code <= 0x10ffff; code++) {
+            if (code == 0xd800) code = 0xe000;  // no characters: halves of UTF-16
+            while (next < obeyed.size() && code > obeyed[next].second) next++;
+            bool is_obeyed = next < obeyed.size() && code >= obeyed[next].first;
+            std::string text = utf8(code) + 'b';
+            wrong += printable(text) != (is_obeyed ? "?b" : text);
+        }
+        CHECK(wrong == 0);
+        CHECK(printable("gr\xfc\xdf") == "gr??");
+        CHECK(printable("\xc2") == "?");
+        CHECK(printable("") == "");
+    }
+
+    TEST_CASE("truth: text of any two bytes is valid JSON") {
+        size_t wrong = 0;
+        for (int first = 0; first < 256; first++) {
+            for (int second = 0; second < 256; second++) {
+                std::string text = {static_cast<char>(first), static_cast<char>(second)};
+                std::string json = json_quoted(text);
+                // Between the quotes: well-formed characters, no control characters of ASCII, and
+                // quotes and backslashes only as parts of escapes.
+                bool is_valid = json.front() == '"' && json.back() == '"';
+                for (size_t i = 1; is_valid && i + 1 < json.size();) {
+                    size_t length = utf8_length(json, i);
+                    bool control = static_cast<unsigned char>(json[i]) < 0x20;
+                    is_valid = length > 0 && !control && json[i] != '"';
+                    if (json[i] == '\\') length = json[i + 1] == 'u' ? 6 : 2;
+                    i += length;
+                    is_valid = is_valid && i < json.size();
+                }
+                wrong += !is_valid;
+            }
+        }
+        CHECK(wrong == 0);
+        CHECK(json_quoted("gr\xfc\xdf \xc3\xbc") == "\"gr\\ufffd\\ufffd \xc3\xbc\"");
+        CHECK(json_quoted("a\n\"b\\\x1b") == "\"a\\u000a\\\"b\\\\\\u001b\"");
+    }
+
+    TEST_CASE("truth: a word is cut off where it is too long to print, the name of a file is not") {
+        std::string word(100, 'x');
+        CHECK(quote(word) == '"' + word.substr(0, 60) + "...\"");
+        CHECK(quote_file(word) == '"' + word + '"');
+        // No system has names of files as long as this.
+        std::string longest(4097, 'x');
+        CHECK(quote_file(longest) == quote(longest));
+    }
+
+    TEST_CASE("truth: the nearest word is found among many and long ones in no time") {
+        CHECK(nearest_word("Camra", {"Shape", "Camera", "Film"}) == "Camera");
+        CHECK(nearest_word(std::string(1000, 'x'), {"Camera"}) == "");
+        std::vector<std::string> known(1'000'000, std::string(50, 'x'));
+        known[9'999] = "a" + std::string(50, 'y');
+        known[10'000] = std::string(50, 'y');  // too far behind to be found
+        known.push_back(std::string(100'000'000, 'y'));
+        CHECK(nearest_word(std::string(50, 'y'), known) == known[9'999]);
+    }
+}
