@@ -112,6 +112,12 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& w
         g.triangles.push_back({{a, b, c}, shape});
     }
     if (left_out > 0) {
-        notes.add(params.at(), "left out triangles without area: " + std::to_string(left_out));
+        std::string all = left_out == mesh.indices.size() / 3 ? ", which is all of them" : "";
+        notes.add(params.at(),
+                  "left out triangles without area: " + std::to_string(left_out) + all);
+    }
+    if (mesh.faces_left_out > 0) {
+        notes.add(params.at(),
+                  "left out faces of fewer than 3 corners: " + std::to_string(mesh.faces_left_out));
     }
 }

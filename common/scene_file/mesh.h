@@ -17,6 +17,7 @@ TriangleMesh read_triangle_mesh(Params& params);
 ///   carried along, so that a transform that mirrors does not change sides;
 ///   `reverse` (ReverseOrientation) turns it to the other side
 ///
-/// Leaves out triangles without area, with a note. All triangles get the number `shape`.
+/// Leaves out triangles without area, with a note, and notes the faces left out before. All
+/// triangles get the number `shape`.
 void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& world_from_object,
               bool reverse, uint32_t shape, Geometry& geometry, Messages& notes);

@@ -120,7 +120,7 @@ void check_count(const PlyBytes& reader, const Element& element, const Limits& l
     }
     if (bytes > 0 && element.count > (reader.left() + 1) / bytes) {
         fail(element.at, "the file is too short for " + std::to_string(element.count) + ' ' +
-                             printable(element.name) + " elements");
+                             quote(element.name) + " elements");
     }
     uint64_t most = element.name == "vertex" ? limits.vertices : limits.primitives;
     bool is_kept = element.name == "vertex" || element.name == "face";
@@ -190,7 +190,12 @@ void read_faces(PlyBytes& reader, const Element& element, size_t vertices, Trian
                 continue;
             }
             uint64_t length = read_length(reader, property);
-            if (length != 3 && length != 4) {
+            if (length < 3) {
+                for (uint64_t i = 0; i < length; i++) reader.value(*property.type);
+                mesh.faces_left_out++;
+                continue;
+            }
+            if (length > 4) {
                 reader.fail_here("a face of " + std::to_string(length) +
                                  " corners: only triangles and quads are supported");
             }
@@ -224,6 +229,10 @@ TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const 
     // Know how many vertices there will be, since faces may come before them.
     const Element *vertex = nullptr, *face = nullptr;
     for (const Element& element : elements) {
+        if (element.name == "tristrips" && element.count > 0) {
+            fail(element.at, "triangle strips (tristrips) are not supported: " +
+                                 std::string("write the mesh with an element \"face\""));
+        }
         const Element** known = element.name == "vertex" ? &vertex : &face;
         if (element.name != "vertex" && element.name != "face") continue;
         if (*known) fail(element.at, "a second element " + quote(element.name));
@@ -246,6 +255,9 @@ TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const 
             }
         }
     }
-    if (mesh.indices.empty()) fail(face->at, "the mesh has no faces");
+    if (mesh.indices.empty()) {
+        std::string of_which = mesh.faces_left_out > 0 ? " of 3 or 4 corners" : "";
+        fail(face->at, "the mesh has no faces" + of_which);
+    }
     return mesh;
 }

@@ -13,10 +13,13 @@ struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;      // of the vertices, as in the file; empty or one for each
     std::vector<uint32_t> indices;  // three for each triangle, all < positions.size()
+    uint64_t faces_left_out = 0;    // with fewer than three corners: they have no area
 };
 
-/// Reads the mesh from the bytes of a PLY file. A quad 0 1 2 3 becomes triangles 0 1 2 and 0 2 3;
-/// elements and properties other than x y z, nx ny nz and the faces are read over. A mesh without
+/// Reads the mesh from the bytes of a PLY file. A quad 0 1 2 3 becomes triangles 0 1 2 and 0 2 3; a
+/// face of fewer than three corners is left out, as in pbrt; one of more than four is refused,
+/// since without it the surface would have a hole. Elements and properties other than x y z, nx ny
+/// nz and the faces are read over, but for triangle strips, which are refused. A mesh without
 /// vertices or faces is refused, as pbrt does.
 ///
 /// file    its name, for messages

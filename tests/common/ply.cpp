@@ -133,6 +133,36 @@ TEST_SUITE("ply") {
         CHECK(mesh.indices == std::vector<uint32_t>{2, 1, 0});
     }
 
+    TEST_CASE("input: faces of fewer than three corners are left out and counted, as in pbrt") {
+        const std::string face = "4 0 1 2 3\n";
+        std::string degenerate = replaced(replaced(ascii_square, "face 1", "face 5"), face,
+                                          "0\n" + face + "2 0 1\n0\n1 3\n");
+        TriangleMesh mesh = parse_ply("mesh.ply", degenerate);
+        check_square(mesh, true);
+        CHECK(mesh.faces_left_out == 4);
+        CHECK(parse_ply("mesh.ply", ascii_square).faces_left_out == 0);
+
+        // As bytes, with properties before and behind the list.
+        for (bool big_endian : {false, true}) {
+            BinaryWriter out{big_endian,
+                             "ply\nformat binary_" + std::string(big_endian ? "big" : "little") +
+                                 "_endian 1.0\nelement vertex 3\nproperty float x\n"
+                                 "property float y\nproperty float z\nelement face 4\n"
+                                 "property uchar a\nproperty list ushort uint vertex_indices\n"
+                                 "property double b\nend_header\n"};
+            for (int i = 0; i < 9; i++) out.put(static_cast<float>(i));
+            for (uint16_t length : {0, 1, 3, 2}) {
+                out.put(uint8_t{255});
+                out.put(length);
+                for (uint32_t i = 0; i < length; i++) out.put(2 - i);
+                out.put(-1.0);
+            }
+            TriangleMesh bytes = parse_ply("mesh.ply", out.bytes);
+            CHECK(bytes.indices == std::vector<uint32_t>{2, 1, 0});
+            CHECK(bytes.faces_left_out == 3);
+        }
+    }
+
     TEST_CASE("input: a mesh beyond the limits is refused before there is memory for it") {
         Limits limits;
         limits.vertices = 3;
@@ -192,18 +222,22 @@ TEST_SUITE("ply") {
         CHECK(refuse(header + origin + std::string("\3\0\0\0\0\xff\xff\xff\xff\0\0\0\0", 13)) ==
               "mesh.ply: error: vertex -1 of a face does not exist: there are 1" + at(21));
         CHECK(refuse(header + origin + std::string("\2\0\0\0\0\0\0\0\0\0\0\0\0", 13)) ==
-              "mesh.ply: error: a face of 2 corners: only triangles and quads are supported" +
+              "mesh.ply:7:9: error: the mesh has no faces of 3 or 4 corners");
+        CHECK(refuse(header + origin +
+                     std::string("\5\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 21)) ==
+              "mesh.ply: error: a face of 5 corners: only triangles and quads are supported" +
                   at(13));
         CHECK(refuse(header + origin + "\3") ==
               "mesh.ply: error: the file is too short for a list of this length" + at(13));
-        CHECK(refuse(header) == "mesh.ply:3:9: error: the file is too short for 1 vertex elements");
+        CHECK(refuse(header) ==
+              "mesh.ply:3:9: error: the file is too short for 1 \"vertex\" elements");
 
         // A header that lies makes nothing large: a count, an empty element, a list.
         CHECK(refuse(little("element vertex 999999999999999\nproperty float x\nproperty float y\n"
                             "property float z\n" +
                                 face,
                             origin)) ==
-              "mesh.ply:3:9: error: the file is too short for 999999999999999 vertex elements");
+              "mesh.ply:3:9: error: the file is too short for 999999999999999 \"vertex\" elements");
         CHECK(refuse(little("element nothing 999999999999999\n" + vertex + face,
                             origin + std::string("\3\0\0\0\0\0\0\0\0\0\0\0\0", 13))) == "");
         CHECK(refuse(little("element big 1\nproperty list uint char values\n" + vertex + face,
