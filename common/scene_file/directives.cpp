@@ -112,7 +112,8 @@ void Directives::end(Lexer& lexer, const Token& word) {
 void Directives::light_source(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
     if (params.type() == "infinite" && params.find("string", "filename")) {
-        if (scene_.sky_image) fail(params.at(), "a second picture of the sky");
+        if (has_sky_image_) fail(params.at(), "a second picture of the sky");
+        has_sky_image_ = true;  // also when it cannot be read: then it is not read again
         scene_.sky_image = read_sky_image(params, still_transform(params), files_);
         return;
     }
@@ -150,18 +151,35 @@ void Directives::reverse_orientation(Lexer&, const Token&) {
 void Directives::shape(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
     ShapeState state = {state_.start, state_.material, state_.emission, state_.reverse_orientation};
+    state.primitives_elsewhere = moving_primitives_;
+    state.vertices_elsewhere = moving_vertices_;
+    size_t before = scene_.geometry.size() + moving_primitives_;
     if (state_.start == state_.end) {
         read_shape(params, state, limits_, files_, scene_, notes_);
-        return;
+    } else {
+        read_mover(params, state);
     }
+    if (scene_.geometry.size() + moving_primitives_ > before) return;
+    if (!too_small_) too_small_ = params.at();
+    if (!too_small_light_ && state.emission) too_small_light_ = params.at();
+}
+
+void Directives::read_mover(Params& params, ShapeState& state) {
     if (state.emission) params.not_supported(params.at(), "a shape that moves cannot shine");
     constexpr size_t most = 1000;
     if (scene_.movers.size() == most) fail(params.at(), "more than 1000 shapes that move");
-    Mover& mover = scene_.movers.emplace_back(state_.start, state_.end);
+    Mover mover(state_.start, state_.end);
     mover.line = params.at().line, mover.column = params.at().column;
+    state.primitives_elsewhere += scene_.geometry.size();
+    state.vertices_elsewhere += scene_.geometry.positions.size();
+
     std::swap(scene_.geometry, mover.geometry);
     read_shape(params, state, limits_, files_, scene_, notes_);
     std::swap(scene_.geometry, mover.geometry);
+    if (mover.geometry.size() == 0) return;
+    moving_primitives_ += mover.geometry.size();
+    moving_vertices_ += mover.geometry.positions.size();
+    scene_.movers.push_back(std::move(mover));
 }
 
 // The number of the named material, which may be defined after its use.
@@ -184,27 +202,44 @@ const Transform& Directives::still_transform(Params& params) const {
 
 void Directives::check_materials() const {
     std::vector<std::string> known;
+    std::map<uint32_t, const std::string*> undefined;  // by index, which is the order of first use
     for (const auto& [name, material] : named_materials_) {
         if (material.defined) known.push_back(name);
+        if (!material.defined) undefined[material.index] = &name;
     }
     std::vector<std::string> wrong;
-    for (const auto& [name, material] : named_materials_) {
-        if (material.defined) continue;
-        wrong.push_back(
-            message_at(material.first_use, "error", unknown("NamedMaterial", name, known)));
+    for (const auto& [index, name] : undefined) {
+        if (wrong.size() == most_errors) {
+            wrong.push_back(message_at({scene_.file}, "error", too_much_is_wrong));
+            break;
+        }
+        wrong.push_back(message_at(named_materials_.at(*name).first_use, "error",
+                                   unknown("NamedMaterial", *name, known)));
     }
     if (!wrong.empty()) throw InputError(join_lines(wrong));
 }
 
-Scene Directives::finish() {
+void Directives::check_complete() const {
     Position file = {scene_.file};
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
     check_materials();
     if (!in_world_) fail(file, "no WorldBegin");
     if (!has_camera_) fail(file, "no Camera");
-    if (scene_.geometry.size() == 0 && scene_.movers.empty()) fail(file, "no Shape");
-    if (scene_.lights.empty() && !scene_.sky_image)
-        fail(file, "no light: the picture would be black");
+
+    // Where something is missing, it may be what was too small to keep.
+    const std::string too_small = std::string(": all triangles of this Shape are too small ") +
+                                  "(areas of 0, or below 5e-20: choose a smaller unit)";
+    bool has_shape = scene_.geometry.size() > 0 || !scene_.movers.empty();
+    bool has_light = !scene_.lights.empty() || scene_.sky_image;
+    if (!has_shape && too_small_) fail(*too_small_, "no Shape is left" + too_small);
+    if (!has_shape) fail(file, "no Shape");
+    if (!has_light && too_small_light_) fail(*too_small_light_, "no light is left" + too_small);
+    if (!has_light) fail(file, "no light: the picture would be black");
+}
+
+Scene Directives::finish() {
+    Position file = {scene_.file};
+    check_complete();
     number_light_primitives(scene_);
 
     // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.

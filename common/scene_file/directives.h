@@ -1,6 +1,7 @@
 // The state of reading a pbrt-v4 scene file, and what each directive does to it.
 #pragma once
 #include <map>
+#include <optional>
 
 #include "common/scene_file/shapes.h"
 
@@ -68,6 +69,8 @@ private:
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(Params& params) const;
     void check_materials() const;
+    void check_complete() const;
+    void read_mover(Params& params, ShapeState& state);
 
     Scene scene_;
     const Limits limits_;
@@ -77,7 +80,10 @@ private:
     State state_;
     std::vector<SavedState> saved_;
     std::map<std::string, NamedMaterial> named_materials_;
-    bool in_world_ = false, has_camera_ = false, has_filter_ = false;
+    uint64_t moving_primitives_ = 0, moving_vertices_ = 0;  // of all movers
+    // The first Shape of which all triangles were too small, and the first such that shines.
+    std::optional<Position> too_small_, too_small_light_;
+    bool in_world_ = false, has_camera_ = false, has_filter_ = false, has_sky_image_ = false;
 };
 
 /// The string that must follow a directive; throws `DIRECTIVE needs WHAT in quotes`.

@@ -144,7 +144,7 @@ std::string Lexer::unescape(const Token& token) const {
         size_t letter = letters.find(token.text[++i]);
         if (letter == std::string_view::npos) {
             fail(at(token), "unknown escape " + quote(token.text.substr(i - 1, 2)) +
-                                ": in a string \\ must be written as \\\\");
+                                ": write / between folders, and \\\\ for a \\ in a string");
         }
         text += meanings[letter];
     }

@@ -41,6 +41,13 @@ float read_alpha(Params& params) {
     return remap ? std::sqrt(u) : u;
 }
 
+// What to say of a spectrum that is none of the known ones. pbrt would look for a file of that
+// name.
+std::string unknown_spectrum(const std::string& name, const std::vector<std::string>& known) {
+    if (name.find_first_of("./\\") == std::string::npos) return unknown("spectrum", name, known);
+    return "files of spectra are not supported: " + quote_file(name);
+}
+
 // "eta" or "k" of a metal: an rgb, or the name of a measured spectrum such as "metal-Cu-eta".
 std::optional<Rgb> read_metal(Params& params, const std::string& name) {
     if (const Param* rgb = params.find_exactly("rgb", name, 3)) {
@@ -64,7 +71,7 @@ std::optional<Rgb> read_metal(Params& params, const std::string& name) {
         if (spectrum->strings[0] == "metal-" + symbol + "-k") return ior.k;
         known.push_back("metal-" + symbol + '-' + name);
     }
-    params.not_supported(spectrum->at, unknown("spectrum", spectrum->strings[0], known));
+    params.not_supported(spectrum->at, unknown_spectrum(spectrum->strings[0], known));
     return {};
 }
 
@@ -110,7 +117,7 @@ void read_glass(Params& params, Material& material) {
         }
         known.push_back(glass.name);
     }
-    params.not_supported(spectrum->at, unknown("spectrum", spectrum->strings[0], known));
+    params.not_supported(spectrum->at, unknown_spectrum(spectrum->strings[0], known));
 }
 
 Material read_dielectric(Params& params) {
@@ -209,10 +216,11 @@ SkyImage read_sky_image(Params& params, const Transform& world_from_light, Named
     float scale = read_factor(params, "scale", 1);
     Position at = params.at("filename");
     std::string path = files.find(at, params.string("filename", ""));
+    Image image;
+    params.read([&] { image = decode_image(path, files.read(path, at)); });
     params.finish();
-    Image image = decode_image(path, files.read(path, at));
     if (image.width != image.height && image.width != 2 * image.height) {
-        fail(at, quote(path) +
+        fail(at, quote_file(path) +
                      " must be a square (equal areas), or twice as wide as high (longitude " +
                      "and latitude)");
     }
@@ -222,10 +230,11 @@ SkyImage read_sky_image(Params& params, const Transform& world_from_light, Named
     for (Rgb& L : image.pixels) {
         L *= scale;
         if (!(std::min({L.r, L.g, L.b}) >= 0) || too_bright(L))
-            fail(at, quote(path) + " has a pixel that is negative, not a number, or above 1e15");
+            fail(at,
+                 quote_file(path) + " has a pixel that is negative, not a number, or above 1e15");
         sum += static_cast<double>(average(L));
     }
-    if (sum == 0) fail(at, quote(path) + " is black");
+    if (sum == 0) fail(at, quote_file(path) + " is black");
     sky.pixels = std::move(image.pixels);
     return sky;
 }

@@ -10,7 +10,11 @@ Messages::Messages(std::string kind, std::vector<std::string>& lines)
     : kind_(std::move(kind)), lines_(lines) {}
 
 void Messages::add(const Position& at, const std::string& text) {
-    if (texts_.insert(text).second) lines_.push_back(message_at(at, kind_, text));
+    constexpr size_t most = 100;
+    if (texts_.size() > most || !texts_.insert(text).second) return;
+    bool too_many = texts_.size() > most;
+    lines_.push_back(
+        message_at(at, kind_, too_many ? "there is more of which to take note" : text));
 }
 
 void Messages::add(const InputError& error) {

@@ -12,7 +12,12 @@ struct ReadingEnds : InputError {
 };
 [[noreturn]] void stop_reading(const Position& at, const std::string& text);
 
-/// Lines of one kind, each text only once: with the first place it is said of.
+/// After so many errors the rest is not read, and the last line says so.
+inline constexpr size_t most_errors = 20;
+inline constexpr const char* too_much_is_wrong = "so much is wrong that the rest is not read";
+
+/// Lines of one kind, each text only once: with the first place it is said of. Of notes at most
+/// 100.
 class Messages {
 public:
     /// Appends to `lines`, which has them even when the reader throws.

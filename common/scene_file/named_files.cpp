@@ -1,5 +1,6 @@
 #include "common/scene_file/named_files.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/base/files.h"
@@ -39,8 +40,11 @@ std::string NamedFiles::read(const std::string& path, const Position& at) {
         bytes = read_scene_file(path);
     } catch (const InputError& error) {
         // Name the place that asks for the file, before what is wrong with it.
-        std::string text = error.what();
-        fail(at, quote(path) + ": " + text.substr(text.find(": error: ") + 9));
+        missing_.insert(path);
+        std::string text = error.what(), why = text.substr(text.rfind(": error: ") + 9);
+        auto is_windows = [](char c) { return c == '\\' || (c >= '\b' && c <= '\r'); };
+        if (std::any_of(path.begin(), path.end(), is_windows)) why += "; write / between folders";
+        fail(at, quote_file(path) + ": " + why);
     }
     bytes_read_ += bytes.size();
     checksum_.add(bytes);
@@ -53,8 +57,16 @@ std::string NamedFiles::read(const std::string& path, const Position& at) {
 
 const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at) {
     std::string file = canonical(path);
-    auto known = meshes_.find(file);
-    if (known != meshes_.end()) return known->second;
+    auto [place, is_new] = meshes_.try_emplace(file);
+    Mesh& known = place->second;
+    if (!known.error.empty()) throw InputError(known.error);
+    if (!is_new) return known.mesh;
     if (report_) report_("reading " + path, 0);
-    return meshes_[file] = parse_ply(path, read(path, at), limits_, report_);
+    try {
+        known.mesh = parse_ply(path, read(path, at), limits_, report_);
+    } catch (const InputError& error) {
+        known.error = error.what();
+        throw;
+    }
+    return known.mesh;
 }

@@ -1,6 +1,7 @@
 // The files that a scene file names.
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 
 #include "common/base/checksum.h"
@@ -33,8 +34,12 @@ public:
     /// is read elsewhere, and added by who reads it.
     Checksum& checksum() { return checksum_; }
 
-    /// The mesh in a PLY file, which is read once, however often it is named.
+    /// The mesh in a PLY file, which is read once, however often it is named; also a file that is
+    /// no mesh, of which each place that names it is told the same.
     const TriangleMesh& mesh(const std::string& path, const Position& at);
+
+    /// How many files could not be read.
+    size_t missing() const { return missing_.size(); }
 
 private:
     const std::string main_file_;
@@ -42,5 +47,10 @@ private:
     const Report report_;
     uint64_t bytes_read_ = 0;
     Checksum checksum_;
-    std::map<std::string, TriangleMesh> meshes_;  // by the canonical names of their files
+    struct Mesh {
+        TriangleMesh mesh;
+        std::string error;  // of a file that is no mesh
+    };
+    std::map<std::string, Mesh> meshes_;  // by the canonical names of their files
+    std::set<std::string> missing_;       // the paths
 };

@@ -1,6 +1,7 @@
 #include "common/scene_file/params.h"
 
 #include <algorithm>
+#include <map>
 
 #include "common/scene_file/spectra.h"
 
@@ -13,7 +14,18 @@ const std::vector<std::string> pbrt_only = {
     "loopsubdiv",          "measured",        "mix",           "orthographic", "projection",
     "realistic",           "spectral",        "spherical",     "spot",         "subsurface",
     "thindielectric"};
-// Parameters likewise.
+// Types of its third edition that the fourth does not have.
+const std::map<std::string, std::vector<std::string>> pbrt_v3 = {
+    {"AreaLightSource", {"area"}},
+    {"Camera", {"environment"}},
+    {"Film", {"image"}},
+    {"Integrator", {"ao", "directlighting", "whitted"}},
+    {"Material",
+     {"disney", "fourier", "glass", "kdsubsurface", "matte", "metal", "mirror", "none", "plastic",
+      "substrate", "translucent", "uber"}},
+    {"Sampler", {"02sequence", "lowdiscrepancy", "maxmindist", "random"}},
+    {"Shape", {"cone", "heightfield", "hyperboloid", "nurbs", "paraboloid"}}};
+// Parameters that pbrt has and we do not.
 const std::vector<std::string> pbrt_only_params = {"alpha", "displacement", "edgelength",
                                                    "normalmap", "portal"};
 
@@ -38,6 +50,7 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_t
             fail(type_at_, directive_ + " needs a type in quotes, not " + Lexer::describe(token));
         }
         type_ = lexer.unescape(token);
+        refuse_old_type();
     }
     while (lexer.peek().type == Token::string) add(read_param(lexer), notes);
 }
@@ -59,6 +72,15 @@ void Params::read_type() {
     if (!param) fail(at_, directive_ + " needs a \"string type\"");
     type_ = param->strings[0];
     type_at_ = param->at;
+    refuse_old_type();
+}
+
+// One message about a scene of pbrt-v3 is enough: nearly every line of it has to change.
+void Params::refuse_old_type() const {
+    auto old = pbrt_v3.find(directive_ == "MakeNamedMaterial" ? "Material" : directive_);
+    if (old == pbrt_v3.end() || !contains(old->second, type_)) return;
+    stop_reading(type_at_, owner() + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
+                               "pbrt --upgrade old.pbrt > new.pbrt");
 }
 
 void Params::fail_type(const std::vector<std::string>& known) const {
@@ -153,11 +175,21 @@ void Params::ignore(const std::string& type, const std::vector<std::string>& nam
 }
 
 void Params::not_supported(const Position& at, const std::string& text) {
-    not_supported_.push_back(message_at(at, "error", text));
+    wrong_.push_back(message_at(at, "error", text));
+}
+
+void Params::read(const std::function<void()>& reader) {
+    try {
+        reader();
+    } catch (const ReadingEnds&) {
+        throw;
+    } catch (const InputError& error) {
+        wrong_.push_back(error.what());
+    }
 }
 
 void Params::finish() const {
-    std::vector<std::string> wrong = not_supported_;
+    std::vector<std::string> wrong = wrong_;
     for (const Param& param : params_) {
         if (!param.used) wrong.push_back(message_at(param.at, "error", what_is_wrong_with(param)));
     }

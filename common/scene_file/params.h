@@ -1,5 +1,6 @@
 // The parameters that follow a directive of a pbrt-v4 scene file: `"float fov" 45`.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -45,16 +46,20 @@ public:
     void ignore(const std::string& type, const std::vector<std::string>& names);
     /// Remembers something that we have not, for finish() to throw: so one run names all of it.
     void not_supported(const Position& at, const std::string& text);
+    /// Reads something, such as a file that a parameter names. What is wrong with it is remembered
+    /// too, unless reading ends with it.
+    void read(const std::function<void()>& reader);
     /// Throws for what is not supported, and for parameters that have not been asked for.
     void finish() const;
 
 private:
     void add(Param param, Messages& notes);
+    void refuse_old_type() const;
     std::string what_is_wrong_with(const Param& param) const;
 
     Position at_, type_at_;
     std::string directive_, type_;
     std::vector<Param> params_;
     std::vector<std::string> known_names_, known_types_;  // what was asked for
-    std::vector<std::string> not_supported_;              // lines
+    std::vector<std::string> wrong_;                      // lines, for finish()
 };

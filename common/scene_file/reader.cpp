@@ -117,7 +117,7 @@ Scene Reader::read_scene(std::string text) {
 }
 
 void Reader::read(const std::string& path, std::string text) {
-    constexpr size_t most_errors = 20;
+    constexpr size_t most_missing = 1000;
     Lexer lexer(path, std::move(text), report_);
     open_files_.push_back(canonical(path));
     for (Token token = lexer.next(); token.type != Token::end; token = lexer.next()) {
@@ -127,8 +127,10 @@ void Reader::read(const std::string& path, std::string text) {
             throw;
         } catch (const InputError& error) {
             errors_.add(error);
-            if (error_lines_.size() >= most_errors) {
-                stop_reading({main_file_}, "so much is wrong that the rest is not read");
+            // Name each file that is missing, though there may be more.
+            size_t missing = directives_.files().missing();
+            if (error_lines_.size() >= most_errors + missing || missing >= most_missing) {
+                stop_reading({main_file_}, too_much_is_wrong);
             }
             skip_arguments(lexer);
         }
@@ -175,7 +177,7 @@ void Reader::include(Lexer& lexer, const Token& word) {
     std::string path = directives_.files().find(at, lexer.unescape(token));
     std::string file = canonical(path);
     if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
-        fail(at, quote(path) + " includes itself");
+        fail(at, quote_file(path) + " includes itself");
     }
     if (open_files_.size() > deepest)
         stop_reading(at, "files include each other more than 100 deep");

@@ -71,13 +71,13 @@ void add_disk(Params& params, const ShapeState& state, Scene& scene) {
 }
 
 // Stops before the scene grows beyond the limits.
-void check_room(const Params& params, const Geometry& g, size_t primitives, size_t vertices,
-                const Limits& limits) {
-    if (g.size() + primitives > limits.primitives) {
+void check_room(const Params& params, const ShapeState& state, const Geometry& g, size_t primitives,
+                size_t vertices, const Limits& limits) {
+    if (state.primitives_elsewhere + g.size() + primitives > limits.primitives) {
         stop_reading(params.at(), "the scene has more than " + std::to_string(limits.primitives) +
                                       " triangles, spheres and disks");
     }
-    if (g.positions.size() + vertices > limits.vertices) {
+    if (state.vertices_elsewhere + g.positions.size() + vertices > limits.vertices) {
         stop_reading(params.at(),
                      "the scene has more than " + std::to_string(limits.vertices) + " vertices");
     }
@@ -134,9 +134,9 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
                 Scene& scene, Messages& notes) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
-    check_room(params, g, 1, 0, limits);
+    check_room(params, state, g, 1, 0, limits);
     auto add = [&](const TriangleMesh& mesh) {
-        check_room(params, g, mesh.indices.size() / 3, mesh.positions.size(), limits);
+        check_room(params, state, g, mesh.indices.size() / 3, mesh.positions.size(), limits);
         uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
         add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
     };
@@ -146,9 +146,14 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
         add(mesh);
     } else if (params.type() == "plymesh") {
         const Param* name = params.find_exactly("string", "filename", 1);
+        const TriangleMesh* mesh = nullptr;
+        if (name) {
+            params.read(
+                [&] { mesh = &files.mesh(files.find(name->at, name->strings[0]), name->at); });
+        }
         params.finish();
         if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
-        add(files.mesh(files.find(name->at, name->strings[0]), name->at));
+        add(*mesh);
     } else if (params.type() == "sphere") {
         add_sphere(params, state, scene);
     } else if (params.type() == "disk") {

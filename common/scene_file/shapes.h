@@ -10,6 +10,7 @@ struct ShapeState {
     uint32_t material = 0;  // into Scene::materials
     std::optional<AreaEmission> emission;
     bool reverse_orientation = false;
+    uint64_t primitives_elsewhere = 0, vertices_elsewhere = 0;  // not in the scene's geometry
 };
 
 /// Adds the primitives of one Shape directive, and their lights, to the scene.

@@ -216,7 +216,7 @@ TEST_SUITE("reader: language") {
                 "scene.pbrt:5:8: note: Option \"Disable-Pixel_Jitter\" is ignored",
                 "scene.pbrt:6:1: note: Film \"rgb\" maxcomponentvalue is ignored: nothing is "
                 "clamped",
-                "scene.pbrt:8:1: note: left out triangles without area: 1"});
+                "scene.pbrt:8:1: note: left out triangles without area: 1, which is all of them"});
         notes.clear();
         parse(
             "PixelFilter \"box\" \"float xradius\" [ 0.5 ] Sampler \"independent\" Integrator "

@@ -80,6 +80,9 @@ TEST_SUITE("reader: malformed input") {
               "scene.pbrt:1:8: error: unknown Camera \"a?b\" (known: perspective)");
         CHECK(refuse(std::string("A\x01\x7f\0B", 5)) ==
               "scene.pbrt:1:1: error: unknown directive \"A???B\"");
+        // Also what is a command to a terminal as UTF-8: U+009B, U+202E and U+2028.
+        CHECK(refuse(std::string("A\xc2\x9b") + "31mB\xe2\x80\xae\xe2\x80\xa8") ==
+              "scene.pbrt:1:1: error: unknown directive \"A?31mB??\"");
         std::string longest(100, 'x');
         CHECK(refuse(longest) ==
               "scene.pbrt:1:1: error: unknown directive \"" + longest.substr(0, 60) + "...\"");
@@ -120,12 +123,94 @@ TEST_SUITE("reader: malformed input") {
         std::string said = refuse(text);
         CHECK(std::count(said.begin(), said.end(), '\n') == 20);
         CHECK(said.ends_with("x\"\nscene.pbrt: error: so much is wrong that the rest is not read"));
+        // Names of materials that do not exist are such errors too, by their first places.
+        text = "Camera \"perspective\" WorldBegin\n";
+        for (int i = 99; i >= 0; i--) text += "NamedMaterial \"n" + std::to_string(i) + "\"\n";
+        said = refuse(text);
+        CHECK(std::count(said.begin(), said.end(), '\n') == 20);
+        CHECK(said.starts_with("scene.pbrt:2:15: error: unknown NamedMaterial \"n99\"\n"));
+        CHECK(
+            said.ends_with("\nscene.pbrt:21:15: error: unknown NamedMaterial \"n80\"\n"
+                           "scene.pbrt: error: so much is wrong that the rest is not read"));
         // The same one counts once.
         text.clear();
         for (int i = 0; i < 50; i++) text += "Textur\n";
         CHECK(refuse(text + "Shap") ==
               "scene.pbrt:1:1: error: unknown directive \"Textur\"\n"
               "scene.pbrt:51:1: error: unknown directive \"Shap\": did you mean \"Shape\"?");
+    }
+
+    TEST_CASE("input: every missing file is named, though other errors are cut off") {
+        std::string text = "Camera \"perspective\" WorldBegin\n";
+        const std::string mesh = "Shape \"plymesh\" \"string filename\" ";
+        for (int i = 0; i < 40; i++) {
+            text += mesh + "\"" + std::to_string(i) + ".ply\"\n" + mesh + "\"0.ply\"\n" +
+                    "Include \"" + std::to_string(i) + ".pbrt\"\n";
+        }
+        std::string said = refuse(text + "Shap");
+        CHECK(std::count(said.begin(), said.end(), '\n') == 80);
+        for (int i = 0; i < 40; i++) {
+            for (const char* kind : {".ply", ".pbrt"}) {
+                CHECK(said.find('"' + std::to_string(i) + kind + "\": cannot read: No such file") !=
+                      std::string::npos);
+            }
+        }
+        CHECK(said.ends_with("error: unknown directive \"Shap\": did you mean \"Shape\"?"));
+        // Other errors are cut off as without them, and at some point it is enough.
+        for (int i = 0; i < 30; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
+        said = refuse(text);
+        CHECK(std::count(said.begin(), said.end(), '\n') == 100);
+        text = text.substr(0, text.find('\n') + 1);
+        for (int i = 0; i < 2000; i++) text += mesh + "\"" + std::to_string(i) + ".ply\"\n";
+        said = refuse(text);
+        CHECK(std::count(said.begin(), said.end(), '\n') == 1000);
+        CHECK(said.ends_with("so much is wrong that the rest is not read"));
+    }
+
+    TEST_CASE("input: where all triangles are too small, the message says so") {
+        const std::string camera = "Camera \"perspective\"\nWorldBegin\n",
+                          light = "LightSource \"infinite\"\n", tiny = "Scale 1e-10 1e-10 1e-10\n",
+                          emit = "AreaLightSource \"diffuse\"\n",
+                          triangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n",
+                          move = "ActiveTransform EndTime Translate 1 0 0\n";
+        const std::string why =
+            "all triangles of this Shape are too small (areas of 0, or below 5e-20: choose a "
+            "smaller unit)";
+        CHECK(refuse(camera + light + tiny + triangle + triangle) ==
+              "scene.pbrt:5:1: error: no Shape is left: " + why);
+        CHECK(refuse(camera + light + tiny + move + triangle) ==
+              "scene.pbrt:6:1: error: no Shape is left: " + why);
+        CHECK(refuse(camera + triangle + tiny + triangle + emit + triangle) ==
+              "scene.pbrt:7:1: error: no light is left: " + why);
+        CHECK(refuse(camera + tiny + emit + triangle) ==
+              "scene.pbrt:5:1: error: no Shape is left: " + why);
+        CHECK(refuse(camera + triangle) ==
+              "scene.pbrt: error: no light: the picture would be black");
+        CHECK(refuse(camera + emit + triangle + tiny + triangle) == "");
+
+        // Where something is left, a note tells of what is not, and nothing that is empty moves.
+        std::vector<std::string> notes;
+        Scene scene =
+            parse_scene("scene.pbrt", camera + light + triangle + tiny + move + triangle, &notes);
+        CHECK(scene.movers.empty());
+        CHECK(notes[0] ==
+              "scene.pbrt:7:1: note: left out triangles without area: 1, which is all of them");
+    }
+
+    TEST_CASE("input: of notes there are at most a hundred, and one that says so") {
+        std::string text = "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n", points;
+        for (int i = 0; i < 3; i++) points += " 0 0 0";
+        for (int i = 0; i < 150; i++) {
+            text += "Shape \"trianglemesh\" \"point3 P\" [" + points +
+                    " 0 1 0 1 0 0] \"integer indices\" [3 4 0";
+            for (int j = 0; j <= i; j++) text += " 0 1 2";
+            text += "]\n";
+        }
+        std::vector<std::string> notes;
+        parse_scene("scene.pbrt", text, &notes);
+        REQUIRE(notes.size() == 101);
+        CHECK(notes[99] == "scene.pbrt:101:1: note: left out triangles without area: 100");
+        CHECK(notes[100] == "scene.pbrt:102:1: note: there is more of which to take note");
     }
 
     TEST_CASE("input: notes are told although an error follows") {
