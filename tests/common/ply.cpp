@@ -151,7 +151,7 @@ TEST_SUITE("ply") {
                                  "property uchar a\nproperty list ushort uint vertex_indices\n"
                                  "property double b\nend_header\n"};
             for (int i = 0; i < 9; i++) out.put(static_cast<float>(i));
-            for (uint16_t length : {0, 1, 3, 2}) {
+            for (uint16_t length : {uint16_t{0}, uint16_t{1}, uint16_t{3}, uint16_t{2}}) {
                 out.put(uint8_t{255});
                 out.put(length);
                 for (uint32_t i = 0; i < length; i++) out.put(2 - i);
