@@ -41,6 +41,7 @@ inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
 inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), i = frame.to_local(wi), h = normalize(o + i);
+    if (o.z <= 0) return {};  // wo along the surface or below it
     float alpha = x.material->alpha;
     float G = 1 / (1 + ggx_lambda(o, alpha) + ggx_lambda(i, alpha));
     Rgb F = fresnel_conductor(dot(o, h), x.material->eta, x.material->k);
@@ -50,7 +51,7 @@ inline float pdf_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), h = normalize(o + frame.to_local(wi));
     float cos_oh = dot(o, h);
-    return cos_oh > 0 ? pdf_ggx_normal(o, x.material->alpha, h) / (4 * cos_oh) : 0;
+    return o.z > 0 && cos_oh > 0 ? pdf_ggx_normal(o, x.material->alpha, h) / (4 * cos_oh) : 0;
 }
 inline BsdfSample sample_rough_conductor(const Hit& x, Vec3 wo, Vec2 u) {
     Frame frame(x.n);

@@ -221,6 +221,21 @@ TEST_SUITE("ch12 rough metal") {
         }
     }
 
+    TEST_CASE("consistency: f and density are 0, not NaN, for wo along the surface or below it") {
+        // As when two ends of a path meet on the same plane: then wo is at right angles to n.
+        for (float alpha : {0.001f, 0.1f, 1.0f}) {
+            Material material = rough(alpha);
+            Hit x = metal(material);
+            for (Vec3 wo : {Vec3{1, 0, 0}, Vec3{1, 0, -0.0f}, Vec3{0.6f, 0, -0.8f}}) {
+                for (Vec3 wi : {Vec3{0, 0, 1}, at(89.9), Vec3{0.6f, 0.8f, 0}}) {
+                    CHECK(is_black(ch12::eval_bsdf(x, wo, wi)));
+                    CHECK(ch12::pdf_bsdf(x, wo, wi) == 0);
+                }
+                CHECK(ch12::sample_bsdf(x, wo, 0.5f, {0.3f, 0.7f}).pdf_w == 0);
+            }
+        }
+    }
+
     TEST_CASE("furnace: rough metal gives back no more than it gets, and smooth metal all") {
         // f cos / pdf = F G2 / G1 <= 1, sample by sample.
         for (float alpha : {0.005f, 0.1f, 0.5f, 1.0f}) {
