@@ -164,6 +164,20 @@ void Directives::shape(Lexer& lexer, const Token& word) {
     if (!too_small_light_ && state.emission) too_small_light_ = params.at();
 }
 
+uint64_t Directives::bytes() const {
+    uint64_t sum = scene_.shapes.size() * sizeof(Shape) + scene_.lights.size() * sizeof(Light) +
+                   scene_.materials.size() * sizeof(Material);
+    auto add = [&](const Geometry& g) {
+        sum += (g.positions.size() + g.normals.size()) * sizeof(Vec3) +
+               g.triangles.size() * sizeof(Triangle) + g.spheres.size() * sizeof(Sphere) +
+               g.disks.size() * sizeof(Disk);
+    };
+    add(scene_.geometry);
+    for (const Mover& mover : scene_.movers) add(mover.geometry);
+    if (scene_.sky_image) sum += scene_.sky_image->pixels.size() * sizeof(Rgb);
+    return sum;
+}
+
 void Directives::read_mover(Params& params, ShapeState& state) {
     if (state.emission) params.not_supported(params.at(), "a shape that moves cannot shine");
     constexpr size_t most = 1000;

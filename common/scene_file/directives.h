@@ -17,6 +17,8 @@ public:
 
     NamedFiles& files() { return files_; }
     bool in_world() const { return in_world_; }
+    /// The memory that the scene takes, about.
+    uint64_t bytes() const;
     /// The scene, once all directives are read; throws for what is missing.
     Scene finish();
 

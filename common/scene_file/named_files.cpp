@@ -15,7 +15,12 @@ std::string read_scene_file(const std::string& path) {
     bool is_pipe = type == fs::file_type::fifo || type == fs::file_type::socket;
     if (is_device) fail({path}, "cannot read: a device and no file");
     if (is_pipe) fail({path}, "cannot read: a pipe and no file");
-    return read_file(path);
+    try {
+        return read_file(path);
+    } catch (const std::bad_alloc&) {
+        uintmax_t bytes = fs::file_size(path, none);
+        fail({path}, "out of memory: the file has " + megabytes(none ? 0 : bytes));
+    }
 }
 
 std::string canonical(const std::string& path) {
@@ -62,11 +67,16 @@ const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at
     if (!known.error.empty()) throw InputError(known.error);
     if (!is_new) return known.mesh;
     if (report_) report_("reading " + path, 0);
+    std::string bytes;
     try {
-        known.mesh = parse_ply(path, read(path, at), limits_, report_);
+        bytes = read(path, at);
+        known.mesh = parse_ply(path, bytes, limits_, report_);
+        return known.mesh;
     } catch (const InputError& error) {
         known.error = error.what();
         throw;
+    } catch (const std::bad_alloc&) {
+        stop_reading(at, quote_file(path) + ": out of memory: a mesh from a file of " +
+                             megabytes(bytes.size()));
     }
-    return known.mesh;
 }

@@ -166,7 +166,12 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
     if (block == Block::options && name != "Option" && !options_read_.insert(name).second) {
         notes_.add(at, "a second " + name + ": the last one counts");
     }
-    (directives_.*read)(lexer, word);
+    try {
+        (directives_.*read)(lexer, word);
+    } catch (const std::bad_alloc&) {
+        stop_reading(at, "out of memory: " + name + " needs more, and what was read before takes " +
+                             megabytes(directives_.bytes()));
+    }
 }
 
 void Reader::include(Lexer& lexer, const Token& word) {
