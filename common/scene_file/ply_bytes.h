@@ -50,12 +50,15 @@ public:
         while (left() > 0 && !is_space(peek())) step();
         return bytes_.substr(start, position_ - start);
     }
-    /// Reads over the rest of the line and its end: LF, CR LF or CR.
+    /// Reads over the rest of the line and its end: LF, CR LF or CR. Where the first line ends with
+    /// CR alone, an LF behind the header is the first byte of what follows.
     void end_line() {
         while (left() > 0 && peek() != '\n' && peek() != '\r') step();
         bool carriage_return = left() > 0 && peek() == '\r';
         if (left() > 0) step();
-        if (carriage_return && left() > 0 && peek() == '\n') step();
+        bool line_feed = carriage_return && left() > 0 && peek() == '\n';
+        if (line_ == 1) cr_alone_ = carriage_return && !line_feed;
+        if (line_feed && !cr_alone_) step();
         line_++;
         column_ = 1;
     }
@@ -117,4 +120,5 @@ private:
     Report report_;
     size_t position_ = 0;
     int line_ = 1, column_ = 1, word_column_ = 1;
+    bool cr_alone_ = false;  // ends lines
 };

@@ -1,6 +1,7 @@
 // Damages scenes and meshes at random, and asks that the reader refuses or reads them, no more.
 #pragma once
-#include <chrono>
+#include <bit>
+#include <ctime>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -9,9 +10,10 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/path/sampler.h"
-#include "common/picture/image.h"
 #include "common/scene_file/ply.h"
+#include "common/scene_file/ply_bytes.h"
 #include "common/scene_file/reader.h"
+#include "tests/support/folder.h"
 
 /// Draws whole numbers; the same ones for the same seed.
 class Dice {
@@ -54,6 +56,122 @@ inline std::string mutate(std::string bytes, const std::string& other,
     }
 }
 
+/// The input with one of its lines many times, in some of them with another number in each: to find
+/// what takes time or memory with the square of the input, or prints without an end.
+inline std::string repeat_line(const std::string& bytes, Dice& dice) {
+    constexpr size_t most_bytes = 200'000;
+    size_t start = bytes.rfind('\n', dice.below(bytes.size() + 1)) + 1;
+    size_t end = std::min(bytes.find('\n', start), bytes.size());
+    std::string line = bytes.substr(start, end - start) + '\n', lines;
+    size_t number_at = dice.below(2) == 0 ? line.find_last_of("0123456789\"") : std::string::npos;
+    for (size_t i = 0; lines.size() < most_bytes; i++) {
+        size_t length = lines.size();
+        lines += line;
+        if (number_at < line.size()) lines.insert(length + number_at, std::to_string(i));
+    }
+    return bytes.substr(0, start) + lines + bytes.substr(start);
+}
+
+/// A mesh as a PLY file that was never seen before: elements and properties in any order, of any
+/// types, in any format; and what must be read from it.
+struct RandomPly {
+    std::string bytes;
+    TriangleMesh mesh;
+};
+inline RandomPly random_ply(Dice& dice) {
+    RandomPly ply;
+    PlyFormat format = static_cast<PlyFormat>(dice.below(3));
+    const std::string line_end = dice.below(3) == 0 ? "\r\n" : dice.below(8) == 0 ? "\r" : "\n";
+    std::string header = "ply" + line_end, body;
+    header += format == PlyFormat::ascii    ? "format ascii 1.0"
+              : format == PlyFormat::little ? "format binary_little_endian 1.0"
+                                            : "format binary_big_endian 1.0";
+    header += line_end;
+    auto put = [&](const PlyScalar& type, double value) {
+        if (format == PlyFormat::ascii) {
+            body += type.is_float ? std::to_string(value) : std::to_string(static_cast<int>(value));
+            body += dice.below(9) == 0 ? line_end : " ";
+            return;
+        }
+        uint64_t bits = static_cast<uint64_t>(static_cast<int64_t>(type.is_float ? 0 : value));
+        if (type.is_float && type.size == 8) bits = std::bit_cast<uint64_t>(value);
+        if (type.is_float && type.size == 4) {
+            bits = std::bit_cast<uint32_t>(static_cast<float>(value));
+        }
+        for (size_t i = 0; i < type.size; i++) {
+            size_t byte = format == PlyFormat::little ? i : type.size - 1 - i;
+            body += static_cast<char>(bits >> (8 * byte) & 255);
+        }
+    };
+    auto any_type = [&](bool may_be_float) {
+        return ply_scalars[dice.below(may_be_float ? ply_scalars.size() : 6)];
+    };
+    auto name_of = [&](const PlyScalar& type) {
+        return std::string(dice.below(2) == 0 ? type.name : type.other_name);
+    };
+    auto put_list = [&](const PlyScalar& count, const PlyScalar& type,
+                        const std::vector<uint32_t>& values) {
+        put(count, static_cast<double>(values.size()));
+        for (uint32_t value : values) put(type, value);
+    };
+
+    // Write vertices, faces and two elements that nobody knows, with properties around what counts.
+    size_t vertices = 1 + dice.below(20), faces = dice.below(20);
+    bool has_normals = dice.below(2) == 0;
+    std::vector<std::string> elements = {"vertex", "face", "edge", "camera"};
+    for (size_t i = 4; i > 1; i--) std::swap(elements[i - 1], elements[dice.below(i)]);
+    for (const std::string& element : elements) {
+        if (dice.below(3) == 0) header += "comment element vertex 7" + line_end;
+        bool is_vertex = element == "vertex", is_face = element == "face";
+        size_t count = is_vertex ? vertices : is_face ? faces : dice.below(5);
+        std::vector<std::string> names = {"u"};
+        if (is_vertex) names.insert(names.end(), {"x", "y", "z"});
+        if (is_vertex && has_normals) names.insert(names.end(), {"nx", "ny", "nz"});
+        if (is_face) names.push_back(dice.below(4) == 0 ? "vertex_index" : "vertex_indices");
+        if (dice.below(2) == 0) names.push_back("flags");
+        if (!is_face) names.push_back("values");
+        for (size_t i = names.size(); i > 1; i--) std::swap(names[i - 1], names[dice.below(i)]);
+        std::vector<PlyScalar> types, counts;
+        header += "element " + element + ' ' + std::to_string(count) + line_end;
+        for (const std::string& name : names) {
+            bool is_list = name == "values" || name.starts_with("vertex_ind");
+            types.push_back(any_type(!name.starts_with("vertex_ind")));
+            counts.push_back(any_type(false));
+            header += "property " + (is_list ? "list " + name_of(counts.back()) + ' ' : "") +
+                      name_of(types.back()) + ' ' + name + line_end;
+        }
+        for (size_t n = 0; n < count; n++) {
+            std::array<float, 6> v = {};
+            for (size_t i = 0; i < names.size(); i++) {
+                if (names[i] == "values") {
+                    put_list(counts[i], types[i], std::vector<uint32_t>(dice.below(4), 1));
+                } else if (names[i].starts_with("vertex_ind")) {
+                    std::vector<uint32_t> corners(dice.below(5));
+                    for (uint32_t& c : corners) c = static_cast<uint32_t>(dice.below(vertices));
+                    put_list(counts[i], types[i], corners);
+                    std::vector<uint32_t>& all = ply.mesh.indices;
+                    for (size_t k = 2; k < corners.size(); k++) {
+                        all.insert(all.end(), {corners[0], corners[k - 1], corners[k]});
+                    }
+                    ply.mesh.faces_left_out += corners.size() < 3;
+                } else {
+                    constexpr std::array<const char*, 6> known = {"x", "y", "z", "nx", "ny", "nz"};
+                    double value = static_cast<double>(dice.below(100));
+                    for (size_t k = 0; is_vertex && k < 6; k++) {
+                        if (names[i] == known[k]) v[k] = static_cast<float>(value);
+                    }
+                    put(types[i], value);
+                }
+            }
+            if (format == PlyFormat::ascii) body += line_end;
+            if (is_vertex) ply.mesh.positions.push_back({v[0], v[1], v[2]});
+            if (is_vertex && has_normals) ply.mesh.normals.push_back({v[3], v[4], v[5]});
+        }
+    }
+    ply.bytes = header + "end_header" + line_end + body;
+    return ply;
+}
+
 /// The lines of a file.
 inline std::vector<std::string> read_lines(const std::string& path) {
     std::vector<std::string> lines;
@@ -67,31 +185,47 @@ inline void check_scene(const Scene& scene) {
     auto require = [](bool holds, const char* what) {
         if (!holds) throw std::logic_error(what);
     };
-    const Geometry& g = scene.geometry;
+    auto check_geometry = [&](const Geometry& g) {
+        for (Vec3 p : g.positions) {
+            require(is_finite(p) && max_component(abs(p)) <= 1e9f, "position");
+        }
+        require(g.normals.empty() || g.normals.size() == g.positions.size(), "count of normals");
+        for (Vec3 n : g.normals) require(is_finite(n) && std::isfinite(dot(n, n)), "normal");
+        for (const Triangle& t : g.triangles) {
+            for (uint32_t v : t.v) require(v < g.positions.size(), "corner");
+            require(t.shape < scene.shapes.size(), "shape of a triangle");
+            Vec3 n = cross(g.positions[t.v[1]] - g.positions[t.v[0]],
+                           g.positions[t.v[2]] - g.positions[t.v[0]]);
+            require(std::abs(length(normalize(n)) - 1) < 1e-3f, "triangle without a normal");
+        }
+        for (const Sphere& s : g.spheres) {
+            require(is_finite(s.c) && s.r > 0 && s.r * s.r > 0, "sphere");
+            require(s.shape < scene.shapes.size(), "shape of a sphere");
+        }
+        for (const Disk& d : g.disks) {
+            require(is_finite(d.c) && d.r > 0 && std::abs(length(d.n) - 1) < 1e-3f, "disk");
+            require(d.shape < scene.shapes.size(), "shape of a disk");
+        }
+    };
+    check_geometry(scene.geometry);
+    for (const Mover& mover : scene.movers) {
+        check_geometry(mover.geometry);
+        require(mover.geometry.size() > 0, "a mover of nothing");
+    }
+    if (const std::optional<SkyImage>& sky = scene.sky_image) {
+        size_t pixels = static_cast<size_t>(sky->width) * static_cast<size_t>(sky->height);
+        require(pixels > 0 && sky->pixels.size() == pixels, "size of the sky");
+        for (Rgb L : sky->pixels) {
+            require(is_finite(L) && std::min({L.r, L.g, L.b}) >= 0, "pixel of the sky");
+        }
+    }
     require(scene.width > 0 && scene.height > 0 && scene.spp > 0 && scene.max_depth >= 0, "film");
     const Camera& c = scene.camera;
     require(is_finite(c.o) && is_finite(c.right) && is_finite(c.up) && is_finite(c.forward),
             "camera is not finite");
     require(length(cross(c.right, c.up)) > 0 && length(c.forward) > 0, "camera is flat");
-    require(g.size() > 0 && !scene.lights.empty(), "nothing there");
-    for (Vec3 p : g.positions) require(is_finite(p) && max_component(abs(p)) <= 1e9f, "position");
-    require(g.normals.empty() || g.normals.size() == g.positions.size(), "count of normals");
-    for (Vec3 n : g.normals) require(is_finite(n) && std::isfinite(dot(n, n)), "normal");
-    for (const Triangle& t : g.triangles) {
-        for (uint32_t v : t.v) require(v < g.positions.size(), "corner");
-        require(t.shape < scene.shapes.size(), "shape of a triangle");
-        Vec3 n = cross(g.positions[t.v[1]] - g.positions[t.v[0]],
-                       g.positions[t.v[2]] - g.positions[t.v[0]]);
-        require(std::abs(length(normalize(n)) - 1) < 1e-3f, "triangle without a normal");
-    }
-    for (const Sphere& s : g.spheres) {
-        require(is_finite(s.c) && s.r > 0 && s.r * s.r > 0, "sphere");
-        require(s.shape < scene.shapes.size(), "shape of a sphere");
-    }
-    for (const Disk& d : g.disks) {
-        require(is_finite(d.c) && d.r > 0 && std::abs(length(d.n) - 1) < 1e-3f, "disk");
-        require(d.shape < scene.shapes.size(), "shape of a disk");
-    }
+    require(scene.geometry.size() > 0 || !scene.movers.empty(), "no shape");
+    require(!scene.lights.empty() || scene.sky_image, "no light");
     for (const Shape& s : scene.shapes) {
         require(s.material < scene.materials.size(), "material");
         require(s.light < static_cast<int>(scene.lights.size()), "light");
@@ -102,8 +236,9 @@ inline void check_scene(const Scene& scene) {
                 "radiance");
         require(is_finite(light.p), "place of a light");
         bool is_area = light.type == LightType::area;
-        require(is_area == (light.prims > 0) && light.first_prim + light.prims <= g.size(),
-                "prims");
+        require(
+            is_area == (light.prims > 0) && light.first_prim + light.prims <= scene.geometry.size(),
+            "prims");
     }
     for (const Material& m : scene.materials) {
         require(is_finite(m.reflectance) && max_component(m.reflectance) <= 1, "reflectance");
@@ -111,13 +246,13 @@ inline void check_scene(const Scene& scene) {
     }
 }
 
-/// Throws unless the message is a few lines that name a file each.
+/// Throws unless the message is a few lines that name a file each, fit for a terminal.
 inline void check_message(const std::string& message) {
-    constexpr size_t most = 21, longest = 2000;
+    constexpr size_t most = 1021, longest = 10'000;  // each missing file has a line
     size_t count = 0;
     std::istringstream lines(message);
     for (std::string line; std::getline(lines, line); count++) {
-        bool named = line.find(": error: ") != std::string::npos;
+        bool named = line.find(": error: ") != std::string::npos && line == printable(line);
         if (!named || line.size() > longest) throw std::logic_error("message: " + line);
     }
     if (count == 0 || count > most) throw std::logic_error("messages: " + message);
@@ -125,20 +260,30 @@ inline void check_message(const std::string& message) {
 
 struct FuzzResult {
     uint64_t read = 0, refused = 0;
-    double slowest = 0;  // s
+    double slowest = 0;  // s of the processor
 };
+inline constexpr double most_seconds = 10;  // that an input may take
 
-/// Reads `count` damaged inputs, from number `first` on. Each is a pure function of its number.
-/// Throws for anything but a scene in which all is well, or an InputError of one line.
-inline FuzzResult fuzz(uint32_t first, uint32_t count) {
+/// Seconds of the processor that this process has taken.
+inline double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Reads `count` damaged inputs, from number `first` on. Each is a pure function of its number, of
+/// which `begin` is told. Meshes and pictures are named by a scene, and read as parts of it. Throws
+/// for anything but a scene in which all is well or an InputError of some lines, and for what takes
+/// longer than it may.
+inline FuzzResult fuzz(uint32_t first, uint32_t count,
+                       const std::function<void(uint32_t)>& begin = {}) {
+    TemporaryFolder temporary;
     const std::string folder = "tests/fuzz/corpus/";
     std::vector<std::pair<std::string, std::string>> corpus;
     for (const char* name : {"features.pbrt", "part.pbrt", "square-ascii.ply", "square-little.ply",
                              "square-big.ply", "sky.pfm", "sky.png"}) {
         corpus.emplace_back(folder + name, read_file(folder + name));
     }
-    for (const char* name : {"furnace", "veach-mis", "tiny-close-light"}) {
-        std::string path = "tests/pictures/references/" + std::string(name) + ".pbrt";
+    for (const char* name :
+         {"references/furnace.pbrt", "references/veach-mis.pbrt",
+          "references/tiny-close-light.pbrt", "real-scenes/cornell-box/scene-v4.pbrt"}) {
+        std::string path = "tests/pictures/" + std::string(name);
         corpus.emplace_back(path, read_file(path));
     }
 
@@ -146,19 +291,26 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
     FuzzResult result;
     for (uint32_t i = first; i < first + count; i++) {
         Dice dice(i);
+        if (begin) begin(i);
         auto [path, bytes] = corpus[dice.below(corpus.size())];
+        if (path.ends_with(".ply") && dice.below(2) == 0) bytes = random_ply(dice).bytes;
+        if (dice.below(200) == 0) bytes = repeat_line(bytes, dice);
         for (size_t changes = 1 + dice.below(5) * dice.below(2); changes > 0; changes--) {
             bytes = mutate(bytes, corpus[dice.below(corpus.size())].second, words, dice);
         }
-        auto start = std::chrono::steady_clock::now();
+        if (!path.ends_with(".pbrt")) {
+            std::string name = "part" + path.substr(path.rfind('.'));
+            write_file_atomically(temporary / name, bytes);
+            path = temporary / "scene.pbrt";
+            bytes = "Camera \"perspective\" WorldBegin LightSource \"infinite\" ";
+            bytes += name == "part.ply" ? "Shape \"plymesh\""
+                                        : "Shape \"sphere\" LightSource \"infinite\"";
+            bytes += " \"string filename\" \"" + name + '"';
+        }
+        std::vector<std::string> notes;
+        double start = processor_seconds();
         try {
-            if (path.ends_with(".ply")) {
-                parse_ply(path, bytes);
-            } else if (!path.ends_with(".pbrt")) {
-                decode_image(path, bytes);
-            } else {
-                check_scene(parse_scene(path, bytes, nullptr));
-            }
+            check_scene(parse_scene(path, bytes, &notes));
             result.read++;
         } catch (const InputError& error) {
             check_message(error.what());
@@ -166,8 +318,13 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
         } catch (const std::exception& error) {
             throw std::logic_error("input " + std::to_string(i) + ": " + error.what());
         }
-        std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        result.slowest = std::max(result.slowest, seconds.count());
+        if (notes.size() > 101) throw std::logic_error("notes without an end");
+        double seconds = processor_seconds() - start;
+        if (seconds > most_seconds) {
+            throw std::logic_error("input " + std::to_string(i) + " takes " +
+                                   std::to_string(seconds) + " s");
+        }
+        result.slowest = std::max(result.slowest, seconds);
     }
     return result;
 }

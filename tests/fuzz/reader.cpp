@@ -1,9 +1,13 @@
 // fuzz_reader [COUNT [FIRST]]: the reader against damaged scenes and meshes; see fuzz.h.
 #include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
+#define DOCTEST_CONFIG_DISABLE  // this is no test, though it uses the same helpers
 #include "tests/fuzz/fuzz.h"
 
 namespace {
@@ -19,13 +23,36 @@ double peak_memory() {
 #endif
 }
 
+// The input that is read, for the handler of the signal that ends it.
+volatile uint32_t current = 0;
+
+void end_slow_input(int) {
+    // Write the number without printf, which may not be called here.
+    char text[] = "input            takes too long\n";
+    char* digit = text + 15;
+    for (uint32_t n = current; digit == text + 15 || n > 0; n /= 10) {
+        *digit-- = static_cast<char>('0' + n % 10);
+    }
+    (void)!::write(STDERR_FILENO, text, sizeof text - 1);
+    ::_exit(1);
+}
+
+/// Gives the next input its time; one that needs more ends the program, with its number.
+void begin_input(uint32_t number) {
+    current = number;
+    itimerval limit = {};
+    limit.it_value.tv_sec = static_cast<time_t>(most_seconds) + 5;
+    ::setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     uint32_t count = argc > 1 ? static_cast<uint32_t>(std::atoi(argv[1])) : 100'000;
     uint32_t first = argc > 2 ? static_cast<uint32_t>(std::atoi(argv[2])) : 0;
     try {
-        FuzzResult result = fuzz(first, count);
+        std::signal(SIGPROF, end_slow_input);
+        FuzzResult result = fuzz(first, count, begin_input);
         std::printf(
             "%u damaged inputs: %llu read, %llu refused, the slowest in %.3f s, %.0f MB at most\n",
             count, static_cast<unsigned long long>(result.read),
