@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/base/numbers.h"
 #include "common/scene_file/spectra.h"
 
 namespace {
@@ -53,6 +54,11 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_t
         refuse_old_type();
     }
     while (lexer.peek().type == Token::string) add(read_param(lexer), notes);
+    // Say here what is wrong, not where a parameter behind it is missing.
+    const Token& after = lexer.peek();
+    bool is_value = after.type == Token::open || after.type == Token::close ||
+                    (after.type == Token::word && to_number(after.text));
+    if (is_value) fail(lexer.at(after), "expected a directive, not " + Lexer::describe(after));
 }
 
 // Of two with one name the first is forgotten, whatever its type is.

@@ -75,6 +75,7 @@ public:
 private:
     void read(const std::string& path, std::string text);
     void read_directive(Lexer& lexer, const Token& word);
+    void begin_block(Lexer& lexer, const Token& word, const std::string& meant);
     void include(Lexer& lexer, const Token& word);
 
     const std::string main_file_;
@@ -155,6 +156,7 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
         for (const auto& [directive, how] : known_directives) {
             if (how.read) known.push_back(directive);
         }
+        begin_block(lexer, word, nearest_word(name, known));
         fail_unknown(at, "directive", name, known);
     }
     auto [block, read] = found->second;
@@ -172,6 +174,17 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
         stop_reading(at, "out of memory: " + name + " needs more, and what was read before takes " +
                              megabytes(directives_.bytes()));
     }
+}
+
+// Where an unknown directive was meant to begin a block, begins it: else each directive of the
+// block and its end would be wrong too.
+void Reader::begin_block(Lexer& lexer, const Token& word, const std::string& meant) {
+    bool is_world = meant == "WorldBegin", in_world = directives_.in_world();
+    if (!meant.ends_with("Begin") || is_world == in_world) return;
+    const auto& [name, directive] = *known_directives.find(meant);
+    Token token = word;
+    token.text = name;
+    (directives_.*directive.read)(lexer, token);
 }
 
 void Reader::include(Lexer& lexer, const Token& word) {
