@@ -71,16 +71,15 @@ inline double mean_to_polygon(const std::array<Vec3, 3>& t, Vec3 n, const Patch&
     return sum / 4;
 }
 
-/// How much two patches exchange: G, as found from p, and from q; (b) by chance: the mean over four
-/// pairs of points. Rays between these say what is visible, in (c) too.
-/// key: of the random numbers, the same for (p, q) and (q, p).
-inline Exchange exchange(const Scene& scene, const Patch& p, const Patch& q, FormFactors way,
-                         uint32_t key) {
-    if (!faces(p, q) || !faces(q, p)) return {};
+/// How much two patches exchange: G, m^2; (b) by chance: the mean over four pairs of points. Rays
+/// between these say what is visible, in (c) too: found from the smaller patch, since seen from the
+/// larger one it may be a spike between few points. key: of the random numbers.
+inline double exchange(const Scene& scene, const Patch& p, const Patch& q, FormFactors way,
+                       uint32_t key) {
+    if (!faces(p, q) || !faces(q, p)) return 0;
     if (way == FormFactors::point) {
-        double G = std::max(0.0, by_centres(p, q, p.centre, q.centre));
-        if (!sees(scene, p.centre + p.eps * p.n, q.centre + q.eps * q.n)) return {};
-        return {G, G};
+        if (!sees(scene, p.centre + p.eps * p.n, q.centre + q.eps * q.n)) return 0;
+        return std::max(0.0, by_centres(p, q, p.centre, q.centre));
     }
     auto x = points_on(p, key), y = points_on(q, hash32(key) + 4);
     size_t shift = hash32(key + 9) % 4;  // pairs each quarter of p with any of q
@@ -91,11 +90,11 @@ inline Exchange exchange(const Scene& scene, const Patch& p, const Patch& q, For
         visible += 0.25;
         sum += std::max(0.0, by_centres(p, q, x[i], z)) / 4;
     }
-    if (way == FormFactors::chance) return {sum, sum};
-    if (visible == 0) return {};
+    if (way == FormFactors::chance) return sum;
+    if (visible == 0) return 0;
     constexpr int deepest = 4;
-    return {visible * double{p.area} * mean_to_polygon(p.p, p.n, q, deepest),
-            visible * double{q.area} * mean_to_polygon(q.p, q.n, p, deepest)};
+    const Patch &small = p.area <= q.area ? p : q, &large = p.area <= q.area ? q : p;
+    return visible * double{small.area} * mean_to_polygon(small.p, small.n, large, deepest);
 }
 
 /// Makes the rows' sums right, and keeps G_ij = G_ji: each row and column is multiplied by d_i.
@@ -210,7 +209,10 @@ inline void shoot(const Patches& patches, size_t i, std::span<const float> G_i, 
 /// What is unshot will light the room about evenly: its irradiance, for display, while it lasts.
 ///
 ///   H = keep dB / (1 - keep rho),    dB, rho: means over all areas; keep: what stays in the room
-inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s) {
+///
+/// most: a bounce keeps no more of the light, so that the sum of all bounces is finite
+inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s,
+                         double most = 1 - 1e-6) {
     Radiosity unshot, rho, shot, all;
     for (size_t i = 0; i < s.unshot.size(); i++) {
         double A = double{patch[i].area};
@@ -220,7 +222,7 @@ inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s) {
         shot += A * (radiosity_of(patch[i], s.H[i]) - s.unshot[i]);
     }
     Radiosity keep = Radiosity(1, 1, 1) - ratio(s.escaped, shot);
-    return ratio(keep * unshot, all - min(keep * rho, 0.99 * all));
+    return ratio(keep * unshot, all - min(keep * rho, most * all));
 }
 
 /// What is shown of a solution: B of each patch, with that estimate for what is to come.

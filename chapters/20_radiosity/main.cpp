@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
         bool has_noise = settings.show == Show::gather;
         if (options.spp == 0 && !has_noise) scene.spp = std::min(scene.spp, 16);  // for edges alone
         refuse(scene);
-        tessellate(scene, options.threads);
+        settings.patches += tessellate(scene, options.threads);
         ch20::check_all_outputs(options, settings);
         return ch20::Run(scene, options, settings).run();
     });

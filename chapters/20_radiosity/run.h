@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "chapters/20_radiosity/check.h"
 #include "chapters/20_radiosity/settings.h"
-#include "common/base/percent.h"
 #include "common/path/trace.h"
 #include "common/picture/image.h"
 #include "common/program/progress.h"
@@ -38,14 +38,20 @@ inline std::string film_label(const Scene& scene, const RenderOptions& options,
            "\nseed " + std::to_string(options.seed) + "\n\n";
 }
 
-/// Which share of all light in the room is still to come, by the ambient estimate.
+/// Which share of its light a patch still waits for, by the ambient estimate: the mean over all
+/// areas, so that a dim room counts as much as a bright one. Light below a millionth of the mean
+/// counts as none. As if a bounce kept 99 % at most: where it keeps more, what is unshot after so
+/// many bounces is even, and the estimate of it is shown.
 inline double share_to_come(const std::vector<Patch>& patch, const Solution& s) {
-    double received = 0, area = 0;
+    double received = 0, area = 0, waits = 0, more = sum_of(ambient(patch, s, 0.99));
     for (size_t i = 0; i < patch.size(); i++) {
         received += double{patch[i].area} * sum_of(s.H[i]), area += double{patch[i].area};
     }
-    double to_come = area * sum_of(ambient(patch, s));
-    return to_come > 0 ? to_come / (received + to_come) : 0;
+    if (more == 0) return 0;
+    double none = 1e-6 * received / area;
+    for (size_t i = 0; i < patch.size(); i++)
+        waits += double{patch[i].area} * (more / (sum_of(s.H[i]) + more + none));
+    return waits / area;
 }
 
 /// What leaves the room, W, by the rows of a matrix.
@@ -86,16 +92,30 @@ public:
     int run() {
         tell_costs();
         settings_.solver == Solver::southwell ? refine() : sweep();
+        check_numbers(scene_, patches_->patch, solution_);
         tell_result();
         double seconds = limit_.elapsed();
         bool stopped = limit_.interrupted();
-        if (stopped) options_.time = 0.5;  // s: a picture soon
         Shown shown = shown_now(settings_.show);
-        if (!settings_.mesh.empty()) write_mesh(settings_.mesh, patches_->patch, shown.B);
+        std::vector<std::string> warnings;
+        if (!stopped && n() > 0) warnings = compare_paths(shown);
+        double missing = n() > 0 ? -balance_of(patches_->patch, solution_).error() : 0;
+        if (missing > 0.001) {
+            warnings.push_back("sweeps ended before " + percent(missing) +
+                               " of the light had arrived");
+        }
+        if (stopped) options_.time = 0.5;  // s: a picture soon
         Rendering picture = render_film(scene_, options_, trace_with<trace>(shown));
         picture.stats.seconds += seconds;
         if (stopped) picture.stats.interrupted = true;
-        return write_results(scene_, options_, picture);
+        picture.warnings = warnings;
+        if (!film_.empty() && n() > 0) picture.files.push_back({film_, [&] { save_film(); }});
+        if (!settings_.mesh.empty()) {
+            picture.files.push_back(
+                {settings_.mesh, [&] { write_mesh(settings_.mesh, patches_->patch, shown.B); }});
+        }
+        int code = write_results(scene_, options_, picture);
+        return code == 0 && failed_ ? 1 : code;
     }
 
 private:
@@ -132,10 +152,12 @@ private:
         if (n() == 0) return;  // interrupted before there were patches
         const std::vector<Patch>& patch = patches_->patch;
         start(patch, solution_);
-        std::string label = film_label(scene_, options_, settings_, n());
+        check_numbers(scene_, patch, solution_);
         std::error_code none;
-        if (!film_.empty() && std::filesystem::exists(film_, none))
-            read_solution(film_, label, solution_);
+        if (!film_.empty() && std::filesystem::exists(film_, none)) {
+            read_solution(film_, label(), solution_);
+            check_balance(film_, balance_of(patch, solution_));
+        }
         Progress progress(options_.quiet);
         double saved = limit_.elapsed(), first = share_to_come(patch, solution_), last = 1;
         double shots = static_cast<double>(settings_.shots);  // 0: no limit
@@ -149,14 +171,29 @@ private:
             double by_share = std::log(last / first) / std::log(enough / first);
             double by_shots = shots == 0 ? 0 : static_cast<double>(solution_.steps) / shots;
             progress.show(std::max(by_share, by_shots), limit_.elapsed());
-            if (settings_.every > 0 && solution_.steps % settings_.every == 0) write_picture();
+            if (settings_.every > 0 && solution_.steps % settings_.every == 0)
+                failed_ |= !done([&] { write_picture(); });
             if (!film_.empty() && limit_.elapsed() - saved > options_.film_every) {
-                save_solution(film_, label, solution_);
+                done([&] { save_film(); });
                 saved = limit_.elapsed();
             }
         }
-        if (!film_.empty()) save_solution(film_, label, solution_);
+        check_balance(scene_.file, balance_of(patch, solution_));
     }
+
+    /// Whether it could be done; when a file cannot be written, says so, and the work goes on.
+    template <class Write>
+    static bool done(const Write& write) {
+        try {
+            write();
+            return true;
+        } catch (const InputError& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+            return false;
+        }
+    }
+    std::string label() const { return film_label(scene_, options_, settings_, n()); }
+    void save_film() const { save_solution(film_, label(), solution_); }
     void write_picture() {
         RenderOptions quiet = options_;
         quiet.quiet = true;
@@ -183,12 +220,21 @@ private:
         solution_.escaped = escaped_by(G, patch, solution_);
     }
 
+    /// Says what paths find in the place of patches. Returns warnings.
+    std::vector<std::string> compare_paths(const Shown& shown) const {
+        Comparison c = compare_with_paths(scene_, shown, options_.threads);
+        if (!options_.quiet) {
+            std::printf("surfaces reflect %.4g by patches, %.4g +- %.2g by paths\n", c.patches,
+                        c.paths, c.error);
+        }
+        if (!c.differ()) return {};
+        return {warning_of(c, patches_->patch)};
+    }
+
     void tell_result() const {
         if (options_.quiet || n() == 0) return;
-        const Faults& f = rows_.faults();
-        std::printf(
-            "row sums %.4f to %.4f before their repair; the two ends of a pair are %s apart\n",
-            f.lowest, f.highest, percent(f.all > 0 ? f.apart / f.all : 0).c_str());
+        const RowSums& sums = rows_.sums();
+        std::printf("row sums %.4f to %.4f before their repair\n", sums.lowest, sums.highest);
         Balance b = balance_of(patches_->patch, solution_);
         auto share = [&](double x) { return percent(std::max(0.0, x / b.emitted)); };  // not -0
         std::printf("%llu %s: of %.4g W %s absorbed, %s out of the room, %s unshot (off by %.1g)\n",
@@ -208,6 +254,7 @@ private:
     std::shared_ptr<Patches> patches_;
     Rows rows_;
     Solution solution_;
+    bool failed_ = false;  // to write a picture on the way
 };
 
 }  // namespace ch20

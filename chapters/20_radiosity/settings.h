@@ -28,24 +28,24 @@ inline std::vector<Option> own_options(Settings& s) {
             value = static_cast<std::decay_t<decltype(value)>>(parse_choice(name, text, words));
         };
     };
-    auto number = [](const char* name, auto& value, int64_t low) {
+    auto number = [](const char* name, auto& value, int64_t most) {
         return [=, &value](const std::string& text) {
-            value =
-                static_cast<std::decay_t<decltype(value)>>(parse_integer(name, text, low, 1 << 30));
+            value = static_cast<std::decay_t<decltype(value)>>(parse_integer(name, text, 1, most));
         };
     };
     return {
-        {"patches", "N", "at least so many (default 5000)", number("patches", s.patches, 1)},
+        {"patches", "N", "at least so many, beside those of spheres and disks (default 5000)",
+         number("patches", s.patches, 1000000)},
         {"form-factors", "WAY", "point, chance or contour (default)",
          choice("form-factors", s.way, {"point", "chance", "contour"})},
         {"solver", "KIND", "southwell (default: progressive), gauss-seidel or jacobi",
          choice("solver", s.solver, {"southwell", "gauss-seidel", "jacobi"})},
         {"show", "HOW", "constant patches, smooth (default), or a final gather",
          choice("show", s.show, {"constant", "smooth", "gather"})},
-        {"shots", "N", "at most so many (default: until 0.1 % of the light is unshot)",
-         number("shots", s.shots, 1)},
+        {"shots", "N", "at most so many (default: until patches wait for 0.1 % of their light)",
+         number("shots", s.shots, 1 << 30)},
         {"every", "K", "write a picture after each K shots: NAME-000100.png, ...",
-         number("every", s.every, 1)},
+         number("every", s.every, 1 << 30)},
         {"mesh", "FILE.ply", "also write the patches with their colours", [&](const auto& text) {
              if (!text.ends_with(".ply")) fail_value("mesh", text, "a .ply file");
              s.mesh = text;

@@ -37,6 +37,9 @@ struct Rendering {
     std::map<std::string, Film> classes;  // with --split: one film for each class of path, and one
                                           // for all that are longer than 8 letters
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
+    std::vector<std::string> warnings = {};  // of the chapter's own
+    /// What the chapter writes beside pictures and statistics: its name, and what writes it.
+    std::vector<std::pair<std::string, std::function<void()>>> files = {};
 };
 
 /// Renders in passes over the whole picture, until scene.spp samples a pixel, or options.time, or

@@ -163,5 +163,6 @@ std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& op
                                      const Rendering& r) {
     std::vector<std::string> lines = warnings_of(r.film, r.stats);
     add_missed_light(scene, options, static_cast<double>(r.film.samples()), lines);
+    lines.insert(lines.end(), r.warnings.begin(), r.warnings.end());
     return lines;
 }

@@ -42,6 +42,16 @@ Around find_around(const Scene& scene, const std::vector<Patch>& patch, int thre
     return around;
 }
 
+/// Where one of the corners is negative: brings them all nearer to the patch's own radiosity B, so
+/// that none is, and their mean is B. (To put 0 in place of the negative would add light.)
+void keep_positive(std::array<Rgb, 3>& corner, float Rgb::*channel, float B) {
+    float mean = 0, least = infinity;
+    for (Rgb b : corner) mean += b.*channel / 3, least = std::min(least, b.*channel);
+    if (least >= 0) return;
+    float keep = mean - least > B ? B / (mean - least) : 1;
+    for (Rgb& b : corner) b.*channel = std::max(0.0f, B + keep * (b.*channel - mean));
+}
+
 /// The corners of --show smooth.
 CornerB smooth_corners(const Scene& scene, const std::vector<Patch>& patch,
                        const std::vector<Rgb>& B, int threads) {
@@ -65,8 +75,9 @@ CornerB smooth_corners(const Scene& scene, const std::vector<Patch>& patch,
         }
         missing = left;
     }
-    for (auto& at : corner)
-        for (Rgb& b : at) b = {std::max(0.0f, b.r), std::max(0.0f, b.g), std::max(0.0f, b.b)};
+    for (size_t i = 0; i < patch.size(); i++)
+        for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b})
+            keep_positive(corner[i], channel, B[i].*channel);
     return corner;
 }
 
@@ -80,7 +91,7 @@ Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patches,
     } else {
         shown.B = smooth_corners(scene, patches->patch, B, threads);
     }
-    if (how == Show::gather) shown.lights = build_light_table(light_pmf(scene, 0.25));
+    shown.lights = build_light_table(light_pmf(scene, 0.25));
     return shown;
 }
 
@@ -91,18 +102,25 @@ Rgb radiosity_at(const Shown& shown, const Hit& x) {
     return at.b[0] * b[0] + at.b[1] * b[1] + at.b[2] * b[2];
 }
 
-Rgb final_gather(const Scene& scene, const Shown& shown, Hit x, Vec3 wo, Sampler& sampler) {
-    x.n = x.ng;
-    double u = join(sampler.u2());
-    LightSample y = sample_light(scene, shown.lights, x, u, sampler.u2());
-    BsdfSample s = basic_bsdf::sample_bsdf(x, wo, 0, sampler.u2());
-    Rgb L;
-    if (y.pdf_w > 0 && !occluded(scene, spawn_ray(x, y.wi, y.dist)))
-        L += basic_bsdf::eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
-    if (s.pdf_w == 0) return L;
-    if (auto z = intersect(scene, spawn_ray(x, s.wi))) {
-        Rgb reflected = radiosity_at(shown, *z) / pi - emission(scene, *z);
-        L += s.f * reflected * (dot(s.wi, x.n) / s.pdf_w);
+Rgb final_gather(const Scene& scene, const Shown& shown, Hit x, Vec3 wo, Sampler& sampler,
+                 int bounces) {
+    Rgb L, beta = {1, 1, 1};
+    while (true) {
+        x.n = x.ng;
+        double u = join(sampler.u2());
+        LightSample y = sample_light(scene, shown.lights, x, u, sampler.u2());
+        BsdfSample s = basic_bsdf::sample_bsdf(x, wo, 0, sampler.u2());
+        if (y.pdf_w > 0 && !occluded(scene, spawn_ray(x, y.wi, y.dist)))
+            L += beta * (basic_bsdf::eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w));
+        if (s.pdf_w == 0) return L;
+        auto z = intersect(scene, spawn_ray(x, s.wi));
+        if (!z) return L;
+        float cos_over_pdf = dot(s.wi, x.n) / s.pdf_w;
+        if (--bounces == 0) {
+            Rgb reflected = radiosity_at(shown, *z) / pi - emission(scene, *z);
+            return L + beta * (s.f * reflected * cos_over_pdf);
+        }
+        beta = beta * s.f * cos_over_pdf;
+        x = *z, wo = -s.wi;
     }
-    return L;
 }

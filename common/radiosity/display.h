@@ -16,7 +16,7 @@ struct Shown {
     std::shared_ptr<const Patches> patches;
     CornerB B;
     Show show = Show::smooth;
-    LightTable lights;  // for the final gather
+    LightTable lights;  // for final gathers
 };
 
 /// Makes it of one radiosity for each patch, W m^-2. Constant: that is what the corners have too.
@@ -30,7 +30,9 @@ Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patches,
 /// B at a point of a surface, W m^-2; black where no patch is.
 Rgb radiosity_at(const Shown& shown, const Hit& x);
 
-/// What x reflects to wo, W m^-2 sr^-1, by one more bounce, for this point and not for its patch.
-/// Lamps are aimed at, and left out where the direction by chance meets them.
+/// What x reflects to wo, W m^-2 sr^-1, by a path of `bounces` bounces, for this point and not for
+/// its patch. Lights are sampled at each bounce; the last bounce finds the radiosity of a patch,
+/// without what it emits.
 /// tested by  "agreement: the final gather with chapter 14, block by block within 2 %"
-Rgb final_gather(const Scene& scene, const Shown& shown, Hit x, Vec3 wo, Sampler& sampler);
+Rgb final_gather(const Scene& scene, const Shown& shown, Hit x, Vec3 wo, Sampler& sampler,
+                 int bounces = 1);

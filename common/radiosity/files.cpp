@@ -1,5 +1,7 @@
 #include "common/radiosity/files.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "common/base/checksum.h"
@@ -58,6 +60,14 @@ void read_solution(const std::string& path, const std::string& label, Solution& 
     take(&s.escaped, sizeof s.escaped);
     take(s.H.data(), s.H.size() * sizeof(Radiosity));
     take(s.unshot.data(), s.unshot.size() * sizeof(Radiosity));
+    auto is_light = [](Radiosity x) {
+        return std::isfinite(sum_of(x)) && std::min({x.r, x.g, x.b}) >= 0;
+    };
+    auto all_light = [&](const std::vector<Radiosity>& values) {
+        return std::all_of(values.begin(), values.end(), is_light);
+    };
+    if (!std::isfinite(sum_of(s.escaped)) || !all_light(s.H) || !all_light(s.unshot))
+        fail({path}, "the film is damaged: it holds light that is negative or not finite");
 }
 
 void write_mesh(const std::string& path, const std::vector<Patch>& patch, const CornerB& B) {

@@ -23,28 +23,20 @@ std::vector<float> Rows::work_out(size_t i) {
     constexpr size_t block = 256;
     size_t n = area_.size(), blocks = (n + block - 1) / block;
     std::vector<float> row(n);
-    std::vector<Faults> parts(blocks);
     parallel_for(static_cast<int>(blocks), threads_, [&](int b) {
         size_t first = static_cast<size_t>(b) * block;
         for (size_t j = first; j < std::min(n, first + block); j++) {
             if (keeps() && !kept_[j].empty()) {
                 row[j] = kept_[j][i];
             } else if (j != i) {
-                row[j] = work_out(std::min(i, j), std::max(i, j), parts[first / block]);
+                row[j] = static_cast<float>(exchange_(static_cast<uint32_t>(std::min(i, j)),
+                                                      static_cast<uint32_t>(std::max(i, j))));
             }
         }
     });
     double sum = 0;
-    for (const Faults& part : parts) faults_.apart += part.apart, faults_.all += part.all;
     for (float G : row) sum += double{G} / area_[i];
-    faults_.lowest = std::min(faults_.lowest, sum);
-    faults_.highest = std::max(faults_.highest, sum);
+    sums_.lowest = std::min(sums_.lowest, sum);
+    sums_.highest = std::max(sums_.highest, sum);
     return row;
-}
-
-float Rows::work_out(size_t i, size_t j, Faults& faults) const {
-    Exchange G = exchange_(static_cast<uint32_t>(i), static_cast<uint32_t>(j));
-    faults.apart += std::abs(G.from_i - G.from_j);
-    faults.all += (G.from_i + G.from_j) / 2;
-    return static_cast<float>((G.from_i + G.from_j) / 2);
 }

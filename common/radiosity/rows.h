@@ -4,17 +4,12 @@
 
 #include "common/radiosity/patches.h"
 
-/// G_ij = A_i F_ij, m^2, as found from patch i, and from j. Nearly the same: their mean is taken.
-struct Exchange {
-    double from_i = 0, from_j = 0;
-};
-/// Of patches i < j. Any thread may ask.
-using ExchangeOf = std::function<Exchange(uint32_t i, uint32_t j)>;
+/// What patches i < j exchange: G_ij = A_i F_ij, m^2. Any thread may ask.
+using ExchangeOf = std::function<double(uint32_t i, uint32_t j)>;
 
-/// What is wrong with the form factors before they are repaired.
-struct Faults {
-    double lowest = 1e300, highest = 0;  // of the sums of rows
-    double apart = 0, all = 0;           // sums of |from_i - from_j|, and of their means
+/// The least and the largest sum of a row, before rows are repaired.
+struct RowSums {
+    double lowest = 1e300, highest = 0;
 };
 
 /// All of G, m^2, row by row.
@@ -31,7 +26,7 @@ public:
 
     size_t bytes() const { return area_.size() * area_.size() * sizeof(float); }
     bool keeps() const { return !kept_.empty(); }
-    const Faults& faults() const { return faults_; }
+    const RowSums& sums() const { return sums_; }
 
     /// What patch i exchanges with each patch; valid until the next call.
     std::span<const float> row(size_t i);
@@ -40,12 +35,11 @@ public:
 
 private:
     std::vector<float> work_out(size_t i);
-    float work_out(size_t i, size_t j, Faults& faults) const;
 
     std::vector<double> area_;  // m^2
     int threads_ = 1;
     ExchangeOf exchange_;
     Matrix kept_;
     std::vector<float> last_;
-    Faults faults_;
+    RowSums sums_;
 };

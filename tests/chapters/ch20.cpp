@@ -1,8 +1,12 @@
 // Chapter 20: patches, form factors, solvers, and the picture.
 #include <doctest/doctest.h>
 
+#include <cstring>
+#include <limits>
+
 #include "chapters/14_mis_ris/estimator.h"
 #include "chapters/20_radiosity/run.h"
+#include "common/base/checksum.h"
 #include "tests/support/estimators.h"
 #include "tests/support/meshes.h"
 #include "tests/support/process.h"
@@ -84,8 +88,7 @@ double form_factor(const std::vector<Patch>& from, const std::vector<Patch>& to,
         area += double{from[i].area};
         for (uint32_t j = 0; j < to.size(); j++) {
             uint32_t key = hash32(i, hash32(j, seed));
-            Exchange G = ch20::exchange(empty, from[i], to[j], way, key);
-            sum += (G.from_i + G.from_j) / 2;
+            sum += ch20::exchange(empty, from[i], to[j], way, key);
         }
     }
     return sum / area;
@@ -166,14 +169,14 @@ Solution solved(const Matrix& G, const std::vector<Patch>& patch) {
 struct Room {
     Patches patches;
     Matrix G;
-    Faults faults;
+    RowSums sums;
 
     Room(const Scene& scene, size_t wanted, FormFactors way = FormFactors::contour,
          bool repaired = true)
         : patches(make_patches(scene, wanted, all_threads())) {
         Rows rows = ch20::form_factors(scene, patches, way, 0, all_threads());
         G = rows.take_all();
-        faults = rows.faults();
+        sums = rows.sums();
         if (repaired) ch20::repair(G, patches.patch, patches.closed);
     }
     double row_sum(size_t i) const {
@@ -202,9 +205,14 @@ Trace by_radiosity(const Scene& scene, size_t wanted, Show how) {
     return trace_with<ch20::trace>(ch20::show(scene, patches, s, how, all_threads()));
 }
 
-/// The program on a scene, small; `more` may say otherwise.
-Process start_program(const Words& more, const std::string& scene = "scenes/cornell.pbrt") {
+/// The program on a scene, small; `more` may say otherwise. No file can grow beyond `largest`
+/// bytes.
+Process start_program(const Words& more, const std::string& scene = "scenes/cornell.pbrt",
+                      rlim_t largest = RLIM_INFINITY) {
     return Process([&] {
+        rlimit limit = {largest, largest};
+        std::signal(SIGXFSZ, SIG_IGN);
+        ::setrlimit(RLIMIT_FSIZE, &limit);
         Words all = program_words("20_radiosity");
         for (const std::string& word :
              Words{scene, "--size", "33x17", "--spp", "2", "--patches", "300"})
@@ -217,7 +225,25 @@ Process start_program(const Words& more, const std::string& scene = "scenes/corn
         return 127;
     });
 }
-Finished run_program_with(const Words& more) { return start_program(more).wait(); }
+Finished run_program_with(const Words& more, const std::string& scene = "scenes/cornell.pbrt") {
+    return start_program(more, scene).wait();
+}
+
+/// A scene in a file, seen from inside the unit cube.
+std::string file_of(const TemporaryFolder& folder, const std::string& world) {
+    std::string path = folder / "room.pbrt";
+    write_file_atomically(path,
+                          "LookAt 0.5 0.5 0.05  0.5 0.5 1  0 1 0\nCamera \"perspective\"\n"
+                          "PixelFilter \"box\"\nWorldBegin\n" +
+                              world);
+    return path;
+}
+/// A closed cube, all of which emits W W m^-2 and reflects rho.
+std::string even_cube(double W, double rho) {
+    std::string text;
+    for (const auto& face : cube_faces()) text += emitting(W, rho, mesh(face));
+    return text;
+}
 
 }  // namespace
 
@@ -299,6 +325,33 @@ TEST_SUITE("ch20 form factors") {
         CHECK(5 * G == doctest::Approx(1.59).epsilon(1e-2).scale(0));
     }
 
+    TEST_CASE("truth: a small patch and a large one at decades of size and distance") {
+        Patch large = patch_of({}, {1, 0, 0}, {0, 1, 0});
+        for (float size : {0.3f, 0.1f, 0.03f, 0.01f, 0.001f}) {
+            for (float distance : {1.0f, 0.1f, 0.01f, 0.001f}) {
+                CAPTURE(size);
+                CAPTURE(distance);
+                Vec3 o = {0.31f, 0.29f, distance};
+                Patch small = patch_of(o, o + Vec3{0, size, 0}, o + Vec3{size, 0, 0});
+                RunningStats F;  // from 4^5 points, which it hardly depends on
+                std::vector<std::array<Vec3, 3>> parts = {small.p};
+                for (int depth = 0; depth < 5; depth++) {
+                    std::vector<std::array<Vec3, 3>> finer;
+                    for (const auto& t : parts)
+                        for (const auto& part : quarters(t)) finer.push_back(part);
+                    parts = finer;
+                }
+                for (const auto& t : parts)
+                    F.add(ch20::point_to_polygon((t[0] + t[1] + t[2]) / 3, small.n, large.p));
+                double area = double{small.area};
+                CHECK(form_factor({small}, {large}) ==
+                      doctest::Approx(F.mean()).epsilon(1e-3).scale(0));
+                CHECK(form_factor({large}, {small}) * double{large.area} / area ==
+                      doctest::Approx(F.mean()).epsilon(1e-3).scale(0));
+            }
+        }
+    }
+
     TEST_CASE("truth: form factors by chance have the right mean, and vary") {
         auto floor = patches_of(quad({}, {1, 0, 0}, {0, 1, 0}));
         auto above = patches_of(quad({0, 0, 1}, {0, 1, 0}, {1, 0, 0}));
@@ -317,9 +370,9 @@ TEST_SUITE("ch20 form factors") {
         auto low = patch_of({}, 0.5f * x, y), here = patch_of(z, z + y, z + 0.5f * x);
         auto beyond = patch_of(z + x, z + 0.6f * x, z + 0.8f * x + y);
         REQUIRE(dot(beyond.n, z) < 0);
-        CHECK(ch20::exchange(scene, low, here, FormFactors::contour, 1).from_i > 0);
+        CHECK(ch20::exchange(scene, low, here, FormFactors::contour, 1) > 0);
         for (FormFactors way : {FormFactors::point, FormFactors::chance, FormFactors::contour})
-            CHECK(ch20::exchange(scene, low, beyond, way, 1).from_i == 0);
+            CHECK(ch20::exchange(scene, low, beyond, way, 1) == 0);
     }
 
     TEST_CASE("identity: repaired rows sum to 1, and both ends agree") {
@@ -336,7 +389,7 @@ TEST_SUITE("ch20 form factors") {
             }
             CHECK(worst < 1e-6);
             CHECK(worst_raw > 1e-3);  // there was something to repair
-            CHECK(room.faults.highest > 1);
+            CHECK(room.sums.highest > 1);
         }
         // In an open room rows sum to at most 1, and those that were right stay so.
         Room open(scene_from("scenes/cornell.pbrt", 32, 5), 300);
@@ -495,6 +548,32 @@ TEST_SUITE("ch20 patches") {
         }
     }
 
+    TEST_CASE("input: a sphere or disk too small to be cut into triangles is refused") {
+        for (const char* kind : {"sphere", "disk"}) {
+            for (auto [radius, refused] : {std::pair{"1e-18", true},
+                                           {"1e-12", true},
+                                           {"1e-9", true},
+                                           {"1e-7", true},
+                                           {"1e-4", false},
+                                           {"1e-2", false},
+                                           {"1e6", false}}) {
+                CAPTURE(kind);
+                CAPTURE(radius);
+                std::string shape = std::string("Shape \"") + kind + "\" \"float radius\" ";
+                Scene lamp =
+                    world_of("Translate 3 2 1\n" + emitting(1, 0.5, shape + radius + "\n"));
+                Scene dark = world_of(emitting(1, 0.5, mesh(cube_faces()[0])) + diffuse(0.5) +
+                                      "Translate 3 2 1\n" + shape + radius + "\n");
+                for (Scene* scene : {&lamp, &dark}) {
+                    std::string error = error_of([&] { tessellate(*scene, 2); });
+                    CHECK((error.find("too small to be cut into triangles") != error.npos) ==
+                          refused);
+                    CHECK((error == "") == !refused);
+                }
+            }
+        }
+    }
+
     TEST_CASE("input: a closed room that reflects all light is refused, an open one is not") {
         auto is_refused = [](const Scene& scene) {
             std::string text = error_of([&] { refuse_no_loss(scene, make_patches(scene, 12, 2)); });
@@ -598,6 +677,49 @@ TEST_SUITE("ch20 solvers") {
         }
     }
 
+    TEST_CASE("truth: the floor under the middle of a disk light at decades of distance") {
+        // Irradiance pi L R^2 / (R^2 + h^2), of a lamp that reflects nothing.
+        for (float h : {2.0f, 0.1f, 0.01f, 1e-4f}) {
+            CAPTURE(h);
+            std::vector<Vec3> lamp = disk_at(double{h}, 1, false);
+            Scene scene = world_of(diffuse(0.5) + mesh(quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0})) +
+                                   emitting(1, 0, mesh(lamp)));
+            Room room(scene, 400);
+            Solution s = solved(room.G, room.patches.patch);
+            double nearest = infinity, H = 0;
+            for (size_t i = 0; i < s.H.size(); i++) {
+                const Patch& p = room.patches.patch[i];
+                double away = double{length(p.centre)};
+                if (p.E.g == 0 && p.n.z > 0 && away < nearest) nearest = away, H = s.H[i].g;
+            }
+            CHECK(nearest < 0.3);
+            double truth = 1 / (1 + double{h} * double{h});
+            CHECK(H == doctest::Approx(truth).epsilon(0.01).scale(0));
+        }
+    }
+
+    TEST_CASE("identity: a room of any size, a micrometre to a thousand kilometres, is the same") {
+        std::array<double, 3> first = {};
+        for (const char* scale : {"1", "9.5367431640625e-07", "0.0009765625", "1024", "1048576"}) {
+            CAPTURE(scale);
+            std::string text = "Scale " + std::string(scale) + ' ' + scale + ' ' + scale + '\n';
+            auto faces = cube_faces();
+            for (size_t f = 0; f < 6; f++)
+                text += f == 0 ? emitting(1, 0.5, mesh(faces[f])) : diffuse(0.5) + mesh(faces[f]);
+            text += diffuse(0.3) + mesh(quad({0.3f, 0.3f, 0.3f}, {0.3f, 0.1f, 0}, {0, 0.1f, 0.4f}));
+            Room room(world_of(text), 150);
+            REQUIRE(room.patches.closed);
+            Solution s = solved(room.G, room.patches.patch);
+            std::array<double, 3> B = {
+                room.mean_B(s, [](const Patch& p) { return p.E.g > 0; }),
+                room.mean_B(s, [](const Patch& p) { return p.n.z == -1; }),
+                room.mean_B(s, [](const Patch& p) { return std::abs(p.n.x) == 1; })};
+            if (first[0] == 0) first = B;
+            for (size_t i = 0; i < 3; i++)
+                CHECK(B[i] == doctest::Approx(first[i]).epsilon(1e-5).scale(0));
+        }
+    }
+
     TEST_CASE("identity: all that lamps emit is absorbed, escapes, or is unshot") {
         for (bool closed : {true, false}) {
             CAPTURE(closed);
@@ -620,6 +742,24 @@ TEST_SUITE("ch20 solvers") {
                 if (!closed) CHECK(b.escaped > 0.2 * b.emitted);
             }
         }
+    }
+
+    TEST_CASE("failure: radiosity that is not finite, negative or does not balance is an error") {
+        Scene scene = cube_room(0.5, 1);
+        Room room(scene, 12);
+        const std::vector<Patch>& patch = room.patches.patch;
+        auto error_with = [&](double factor, double more) {
+            Solution s = solved(room.G, patch);
+            s.H[5] = factor * s.H[5] + Radiosity(more, more, more);
+            std::string error = error_of([&] { ch20::check_numbers(scene, patch, s); });
+            if (error != "") return error;
+            return error_of([&] { ch20::check_balance(scene.file, balance_of(patch, s)); });
+        };
+        CHECK(error_with(1, 0) == "");
+        for (double more : {std::nan(""), double{infinity}, -double{infinity}, 1e39, -1.0})
+            CHECK(error_with(1, more).find("the radiosity of the patch at (") != std::string::npos);
+        for (double factor : {0.0, 0.99, 1.01})
+            CHECK(error_with(factor, 0).find("does not balance") != std::string::npos);
     }
 
     TEST_CASE("agreement: Jacobi, Gauss-Seidel and shots find the same") {
@@ -778,6 +918,30 @@ TEST_SUITE("ch20 radiosity") {
         }
     }
 
+    TEST_CASE("identity: a smooth picture has no more light than its patches, and none below 0") {
+        Scene scene = cube_room(0.5, 6);
+        auto patches = std::make_shared<Patches>(make_patches(scene, 300, 2));
+        const std::vector<Patch>& patch = patches->patch;
+        for (size_t bright = 0; bright < patch.size(); bright += 7) {
+            std::vector<Rgb> B(patch.size(), {0, 0.5f, 0.25f});
+            B[bright] = {1, 1, 0};
+            Shown shown = make_shown(scene, patches, B, Show::smooth, 2);
+            Rgb all, smooth;
+            for (size_t i = 0; i < patch.size(); i++) {
+                all += patch[i].area * B[i];
+                for (Rgb b : shown.B[i]) {
+                    smooth += patch[i].area / 3 * b;
+                    CHECK(std::min({b.r, b.g, b.b}) >= 0);
+                }
+            }
+            CAPTURE(bright);
+            CHECK(smooth.r < 1.05f * all.r);
+            CHECK(smooth.r > 0.3f * all.r);
+            CHECK(std::abs(smooth.g / all.g - 1) < 0.01f);
+            CHECK(std::abs(smooth.b / all.b - 1) < 0.01f);
+        }
+    }
+
     TEST_CASE("agreement: a gray Cornell box with chapter 14, closer with more patches") {
         // The same seed takes the same points of each pixel: edges cancel.
         Scene scene = scene_from("tests/pictures/references/cornell-grey.pbrt", 64, 60);
@@ -877,6 +1041,121 @@ TEST_SUITE("ch20 program") {
         }
     }
 
+    TEST_CASE("input: a film of radiosity that holds no light, or other light, is refused") {
+        TemporaryFolder folder;
+        std::string film = folder / "a.film";
+        Words words = {"--quiet", "--shots", "5", "--film", film, "--out", folder / "a.pfm"};
+        REQUIRE(run_program_with(words).code == 0);
+        const std::string bytes = read_file(film);
+        size_t begin = bytes.find("\n\n") + 2 + 8;  // after the label and the number of shots
+        size_t numbers = (bytes.size() - begin - 8) / 8, patches = (numbers - 3) / 6;
+        REQUIRE(numbers == 3 + 6 * patches);
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        std::filesystem::remove(folder / "a.pfm");
+        size_t lit = 3;  // the first number of H that is not 0
+        auto number_at = [&](size_t i) {
+            double x;
+            std::memcpy(&x, bytes.data() + begin + 8 * i, 8);
+            return x;
+        };
+        while (number_at(lit) == 0) lit++;
+        for (double x :
+             {nan, double{infinity}, -double{infinity}, -1.0, 1e300, 2 * number_at(lit)}) {
+            for (size_t i : {size_t{0}, lit, 3 + 3 * patches - 1, 3 + 3 * patches, numbers - 1}) {
+                std::string edited = bytes;
+                std::memcpy(edited.data() + begin + 8 * i, &x, 8);
+                Checksum sum;
+                sum.add(std::string_view(edited).substr(0, edited.size() - 8));
+                uint64_t value = sum.value();
+                std::memcpy(edited.data() + edited.size() - 8, &value, 8);
+                write_file_atomically(film, edited);
+                Finished end = run_program_with(words);
+                CAPTURE(x);
+                CAPTURE(i);
+                CHECK(end.code == 1);
+                CHECK(end.err.starts_with(film + ": error: the "));
+                CHECK(std::count(end.err.begin(), end.err.end(), '\n') == 1);
+                CHECK(read_file(film) == edited);
+                CHECK_FALSE(std::filesystem::exists(folder / "a.pfm"));
+            }
+        }
+    }
+
+    TEST_CASE("files: one output of radiosity that fails does not lose the others") {
+        // Files that are too large for the limit fail: film and mesh have 14 and 26 kB or more, a
+        // picture of 33 x 17 pixels 7 kB, one of 100 x 100 120 kB.
+        for (auto [largest, size, lost] : {std::tuple{10000, "33x17", 2}, {60000, "100x100", 3}}) {
+            TemporaryFolder folder;
+            Words words = {"--quiet", "--size", size, "--shots", "50", "--every", "25"};
+            for (auto [option, name] : {std::pair{"--film", "a.film"},
+                                        {"--mesh", "a.ply"},
+                                        {"--out", "a.pfm"},
+                                        {"--out", "b.ppm"},
+                                        {"--stats", "a.json"}}) {
+                words.push_back(option), words.push_back(folder / name);
+            }
+            Finished end =
+                start_program(words, "scenes/cornell.pbrt", static_cast<rlim_t>(largest)).wait();
+            CAPTURE(end.err);
+            CHECK(end.code == 1);
+            CHECK(std::count(end.err.begin(), end.err.end(), '\n') == lost);
+            std::set<std::string> left = {"a.film", "a.ply", "b.ppm", "a.json"};
+            if (lost == 2) {
+                left = {"a.pfm", "a-000025.pfm", "a-000050.pfm", "b.ppm", "a.json"};
+            }
+            CHECK(folder.names() == left);
+        }
+    }
+
+    TEST_CASE("failure: patches wider than a light is far show too much light, and a warning") {
+        TemporaryFolder folder;
+        for (auto [scene, is_wrong] : {std::pair{"scenes/near-light.pbrt", true},
+                                       {"scenes/cornell.pbrt", false},
+                                       {"scenes/color-bleeding.pbrt", false}}) {
+            CAPTURE(scene);
+            Finished end = run_program_with({"--patches", "600", "--out", folder / "a.pfm"}, scene);
+            CHECK(end.code == 0);
+            CHECK(end.out.find("\nsurfaces reflect ") != end.out.npos);
+            size_t at = end.out.find("\nwarning: the light that surfaces reflect is wrong: ");
+            CHECK((at != end.out.npos) == is_wrong);
+            CHECK((end.out.find(" wide, and a light is 0.005 from it") != end.out.npos) ==
+                  is_wrong);
+        }
+    }
+
+    TEST_CASE(
+        "truth: a room that is 10,000 times dimmer than the one beside it has its own light") {
+        TemporaryFolder folder;
+        std::string dim = even_cube(1, 0.5), bright = "Translate 2 0 0\n" + even_cube(1e4, 0.5);
+        Words words = {"--quiet", "--patches", "24", "--out", folder / "a.pfm"};
+        CHECK(run_program_with(words, file_of(folder, dim + bright)).code == 0);
+        for (Rgb L : read_image(folder / "a.pfm").pixels)
+            CHECK(double{L.g} == doctest::Approx(2 / pi_exact).epsilon(2e-3).scale(0));
+    }
+
+    TEST_CASE("truth: closed cubes of all albedos show 1 / (pi (1 - rho)) by shots") {
+        TemporaryFolder folder;
+        for (double rho : {0.0, 0.2, 0.9, 0.99, 0.999}) {
+            CAPTURE(rho);
+            Words words = {"--quiet", "--patches", "12", "--out", folder / "a.pfm"};
+            CHECK(run_program_with(words, file_of(folder, even_cube(1, rho))).code == 0);
+            double truth = 1 / (pi_exact * (1 - double{static_cast<float>(rho)}));
+            for (Rgb L : read_image(folder / "a.pfm").pixels)
+                CHECK(double{L.g} == doctest::Approx(truth).epsilon(2e-3).scale(0));
+        }
+    }
+
+    TEST_CASE("identity: the triangles of a ball take no patches from the floor") {
+        TemporaryFolder folder;
+        std::string floor = diffuse(0.5) + mesh(quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}));
+        std::string lamp =
+            emitting(1, 0, "Translate 0 1 0 Shape \"sphere\" \"float radius\" 0.1\n");
+        Words words = {"--out", folder / "a.pfm"};
+        Finished end = run_program_with(words, file_of(folder, floor + lamp));
+        CHECK(end.code == 0);
+        CHECK(std::stoi(end.out) >= 300 + 512);
+    }
+
     TEST_CASE("files: Ctrl-C leaves the picture of the light so far, and exit code 3") {
         TemporaryFolder folder;
         Finished end;
@@ -953,6 +1232,7 @@ TEST_SUITE("ch20 program") {
                                    {"--split", "x"},
                                    {"--patches", "0"},
                                    {"--patches", "many"},
+                                   {"--patches", "1000001"},
                                    {"--show", "nothing"},
                                    {"--solver", "jacobi", "--film", "a.film"},
                                    {"--solver", "jacobi", "--shots", "5"},
