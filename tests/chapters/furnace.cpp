@@ -1,0 +1,79 @@
+// A room in which light is the same everywhere, whatever stands in it: every chapter must find it.
+#include "tests/support/chapters.h"
+// In this order: names of a lower chapter must not be found by way of a higher one.
+#include "chapters/15_distribution/estimator.h"
+#include "chapters/18_bidirectional/estimator.h"
+#include "common/path/bidirectional.h"
+
+namespace {
+
+/// All that shines emits 1 and reflects a half; all else reflects or refracts all light. So the
+/// radiance is 1 + 1/2 + 1/4 + ... = 2 in every direction, at every point.
+Scene furnace(const std::string& things) {
+    const std::string shines =
+        "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] AreaLightSource \"diffuse\" \"rgb L\" "
+        "[1 1 1] \"bool twosided\" true ";
+    Scene scene = scene_of(
+        "LookAt 0 0 -7  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 60\n"
+        "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n"
+        "AttributeBegin " +
+        shines + "Shape \"sphere\" \"float radius\" 10 AttributeEnd " + things);
+    scene.max_depth = 80;
+    return scene;
+}
+std::string lamp(const std::string& shape) {
+    return "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] AreaLightSource "
+           "\"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true " +
+           shape + " AttributeEnd ";
+}
+std::string thing(const std::string& material, const std::string& shape) {
+    return "AttributeBegin Material " + material + " " + shape + " AttributeEnd ";
+}
+
+const std::string lamps =
+    lamp("Translate -1.5 1 0 Rotate 40 1 1 0 Shape \"disk\" \"float radius\" 1") +
+    lamp("Translate 1.5 1.2 1 Rotate 70 1 0 2 " + square(0, true)) +
+    lamp("Translate 0 -1.8 -1 Shape \"sphere\" \"float radius\" 0.4") +
+    lamp(
+        "Shape \"trianglemesh\" \"point3 P\" [-3 -2 1  -1 -2 2  -2 0 1  -2 -1 3] \"integer "
+        "indices\" [0 1 2 1 3 2]");
+const std::string things =
+    thing("\"dielectric\"", "Translate 0.4 0.3 -2 Shape \"sphere\" \"float radius\" 0.7") +
+    thing("\"conductor\" \"rgb reflectance\" [1 1 1]",
+          "Translate -1.2 -0.6 -2 Shape \"sphere\" \"float radius\" 0.6") +
+    thing("\"diffuse\" \"rgb reflectance\" [1 1 1]",
+          "Translate 1.4 -1 -1.5 Shape \"sphere\" \"float radius\" 0.5");
+
+void check_is_two(const Scene& scene, const SplatTrace& trace, int paths) {
+    Measured m = census_of(scene, trace, paths, 1).all.measured(paths);
+    CHECK(std::abs(m.mean - 2) < 5 * m.se);
+    CHECK(m.se < 0.01);
+}
+
+}  // namespace
+
+TEST_SUITE("furnace of all things") {
+    TEST_CASE("furnace: lamps of every shape, that shine to both sides, and mirrors and glass") {
+        Scene scene = furnace(lamps + things);
+        std::vector<Chapter> chapters = every_chapter(scene);
+        chapters.push_back({"15", trace_with<ch15::trace>(ch15::prepare(scene))});
+        for (const Chapter& chapter : chapters) {
+            CAPTURE(chapter.name);
+            int paths = 25000;
+            Measured m = census_of(scene, chapter.trace, paths, 1).all.measured(paths);
+            CHECK(std::abs(m.mean - 2) < 5 * m.se);
+            CHECK(m.se < 0.01);
+        }
+    }
+
+    TEST_CASE("furnace: the same, by paths from both ends") {
+        for (const std::string& what : {lamps, lamps + things}) {
+            Scene scene = furnace(what);
+            check_is_two(scene, splat_trace_with<ch18::trace>(ch18::Prepared{ends_of(scene)}),
+                         15000);
+            check_is_two(scene,
+                         splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
+                         30000);
+        }
+    }
+}

@@ -1,0 +1,158 @@
+// Laws that hold for any motion of any shape.
+#include "common/geometry/motion.h"
+
+#include <doctest/doctest.h>
+
+#include "common/scene/mover.h"
+#include "tests/support/estimators.h"
+
+namespace {
+
+Double3 any_direction(Sampler& random) { return to_double3(uniform_direction(random.u2())); }
+Transform any_rotation(Sampler& random) {
+    return rotation(360 * double{random.u1()}, any_direction(random));
+}
+
+/// The angle of a rotation, in radians: its trace is 1 + 2 cos.
+double angle_of(const Transform& r) {
+    return std::acos(std::clamp((r.x[0] + r.y[1] + r.z[2] - 1) / 2, -1.0, 1.0));
+}
+
+std::string as_text(const Transform& t) {
+    std::string text;
+    char number[32];
+    auto put = [&](double x) {
+        std::snprintf(number, sizeof number, "%.17g ", x);
+        text += number;
+    };
+    for (const Double3& c : {t.x, t.y, t.z}) {
+        for (double x : c) put(x);
+        text += "0 ";
+    }
+    for (double x : t.o) put(x);
+    return "[" + text + "1] ";
+}
+
+/// Two triangles with a normal at each corner that leans away from their own.
+const std::string bent_mesh =
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-1 -1 0  1 -1 .2  1 1 "
+    "0  -1 1 .3] \"normal N\" [-.4 -.2 1  .3 -.3 1  .4 .4 1  -.2 .5 1] ";
+
+Scene moving_mesh(const Transform& start, const Transform& end) {
+    return world_of(
+        "LightSource \"infinite\" AttributeBegin ActiveTransform StartTime "
+        "ConcatTransform " +
+        as_text(start) + "ActiveTransform EndTime ConcatTransform " + as_text(end) +
+        "ActiveTransform All " + bent_mesh + "AttributeEnd");
+}
+
+}  // namespace
+
+TEST_SUITE("motion") {
+    TEST_CASE("identity: a turn has one speed all the way, and takes the shorter way round") {
+        Sampler random = random_numbers(7);
+        for (int i = 0; i < 400; i++) {
+            Transform start = i % 4 == 0 ? Transform{} : any_rotation(random);
+            Transform end =
+                i % 4 == 1 ? rotation(180, any_direction(random)) * start : any_rotation(random);
+            Motion motion(start, end);
+            double whole = angle_of(end * inverse(start));
+            CHECK(motion.turns());
+            for (double t : {0.0, 0.125, 0.5, 0.75, 1.0}) {
+                CAPTURE(t);
+                Transform at = motion.at(t);
+                CHECK(std::abs(angle_of(at * inverse(start)) - t * whole) < 1e-6);
+                CHECK(std::abs(angle_of(end * inverse(at)) - (1 - t) * whole) < 1e-6);
+                CHECK(std::abs(determinant(at) - 1) < 1e-9);
+            }
+        }
+    }
+
+    TEST_CASE(
+        "identity: before 0 and after 1 a motion rests; both ends are those that were given") {
+        Sampler random = random_numbers(8);
+        for (int i = 0; i < 100; i++) {
+            Transform ends[2];
+            for (Transform& end : ends) {
+                end = translation(5.0 * any_direction(random)) * any_rotation(random) *
+                      scaling({0.2 + double{random.u1()}, 1, i % 2 == 0 ? 1.5 : -1.5}) *
+                      any_rotation(random);
+            }
+            Motion motion(ends[0], ends[1]);
+            Double3 p = 2.0 * any_direction(random);
+            for (double t : {-3.0, 0.0, 1.0, 2.0}) {
+                Double3 is = transform_point(motion.at(t), p);
+                CHECK(length(is - transform_point(ends[t > 0.5], p)) < 1e-9);
+            }
+        }
+    }
+
+    TEST_CASE("brute: a mesh with normals of its own is met as the same mesh at rest is") {
+        Sampler random = random_numbers(9);
+        int hits = 0;
+        for (int i = 0; i < 12; i++) {
+            CAPTURE(i);
+            Double3 stretch = {1, 0.4, i % 3 == 0 ? -2.0 : 2.0};
+            Transform start = any_rotation(random) * scaling(stretch);
+            Transform end = translation(any_direction(random)) * any_rotation(random) * start;
+            Scene moving = moving_mesh(start, end);
+            REQUIRE(moving.movers.size() == 1);
+            double time = double{random.u1()};
+            Scene still = world_of("LightSource \"infinite\" ConcatTransform " +
+                                   as_text(Motion(start, end).at(time)) + bent_mesh);
+            for (int k = 0; k < 300; k++) {
+                Vec3 o = to_vec3(4.0 * any_direction(random)), at = to_vec3(any_direction(random));
+                Ray ray = {o, normalize(at - o), infinity, static_cast<float>(time)};
+                std::optional<Hit> a = intersect(moving, ray), b = intersect(still, ray);
+                if (!a || !b || a->front != b->front) continue;  // at a rim, by rounding
+                hits++;
+                CHECK(length(a->p - b->p) < 2e-5f);
+                CHECK(length(a->n - b->n) < 1e-4f);
+                CHECK(length(a->ng - b->ng) < 1e-4f);
+                CHECK(std::abs(length(a->n) - 1) < 1e-5f);
+                CHECK(std::abs(length(a->ng) - 1) < 1e-5f);
+                CHECK(a->time == ray.time);
+            }
+        }
+        CHECK(hits > 500);
+    }
+
+    TEST_CASE("truth: a point that moves is within its stated error of the plane that moves") {
+        Sampler random = random_numbers(10);
+        double worst = 0;
+        int hits = 0;
+        for (int i = 0; i < 40; i++) {
+            double far = i % 2 == 0 ? 1 : 1000;
+            Transform start = translation(far * any_direction(random)) * any_rotation(random) *
+                              scaling({3, 2, 1});
+            Transform end = translation(far * any_direction(random)) * any_rotation(random);
+            Scene scene = moving_mesh(start, end);
+            const Mover& mover = scene.movers[0];
+            for (int k = 0; k < 50; k++) {
+                Ray ray;
+                ray.time = random.u1();
+                Transform now = mover.world_from_start(double{ray.time});
+                Vec3 centre = to_vec3(mover.motion.at(double{ray.time}).o);
+                ray.o = centre + to_vec3(6.0 * any_direction(random));
+                ray.d = normalize(centre + 0.5f * uniform_direction(random.u2()) - ray.o);
+                std::optional<Hit> x = intersect(scene, ray);
+                if (!x) continue;
+                hits++;
+                double nearest = 1e30;
+                for (const Triangle& triangle : mover.geometry.triangles) {
+                    Double3 p[3];
+                    for (size_t v = 0; v < 3; v++) {
+                        p[v] = transform_point(now,
+                                               to_double3(mover.geometry.positions[triangle.v[v]]));
+                    }
+                    Double3 n = normalize(cross(p[1] - p[0], p[2] - p[0]));
+                    nearest = std::min(nearest, std::abs(dot(n, to_double3(x->p) - p[0])));
+                }
+                worst = std::max(worst, nearest / double{x->eps});
+            }
+        }
+        CHECK(hits > 500);
+        CHECK(worst < 1);
+        CHECK(worst > 0.03);  // not much more careful than is needed
+    }
+}
