@@ -1,5 +1,7 @@
 // Chapter 05 as a program: measures its steps in a table, and draws the work of one as a heat map.
 #include "chapters/05_bvh/figure.h"
+#include "common/picture/notes.h"
+#include "common/program/film_keeping.h"
 #include "common/program/render.h"
 
 int main(int argc, char** argv) {
@@ -9,16 +11,19 @@ int main(int argc, char** argv) {
                      [&](const std::string& text) {
                          step =
                              static_cast<ch05::Step>(parse_choice("step", text, ch05::step_names));
-                     }};
+                     },
+                     "ordered"};
         RenderOptions options = parse_render_options(argc, argv, "05_bvh", "scenes/knot.pbrt",
                                                      {which}, {"size", "threads", "out", "quiet"});
         check_outputs(options);
         Scene scene = load(options);
         Table table;
         if (!options.quiet) table = ch05::steps_table(scene);
-        write_results({options.name, options.command, 0, 0, options.out, options.quiet}, table,
-                      "white: 200 boxes and primitives for one ray\n",
-                      ch05::work_picture(scene, step));
+        FilmLabel label = label_of(scene, options);
+        label.samples.clear();  // it has none
+        write_results(
+            {options.name, comment_of(notes_of(label, 0)), 0, 0, options.out, options.quiet}, table,
+            "white: 200 boxes and primitives for one ray\n", ch05::work_picture(scene, step));
         return 0;
     });
 }

@@ -1,6 +1,8 @@
 // Chapter 18 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/18_bidirectional/estimator.h"
 #include "chapters/18_bidirectional/figure.h"
+#include "common/picture/notes.h"
+#include "common/program/film_keeping.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {
@@ -27,7 +29,9 @@ int main(int argc, char** argv) {
                                  {form, strategy, pyramid});
         options.search = LightSearch::both_ends;
         Scene scene = load(options);
-        if (!sheet.empty()) write_image(sheet, ch18::pyramid(scene, options), options.command);
+        if (!sheet.empty())
+            write_image(sheet, ch18::pyramid(scene, options),
+                        comment_of(notes_of(label_of(scene, options), scene.spp)));
         ch18::Prepared prepared = {ends_of(scene), s, t};
         if (plain) return render(scene, options, splat_trace_with<ch18::trace>(prepared));
         return render(scene, options,

@@ -6,7 +6,8 @@
 #include "chapters/20_radiosity/check.h"
 #include "chapters/20_radiosity/settings.h"
 #include "common/path/trace.h"
-#include "common/picture/image.h"
+#include "common/picture/notes.h"
+#include "common/program/film_keeping.h"
 #include "common/program/progress.h"
 #include "common/program/render.h"
 #include "common/program/results.h"
@@ -197,9 +198,10 @@ private:
     void write_picture() {
         RenderOptions quiet = options_;
         quiet.quiet = true;
-        Image image =
-            render_film(scene_, quiet, trace_with<trace>(shown_now(Show::smooth))).film.image();
-        write_image(numbered(options_.out[0], solution_.steps), image, options_.command);
+        Rendering r = render_film(scene_, quiet, trace_with<trace>(shown_now(Show::smooth)));
+        Notes notes = notes_of(label_of(scene_, quiet, r), r.film.spp());
+        write_image(numbered(options_.out[0], solution_.steps), r.film.image(),
+                    comment_of(with(notes, "shots", std::to_string(solution_.steps))));
     }
 
     /// The whole matrix, repaired, and sweeps over it.

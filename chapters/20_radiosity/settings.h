@@ -35,15 +35,15 @@ inline std::vector<Option> own_options(Settings& s) {
     };
     return {
         {"patches", "N", "at least so many, beside those of spheres and disks (default 5000)",
-         number("patches", s.patches, 1000000)},
+         number("patches", s.patches, 1000000), "5000"},
         {"form-factors", "WAY", "point, chance or contour (default)",
-         choice("form-factors", s.way, {"point", "chance", "contour"})},
+         choice("form-factors", s.way, {"point", "chance", "contour"}), "contour"},
         {"solver", "KIND", "southwell (default: progressive), gauss-seidel or jacobi",
-         choice("solver", s.solver, {"southwell", "gauss-seidel", "jacobi"})},
+         choice("solver", s.solver, {"southwell", "gauss-seidel", "jacobi"}), "southwell"},
         {"show", "HOW", "constant patches, smooth (default), or a final gather",
-         choice("show", s.show, {"constant", "smooth", "gather"})},
+         choice("show", s.show, {"constant", "smooth", "gather"}), "smooth"},
         {"shots", "N", "at most so many (default: until patches wait for 0.1 % of their light)",
-         number("shots", s.shots, 1 << 30)},
+         number("shots", s.shots, 1 << 30), "enough"},
         {"every", "K", "write a picture after each K shots: NAME-000100.png, ...",
          number("every", s.every, 1 << 30)},
         {"mesh", "FILE.ply", "also write the patches with their colours", [&](const auto& text) {

@@ -112,6 +112,12 @@ Comparison compare(const Image& a, const Image& b, double trim) {
     result.mean_b = mean_b.mean();
     sum_errors(errors_of(a, b), trim, result);
     result.median_ratio = median_ratio(a, b);
+    for (size_t i = 0; i < a.pixels.size(); i++) {
+        Rgb p = a.pixels[i], q = b.pixels[i];
+        bool differ =
+            (p.r == 1) != (q.r == 1) || (p.g == 1) != (q.g == 1) || (p.b == 1) != (q.b == 1);
+        result.cut_off += differ;
+    }
     compare_blocks(a, b, result);
     return result;
 }

@@ -12,6 +12,7 @@ struct Comparison {
     double rel_mse = 0;       // of (a-b)^2 / (b^2 + 0.01)
     double worst_share = 0;   // of the squared error, in the worst 0.1 % of the pixels
     double median_ratio = 0;  // of a / b over the pixels where b > 0, brightness by brightness
+    int cut_off = 0;  // pixels with a channel that is 1 in one picture alone: in 8 bits, the most
 
     // Brightness in blocks of 8 x 8 pixels, in standard errors from the spread of a - b within the
     // block: that needs pixels whose noise is independent, and no second picture of the noise.

@@ -2,29 +2,15 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
+#include <sstream>
 
 #include "common/base/files.h"
+#include "common/base/numbers.h"
 #include "common/base/position.h"
-
-#pragma GCC diagnostic push  // stb is not written for our warnings
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#include <stb/stb_image.h>
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
+#include "common/picture/png.h"
 
 static_assert(std::endian::native == std::endian::little, "pfm rows are written as they lie");
 
@@ -38,12 +24,11 @@ unsigned char to_srgb8(float linear) {
     return static_cast<unsigned char>(255 * code + 0.5f);
 }
 
-namespace {
-
-float from_srgb8(unsigned char byte) {
-    float code = static_cast<float>(byte) / 255;
+float from_srgb(float code) {
     return code <= 0.04045f ? code / 12.92f : power((code + 0.055f) / 1.055f, 2.4f);
 }
+
+namespace {
 
 std::string extension(const std::string& path) {
     size_t dot = path.find_last_of("./");
@@ -63,8 +48,17 @@ std::string srgb_bytes(const Image& image) {
     return bytes;
 }
 
-std::string encode_ppm(const Image& image) {
-    return "P6\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n" +
+/// Lines of letters that every format can keep; anything else is '?'.
+std::string ascii(std::string comment) {
+    for (char& c : comment) c = c == '\n' || (c >= 32 && c < 127) ? c : '?';
+    return comment;
+}
+
+std::string encode_ppm(const Image& image, const std::string& comment) {
+    std::string bytes = "P6\n";
+    std::istringstream lines(ascii(comment));
+    for (std::string line; std::getline(lines, line);) bytes += "# " + line + '\n';
+    return bytes + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n" +
            srgb_bytes(image);
 }
 
@@ -78,29 +72,7 @@ std::string encode_pfm(const Image& image) {
     return bytes;
 }
 
-uint32_t crc32(std::string_view bytes) {
-    uint32_t crc = ~0u;
-    for (char byte : bytes) {
-        crc ^= static_cast<unsigned char>(byte);
-        for (int bit = 0; bit < 8; bit++) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
-    }
-    return ~crc;
-}
-
-std::string big_endian(size_t value) {
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
-    return bytes;
-}
-
-// A tEXt chunk may hold Latin-1 without NUL; anything else is written as '?'.
-std::string text_chunk(const std::string& comment) {
-    std::string body = std::string("tEXtComment") + '\0';
-    for (char c : comment) body += c >= 32 && c < 127 ? c : '?';
-    return big_endian(body.size() - 4) + body + big_endian(crc32(body));
-}
-
-// A cursor over a header of words between blanks, for both formats that we read.
+// A cursor over a header of words between blanks, for both formats that have one.
 struct Header {
     const std::string& path;
     std::string_view bytes;
@@ -109,51 +81,66 @@ struct Header {
     std::string_view word() {
         skip_blanks();
         size_t start = at;
-        while (at < bytes.size() && !std::isspace(static_cast<unsigned char>(bytes[at]))) at++;
+        while (at < bytes.size() && !is_blank(bytes[at])) at++;
         return bytes.substr(start, at - start);
     }
+    static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
     void skip_blanks() {
         while (at < bytes.size()) {
             if (bytes[at] == '#') {
-                while (at < bytes.size() && bytes[at] != '\n') at++;
-            } else if (std::isspace(static_cast<unsigned char>(bytes[at]))) {
+                while (at < bytes.size() && bytes[at] != '\n' && bytes[at] != '\r') at++;
+            } else if (is_blank(bytes[at])) {
                 at++;
             } else {
                 return;
             }
         }
     }
-    float number() {
-        std::string text(word());
-        char* end = nullptr;
-        float value = std::strtof(text.c_str(), &end);
-        if (text.empty() || *end != '\0') fail("a damaged header");
-        return value;
+    /// NaN for a word that is no number.
+    double number() {
+        std::string_view text = word();
+        if (text.empty()) fail(cut_short);
+        return to_number(text).value_or(NAN);
     }
-    int side() {
-        float value = number();
-        if (!(value >= 1 && value <= 65536 && value == std::floor(value))) {
+    /// An image of the size that comes next.
+    Image image() {
+        double width = number(), height = number();
+        for (double side : {width, height}) {
+            if (side >= 1 && side <= 65536 && side == std::floor(side)) continue;
             fail("a picture's sides must be whole numbers from 1 to 65536");
         }
-        return static_cast<int>(value);
+        if (width * height > most_pixels) fail("a picture of more than 2^28 pixels");
+        Image sized;  // its pixels wait until the file is known to have them
+        sized.width = static_cast<int>(width), sized.height = static_cast<int>(height);
+        return sized;
     }
-    // What follows the single blank behind the header; it must have `size` bytes.
-    std::string_view body(size_t size) {
-        std::string_view rest = bytes.substr(std::min(at + 1, bytes.size()));
-        if (rest.size() < size) fail("the picture is cut short");
-        return rest.substr(0, size);
+    /// The bytes behind the header, `each` for a pixel: all that there are. One blank ends the
+    /// header, or CR LF where the file then has the right size.
+    std::string_view body(Image& image, size_t each) {
+        size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+        size_t size = each * pixels;
+        std::string_view rest = bytes.substr(at);
+        if (rest.starts_with("\r\n") && rest.size() == size + 2) rest.remove_prefix(1);
+        if (rest.size() < size + 1) fail(cut_short);
+        size_t more = rest.size() - size - 1;
+        if (more > 0) {
+            fail(std::to_string(more) + (more == 1 ? " byte is" : " bytes are") +
+                 " left over after the pixels");
+        }
+        image.pixels.resize(pixels);
+        return rest.substr(1);
     }
     [[noreturn]] void fail(const std::string& what) const { ::fail({path}, what); }
+
+    static constexpr const char* cut_short = "the picture is cut short";
 };
 
 Image decode_ppm(Header header) {
-    int width = header.side(), height = header.side();
+    Image image = header.image();
     if (header.number() != 255) header.fail("only 8-bit .ppm files (maxval 255) are read");
-    std::string_view body =
-        header.body(3 * static_cast<size_t>(width) * static_cast<size_t>(height));
-    Image image(width, height);
+    std::string_view body = header.body(image, 3);
     std::array<float, 256> linear;
-    for (size_t i = 0; i < 256; i++) linear[i] = from_srgb8(static_cast<unsigned char>(i));
+    for (size_t i = 0; i < 256; i++) linear[i] = from_srgb(static_cast<float>(i) / 255);
     for (size_t i = 0; i < image.pixels.size(); i++) {
         auto channel = [&](size_t c) {
             return linear[static_cast<unsigned char>(body[3 * i + c])];
@@ -163,41 +150,25 @@ Image decode_ppm(Header header) {
     return image;
 }
 
-Image decode_png(const std::string& path, const std::string& bytes) {
-    auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    int size = static_cast<int>(std::min(bytes.size(), size_t{INT32_MAX})), width, height, channels;
-    constexpr int64_t most = 1032;  // times smaller is what the format can make of it
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
-        int64_t{width} * height > std::min(int64_t{1} << 28, 8 * most * int64_t{size}))
-        fail({path}, "a damaged .png picture, or one of more than 2^28 pixels");
-    std::unique_ptr<unsigned char, void (*)(void*)> codes(
-        stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
-    if (!codes) fail({path}, "a damaged .png picture");
-    Image image(width, height);
-    for (size_t i = 0; i < image.pixels.size(); i++) {
-        const unsigned char* code = codes.get() + 3 * i;
-        image.pixels[i] = {from_srgb8(code[0]), from_srgb8(code[1]), from_srgb8(code[2])};
-    }
-    return image;
-}
-
+/// The sign of the scale is the order of bytes; its magnitude multiplies all values, as in pbrt.
 Image decode_pfm(Header header, size_t channels) {
-    int width = header.side(), height = header.side();
-    float scale = header.number();
-    if (!(scale < 0 || scale > 0)) header.fail("a .pfm file's scale must not be 0");
-    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
-    std::string_view body = header.body(4 * channels * pixels);
-    Image image(width, height);
+    Image image = header.image();
+    float scale = static_cast<float>(header.number());
+    if (!std::isfinite(scale) || scale == 0) {
+        header.fail("a .pfm file's scale must be a finite number other than 0");
+    }
+    std::string_view body = header.body(image, 4 * channels);
     auto value = [&](size_t i) {
         uint32_t bits;
         std::memcpy(&bits, body.data() + 4 * i, 4);
-        return std::bit_cast<float>(scale < 0 ? bits : __builtin_bswap32(bits));
+        return std::bit_cast<float>(scale < 0 ? bits : __builtin_bswap32(bits)) * std::abs(scale);
     };
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            size_t i = (static_cast<size_t>(height - 1 - y) * static_cast<size_t>(width) +
-                        static_cast<size_t>(x)) *
-                       channels;
+    for (int y = 0; y < image.height; y++) {
+        for (int x = 0; x < image.width; x++) {
+            size_t i =
+                (static_cast<size_t>(image.height - 1 - y) * static_cast<size_t>(image.width) +
+                 static_cast<size_t>(x)) *
+                channels;
             image.at(x, y) = channels == 1 ? Rgb{value(i), value(i), value(i)}
                                            : Rgb{value(i), value(i + 1), value(i + 2)};
         }
@@ -213,22 +184,12 @@ bool is_image_path(const std::string& path) {
 }
 
 std::string encode_png(const Image& image, const std::string& comment) {
-    std::string pixels = srgb_bytes(image);
-    std::string png;
-    auto append = [](void* to, void* data, int size) {
-        static_cast<std::string*>(to)->append(static_cast<char*>(data), static_cast<size_t>(size));
-    };
-    if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, pixels.data(),
-                                3 * image.width)) {
-        throw std::bad_alloc();
-    }
-    constexpr size_t after_header = 8 + 25;  // signature, IHDR
-    return png.insert(after_header, text_chunk(comment));
+    return encode_png(image.width, image.height, srgb_bytes(image), ascii(comment));
 }
 
 void write_image(const std::string& path, const Image& image, const std::string& comment) {
     std::string kind = extension(path);
-    if (kind == ".ppm") return write_file_atomically(path, encode_ppm(image));
+    if (kind == ".ppm") return write_file_atomically(path, encode_ppm(image, comment));
     if (kind == ".pfm") return write_file_atomically(path, encode_pfm(image));
     if (kind == ".png") return write_file_atomically(path, encode_png(image, comment));
     fail({path}, "a picture's name must end in .ppm, .pfm or .png");
@@ -237,7 +198,7 @@ void write_image(const std::string& path, const Image& image, const std::string&
 Image read_image(const std::string& path) { return decode_image(path, read_file(path)); }
 
 Image decode_image(const std::string& path, const std::string& bytes) {
-    if (bytes.starts_with("\x89PNG")) return decode_png(path, bytes);
+    if (is_png(bytes)) return decode_png(path, bytes);
     Header header{path, bytes};
     std::string_view magic = header.word();
     if (magic == "P6") return decode_ppm(header);
@@ -246,17 +207,16 @@ Image decode_image(const std::string& path, const std::string& bytes) {
     header.fail("not a .ppm (P6), .pfm or .png picture");
 }
 
-std::string read_comment(const std::string& path) {
-    std::string bytes = read_file(path);
-    if (!bytes.starts_with("\x89PNG")) return "";
-    const std::string key = std::string("Comment") + '\0';
-    for (size_t at = 8; at + 8 <= bytes.size();) {
-        size_t length = 0;
-        for (size_t i = 0; i < 4; i++) length = length << 8 | static_cast<uint8_t>(bytes[at + i]);
-        std::string_view body = std::string_view(bytes).substr(at + 8).substr(0, length);
-        if (bytes.compare(at + 4, 4, "tEXt") == 0 && body.starts_with(key))
-            return std::string(body.substr(key.size()));
-        at += 12 + length;
+std::string decode_comment(const std::string& path, const std::string& bytes) {
+    if (is_png(bytes)) return png_comment(path, bytes);
+    std::string_view rest = bytes;
+    if (!rest.starts_with("P6\n")) return "";
+    rest.remove_prefix(3);
+    std::string comment;
+    while (rest.starts_with("# ")) {
+        size_t end = std::min(rest.find('\n'), rest.size() - 1);
+        comment += rest.substr(2, end - 1);  // with its end
+        rest.remove_prefix(end + 1);
     }
-    return "";
+    return comment;
 }

@@ -23,10 +23,16 @@ struct Image {
 
 /// One channel as an 8-bit sRGB code; what lies outside [0,1] (or is NaN) is cut off.
 unsigned char to_srgb8(float linear);
+/// Back to linear, from a code in [0,1].
+float from_srgb(float code);
+
+/// The most pixels that a picture may have.
+inline constexpr int most_pixels = 1 << 28;
 
 /// Writes by extension: .ppm (P6, 8-bit sRGB), .pfm (linear float, little endian, bottom row
-/// first), .png (8-bit sRGB, `comment` in a text chunk). A pixel that is not finite stays so in a
-/// .pfm and is magenta in the others. Throws InputError; see files.h.
+/// first), .png (8-bit sRGB). The lines of `comment` are kept in a .ppm and a .png; a .pfm has no
+/// place for them. A pixel that is not finite stays so in a .pfm and is magenta in the others.
+/// Throws InputError; see files.h.
 void write_image(const std::string& path, const Image& image, const std::string& comment);
 
 /// The bytes of the .png that write_image writes.
@@ -35,11 +41,11 @@ std::string encode_png(const Image& image, const std::string& comment);
 /// Whether write_image knows the extension of `path`.
 bool is_image_path(const std::string& path);
 
-/// Reads a .ppm (P6, maxval 255) or a .png (8 bits), both back to linear, or a .pfm (one or three
-/// channels, either byte order). Throws InputError for anything else, and for a file that is
-/// damaged.
+/// Reads a .ppm (P6, maxval 255) or a .png, both back to linear, or a .pfm (one or three channels,
+/// either byte order, times its scale). Throws InputError for anything else, and for a file that is
+/// damaged: with a byte too few or too many for its size, or, in a .png, with a wrong checksum.
 Image read_image(const std::string& path);
 /// The same from the bytes of the file `path`.
 Image decode_image(const std::string& path, const std::string& bytes);
-/// The comment that write_image put into a .png; empty where there is none.
-std::string read_comment(const std::string& path);
+/// The comment that write_image put into a .ppm or .png; empty where there is none.
+std::string decode_comment(const std::string& path, const std::string& bytes);

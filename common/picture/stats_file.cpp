@@ -49,13 +49,19 @@ std::optional<double> StatsFile::number(const std::string& name) const {
     return list[0];
 }
 
-std::string StatsFile::text(const std::string& name) const {
+std::vector<std::string> StatsFile::texts(const std::string& name) const {
+    std::vector<std::string> list;
     const char* at = value(name);
-    if (at == nullptr || *at != '"') return "";
-    std::string text;
-    for (at++; *at != '"' && *at != '\0'; at++) {
-        text += *at;
-        if (*at == '\\' && at[1] != '\0') text += *++at;
+    while (at != nullptr && (*at == '[' || *at == ',')) {
+        at += 1 + std::strspn(at + 1, blanks);
+        if (*at != '"') break;
+        std::string& text = list.emplace_back();
+        for (at++; *at != '"' && *at != '\0'; at++) {
+            if (*at == '\\' && at[1] != '\0') at++;
+            text += *at;
+        }
+        at += *at == '"';
+        at += std::strspn(at, blanks);
     }
-    return text;
+    return list;
 }

@@ -18,8 +18,8 @@ public:
     /// missing.
     std::optional<double> number(const std::string& name) const;
     std::vector<double> numbers(const std::string& name) const;
-    /// The text of that name, as JSON writes it; empty when missing.
-    std::string text(const std::string& name) const;
+    /// The texts of the list of that name; none when missing.
+    std::vector<std::string> texts(const std::string& name) const;
 
 private:
     const char* value(const std::string& name) const;

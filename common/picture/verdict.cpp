@@ -2,9 +2,12 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <regex>
 
+#include "common/base/files.h"
+#include "common/base/json.h"
+#include "common/base/numbers.h"
 #include "common/base/percent.h"
+#include "common/base/position.h"
 #include "common/picture/stats_file.h"
 
 namespace {
@@ -16,23 +19,31 @@ std::string short_number(double x) {
     return text;
 }
 
-std::string about_means(const Comparison& c, double standard_error) {
+bool has_8_bits(const PictureFacts& facts) { return !facts.file.ends_with(".pfm"); }
+
+std::string about_means(const Comparison& c, double standard_error, bool is_cut_off) {
     double difference = c.mean_a - c.mean_b;
-    if (c.mse == 0) return "the same picture";
     if (std::abs(difference) <= 1e-6 * std::abs(c.mean_b)) return "the same mean";
     double z = std::abs(difference) / standard_error;
     if (std::isnan(z)) return "how sure the means are is not known";
     if (z > 5) {
         std::string much = c.mean_b == 0 ? "" : percent(std::abs(difference / c.mean_b)) + " ";
         return "other means: A is " + much + (difference > 0 ? "brighter" : "darker") +
-               " than B, and noise does not do that (" + short_number(z) + " standard errors)";
+               " than B, " +
+               (is_cut_off ? "perhaps by noise that 8 bits cut off"
+                           : "and noise does not do that") +
+               " (" + short_number(z) + " standard errors)";
     }
     // Of so many blocks, noise alone puts one of a million beyond 5; their spread is an estimate.
-    if (c.beyond_5 > 2 && c.beyond_5 > c.blocks / 200) {
+    if (!is_cut_off && c.beyond_5 > 2 && c.beyond_5 > c.blocks / 200) {
         return "the same mean within the noise, but not everywhere: " + std::to_string(c.beyond_5) +
                " of " + std::to_string(c.blocks) + " blocks differ by more than noise does";
     }
     return "the same mean within the noise";
+}
+
+double spp_of(const PictureFacts& facts) {
+    return to_number(value_of(facts.notes, "spp")).value_or(NAN);
 }
 
 std::string about_errors(const PictureFacts& a, const PictureFacts& b) {
@@ -44,47 +55,125 @@ std::string about_errors(const PictureFacts& a, const PictureFacts& b) {
     if (times < 1.1) return "; both have the same error";
     std::string text = std::string("; ") + (b_is_better ? "B" : "A") + " has " +
                        percent(1 - 1 / times) + " less squared error";
-    bool equal = a.spp == b.spp, spp_known = a.spp > 0 && b.spp > 0;
+    double spp_a = spp_of(a), spp_b = spp_of(b);
+    bool equal = spp_a == spp_b, spp_known = spp_a > 0 && spp_b > 0;
     if (equal) return text + ": at equal samples that is " + short_number(times) + " times fewer";
     if (!spp_known) return text + ", worth " + short_number(times) + " times as many samples";
-    double each = times * bad.spp / good.spp;
-    return text + " with " + short_number(good.spp) + " samples against " + short_number(bad.spp) +
+    double spp_good = spp_of(good), spp_bad = spp_of(bad), each = times * spp_bad / spp_good;
+    return text + " with " + short_number(spp_good) + " samples against " + short_number(spp_bad) +
            ": sample by sample " +
            (each >= 1 ? short_number(each) + " times fewer"
                       : short_number(1 / each) + " times more");
 }
 
+/// Whether both have this note, and not the same; and whether they have the same.
+bool differ(const PictureFacts& a, const PictureFacts& b, const std::string& name) {
+    std::string x = value_of(a.notes, name), y = value_of(b.notes, name);
+    return !x.empty() && !y.empty() && x != y;
+}
+bool agree(const PictureFacts& a, const PictureFacts& b, const std::string& name) {
+    std::string x = value_of(a.notes, name);
+    return !x.empty() && x == value_of(b.notes, name);
+}
+
+bool show_different_scenes(const PictureFacts& a, const PictureFacts& b) {
+    return differ(a, b, "checksum");
+}
+
+/// A value that may come from a damaged file.
+std::string shown(const PictureFacts& facts, const std::string& name) {
+    return printable(quote_file(value_of(facts.notes, name)));
+}
+
+/// The standard error of the mean, from one sample of that of each pixel: the squares add up.
+double error_of_mean(const Image& errors) {
+    double squares = 0;
+    for (Rgb e : errors.pixels) squares += std::pow(static_cast<double>(average(e)), 2);
+    return std::sqrt(squares) / static_cast<double>(errors.pixels.size());
+}
+
 }  // namespace
 
-PictureFacts facts_of(const std::string& picture) {
-    PictureFacts facts;
-    if (picture.ends_with(".png")) facts.command = read_comment(picture);
-    static const std::regex scene("[^ ']+\\.pbrt");
-    std::smatch found;
-    if (std::regex_search(facts.command, found, scene)) facts.scene = found.str();
+PictureFacts facts_of(const std::string& picture, const Image& image) {
+    PictureFacts facts{picture};
+    facts.notes = notes_in(decode_comment(picture, read_file(picture)));
     if (std::optional<StatsFile> stats = StatsFile::beside(picture)) {
-        facts.standard_error = stats->number("standard_error").value_or(NAN);
-        facts.spp = stats->number("spp").value_or(NAN);
-        facts.scene = stats->text("scene");
+        std::string path = StatsFile::path_beside(picture);
+        PictureFacts beside{path, stats->number("standard_error").value_or(NAN), path,
+                            notes_in(stats->texts("notes"))};
+        if (beside.notes.empty())
+            beside.notes = {{"spp", json_number(stats->number("spp").value_or(NAN))}};
+        for (const auto& [name, value] : beside.notes) {
+            if (name != "paths" && differ(facts, beside, name)) facts.other_stats = path;
+        }
+        if (facts.other_stats.empty()) {
+            if (facts.notes.empty()) facts.notes = beside.notes;
+            facts.standard_error = beside.standard_error;
+            facts.known_from = path;
+        }
+    }
+    std::string path = std::filesystem::path(picture).replace_extension(".err.pfm").string();
+    if (std::filesystem::exists(path)) {
+        Image errors = read_image(path);
+        check_comparable(image, picture, errors, path);
+        facts.standard_error = error_of_mean(errors);
+        facts.known_from = path;
     }
     return facts;
 }
 
-std::vector<std::string> doubts(const std::string& name_a, const PictureFacts& a,
-                                const std::string& name_b, const PictureFacts& b) {
+std::vector<std::string> doubts(const PictureFacts& a, const PictureFacts& b) {
     std::vector<std::string> lines;
-    auto file = [](const std::string& scene) { return std::filesystem::path(scene).filename(); };
-    if (!a.scene.empty() && !b.scene.empty() && file(a.scene) != file(b.scene))
-        lines.push_back("A shows " + a.scene + ", B " + b.scene);
-    for (const std::string* name : {&name_a, &name_b}) {
-        if (name->ends_with(".pfm")) continue;
-        lines.push_back(
-            *name + " has 8 bits: all that is brighter than 1 is cut off, and its mean with it");
+    auto warn = [&](const std::string& text) { lines.push_back("warning: " + text); };
+    std::string unknown;
+    for (const PictureFacts* facts : {&a, &b}) {
+        if (!facts->other_stats.empty()) {
+            warn(facts->other_stats + " is of another picture than " + facts->file +
+                 ", and not used");
+        }
+        if (!value_of(facts->notes, "checksum").empty()) continue;
+        unknown += (unknown.empty() ? "" : " and ") + facts->file;
+    }
+    if (show_different_scenes(a, b)) {
+        warn(agree(a, b, "scene") ? "A and B show different versions of " + shown(a, "scene")
+                                  : "A shows " + shown(a, "scene") + ", B " + shown(b, "scene"));
+    }
+    std::optional<int> depth_a = to_integer(value_of(a.notes, "max-depth"));
+    std::optional<int> depth_b = to_integer(value_of(b.notes, "max-depth"));
+    if (depth_a && depth_b && *depth_a != *depth_b) {
+        warn("A has light of up to " + std::to_string(*depth_a) +
+             " scattering events, B of up to " + std::to_string(*depth_b));
+    }
+    if (unknown.empty() && value_of(a.notes, "paths") != value_of(b.notes, "paths")) {
+        auto paths = [](const PictureFacts& facts) {
+            return value_of(facts.notes, "paths").empty() ? "all paths"
+                                                          : "paths " + shown(facts, "paths");
+        };
+        warn("A has light of " + paths(a) + ", B of " + paths(b));
+    }
+    if (agree(a, b, "checksum") && agree(a, b, "chapter") && agree(a, b, "sampler") &&
+        agree(a, b, "seed") && differ(a, b, "spp")) {
+        warn(
+            "A and B have samples in common: A - B is less than their errors; give one "
+            "another --seed");
+    }
+    for (const PictureFacts* facts : {&a, &b}) {
+        if (!has_8_bits(*facts)) continue;
+        warn(facts->file +
+             " has 8 bits: all that is brighter than 1 is cut off, and its mean with it");
+    }
+    if (!unknown.empty()) {
+        lines.push_back("note: whether both show the same scene is not known: no word of it in " +
+                        unknown + " (a .pfm needs --stats NAME.json beside it)");
     }
     return lines;
 }
 
 std::string verdict(const Comparison& c, double standard_error, const PictureFacts& a,
                     const PictureFacts& b) {
-    return about_means(c, standard_error) + (c.mse == 0 ? "" : about_errors(a, b));
+    if (c.mse == 0) return "the same picture";
+    if (show_different_scenes(a, b))
+        return "the pictures show different scenes, so their difference is no noise";
+    bool is_cut_off = c.cut_off > 0 && (has_8_bits(a) || has_8_bits(b));
+    return about_means(c, standard_error, is_cut_off) + about_errors(a, b);
 }

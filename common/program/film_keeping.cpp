@@ -19,6 +19,7 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     bool has_strata = o.sampler == SamplerType::stratified;  // as many as samples
     std::vector<std::pair<std::string, std::string>> options = {
         {"chapter", o.name},
+        {"file", printable(std::filesystem::path(scene.file).filename().string())},
         {"scene", scene_bytes},
         {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
         {"max-depth", std::to_string(scene.max_depth)},
@@ -70,12 +71,22 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     rendering.stats.samples_before = rendering.film.samples();
 }
 
-void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
-    if (options.film.empty()) return;
-    FilmLabel label{film_options(scene, options), {}, rendering.stats};
-    uint32_t most = 0, first = wanted_samples(scene, options).first;
+FilmLabel label_of(const Scene& scene, const RenderOptions& options) {
+    return {film_options(scene, options), {wanted_samples(scene, options)}, {}};
+}
+
+FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
+    FilmLabel label = label_of(scene, options);
+    label.counts = rendering.stats;
+    uint32_t most = 0, first = label.samples[0].first;
     for (const PixelSum& p : rendering.film.pixels()) most = std::max(most, p.n);
     if (rendering.film.has_halves() && most > 0) most = rendering.begun;
+    label.samples.clear();
     if (most > 0) label.samples = {{options.seed, first, first + most}};
-    write_film(options.film, label, rendering.film);
+    return label;
+}
+
+void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
+    if (options.film.empty()) return;
+    write_film(options.film, label_of(scene, options, rendering), rendering.film);
 }

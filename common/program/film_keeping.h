@@ -11,5 +11,9 @@ SampleRange wanted_samples(const Scene& scene, const RenderOptions& options);
 /// other options, or of other samples than those that are wanted.
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering);
 
+/// What a film is of that has all samples; and one that has these.
+FilmLabel label_of(const Scene& scene, const RenderOptions& options);
+FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+
 /// Writes the film that the options name, if any. Throws InputError.
 void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);

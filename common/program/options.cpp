@@ -9,8 +9,7 @@
 #include "common/base/files.h"
 #include "common/base/position.h"
 #include "common/path/class_filter.h"
-#include "common/picture/film_file.h"
-#include "common/picture/image.h"
+#include "common/picture/notes.h"
 #include "common/program/project.h"
 
 namespace {
@@ -204,7 +203,6 @@ void check_outputs(const RenderOptions& options) {
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n) {
     TableOptions o;
     o.name = name;
-    o.command = command_line(argc, argv);
     o.n = n;
     std::vector<Option> options = {
         {"n", "N", "samples (default " + std::to_string(n) + ")",
@@ -225,5 +223,7 @@ TableOptions parse_table_options(int argc, char** argv, const std::string& name,
                   });
     if (o.out.empty()) o.out = {"out/" + name + ".ppm", "out/" + name + ".tsv"};
     check_outputs(o.out);
+    o.comment = comment_of(
+        {{"chapter", name}, {"n", std::to_string(o.n)}, {"seed", std::to_string(o.seed)}});
     return o;
 }

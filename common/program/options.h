@@ -61,7 +61,8 @@ void check_outputs(const RenderOptions& options);
 
 /// What the chapters without a scene (01 to 03) understand.
 struct TableOptions {
-    std::string name, command;
+    std::string name;
+    std::string comment;  // for the picture; see picture/notes.h
     uint64_t n = 0;
     uint32_t seed = 0;
     std::vector<std::string> out;  // pictures, and .tsv for the table

@@ -11,6 +11,7 @@
 #include "common/base/percent.h"
 #include "common/base/position.h"
 #include "common/picture/heat_map.h"
+#include "common/picture/notes.h"
 #include "common/program/class_sheet.h"
 #include "common/program/film_keeping.h"
 #include "common/program/warnings.h"
@@ -20,6 +21,14 @@ namespace {
 /// Samples per second, or rays, of this run alone.
 double per_second(uint64_t all, uint64_t before, const RenderStats& s) {
     return static_cast<double>(all - before) / s.seconds;
+}
+
+/// What made a picture; a picture of one class of paths is as --paths would make it.
+Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering& r,
+               const std::string& path_class = "") {
+    RenderOptions whole = options;
+    if (!path_class.empty()) whole.paths = path_class;
+    return notes_of(label_of(scene, whole, r), r.film.spp());
 }
 
 std::string stats_json(const Scene& scene, const RenderOptions& options, const Rendering& r) {
@@ -37,6 +46,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("spp", r.film.spp());
     json.add("max_depth", scene.max_depth);
     json.add("seed", uint64_t{options.seed});
+    json.add("notes", lines_of(notes_of(scene, options, r)));
     json.add("threads", options.threads);
     json.add("seconds", s.seconds);
     json.add("samples_per_second", per_second(r.film.samples(), s.samples_before, s));
@@ -104,21 +114,24 @@ private:
 };
 
 /// A picture of each class as .pfm and .png, and all of them as one sheet.
-void write_classes(const RenderOptions& options, const Rendering& r, Writer& writer) {
+void write_classes(const Scene& scene, const RenderOptions& options, const Rendering& r,
+                   Writer& writer) {
     for (const auto& [path_class, film] : r.classes) {
         std::string name = options.split + "/" + path_class;
         writer.write(
             name + ".pfm",
             [&, &film = film] {
                 for (const char* kind : {".png", ".pfm"}) {
-                    write_image(name + kind, film.image(), options.command);
+                    write_image(name + kind, film.image(),
+                                comment_of(notes_of(scene, options, r, path_class)));
                 }
             },
             "  mean " + json_number(film.mean()));
     }
     std::string path = options.split + "/classes.png";
     writer.write(
-        path, [&] { write_image(path, class_sheet(r.classes), options.command); },
+        path,
+        [&] { write_image(path, class_sheet(r.classes), comment_of(notes_of(scene, options, r))); },
         "  all of them with their shares; each also as .png");
 }
 
@@ -129,15 +142,16 @@ bool write_files(const Scene& scene, const RenderOptions& options, const Renderi
     }
     for (const auto& [path, write] : r.files) writer.write(path, write);
     Image image = r.film.image();
+    Notes notes = notes_of(scene, options, r);
     for (const std::string& path : options.out) {
-        writer.write(path, [&] { write_image(path, image, options.command); });
+        writer.write(path, [&] { write_image(path, image, comment_of(notes)); });
     }
-    if (!options.split.empty()) write_classes(options, r, writer);
+    if (!options.split.empty()) write_classes(scene, options, r, writer);
     if (!options.map.empty()) {
         float most = 4 * static_cast<float>(r.film.spp());
         Image map = r.film.counts();
         if (!options.map.ends_with(".pfm")) map = heat_map(std::move(map), most);
-        writer.write(options.map, [&] { write_image(options.map, map, options.command); });
+        writer.write(options.map, [&] { write_image(options.map, map, comment_of(notes)); });
     }
     if (!options.stats.empty()) {
         writer.write(options.stats,

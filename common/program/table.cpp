@@ -68,7 +68,7 @@ void write_results(const TableOptions& options, const Table& table, const std::s
         if (path.ends_with(".tsv")) {
             write_file_atomically(path, tab_separated(table));
         } else {
-            write_image(path, picture, options.command);
+            write_image(path, picture, options.comment);
         }
     }
 }

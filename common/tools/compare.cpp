@@ -1,12 +1,10 @@
 // compare A B: how far picture A is from the reference B.
 #include <cstdio>
-#include <filesystem>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/percent.h"
 #include "common/picture/comparison.h"
-#include "common/picture/stats_file.h"
 #include "common/picture/verdict.h"
 #include "common/program/command_line.h"
 #include "common/program/table.h"
@@ -40,8 +38,9 @@ CompareOptions parse(int argc, char** argv) {
     parse_options(
         argc, argv, "A B",
         "How far picture A is from the reference B, .pfm, .png or .ppm, figure by figure and "
-        "then in words. Standard errors are taken from what --stats wrote beside a picture "
-        "(NAME.json), or NAME.err.pfm.",
+        "then in words. What a picture shows is known from its notes (.ppm and .png have them; "
+        "a .pfm cannot)\nand from what --stats wrote beside it (NAME.json); so are standard "
+        "errors, or from NAME.err.pfm.",
         options, [&](const std::string& word) { o.pictures.push_back(word); });
     if (o.pictures.size() != 2) {
         throw UsageError("error: two pictures are needed, not " +
@@ -50,32 +49,12 @@ CompareOptions parse(int argc, char** argv) {
     return o;
 }
 
-/// The standard error of a picture's mean as the files beside it tell; value NaN: not known.
-struct KnownError {
-    double value = NAN;
-    std::string source;
-};
-
-KnownError known_error(const std::string& picture) {
-    // One sample of each pixel's standard error: their squares add up to that of the sum.
-    std::string path = std::filesystem::path(picture).replace_extension(".err.pfm").string();
-    if (std::filesystem::exists(path)) {
-        Image errors = read_image(path);
-        double squares = 0;
-        for (Rgb e : errors.pixels) squares += std::pow(static_cast<double>(average(e)), 2);
-        return {std::sqrt(squares) / static_cast<double>(errors.pixels.size()), path};
-    }
-    std::optional<StatsFile> stats = StatsFile::beside(picture);
-    if (!stats) return {};
-    return {stats->number("standard_error").value_or(NAN), StatsFile::path_beside(picture)};
-}
-
-void print_mean(const char* name, const std::string& file, double mean, const KnownError& error) {
-    std::printf("%s  %s  mean %.6g", name, file.c_str(), mean);
-    if (std::isnan(error.value)) {
+void print_mean(const char* name, const PictureFacts& facts, double mean) {
+    std::printf("%s  %s  mean %.6g", name, facts.file.c_str(), mean);
+    if (std::isnan(facts.standard_error)) {
         std::printf(", standard error unknown\n");
     } else {
-        std::printf(" +- %.2g (%s)\n", error.value, error.source.c_str());
+        std::printf(" +- %.2g (%s)\n", facts.standard_error, facts.known_from.c_str());
     }
 }
 
@@ -99,15 +78,11 @@ void print_errors(const CompareOptions& o, const Comparison& c) {
     explain("how many standard errors a block differs by: noise alone hardly ever passes 5");
 }
 
-void print(const CompareOptions& o, const Comparison& c) {
-    KnownError a = known_error(o.pictures[0]), b = known_error(o.pictures[1]);
-    PictureFacts facts_a = facts_of(o.pictures[0]), facts_b = facts_of(o.pictures[1]);
-    facts_a.standard_error = a.value, facts_b.standard_error = b.value;
-    for (const std::string& line : doubts(o.pictures[0], facts_a, o.pictures[1], facts_b))
-        std::printf("warning: %s\n", line.c_str());
-    print_mean("A", o.pictures[0], c.mean_a, a);
-    print_mean("B", o.pictures[1], c.mean_b, b);
-    double difference = c.mean_a - c.mean_b, se = std::hypot(a.value, b.value);
+void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b,
+           const Comparison& c) {
+    print_mean("A", a, c.mean_a);
+    print_mean("B", b, c.mean_b);
+    double difference = c.mean_a - c.mean_b, se = std::hypot(a.standard_error, b.standard_error);
     bool known = !std::isnan(se);
     if (!known) se = c.standard_error;
     bool same = std::abs(difference) <= 1e-6 * std::abs(c.mean_b);  // rounding
@@ -117,7 +92,7 @@ void print(const CompareOptions& o, const Comparison& c) {
                 known ? "the files beside both" : "the differences of pixels within blocks");
     explain("below 5 standard errors the means may be the same, beyond they are not");
     print_errors(o, c);
-    std::printf("verdict: %s\n", verdict(c, se, facts_a, facts_b).c_str());
+    std::printf("verdict: %s\n", verdict(c, se, a, b).c_str());
 }
 
 }  // namespace
@@ -127,8 +102,10 @@ int main(int argc, char** argv) {
         CompareOptions o = parse(argc, argv);
         if (!o.out.empty()) check_writable(o.out);
         Image a = read_image(o.pictures[0]), b = read_image(o.pictures[1]);
+        PictureFacts facts_a = facts_of(o.pictures[0], a), facts_b = facts_of(o.pictures[1], b);
+        for (const std::string& line : doubts(facts_a, facts_b)) std::printf("%s\n", line.c_str());
         check_comparable(a, o.pictures[0], b, o.pictures[1]);
-        print(o, compare(a, b, o.trim));
+        print(o, facts_a, facts_b, compare(a, b, o.trim));
         if (o.out.empty()) return 0;
         double range = o.range > 0 ? o.range : error_range(a, b);
         write_image(o.out, error_image(a, b, range), o.command);

@@ -4,20 +4,19 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/json.h"
-#include "common/picture/film_file.h"
+#include "common/picture/notes.h"
 #include "common/program/command_line.h"
 #include "common/program/warnings.h"
 
 namespace {
 
 struct MergeOptions {
-    std::string out, stats, command;
+    std::string out, stats;
     std::vector<std::string> films;
 };
 
 MergeOptions parse(int argc, char** argv) {
     MergeOptions o;
-    o.command = command_line(argc, argv);
     std::vector<std::string> words;
     parse_options(argc, argv, "OUT FILM...",
                   "Adds films of one scene, by one chapter with the same options: parts of one "
@@ -44,14 +43,7 @@ MergeOptions parse(int argc, char** argv) {
 std::string stats_json(const LabeledFilm& sum) {
     const auto& [label, film] = sum;
     JsonObject json;
-    std::vector<std::string> options, samples;
-    for (const auto& [name, value] : label.options) options.push_back(name + " " + value);
-    for (const SampleRange& r : label.samples) {
-        samples.push_back("seed " + std::to_string(r.seed) + ": " + std::to_string(r.first) +
-                          " to " + std::to_string(r.last - 1));
-    }
-    json.add("options", options);
-    json.add("samples", samples);
+    json.add("notes", lines_of(notes_of(label, film.spp())));
     json.add("spp", film.spp());
     json.add("rays", label.counts.rays);
     json.add("mean", film.mean());
@@ -81,7 +73,7 @@ int main(int argc, char** argv) {
             add_film(sum, o.films[i], read_film(o.films[i]));
         }
         if (is_image_path(o.out)) {
-            write_image(o.out, sum.film.image(), o.command);
+            write_image(o.out, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
         } else {
             write_film(o.out, sum.label, sum.film);
         }

@@ -102,6 +102,45 @@ std::vector<Chunk> png_chunks(const std::string& png) {
     return chunks;
 }
 
+std::string png_chunk(const std::string& kind, const std::string& data) {
+    auto number = [](size_t n) {
+        std::string bytes;
+        for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(n >> shift & 255);
+        return bytes;
+    };
+    return number(data.size()) + kind + data + number(png_crc(kind + data));
+}
+
+/// A PNG file, one pixel high.
+std::string png_of(int width, int depth, int kind, const std::string& packed) {
+    std::string header = {static_cast<char>(width >> 24),
+                          static_cast<char>(width >> 16),
+                          static_cast<char>(width >> 8),
+                          static_cast<char>(width),
+                          0,
+                          0,
+                          0,
+                          1,
+                          static_cast<char>(depth),
+                          static_cast<char>(kind),
+                          0,
+                          0,
+                          0};
+    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", packed) +
+           png_chunk("IEND", "");
+}
+
+/// In the form of zlib, but not packed: one block of fewer than 256 bytes.
+std::string zlib_of(const std::string& bytes) {
+    uint32_t a = 1, b = 0;
+    for (char c : bytes) a = (a + static_cast<uint8_t>(c)) % 65521, b = (b + a) % 65521;
+    char n = static_cast<char>(bytes.size());
+    std::string packed = {'\x78', 1, 1, n, 0, static_cast<char>(~n), '\xff'};
+    packed += bytes;
+    for (uint32_t sum : {b, a}) packed += {static_cast<char>(sum >> 8), static_cast<char>(sum)};
+    return packed;
+}
+
 }  // namespace
 
 TEST_SUITE("files") {
@@ -323,6 +362,73 @@ TEST_SUITE("pictures on disk") {
         CHECK(image.at(1, 0) == Rgb{2, 2, 2});
     }
 
+    TEST_CASE(
+        "truth: the scale of a .pfm file multiplies its values, and its sign is their order") {
+        // As pbrt-v4 reads it: |scale| times the value; below 0: little endian.
+        TemporaryFolder folder;
+        const std::vector<float> values = {0.5f, 1.25f, 3};
+        std::vector<float> swapped;
+        for (float v : values) swapped.push_back(big_endian_float(v));
+        for (auto [text, scale] : {std::pair("1", 1.0f),
+                                   {"2.0", 2},
+                                   {"0.25", 0.25f},
+                                   {".5", 0.5f},
+                                   {"1e3", 1000},
+                                   {"+3", 3},
+                                   {"1.000000", 1},
+                                   {"1e-30", 1e-30f},
+                                   {"1e30", 1e30f}}) {
+            for (const char* kind : {"PF", "Pf"}) {
+                for (bool is_little : {true, false}) {
+                    std::string name = std::string(is_little ? "-" : "") + text;
+                    if (name == "-+3") continue;
+                    CAPTURE(name);
+                    size_t n = kind[1] == 'F' ? 1 : 3;  // pixels
+                    Image image = decode_image(
+                        "a.pfm", std::string(kind) + "\n" + std::to_string(n) + " 1\n" + name +
+                                     "\n" + bytes_of(is_little ? values : swapped));
+                    REQUIRE(image.pixels.size() == n);
+                    Rgb last = image.pixels[n - 1], first = image.pixels[0];
+                    CHECK(first.r == scale * 0.5f);
+                    CHECK(last.b == scale * 3);
+                    CHECK(last.g == scale * (n == 1 ? 1.25f : 3));
+                }
+            }
+        }
+    }
+
+    TEST_CASE("truth: one blank ends a header, and CR LF does where the size of the file says so") {
+        const std::string codes = {'\n', '\r', '#',
+                                   ' ',  '0',  '\n'};  // each like an end, or a comment
+        for (const char* line : {"\n", "\r\n", "\r", " ", "\t", "\n\n", "\n# a comment\n",
+                                 "\r\n# a comment\r\n", "\r# a comment\r"}) {
+            for (const char* end : {"\n", "\r\n", "\r", " ", "\t"}) {
+                CAPTURE(line);
+                CAPTURE(end);
+                std::string lines = line;
+                std::string header = "P6" + lines + "2" + lines + "1" + lines + "255" + end;
+                Image image = decode_image("a.ppm", header + codes);
+                CHECK(image.width == 2);
+                for (size_t i = 0; i < 2; i++) {
+                    auto linear = [&](size_t c) {
+                        return from_srgb(static_cast<float>(codes[3 * i + c]) / 255);
+                    };
+                    CHECK(image.pixels[i] == Rgb{linear(0), linear(1), linear(2)});
+                }
+                header = "Pf" + lines + "1" + lines + "2" + lines + "-1.0" + end;
+                std::string bytes = bytes_of({1.5f, 2.5f});
+                bytes[0] = '\n', bytes[1] = '\r';  // in the last digits
+                image = decode_image("a.pfm", header + bytes);
+                CHECK(image.at(0, 1).r == doctest::Approx(1.5).epsilon(1e-3).scale(0));
+                CHECK(image.at(0, 0).r == 2.5f);
+                CHECK_THROWS_AS(decode_image("a.pfm", header + bytes + "xx"), InputError);
+                CHECK_THROWS_AS(
+                    decode_image("a.pfm", (header + bytes).substr(0, header.size() + 6)),
+                    InputError);
+            }
+        }
+    }
+
     TEST_CASE("truth: codes of sRGB, and what lies outside them") {
         // From IEC 61966-2-1: linear below 0.0031308, then 1.055 x^(1/2.4) - 0.055.
         CHECK(to_srgb8(0) == 0);
@@ -368,9 +474,10 @@ TEST_SUITE("pictures on disk") {
         CHECK(read_file(folder / "a.ppm").substr(11) == std::string("\xff\0\xff\xff\0\xff", 6));
     }
 
-    TEST_CASE("truth: a .png file holds the picture's size, the command, and right checksums") {
+    TEST_CASE("truth: a .png file holds the picture's size, a comment, and right checksums") {
         TemporaryFolder folder;
-        write_image(folder / "a.png", numbered(300, 7), "build/06 --paths 'L\xc3\xa4' \n --out a");
+        write_image(folder / "a.png", numbered(300, 7),
+                    "build/06 --paths 'L\xc3\xa4' \n --seed 1\x1b");
         std::vector<Chunk> chunks = png_chunks(read_file(folder / "a.png"));
         REQUIRE(chunks.size() >= 4);
         CHECK(chunks[0].type == "IHDR");
@@ -380,7 +487,7 @@ TEST_SUITE("pictures on disk") {
         CHECK(chunks[1].type == "tEXt");
         CHECK(chunks[1].data == std::string("Comment\0", 8) +
                                     "build/06 --paths 'L?"
-                                    "?' ? --out a");
+                                    "?' \n --seed 1?");
         for (size_t i = 2; i + 1 < chunks.size(); i++) CHECK(chunks[i].type == "IDAT");
         CHECK(chunks.back().type == "IEND");
     }
@@ -433,32 +540,130 @@ TEST_SUITE("pictures on disk") {
         }
     }
 
+    TEST_CASE("input: one wrong bit anywhere in a .png file is an error") {
+        Image image(5, 3);
+        for (size_t i = 0; i < image.pixels.size(); i++)
+            image.pixels[i] = Rgb{1, 1, 1} * (static_cast<float>(i) / 15);
+        const std::string png = encode_png(image, "a comment");
+        CHECK(decode_image("a.png", png).width == 5);
+        for (size_t bit = 0; bit < 8 * png.size(); bit++) {
+            std::string damaged = png;
+            damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ 1 << bit % 8);
+            CAPTURE(bit);
+            CHECK_THROWS_AS(decode_image("a.png", damaged), InputError);
+        }
+    }
+
+    TEST_CASE("truth: .png files of 16 bits, of grey, and with transparency are read") {
+        auto sample = [](int code, int most) {
+            return from_srgb(static_cast<float>(code) / static_cast<float>(most));
+        };
+        auto read = [](int width, int depth, int kind, const std::string& row) {
+            return decode_image("a.png", png_of(width, depth, kind, zlib_of('\0' + row))).pixels;
+        };
+        // 16 bits, the high byte first: neither is lost.
+        CHECK(read(1, 16, 2, std::string("\x12\x34\x80\x01\xff\xfe", 6)) ==
+              std::vector<Rgb>{
+                  {sample(0x1234, 65535), sample(0x8001, 65535), sample(0xfffe, 65535)}});
+        CHECK(read(2, 8, 0, "\x40\xff") ==
+              std::vector<Rgb>{Rgb{1, 1, 1} * sample(0x40, 255), Rgb{1, 1, 1}});
+        CHECK(read(3, 1, 0, "\xa0") == std::vector<Rgb>{{1, 1, 1}, {0, 0, 0}, {1, 1, 1}});
+        // A part of the pixels may be empty.
+        std::string png = png_of(1, 8, 0, zlib_of(std::string("\0\xff", 2)));
+        png.insert(png.find("IDAT") - 4, png_chunk("IDAT", ""));
+        CHECK(decode_image("a.png", png).pixels == std::vector<Rgb>{{1, 1, 1}});
+        // Transparency is left out, as in pbrt.
+        CHECK(read(1, 8, 6, std::string("\x10\x20\x30\0", 4)) ==
+              std::vector<Rgb>{{sample(16, 255), sample(32, 255), sample(48, 255)}});
+        CHECK(read(1, 8, 4, std::string("\x10\0", 2)) ==
+              std::vector<Rgb>{Rgb{1, 1, 1} * sample(16, 255)});
+    }
+
+    TEST_CASE(
+        "input: a .png file that unpacks to a gigabyte is an error, and takes little memory") {
+        // Zeros as one match of 258 bytes after the other, 13 bits each, in fixed Huffman codes.
+        std::string bits = "11000110000", packed = "\x78\x01";  // last block, fixed; the byte 0
+        while (bits.size() < 8 << 20) bits += "1100010100000";
+        for (size_t i = 0; i + 8 <= bits.size(); i += 8) {
+            int byte = 0;
+            for (size_t k = 0; k < 8; k++) byte |= (bits[i + k] - '0') << k;
+            packed += static_cast<char>(byte);
+        }
+        packed.append(8, '\0');  // the end of the block, and a checksum
+        CHECK(error_of([&] { decode_image("a.png", png_of(1, 8, 2, packed)); }) ==
+              "a.png: error: a damaged .png picture");
+        CHECK(error_of([&] { decode_image("a.png", png_of(1 << 20, 8, 2, "x")); }) ==
+              "a.png: error: a damaged .png picture, or one of more than 2^28 pixels");
+    }
+
     TEST_CASE("input: damaged pictures are errors") {
         TemporaryFolder folder;
+        constexpr const char* cut = "the picture is cut short";
+        constexpr const char* sides = "a picture's sides must be whole numbers from 1 to 65536";
+        constexpr const char* scale = "a .pfm file's scale must be a finite number other than 0";
         struct {
             std::string bytes, error;
         } cases[] = {
             {"", "not a .ppm (P6), .pfm or .png picture"},
             {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6), .pfm or .png picture"},
-            {"\x89PNG\r\n\x1a\n", "a damaged .png picture, or one of more than 2^28 pixels"},
-            {"P6", "a damaged header"},
-            {"P6\n4", "a damaged header"},
-            {"P6\nx 4\n255\n", "a damaged header"},
-            {"P6\n4x 4\n255\n", "a damaged header"},
-            {"P6\n0 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
-            {"P6\n-1 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
-            {"P6\n1.5 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
-            {"P6\nnan 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
-            {"P6\n65537 4\n255\n", "a picture's sides must be whole numbers from 1 to 65536"},
+            {"\x89PNG\r\n\x1a\n", "the picture is cut short, or damaged"},
+            {"P6", cut},
+            {"P6\n", cut},
+            {"P6\n4", cut},
+            {"P6 # 4 4 255 ", cut},
+            {"P6\n1 1\n255\n00", cut},
+            {"P6\n1 1\n255", cut},
+            {"P6\n1 1\n", cut},
+            {"P6\n16384 16384\n255\n", cut},
+            {"PF", cut},
+            {"PF\n1 1\n-1\n" + std::string(11, 'x'), cut},
+            {"Pf\n1 1\n-1\nxxx", cut},
+            {"Pf\n1 1\n-1\r\nxx", cut},
+            {"PF\n16384 16384\n-1\n", cut},
+            {"P6\nx 4\n255\n", sides},
+            {"P6\n4x 4\n255\n", sides},
+            {"P6\n0 4\n255\n", sides},
+            {"P6\n-1 4\n255\n", sides},
+            {"P6\n1.5 4\n255\n", sides},
+            {"P6\nnan 4\n255\n", sides},
+            {"P6\ninf 4\n255\n", sides},
+            {"P6\n0x4 4\n255\n", sides},
+            {"P6\n65537 4\n255\n", sides},
+            {"P6\n1e9 4\n255\n", sides},
+            {"P6\n4,4 4\n255\n", sides},
+            {"P6\n65536 65536\n255\n", "a picture of more than 2^28 pixels"},
+            {"Pf\n65536 4097\n-1\n", "a picture of more than 2^28 pixels"},
             {"P6\n1 1\n65535\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n255\n00", "the picture is cut short"},
-            {"P6\n1 1\n255", "the picture is cut short"},
-            {"P6\n65536 65536\n255\n", "the picture is cut short"},
-            {"PF\n1 1\n0\n" + std::string(12, 'x'), "a .pfm file's scale must not be 0"},
-            {"PF\n1 1\nnan\n" + std::string(12, 'x'), "a .pfm file's scale must not be 0"},
-            {"PF\n1 1\n-1\n" + std::string(11, 'x'), "the picture is cut short"},
-            {"Pf\n1 1\n-1\nxxx", "the picture is cut short"},
-            {"PF\n65536 65536\n-1\n", "the picture is cut short"},
+            {"P6\n1 1\n254\n000000", "only 8-bit .ppm files (maxval 255) are read"},
+            {"P6\n1 1\n0\n000000", "only 8-bit .ppm files (maxval 255) are read"},
+            {"P6\n1 1\n-255\n000000", "only 8-bit .ppm files (maxval 255) are read"},
+            {"P6\n1 1\n25 5\n000000", "only 8-bit .ppm files (maxval 255) are read"},
+            {"P6\n1 1\n255#\n000000", "only 8-bit .ppm files (maxval 255) are read"},
+            {"P6\n1 1\nx\n000000", "only 8-bit .ppm files (maxval 255) are read"},
+            {"PF\n1 1\n0\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\n-0\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\nnan\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\n-inf\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\n1e99\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\n1e-99\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\nx\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\n-1x\n" + std::string(12, 'x'), scale},
+            {"PF\n1 1\n1#\n" + std::string(12, 'x'), scale},
+            {"P6\n1 1\n255\n0001", "1 byte is left over after the pixels"},
+            {"P6\n1 1\n255\n000\r\n", "2 bytes are left over after the pixels"},
+            {"P6\n1 1\n255\n\r000", "1 byte is left over after the pixels"},
+            {"PF\n1 1\n-1\n" + std::string(12 + 77, 'x'),
+             "77 bytes are left over after the pixels"},
+            {"Pf\n1 1\n-1\r\n" + std::string(6, 'x'), "3 bytes are left over after the pixels"},
+            {"P1 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"P2 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"P4 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"P5 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"P7 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"PF4 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"P63 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"p6 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"\xff\xd8\xff 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
         };
         for (const auto& c : cases) {
             CAPTURE(c.bytes);

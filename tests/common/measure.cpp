@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/json.h"
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
 #include "common/picture/stats_file.h"
@@ -74,43 +75,185 @@ TEST_SUITE("comparison") {
               "the same mean within the noise, but not everywhere: 3 of 64 blocks differ by more "
               "than noise does");
         c.beyond_5 = 0;
-        a = {std::sqrt(33.0) * 0.001, 16, "", ""}, b = {0.001, 16, "", ""};
+        auto facts = [](double standard_error, const char* spp) {
+            return PictureFacts{"a.pfm", standard_error, "", {{"spp", spp}}};
+        };
+        a = facts(std::sqrt(33.0) * 0.001, "16"), b = facts(0.001, "16");
         CHECK(verdict(c, 0.01, a, b) ==
               "the same mean within the noise; B has 97 % less squared error: at equal samples "
               "that is 33 times fewer");
         CHECK(verdict(c, 0.01, b, a).find("; A has 97 % less") != std::string::npos);
-        b.spp = 64;  // a quarter of that is due to samples
+        b = facts(0.001, "64");  // a quarter of that is due to samples
         CHECK(verdict(c, 0.01, a, b)
                   .find("with 64 samples against 16: sample by sample 8.2 times "
                         "fewer") != std::string::npos);
-        b.spp = 1024;
+        b = facts(0.001, "1024");
         CHECK(verdict(c, 0.01, a, b).find("sample by sample 1.9 times more") != std::string::npos);
+        // What lies beyond 1 is cut off in 8 bits: then noise alone can make a picture darker.
+        c.cut_off = 7, c.beyond_5 = 30;
+        b.file = "b.png";
+        CHECK(verdict(c, 0.001, a, b)
+                  .starts_with("other means: A is 1 % brighter than B, perhaps by noise that 8 "
+                               "bits cut off (10 "
+                               "standard errors)"));
+        CHECK(verdict(c, 0.01, a, b).starts_with("the same mean within the noise;"));
+        b.file = "b.pfm";
+        CHECK(verdict(c, 0.001, a, b).find("noise does not do that") != std::string::npos);
+        // The difference of two scenes is no noise.
+        a.notes.push_back({"checksum", "1"});
+        CHECK(verdict(c, 0.001, a, b).find("noise does not do that") != std::string::npos);
+        b.notes.push_back({"checksum", "2"});
+        CHECK(verdict(c, 0.001, a, b) ==
+              "the pictures show different scenes, so their difference is no noise");
         c.mse = 0;
         CHECK(verdict(c, 0.01, a, b) == "the same picture");
     }
 
-    TEST_CASE("truth: pictures of other scenes, and of 8 bits, are told") {
+    TEST_CASE("identity: notes are read from a .ppm, a .png and a .json as they were written") {
         TemporaryFolder folder;
-        std::string png = folder / "a.png", pfm = folder / "b.pfm";
-        write_image(png, grey(4, 4, 2), "build/08_light_sampling scenes/near-light.pbrt --spp 1");
-        write_image(pfm, grey(4, 4, 2), "");
-        CHECK(read_comment(png) == "build/08_light_sampling scenes/near-light.pbrt --spp 1");
-        CHECK(read_comment(pfm) == "");
-        PictureFacts a = facts_of(png), b = facts_of(pfm);
-        CHECK(a.scene == "scenes/near-light.pbrt");
-        CHECK(b.scene == "");
-        std::vector<std::string> told = doubts(png, a, pfm, b);
-        REQUIRE(told.size() == 1);
-        CHECK(told[0].find("has 8 bits") != std::string::npos);
-        b.scene = "elsewhere/near-light.pbrt";  // the same file from another folder
-        CHECK(doubts(pfm, a, pfm, b).empty());
-        b.scene = "scenes/cornell.pbrt";
-        REQUIRE(doubts(pfm, a, pfm, b).size() == 1);
-        CHECK(doubts(pfm, a, pfm, b)[0] == "A shows scenes/near-light.pbrt, B scenes/cornell.pbrt");
-        std::string bytes = read_file(png);
-        for (size_t length : {20u, 40u, 60u}) {  // cut short: no comment, no crash
-            write_file_atomically(png, bytes.substr(0, length));
-            CHECK(read_comment(png).size() < 60);
+        const Notes notes = {{"chapter", "08_light_sampling"},
+                             {"scene", "a name # with \"blanks\".pbrt"},
+                             {"paths", "LD(S|D)*E"},
+                             {"spp", "4"}};
+        for (std::string file : {folder / "a.ppm", folder / "a.png"}) {
+            write_image(file, grey(4, 3, 0.5f), comment_of(notes));
+            CHECK(notes_in(decode_comment(file, read_file(file))) == notes);
+            CHECK(read_image(file).width == 4);
+        }
+        JsonObject json;
+        json.add("notes", lines_of(notes));
+        json.add("spp", 4);
+        CHECK(notes_in(StatsFile(json.text()).texts("notes")) == notes);
+        CHECK(StatsFile("{\"notes\": []}").texts("notes").empty());
+        CHECK(StatsFile("{}").texts("notes").empty());
+        for (const char* bad :
+             {"{\"notes\": [\"a b", "{\"notes\": [\"a b\\", "{\"notes\": [\"a b\","})
+            CHECK(StatsFile(bad).texts("notes").size() == 1);
+
+        // Letters that a format cannot keep are '?'; a name cannot make a note of its own.
+        std::string comment = comment_of({{"scene", "a\nspp 9\x1b[2J \xc3\xa4.pbrt"}});
+        for (std::string file : {folder / "b.ppm", folder / "b.png"}) {
+            write_image(file, grey(4, 3, 0.5f), comment);
+            CHECK(notes_in(decode_comment(file, read_file(file))) ==
+                  Notes{{"scene", "a?spp 9?[2J ??.pbrt"}});
+        }
+        // A comment of another program is none of ours, and a .pfm has none.
+        write_image(folder / "c.ppm", grey(4, 3, 0.5f), "spp 4\nscene a.pbrt");
+        CHECK(notes_in(decode_comment("c.ppm", read_file(folder / "c.ppm"))).empty());
+        write_image(folder / "c.pfm", grey(4, 3, 0.5f), comment);
+        CHECK(decode_comment("c.pfm", read_file(folder / "c.pfm")).empty());
+    }
+
+    TEST_CASE("truth: what a film is of, as notes") {
+        FilmLabel label;
+        label.options = {{"chapter", "14_mis_ris"}, {"code", "89"}, {"file", "a.pbrt"},
+                         {"scene", "0123"},         {"spp", "any"}, {"paths", ""}};
+        label.samples = {{7, 0, 16}};
+        Notes options = {{"chapter", "14_mis_ris"}, {"scene", "a.pbrt"}, {"checksum", "0123"}};
+        auto and_more = [&](const Notes& more) {
+            Notes all = options;
+            all.insert(all.end(), more.begin(), more.end());
+            return all;
+        };
+        CHECK(notes_of(label, 16) == and_more({{"spp", "16"}, {"seed", "7"}}));
+        label.samples = {{7, 4, 8}};
+        CHECK(notes_of(label, 4) == and_more({{"spp", "4"}, {"samples", "4 to 7 of seed 7"}}));
+        label.samples.push_back({8, 0, 3});
+        label.options[4].second = "16";
+        CHECK(notes_of(label, 7) == and_more({{"strata", "16"},
+                                              {"spp", "7"},
+                                              {"samples", "4 to 7 of seed 7"},
+                                              {"samples", "0 to 2 of seed 8"}}));
+    }
+
+    TEST_CASE("truth: what speaks against a comparison is told, and nothing else") {
+        const PictureFacts a{"a.pfm",
+                             NAN,
+                             "",
+                             {{"chapter", "08_light_sampling"},
+                              {"scene", "a.pbrt"},
+                              {"checksum", "1"},
+                              {"max-depth", "5"},
+                              {"sampler", "sobol"},
+                              {"spp", "16"},
+                              {"seed", "0"}}};
+        auto told = [&](const std::string& name, const std::string& value) {
+            PictureFacts b = a;
+            b.notes = with(b.notes, name, value);
+            std::vector<std::string> lines = doubts(a, b);
+            CHECK(lines.size() <= 1);
+            return lines.empty() ? "" : lines[0];
+        };
+        CHECK(told("spp", "16") == "");
+        CHECK(told("chapter", "09_cosine_sampling") == "");
+        CHECK(told("sampler", "independent") == "");
+        CHECK(told("seed", "1") == "");
+        CHECK(told("checksum", "2") == "warning: A and B show different versions of \"a.pbrt\"");
+        CHECK(told("max-depth", "9") ==
+              "warning: A has light of up to 5 scattering events, B of up to 9");
+        CHECK(told("paths", "LDE") == "warning: A has light of all paths, B of paths \"LDE\"");
+        CHECK(told("spp", "64") ==
+              "warning: A and B have samples in common: A - B is less than their errors; give one "
+              "another --seed");
+        PictureFacts b = a;
+        b.notes = with(with(b.notes, "checksum", "2"), "scene", "b.pbrt");
+        CHECK(doubts(a, b) ==
+              std::vector<std::string>{"warning: A shows \"a.pbrt\", B \"b.pbrt\""});
+        b = a, b.file = "b.png";
+        CHECK(doubts(a, b) == std::vector<std::string>{
+                                  "warning: b.png has 8 bits: all that is brighter than 1 is cut "
+                                  "off, and its mean with it"});
+        b = a, b.notes.clear();
+        REQUIRE(doubts(a, b).size() == 1);
+        CHECK(doubts(a, b)[0].starts_with("note: whether both show the same scene is not known"));
+    }
+
+    TEST_CASE("truth: statistics beside a picture count where they are of that picture") {
+        TemporaryFolder folder;
+        Notes notes = {{"chapter", "08_light_sampling"}, {"checksum", "1"}, {"seed", "0"}};
+        auto beside = [&](const std::string& file, const Notes& its_notes) {
+            JsonObject json;
+            json.add("spp", 4);
+            json.add("standard_error", 0.5);
+            json.add("notes", lines_of(its_notes));
+            write_file_atomically(folder / "a.json", json.text());
+            write_image(folder / file, grey(4, 4, 1), comment_of(notes));
+            return facts_of(folder / file, grey(4, 4, 1));
+        };
+        for (const char* file : {"a.png", "a.ppm"}) {
+            PictureFacts same = beside(file, notes);
+            CHECK(same.standard_error == 0.5);
+            CHECK(same.other_stats == "");
+            for (const char* name : {"chapter", "checksum", "seed"}) {
+                PictureFacts other = beside(file, with(notes, name, "2"));
+                CHECK(std::isnan(other.standard_error));
+                CHECK(other.notes == notes);
+                CHECK(doubts(other, other)[0] == "warning: " + folder / "a.json" +
+                                                     " is of another picture than " +
+                                                     folder / file + ", and not used");
+            }
+        }
+        // A .pfm has no notes: what it shows is known from them alone.
+        CHECK(beside("a.pfm", notes).notes == notes);
+        // The standard error of each pixel; its picture must have as many.
+        write_image(folder / "a.err.pfm", grey(4, 4, 2), "");
+        CHECK(facts_of(folder / "a.pfm", grey(4, 4, 1)).standard_error == 0.5);  // 2 / sqrt(16)
+        write_image(folder / "a.err.pfm", grey(4, 3, 2), "");
+        CHECK(error_of([&] { facts_of(folder / "a.pfm", grey(4, 4, 1)); }) ==
+              folder / "a.err.pfm" + ": error: has 4x3 pixels, but " + folder / "a.pfm" +
+                  " has 4x4");
+    }
+
+    TEST_CASE("input: a comment of a megabyte, in any form, is read in a moment") {
+        TemporaryFolder folder;
+        for (const char* piece : {"x", "x ", "a.pbrt", "' ", "\n", "scene a.pbrt\n", "# ", "\""}) {
+            std::string comment = "picture of path-by-path\n";
+            while (comment.size() < 1 << 20) comment += piece;
+            for (std::string file : {folder / "a.ppm", folder / "a.png"}) {
+                write_image(file, grey(4, 4, 0.5f), comment);
+                PictureFacts facts = facts_of(file, grey(4, 4, 0.5f));
+                for (const std::string& line : doubts(facts, facts)) CHECK(line.size() < 9000);
+            }
         }
     }
 
@@ -175,9 +318,10 @@ TEST_SUITE("measuring") {
     TEST_CASE("input: statistics read back") {
         StatsFile stats(
             "{\n \"mean\": 1.5e-3, \"scene\": \"a \\\"b\\\": c\",\"none\": null,"
-            "\"list\": [1, 2.5,3]}");
+            "\"list\": [1, 2.5,3], \"texts\": [\"a \\\"b\\\": c\" , \"\"]}");
         CHECK(stats.number("mean") == 1.5e-3);
-        CHECK(stats.text("scene") == "a \\\"b\\\": c");
+        CHECK(stats.texts("texts") == std::vector<std::string>{"a \"b\": c", ""});
+        CHECK(stats.texts("mean").empty());
         CHECK(!stats.number("none"));
         CHECK(!stats.number("b"));
         CHECK(stats.numbers("list") == std::vector<double>{1, 2.5, 3});

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <map>
 
-#include "common/picture/image.h"
+#include "common/picture/notes.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
@@ -192,11 +192,6 @@ TEST_SUITE("programs") {
                 CHECK(pfm.width == ppm.width);
                 CHECK(pfm.height == ppm.height);
                 if (render) CHECK(pfm.width == 33);
-                // The command that made it stands in the .png.
-                std::string png = read_file(folder / "a.png");
-                CHECK(png.find(std::string("tEXtComment\0", 12) + program_file(program)) !=
-                      std::string::npos);
-
                 words.push_back("--quiet");
                 end = run(program, words);
                 CHECK(end.code == 0);
@@ -241,10 +236,16 @@ TEST_SUITE("programs") {
                 TemporaryFolder folder;
                 std::set<std::string> same;
                 for (const char* threads : {"1", "2", "7"}) {
+                    // Each into a file of another name, and with statistics of its own.
+                    std::string name = folder / threads, bytes;
                     Words words = small({"--threads", threads, "--sampler", sampler, "--quiet",
-                                         "--out", folder / "a.pfm"});
+                                         "--stats", name + ".json"});
+                    for (const char* kind : {".pfm", ".ppm", ".png"})
+                        words.insert(words.end(), {"--out", name + kind});
                     CHECK(run(program, words).code == 0);
-                    same.insert(read_file(folder / "a.pfm"));
+                    for (const char* kind : {".pfm", ".ppm", ".png"})
+                        bytes += read_file(name + kind);
+                    same.insert(bytes);
                 }
                 CHECK(same.size() == 1);
                 different.insert(*same.begin());
@@ -268,6 +269,90 @@ TEST_SUITE("programs") {
                 CHECK(bytes[0] != bytes[2]);
             }
         }
+    }
+
+    TEST_CASE("identity: a picture's notes tell how to make its bytes again") {
+        const std::map<std::string, Words> own = {
+            {"08_light_sampling", {"--light-by", "area"}}, {"11_ris", {"--m", "3"}},
+            {"12_glossy", {"--strategy", "bsdf"}},         {"14_mis_ris", {"--m", "2"}},
+            {"15_distribution", {"--pixel", "centre"}},    {"16_adaptive", {"--pilot", "4"}},
+            {"18_bidirectional", {"--strategy", "1,2"}}};
+        for (bool render : {false, true}) {
+            for (const std::string& program : programs(render)) {
+                CAPTURE(program);
+                TemporaryFolder folder;
+                auto make = [&](const std::string& name, Words words) {
+                    words.insert(words.end(), {"--quiet", "--out", folder / name + ".ppm", "--out",
+                                               folder / name + ".png"});
+                    CHECK(run(program, words).code == 0);
+                    return read_file(folder / name + ".ppm");
+                };
+                Words words = brief(render, {"--seed", "5"});
+                if (render) words.insert(words.end(), {"--sampler", "sobol", "--paths", "L.*D.*E"});
+                if (own.contains(program))
+                    words.insert(words.end(), own.at(program).begin(), own.at(program).end());
+                std::string bytes = make("a", words);
+                Notes notes = notes_in(decode_comment("a.ppm", bytes));
+                CHECK(notes_in(decode_comment("a.png", read_file(folder / "a.png"))) == notes);
+                CHECK(value_of(notes, "chapter") == program);
+                CHECK(value_of(notes, "scene") == (render ? "cornell-spheres.pbrt" : ""));
+                Words again;
+                if (render) again = {spheres};
+                for (const auto& [name, value] : notes) {
+                    if (name == "chapter" || name == "scene" || name == "checksum") continue;
+                    if (value != "all") again.insert(again.end(), {"--" + name, value});
+                }
+                CHECK(make("b", again) == bytes);
+                // Nothing else makes the same notes.
+                CHECK(make("c", brief(render, {})) != bytes);
+                Notes plain = notes_in(decode_comment("c.ppm", read_file(folder / "c.ppm")));
+                for (size_t i = 0; i + 1 < words.size(); i++) {
+                    if (words[i].starts_with("--") && words[i] != "--size" && words[i] != "--spp" &&
+                        words[i] != "--max-depth" && words[i] != "--n")
+                        CHECK(value_of(notes, words[i].substr(2)) !=
+                              value_of(plain, words[i].substr(2)));
+                }
+            }
+        }
+    }
+
+    TEST_CASE("truth: compare knows from the pictures alone that they show different scenes") {
+        TemporaryFolder folder;
+        auto render = [&](const std::string& program, const std::string& name, Words words) {
+            words.insert(words.end(), {"--quiet", "--out", folder / name + ".ppm", "--out",
+                                       folder / name + ".png", "--out", folder / name + ".pfm"});
+            REQUIRE(run(program, words).code == 0);
+        };
+        const Words size = {"--size", "32x24", "--spp", "4", "--max-depth", "5"};
+        render("08_light_sampling", "a", size);  // each of its chapter's own scene
+        render("17_light_tracing", "b", size);
+        for (const char* a : {"a.ppm", "a.png"}) {
+            for (const char* b : {"b.ppm", "b.png"}) {
+                Finished end = run("compare", {folder / a, folder / b});
+                CHECK(end.code == 0);
+                CHECK(
+                    end.out.starts_with("warning: A shows \"cornell.pbrt\", B \"caustic.pbrt\"\n"));
+                CHECK(end.out.find("noise does not") == std::string::npos);
+                CHECK(
+                    end.out.ends_with("verdict: the pictures show different scenes, so their "
+                                      "difference is no noise\n"));
+            }
+        }
+        // A .pfm cannot tell, and compare says so.
+        std::string out = run("compare", {folder / "a.pfm", folder / "b.pfm"}).out;
+        CHECK(out.starts_with("note: whether both show the same scene is not known"));
+        // Pictures of other sizes are not compared, but it is told that the scene is another too.
+        render("17_light_tracing", "c", {"--size", "24x32", "--spp", "4"});
+        Finished end = run("compare", {folder / "a.png", folder / "c.ppm"});
+        CHECK(end.code == 1);
+        CHECK(end.err == folder / "c.ppm" + ": error: has 24x32 pixels, but " + folder / "a.png" +
+                             " has 32x24\n");
+        CHECK(end.out.starts_with("warning: A shows"));
+        // The same scene by two chapters is what compare is for.
+        render("09_cosine_sampling", "d", size);
+        out = run("compare", {folder / "a.ppm", folder / "d.png"}).out;
+        CHECK(out.find("A shows") == std::string::npos);
+        CHECK(out.find("verdict: the same mean within the noise") != std::string::npos);
     }
 
     TEST_CASE("truth: --stats is JSON with what was measured, and null for what is unknown") {
@@ -417,22 +502,23 @@ TEST_SUITE("programs") {
             const std::string& program = program_here;
             const char* sampler = sampler_here;
             auto render = [&](const std::string& name, const char* part) {
-                return run(program, {spheres, "--size", "33x17", "--spp", "10", "--sampler",
-                                     sampler, "--quiet", "--part", part, "--film",
-                                     folder / name + ".film", "--out", folder / name + ".pfm"});
+                return run(program,
+                           {spheres, "--size", "33x17", "--spp", "10", "--sampler", sampler,
+                            "--quiet", "--part", part, "--film", folder / name + ".film", "--out",
+                            folder / name + ".pfm", "--out", folder / name + ".ppm", "--out",
+                            folder / name + ".png"});
             };
             REQUIRE(render("whole", "1/1").code == 0);
             REQUIRE(render("1", "1/3").code == 0);
             REQUIRE(render("2", "2/3").code == 0);
             REQUIRE(render("3", "3/3").code == 0);
             for (const Words& order : {Words{"3", "1", "2"}, Words{"2", "3", "1"}}) {
-                for (const char* out : {"out.film", "out.pfm"}) {
-                    Words words = {folder / out};
+                for (const char* kind : {".film", ".pfm", ".ppm", ".png"}) {
+                    Words words = {folder / "out" + kind};
                     for (const std::string& part : order) words.push_back(folder / part + ".film");
                     REQUIRE(run("merge", words).code == 0);
+                    CHECK(read_file(folder / "out" + kind) == read_file(folder / "whole" + kind));
                 }
-                CHECK(read_file(folder / "out.film") == read_file(folder / "whole.film"));
-                CHECK(read_file(folder / "out.pfm") == read_file(folder / "whole.pfm"));
             }
             std::string before = read_file(folder / "out.film");
             Finished end =
@@ -587,9 +673,11 @@ TEST_SUITE("programs") {
         TemporaryFolder folder;
         Words words = small({"--quiet", "--split", folder / "d", "--out", folder / "a.pfm"});
         REQUIRE(run(path_tracer, words).code == 0);
-        words = small({"--quiet", "--paths", "LDE", "--out", folder / "b.pfm"});
+        words = small(
+            {"--quiet", "--paths", "LDE", "--out", folder / "b.pfm", "--out", folder / "b.png"});
         REQUIRE(run(path_tracer, words).code == 0);
         CHECK(read_file(folder / "d/LDE.pfm") == read_file(folder / "b.pfm"));
+        CHECK(read_file(folder / "d/LDE.png") == read_file(folder / "b.png"));
     }
 
     TEST_CASE("input: scenes that cannot be read are one line and exit code 1") {

@@ -1,4 +1,5 @@
-// fuzz_reader [COUNT [FIRST]]: the reader against damaged scenes and meshes; see fuzz.h.
+// fuzz_reader [COUNT [FIRST [pictures]]]: the readers against damaged scenes and meshes (see
+// fuzz.h), or against damaged pictures (see pictures.h).
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -8,7 +9,7 @@
 #include <cstdlib>
 
 #define DOCTEST_CONFIG_DISABLE  // this is no test, though it uses the same helpers
-#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/pictures.h"
 
 namespace {
 
@@ -52,7 +53,9 @@ int main(int argc, char** argv) {
     uint32_t first = argc > 2 ? static_cast<uint32_t>(std::atoi(argv[2])) : 0;
     try {
         std::signal(SIGPROF, end_slow_input);
-        FuzzResult result = fuzz(first, count, begin_input);
+        bool of_pictures = argc > 3;
+        FuzzResult result = of_pictures ? fuzz_pictures(first, count, begin_input)
+                                        : fuzz(first, count, begin_input);
         std::printf(
             "%u damaged inputs: %llu read, %llu refused, the slowest in %.3f s, %.0f MB at most\n",
             count, static_cast<unsigned long long>(result.read),

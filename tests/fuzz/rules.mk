@@ -1,6 +1,7 @@
-#: make SAN=1 fuzz   100,000 (or COUNT=) damaged scenes and meshes through the reader, under the sanitizers
+#: make SAN=1 fuzz   100,000 (or COUNT=) damaged scenes, and as many pictures, under the sanitizers
 fuzz: $(BUILD)/fuzz_reader
 	$< $(COUNT)
+	$< $(or $(COUNT),100000) 0 pictures
 $(BUILD)/fuzz_reader: $(BUILD)/obj/tests/fuzz/reader.o $(common)
 	$(CXX) $(CXXFLAGS) $^ -o $@
 

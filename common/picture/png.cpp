@@ -1,0 +1,146 @@
+#include "common/picture/png.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+
+#include "common/base/position.h"
+
+namespace {
+
+/// The most bytes that stb may ask for at once: a small file can be made to unpack to gigabytes.
+thread_local size_t most_memory = 0;
+
+void* limited_realloc(void* old, size_t size) {
+    return size > most_memory ? nullptr : std::realloc(old, size);
+}
+
+}  // namespace
+
+#pragma GCC diagnostic push  // stb is not written for our warnings
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STBI_MALLOC(size) limited_realloc(nullptr, size)
+#define STBI_REALLOC limited_realloc
+#define STBI_FREE std::free
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#include <stb/stb_image.h>
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace {
+
+constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+constexpr std::string_view comment_key = {"Comment\0", 8};
+
+uint32_t crc32(std::string_view bytes) {
+    static const std::array<uint32_t, 256> of_byte = [] {
+        std::array<uint32_t, 256> table;
+        for (uint32_t i = 0; i < 256; i++) {
+            table[i] = i;
+            for (int bit = 0; bit < 8; bit++)
+                table[i] = (table[i] >> 1) ^ (table[i] & 1 ? 0xedb88320u : 0);
+        }
+        return table;
+    }();
+    uint32_t crc = ~0u;
+    for (char byte : bytes) crc = (crc >> 8) ^ of_byte[(crc ^ static_cast<uint8_t>(byte)) & 255];
+    return ~crc;
+}
+
+std::string big_endian(size_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
+    return bytes;
+}
+
+size_t big_endian_at(std::string_view bytes, size_t at) {
+    size_t value = 0;
+    for (size_t i = 0; i < 4; i++) value = value << 8 | static_cast<uint8_t>(bytes[at + i]);
+    return value;
+}
+
+/// Calls visit(kind, data) for each chunk, up to the one that ends the picture.
+template <typename Visit>
+void for_chunks(const std::string& path, std::string_view bytes, const Visit& visit) {
+    std::string_view kind;
+    for (size_t at = signature.size(); kind != "IEND";) {
+        if (bytes.size() - at < 12 || big_endian_at(bytes, at) > bytes.size() - at - 12)
+            fail({path}, "the picture is cut short, or damaged");
+        size_t length = big_endian_at(bytes, at);
+        kind = bytes.substr(at + 4, 4);
+        if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length))
+            fail({path}, "a damaged .png picture: a checksum is wrong");
+        visit(kind, bytes.substr(at + 8, length));
+        at += 12 + length;
+    }
+}
+
+}  // namespace
+
+std::string png_chunk(const std::string& kind_and_data) {
+    return big_endian(kind_and_data.size() - 4) + kind_and_data + big_endian(crc32(kind_and_data));
+}
+
+bool is_png(const std::string& bytes) { return bytes.starts_with(signature); }
+
+std::string encode_png(int width, int height, const std::string& codes,
+                       const std::string& comment) {
+    std::string png;
+    auto append = [](void* to, void* data, int size) {
+        static_cast<std::string*>(to)->append(static_cast<char*>(data), static_cast<size_t>(size));
+    };
+    if (!stbi_write_png_to_func(append, &png, width, height, 3, codes.data(), 3 * width)) {
+        throw std::bad_alloc();
+    }
+    constexpr size_t after_header = signature.size() + 25;  // IHDR
+    return png.insert(after_header, png_chunk("tEXt" + std::string(comment_key) + comment));
+}
+
+Image decode_png(const std::string& path, const std::string& bytes) {
+    std::string file(signature);  // without empty parts, which stb copies to nowhere
+    for_chunks(path, bytes, [&](std::string_view kind, std::string_view data) {
+        if (kind == "IEND" || !data.empty())
+            file += png_chunk(std::string(kind) + std::string(data));
+    });
+    auto* data = reinterpret_cast<const unsigned char*>(file.data());
+    int size = static_cast<int>(file.size()), width, height, channels;
+    constexpr int64_t most = 1032;  // times smaller is what the format can make of it
+    most_memory = 1 << 16;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
+        int64_t{width} * height > std::min(int64_t{most_pixels}, 8 * most * int64_t{size}))
+        fail({path}, "a damaged .png picture, or one of more than 2^28 pixels");
+    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+    most_memory += 2 * file.size() + 32 * pixels;
+    // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
+    std::unique_ptr<uint16_t, void (*)(void*)> codes(
+        stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+    if (!codes) fail({path}, "a damaged .png picture");
+    std::vector<float> linear(65536);
+    for (size_t i = 0; i < linear.size(); i++) linear[i] = from_srgb(static_cast<float>(i) / 65535);
+    Image image(width, height);
+    for (size_t i = 0; i < pixels; i++) {
+        const uint16_t* code = codes.get() + 3 * i;
+        image.pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
+    }
+    return image;
+}
+
+std::string png_comment(const std::string& path, const std::string& bytes) {
+    std::string comment;
+    for_chunks(path, bytes, [&](std::string_view kind, std::string_view data) {
+        if (comment.empty() && kind == "tEXt" && data.starts_with(comment_key))
+            comment = data.substr(comment_key.size());
+    });
+    return comment;
+}

@@ -1,0 +1,18 @@
+// The .png format, for image.h.
+#pragma once
+#include "common/picture/image.h"
+
+bool is_png(const std::string& bytes);
+
+/// A picture of 8-bit sRGB codes, row by row, three for each pixel; `comment` in a text chunk.
+std::string encode_png(int width, int height, const std::string& codes, const std::string& comment);
+
+/// Reads any kind of .png: grey, with a palette, of 16 bits; transparency is left out. Throws
+/// InputError where a chunk does not have its checksum, or is missing.
+Image decode_png(const std::string& path, const std::string& bytes);
+
+/// A chunk of a file, with its length and its checksum.
+std::string png_chunk(const std::string& kind_and_data);
+
+/// The text of the first comment; empty where there is none. Throws as decode_png does.
+std::string png_comment(const std::string& path, const std::string& bytes);
