@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
         options.search = LightSearch::direct;
         Scene scene = load(options);
         refuse_glossy(scene);
+        scene.max_depth = std::min(scene.max_depth, 500);  // trace() calls itself at each mirror
         return render(scene, options, ch04::trace);
     });
 }

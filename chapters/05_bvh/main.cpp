@@ -2,6 +2,7 @@
 #include "chapters/05_bvh/figure.h"
 #include "common/picture/notes.h"
 #include "common/program/film_keeping.h"
+#include "common/program/outputs.h"
 #include "common/program/render.h"
 
 int main(int argc, char** argv) {
@@ -15,8 +16,8 @@ int main(int argc, char** argv) {
                      "ordered"};
         RenderOptions options = parse_render_options(argc, argv, "05_bvh", "scenes/knot.pbrt",
                                                      {which}, {"size", "threads", "out", "quiet"});
-        check_outputs(options);
         Scene scene = load(options);
+        check_outputs(scene, options);
         Table table;
         if (!options.quiet) table = ch05::steps_table(scene);
         FilmLabel label = label_of(scene, options);

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
         if (options.spp == 0 && !has_noise) scene.spp = std::min(scene.spp, 16);  // for edges alone
         refuse(scene);
         settings.patches += tessellate(scene, options.threads);
-        ch20::check_all_outputs(options, settings);
+        ch20::check_all_outputs(scene, options, settings);
         return ch20::Run(scene, options, settings).run();
     });
 }

@@ -7,7 +7,6 @@
 #include "chapters/20_radiosity/settings.h"
 #include "common/path/trace.h"
 #include "common/picture/notes.h"
-#include "common/program/code_hash.h"
 #include "common/program/film_keeping.h"
 #include "common/program/progress.h"
 #include "common/program/render.h"
@@ -35,10 +34,9 @@ inline std::string film_label(const Scene& scene, const RenderOptions& options,
     char checksum[17];
     std::snprintf(checksum, sizeof checksum, "%016llx",
                   static_cast<unsigned long long>(scene.files_checksum));
-    return "radiosity of path-by-path, version 2\ncode " + code_hash(options.name) + "\nscene " +
-           checksum + "\npatches " + std::to_string(patches) + "\nform-factors " +
-           ways[static_cast<size_t>(settings.way)] + "\nseed " + std::to_string(options.seed) +
-           "\n\n";
+    return std::string("radiosity of path-by-path, version 1\nscene ") + checksum + "\npatches " +
+           std::to_string(patches) + "\nform-factors " + ways[static_cast<size_t>(settings.way)] +
+           "\nseed " + std::to_string(options.seed) + "\n\n";
 }
 
 /// Which share of its light a patch still waits for, by the ambient estimate: the mean over all
@@ -98,7 +96,7 @@ public:
         check_numbers(scene_, patches_->patch, solution_);
         tell_result();
         double seconds = limit_.elapsed();
-        bool stopped = limit_.interrupted();
+        bool stopped = limit_.take_interruption();
         Shown shown = shown_now(settings_.show);
         std::vector<std::string> warnings;
         if (!stopped && n() > 0) warnings = compare_paths(shown);
@@ -107,6 +105,7 @@ public:
             warnings.push_back("sweeps ended before " + percent(missing) +
                                " of the light had arrived");
         }
+        stopped |= limit_.take_interruption();
         if (stopped) options_.time = 0.5;  // s: a picture soon
         Rendering picture = render_film(scene_, options_, trace_with<trace>(shown));
         picture.stats.seconds += seconds;

@@ -4,7 +4,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/program/command_line.h"
-#include "common/program/options.h"
+#include "common/program/outputs.h"
 
 namespace ch20 {
 
@@ -66,10 +66,10 @@ inline void check_together(const RenderOptions& options, const Settings& s) {
 }
 
 /// Throws now what writing would throw later.
-inline void check_all_outputs(const RenderOptions& options, const Settings& s) {
-    check_outputs(options);
-    if (s.mesh.empty()) return;
-    check_outputs({s.mesh}, options.scene);
+inline void check_all_outputs(const Scene& scene, const RenderOptions& options, const Settings& s) {
+    std::vector<std::string> mesh;
+    if (!s.mesh.empty()) mesh.push_back(s.mesh);
+    check_outputs(scene, options, mesh);
 }
 
 }  // namespace ch20

@@ -1,5 +1,6 @@
 // Files that are either wholly written or not touched, and whole files read.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,7 +8,8 @@
 /// A file that is written beside its place, under a fresh name, and put there when it is whole;
 /// until then what was there stays. It gets the mode of the file whose place it takes. A device or
 /// pipe is written to directly. What fails throws InputError; without commit() nothing is left
-/// behind.
+/// behind. What a killed run has left behind of the same file is removed; it is locked as long as
+/// somebody writes it.
 class NewFile {
 public:
     explicit NewFile(const std::string& path);
@@ -18,10 +20,13 @@ public:
     void write(std::string_view bytes);
     /// Waits until what was written is on the disk: then it is there after a power failure too.
     void write_through();
-    /// Puts the file in its place.
+    /// Puts the file in its place. Where that cannot be done, it stays beside it, and the error
+    /// says under which name.
     void commit();
 
 private:
+    bool lock() const;
+
     std::string path_;                // as named, for messages
     std::string target_, temporary_;  // after all links; beside it. Empty for a device
     int fd_ = -1;
@@ -33,16 +38,30 @@ private:
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
 /// Throws the InputError that write_file_atomically would throw now, but writes nothing: asked
-/// before hours of work whose result would have no place.
+/// before hours of work whose result would have no place. A file that is write-protected, another
+/// user's in a sticky folder, or mounted there by itself cannot be replaced.
 void check_writable(const std::string& path);
 
-/// Whether both names are of the same file, through links too; it need not exist yet.
+/// Whether both names are of the same file, through links too, and in another case where the folder
+/// ignores that; it need not exist yet.
 bool same_file(const std::string& a, const std::string& b);
+
+/// Makes the folder and those above it where they are not there. Throws InputError.
+void make_folder(const std::string& path);
 
 /// Asked before the work whose results are to be written to these files: makes the folder out/ when
 /// one of them is in it, and throws InputError for one that cannot be written, UsageError when two
-/// are the same or one is the input.
-void check_outputs(const std::vector<std::string>& files, const std::string& input = "");
+/// are the same or one is an input.
+void check_outputs(const std::vector<std::string>& files,
+                   const std::vector<std::string>& inputs = {});
+
+/// A file that is to be written, and how many bytes it will have at least.
+struct FutureFile {
+    std::string path;
+    uint64_t bytes = 0;
+};
+/// Throws InputError when a disk has too little room for the files that will be there.
+void check_space(const std::vector<FutureFile>& files);
 
 /// The whole file; throws InputError when it is missing, a folder, or larger than 1 GiB.
 std::string read_file(const std::string& path);

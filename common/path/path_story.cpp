@@ -135,3 +135,9 @@ void PathStory::ends() {
     }
     rays_kept = nullptr;
 }
+
+void PathStory::is_given_up() {
+    tell_rays();
+    text_ += "    given up here: the path goes on, but the program was stopped\n";
+    rays_kept = nullptr;
+}

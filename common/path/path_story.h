@@ -40,6 +40,8 @@ public:
     void adds(const Addition& added);
     /// Tells why the path ends, once it has.
     void ends();
+    /// Says that the path was not followed to its end.
+    void is_given_up();
 
     const std::string& text() const { return text_; }
     const std::vector<Addition>& additions() const { return additions_; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -159,6 +160,8 @@ std::string command_line(int argc, char** argv) {
 
 int run_program(const std::function<int()>& program) {
     open_missing_streams();
+    // A file that may not grow so large, or a reader that has gone: the write fails with a message.
+    for (int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
     auto report = [](const std::string& line, int code) {
         std::fprintf(stderr, "%s\n", printable(line).c_str());
         return code;

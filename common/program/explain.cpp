@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <regex>
 
 #include "common/base/error.h"
@@ -10,8 +9,10 @@
 #include "common/base/percent.h"
 #include "common/base/position.h"
 #include "common/path/camera_sample.h"
+#include "common/program/outputs.h"
 #include "common/program/path_drawing.h"
 #include "common/program/table.h"
+#include "common/program/tile_renderer.h"
 
 namespace {
 
@@ -69,10 +70,8 @@ Table table_of(const Scene& scene, std::vector<PathStory::Addition> additions, s
     return table;
 }
 
-/// Prints the table, and a warning where it lacks something of what the chapter has returned.
-void print_sums(const Scene& scene, const PathStory& story, size_t own, Rgb L,
-                const Splats& splats) {
-    std::printf("\n%s", aligned(table_of(scene, story.additions(), own)).c_str());
+/// Prints a warning where the table lacks something of what the chapter has returned.
+void warn_of_gaps(const PathStory& story, Rgb L, const Splats& splats) {
     Sum told, returned;
     for (const PathStory::Addition& added : story.additions()) told.add(added.L);
     returned.add(L);
@@ -102,8 +101,15 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     auto [ray, film] = camera_sample(view, x, y, sampler, options.pixel_centre);
     Splats splats;
-    Rgb L = trace(scene, ray, splats, sampler, log);
-    story.ends();
+    Limit limit(0);
+    std::optional<Rgb> L;  // none: the path was longer than the user would wait
+    try {
+        TracingLimit tracing([&] { return limit.overdue(); });
+        L = trace(scene, ray, splats, sampler, log);
+        story.ends();
+    } catch (const TracingEnds&) {
+        story.is_given_up();
+    }
 
     std::printf(
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
@@ -114,15 +120,21 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
                     x, y);
     }
     std::printf("%s", story.text().c_str());
-    print_sums(scene, story, pixel, L, splats);
+    std::printf("\n%s", aligned(table_of(scene, story.additions(), pixel)).c_str());
+    if (L) warn_of_gaps(story, *L, splats);
 
-    std::filesystem::path file = options.out[0];
-    file.replace_extension(".svg");
-    check_outputs({file.string()}, options.scene);
-    write_file_atomically(file.string(), draw_path(scene, ray.o, log.vertices(), story.rays()));
-    if (!options.quiet) std::printf("wrote %s\n", file.string().c_str());
-    for (const Splat& splat : splats) L += splat.L;
-    return is_finite(L) ? 0 : 1;
+    std::string file = drawing_path(options);
+    // Of a path that hardly ends, draw the beginning.
+    constexpr size_t most_drawn = 1000;
+    std::vector<PathVertex> vertices = log.vertices();
+    std::vector<TracedRay> rays = story.rays();
+    if (vertices.size() > most_drawn) vertices.resize(most_drawn);
+    if (rays.size() > most_drawn) rays.resize(most_drawn);
+    write_file_atomically(file, draw_path(scene, ray.o, vertices, rays));
+    if (!options.quiet) std::printf("wrote %s\n", file.c_str());
+    if (!L) return 3;
+    for (const Splat& splat : splats) *L += splat.L;
+    return is_finite(*L) ? 0 : 1;
 }
 
 RenderOptions explain_brightest(const RenderOptions& options, const Rendering& rendering) {

@@ -33,13 +33,21 @@ Scene load(const RenderOptions& options, bool has_distribution) {
     if (!options.quiet) {
         report = [&](const std::string& what, double share) { progress.show(what, share); };
     }
-    Scene scene = options.quiet ? load_scene(options.scene, nullptr)
-                                : load_and_tell(options.scene, report, progress);
+    Scene scene;
+    try {
+        scene = options.quiet ? load_scene(options.scene, nullptr)
+                              : load_and_tell(options.scene, report, progress);
+    } catch (const std::bad_alloc&) {
+        fail({options.scene}, "out of memory while it was read, with the files that it names");
+    }
     if (!has_distribution) refuse_distribution(scene);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
-    prepare(scene, options.threads, report);
+    size_t prims = scene.geometry.size();
+    // About, while it is built: 300 bytes for each.
+    needing_memory("the hierarchy of " + std::to_string(prims) + " triangles, spheres and disks",
+                   300 * prims, [&] { prepare(scene, options.threads, report); });
     return scene;
 }
 

@@ -1,7 +1,6 @@
 #include "common/program/options.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <regex>
 #include <thread>
 
@@ -49,6 +48,13 @@ void parse_explain(const std::string& text, RenderOptions& options) {
 void parse_film(const std::string& text, RenderOptions& options) {
     if (!text.ends_with(film_ending)) fail_value("film", text, "a .film file");
     options.film = text;
+}
+
+double parse_interval(const std::string& text) {
+    double seconds = parse_positive("film-every", text);
+    // In less time than that nothing is rendered between two writings.
+    if (seconds < 0.01) fail_value("film-every", text, "at least 0.01 seconds");
+    return seconds;
 }
 
 void parse_part(const std::string& text, RenderOptions& options) {
@@ -159,7 +165,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
         {"film", "FILE.film", "keep the sums: go on where the film stopped, also after kill -9",
          [&](const std::string& text) { parse_film(text, o); }},
         {"film-every", "SECONDS", "how often the film is written (default 60)",
-         [&](const std::string& text) { o.film_every = parse_positive("film-every", text); }},
+         [&](const std::string& text) { o.film_every = parse_interval(text); }},
         {"part", "K/N", "take the K-th of N parts of the samples; build/merge adds their films",
          [&](const std::string& text) { parse_part(text, o); }},
         {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
@@ -185,19 +191,6 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     if (o.threads == 0)
         o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     return o;
-}
-
-void check_outputs(const RenderOptions& options) {
-    std::vector<std::string> files = options.out;
-    if (!options.film.empty()) files.push_back(options.film);
-    if (!options.stats.empty()) files.push_back(options.stats);
-    if (!options.map.empty()) files.push_back(options.map);
-    if (!options.split.empty()) {
-        std::error_code none;  // found out below
-        std::filesystem::create_directories(options.split, none);
-        files.push_back(options.split + "/LE.pfm");
-    }
-    check_outputs(files, options.scene);
 }
 
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n) {

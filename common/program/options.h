@@ -56,9 +56,6 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
 /// The name of a picture, or UsageError.
 std::string parse_picture(const std::string& option, const std::string& text);
 
-/// Throws now what writing the results would throw later; see files.h. Makes the folder of --split.
-void check_outputs(const RenderOptions& options);
-
 /// What the chapters without a scene (01 to 03) understand.
 struct TableOptions {
     std::string name;

@@ -2,17 +2,27 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/program/explain.h"
 #include "common/program/film_keeping.h"
 #include "common/program/lamp_edges.h"
+#include "common/program/outputs.h"
 #include "common/program/progress.h"
 #include "common/program/results.h"
 #include "common/program/tile_renderer.h"
 
 namespace {
+
+Film empty_film(const Scene& scene, bool takes_splats) {
+    uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
+    std::string what =
+        "a film of " + std::to_string(scene.width) + "x" + std::to_string(scene.height) + " pixels";
+    return needing_memory(what, (takes_splats ? 3 : 1) * pixels * sizeof(PixelSum),
+                          [&] { return Film(scene.width, scene.height, takes_splats); });
+}
 
 uint32_t fewest_samples(const Film& film) {
     uint32_t fewest = film.pixels()[0].n;
@@ -42,7 +52,11 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         if (in_pilot) next = std::min(next, allocation.pilot);
         if constexpr (renderer.has_passes) {
             next = done + 1;
-            trace.prepare(wanted.first + done, options.threads, [&] { return limit.reached(); });
+            try {
+                trace.prepare(wanted.first + done, options.threads,
+                              [&] { return limit.reached(); });
+            } catch (const TracingEnds&) {
+            }
             if (limit.reached()) break;
         }
         result.begun = std::max(result.begun, next);
@@ -71,16 +85,20 @@ template <class AnyTrace>
 Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
                       const AnyTrace& trace, const Allocation& allocation) {
     Rendering result{std::move(empty), {}, {}};
+    Limit limit(options.time);
+    TracingLimit tracing([&] { return limit.overdue(); });
     if (allocation.pilot > 0) {
         result.film.start_halves();
     } else if (std::is_same_v<AnyTrace, PassTrace>) {
         result.film.start_batches();
     } else if (options.sampler != SamplerType::independent) {
-        mark_lamp_edges(scene, options.threads, result.film);
+        try {
+            mark_lamp_edges(scene, options.threads, result.film);
+        } catch (const TracingEnds&) {
+        }
         result.film.start_audit();
     }
     continue_film(scene, options, result);
-    Limit limit(options.time);
     SampleRange wanted = wanted_samples(scene, options);
 
     // Make the pilot again where this render does not begin with it.
@@ -112,6 +130,24 @@ int explain_plain(const Scene& scene, const RenderOptions& options, const Trace&
     return explain(scene, options, without_splats, halves);
 }
 
+/// Explains a sample of a pass, once that is prepared.
+int explain_of_pass(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
+    Limit limit(0);
+    TracingLimit tracing([&] { return limit.overdue(); });
+    uint32_t pass = static_cast<uint32_t>(std::max(0, options.explain_sample));
+    try {
+        trace.prepare(pass, options.threads, [&] { return limit.reached(); });
+    } catch (const TracingEnds&) {
+    }
+    if (limit.reached()) {
+        std::fprintf(stderr, "stopped before there was a path to explain\n");
+        return 3;
+    }
+    RenderOptions as_rendered = options;
+    as_rendered.sampler = SamplerType::independent;
+    return explain_plain(scene, as_rendered, trace.trace, false);
+}
+
 /// Renders to find the brightest sample, and explains that. A lamp that is seen straight, or by way
 /// of mirrors and glass alone, is bright in all samples and no firefly: unless --paths says
 /// otherwise, only light counts that a diffuse or rough surface has scattered.
@@ -121,7 +157,9 @@ int find_and_explain(const Scene& scene, const RenderOptions& options, const Any
     RenderOptions whole = options;
     whole.split.clear();
     if (whole.paths.empty()) whole.paths = "L.*D.*E";
+    StopOnSignal signal;
     Rendering r = render_film(scene, whole, trace, more...);
+    signal.take_request();  // it has ended the render, and not what it has found
     int code = render(scene, explain_brightest(options, r), trace, more...);
     return code == 0 && r.stats.interrupted ? 3 : code;
 }
@@ -130,43 +168,38 @@ int find_and_explain(const Scene& scene, const RenderOptions& options, const Any
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation) {
-    Film empty(scene.width, scene.height);
-    return render_into(std::move(empty), scene, options, trace, allocation);
+    return render_into(empty_film(scene, false), scene, options, trace, allocation);
 }
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
-    Film empty(scene.width, scene.height, true);
-    return render_into(std::move(empty), scene, options, trace, {});
+    return render_into(empty_film(scene, true), scene, options, trace, {});
 }
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
-    return render_into(Film(scene.width, scene.height), scene, options, trace, {});
+    return render_into(empty_film(scene, false), scene, options, trace, {});
 }
 
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation) {
+    StopOnSignal until_all_is_written;
+    check_outputs(scene, options);
     if (options.explain_brightest) return find_and_explain(scene, options, trace, allocation);
     if (options.explain) return explain_plain(scene, options, trace, allocation.pilot > 0);
-    check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace, allocation));
 }
 int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
+    StopOnSignal until_all_is_written;
+    check_outputs(scene, options);
     if (options.explain_brightest) return find_and_explain(scene, options, trace);
     if (options.explain) return explain(scene, options, trace, false);
-    check_outputs(options);
     return write_results(scene, options, render_film(scene, options, trace));
 }
 int render(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
     if (!options.paths.empty() && scene.max_depth > 9) {  // see PathLog::gathered()
         throw UsageError("error: --paths: photons know their first 8 events: try --max-depth 9");
     }
+    StopOnSignal until_all_is_written;
+    check_outputs(scene, options);
     if (options.explain_brightest) return find_and_explain(scene, options, trace);
-    if (options.explain) {
-        uint32_t pass = static_cast<uint32_t>(std::max(0, options.explain_sample));
-        trace.prepare(pass, options.threads, [] { return false; });
-        RenderOptions as_rendered = options;
-        as_rendered.sampler = SamplerType::independent;
-        return explain_plain(scene, as_rendered, trace.trace, false);
-    }
-    check_outputs(options);
+    if (options.explain) return explain_of_pass(scene, options, trace);
     return write_results(scene, options, render_film(scene, options, trace));
 }

@@ -35,7 +35,9 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     const RenderStats& s = r.stats;
     Rgb mean = r.film.mean_rgb();
     double sum = r.film.mean() * static_cast<double>(r.film.samples());
-    double pixels = static_cast<double>(r.film.pixels().size());
+    const std::vector<PixelSum>& pixels = r.film.pixels();
+    auto empty =
+        std::count_if(pixels.begin(), pixels.end(), [](const PixelSum& p) { return p.n == 0; });
     JsonObject json;
     json.add("scene", scene.file);
     json.add("chapter", options.name);
@@ -58,7 +60,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("largest_sample", s.largest);
     json.add("largest_sample_share", sum > 0 ? s.largest / sum : 0);
     json.add("effective_samples", r.film.effective_samples());
-    json.add("empty_pixels_share", static_cast<double>(r.film.empty_pixels()) / pixels);
+    json.add("empty_pixels_share", static_cast<double>(empty) / static_cast<double>(pixels.size()));
     json.add("warnings", warnings_of(scene, options, r));
     json.add("interrupted", s.interrupted);
     return json.text();
@@ -70,7 +72,13 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), printable(scene.file).c_str(),
                 r.film.width, r.film.height, json_number(r.film.spp()).c_str(),
                 s.interrupted ? " (interrupted)" : "");
-    std::printf("%s\n", mean_and_error(r.film).c_str());
+    double error = r.film.standard_error();
+    if (std::isnan(error)) {
+        std::printf("mean %.6f, standard error unknown%s\n", r.film.mean(),
+                    r.film.spp() > 1 ? "" : " (1 sample)");
+    } else {
+        std::printf("mean %.6f +- %.6f\n", r.film.mean(), error);
+    }
     for (const std::string& line : warnings_of(scene, options, r)) {
         std::printf("warning: %s\n", line.c_str());
     }
@@ -83,25 +91,30 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     }
 }
 
-/// Writes the results one by one: when one fails, the others are written all the same.
+/// Writes the results one by one: when one fails, the others are written all the same. Says before
+/// what may take some time.
 class Writer {
 public:
-    explicit Writer(bool quiet) : quiet_(quiet) {}
+    Writer(bool quiet, bool is_large) : quiet_(quiet), is_large_(is_large) {}
 
     template <typename Write>
     void write(const std::string& path, const Write& write, const std::string& note = "") {
         try {
+            if (!quiet_ && is_large_) std::fprintf(stderr, "writing %s\n", path.c_str());
             write();
             if (!quiet_) std::printf("wrote %s%s\n", path.c_str(), note.c_str());
         } catch (const InputError& error) {
             std::fprintf(stderr, "%s\n", error.what());
+            failed_ = true;
+        } catch (const std::bad_alloc&) {
+            std::fprintf(stderr, "%s: error: cannot write: out of memory\n", path.c_str());
             failed_ = true;
         }
     }
     bool failed() const { return failed_; }
 
 private:
-    const bool quiet_;
+    const bool quiet_, is_large_;
     bool failed_ = false;
 };
 
@@ -128,7 +141,7 @@ void write_classes(const Scene& scene, const RenderOptions& options, const Rende
 }
 
 bool write_files(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    Writer writer(options.quiet);
+    Writer writer(options.quiet, r.film.pixels().size() >= 1 << 20);
     if (!options.film.empty()) {
         writer.write(options.film, [&] { save_film(scene, options, r); });
     }
@@ -154,21 +167,10 @@ bool write_files(const Scene& scene, const RenderOptions& options, const Renderi
 
 }  // namespace
 
-std::string mean_and_error(const Film& film) {
-    double error = film.standard_error();
-    char text[800];
-    if (std::isnan(error)) {
-        std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", film.mean(),
-                      film.spp() > 1 ? "" : " (1 sample)");
-    } else {
-        std::snprintf(text, sizeof text, "mean %.6f +- %.6f", film.mean(), error);
-    }
-    return text;
-}
-
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     if (!options.quiet) print_summary(scene, options, r);
     bool all_written = write_files(scene, options, r);
+    std::fflush(stdout);  // while a signal is still waited for
     if (r.stats.not_finite == 0 && all_written) return r.stats.interrupted ? 3 : 0;
     if (r.stats.not_finite == 0) return 1;
     // The command without what --explain does not take.

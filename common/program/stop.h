@@ -3,8 +3,9 @@
 #include <csignal>
 
 /// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP asks for a stop, and the same
-/// signal once more ends the program. What the program was started to ignore, as by nohup, it
-/// ignores.
+/// signal once more ends the program, if it comes half a second later: timeout and others send it
+/// twice at once. What the program was started to ignore, as by nohup, it ignores. Of several, one
+/// inside the life of the other, the outermost counts.
 class StopOnSignal {
 public:
     StopOnSignal();
@@ -13,6 +14,8 @@ public:
     StopOnSignal& operator=(const StopOnSignal&) = delete;
 
     bool requested() const;
+    /// The same, once: a signal ends one part of the work, and the next one begins anew.
+    bool take_request();
 
 private:
     static constexpr int signals_[] = {SIGINT, SIGTERM, SIGHUP};

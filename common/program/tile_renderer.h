@@ -1,10 +1,12 @@
 // The samples of one tile of the picture after another, until the render has to end.
 #pragma once
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <type_traits>
 
+#include "common/base/error.h"
 #include "common/path/camera_sample.h"
 #include "common/program/film_clock.h"
 #include "common/program/render.h"
@@ -16,6 +18,18 @@ public:
     explicit Limit(double seconds) : seconds_(seconds) {}
     bool reached() const { return signal_.requested() || (seconds_ > 0 && elapsed() >= seconds_); }
     bool interrupted() const { return signal_.requested(); }
+    /// The same, once: what comes next has a limit of its own.
+    bool take_interruption() { return signal_.take_request(); }
+    /// Whether overdue() has seen it reached: asked often, and never wrong by more than some rays.
+    bool seen() const { return reached_at_ != 0; }
+    /// Whether it was reached some time ago. Until then a sample that was begun is finished, since
+    /// those that are given up are the long ones.
+    bool overdue() const {
+        if (!reached()) return false;
+        double now = elapsed();
+        if (!seen()) reached_at_ = now;
+        return now - reached_at_ > 0.25;
+    }
     double elapsed() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
@@ -23,6 +37,7 @@ public:
 private:
     double seconds_;  // 0: no limit
     StopOnSignal signal_;
+    mutable std::atomic<double> reached_at_ = 0;  // s, when somebody first saw it; 0: nobody
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -35,7 +50,7 @@ public:
     static constexpr bool has_passes = std::is_same_v<AnyTrace, PassTrace>;
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
-    static constexpr int between_looks = 64;    // samples from one look at the limit to the next
+    static constexpr int between_looks = 64;    // samples without rays; those look by themselves
 
     TileRenderer(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
                  const Allocation& allocation, const Limit& limit, const FilmClock& clock,
@@ -79,10 +94,10 @@ public:
         Splats splats, audit_splats;
         RenderStats stats;
         PixelSum of_pass;
-        uint64_t rays_before = rays_traced;
+        uint64_t rays_before = rays_traced, rays = rays_before, paths_cut = 0;  // of whole samples
         int taken = 0;
         bool in_pilot = has_pilot() && end_ <= allocation_.pilot;
-        for_pixels(tile, [&](int x, int y) {
+        auto render_pixel = [&](int x, int y) {
             size_t pixel =
                 static_cast<size_t>(y) * static_cast<size_t>(scene_.width) + static_cast<size_t>(x);
             bool audited = result_.film.is_audited(pixel);
@@ -91,18 +106,28 @@ public:
                 PilotPixel* seen = in_pilot ? &pilot_.half[half][pixel] : nullptr;
                 uint64_t rays_of_others = rays_traced;
                 for (; s < last; s++) {
-                    if (++taken % between_looks == 0 && limit_.reached()) return false;
-                    Rgb L = add_sample({x, y, pixel, half, s}, sampler, splats, log, stats);
+                    bool over = limit_.seen() || (++taken % between_looks == 0 && limit_.reached());
+                    if (over) return false;
+                    Place at = {x, y, pixel, half, s};
+                    // For the audit the same sample again, with numbers of another key.
+                    Rgb again;
+                    if (audited) again = trace(at, 1, sampler, audit_splats, audit_log).total;
+                    Rgb L = add_sample(at, sampler, splats, log, stats);
+                    if (audited) result_.film.audit(pixel, again);
                     if constexpr (has_passes) of_pass.add(L);
                     if (seen) seen->add(L);
-                    if (audited) audit({x, y, pixel, half, s}, sampler, audit_splats, audit_log);
+                    rays = rays_traced, paths_cut = log.paths_cut();
                 }
                 if (seen) seen->rays += static_cast<uint32_t>(rays_traced - rays_of_others);
             }
             return true;
-        });
-        stats.rays = rays_traced - rays_before;
-        stats.paths_cut = log.paths_cut();
+        };
+        try {
+            for_pixels(tile, render_pixel);
+        } catch (const TracingEnds&) {
+            // The sample that was given up counts in nothing: who goes on takes it again.
+        }
+        stats.rays = rays - rays_before, stats.paths_cut = paths_cut;
         std::lock_guard lock(mutex_);
         result_.stats.add(stats);
         if constexpr (has_passes) result_.film.add_to_batch(end_ - 1, of_pass);
@@ -183,18 +208,12 @@ private:
         return L;
     }
 
-    /// The same sample again, with numbers of another key.
-    void audit(const Place& at, Sampler& sampler, Splats& splats, PathLog& log) {
-        result_.film.audit(at.pixel, trace(at, 1, sampler, splats, log).total);
-    }
-
     void split(const Place& at, const PathLog& log) {
         for (const auto& [path_class, L, pixel] : log.contributions()) {
             // Keep all long paths together: their classes double with every letter.
             bool is_long = path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
-            auto [film, added] = result_.classes.try_emplace(
-                is_long ? "longer" : path_class, scene_.width, scene_.height, has_splats);
+            auto [film, added] = film_of(is_long ? "longer" : path_class);
             if (added && result_.film.has_halves()) film->second.start_halves();
             if (pixel == Contribution::own_pixel) {
                 film->second.add_part(at.pixel, L, at.half);
@@ -202,6 +221,17 @@ private:
                 film->second.splat(pixel, L);
             }
         }
+    }
+
+    auto film_of(const std::string& path_class) {
+        size_t films = result_.classes.size() + 1;
+        uint64_t bytes = (has_splats ? 3 : 1) * result_.film.pixels().size() * sizeof(PixelSum);
+        return needing_memory(
+            "--split: " + std::to_string(films) + " classes of paths, a film each,", films * bytes,
+            [&] {
+                return result_.classes.try_emplace(path_class, scene_.width, scene_.height,
+                                                   has_splats);
+            });
     }
 
     const Scene& scene_;

@@ -3,10 +3,8 @@
 #include <vector>
 
 #include "common/material/hit.h"
+#include "common/scene/ray_count.h"
 #include "common/scene/scene.h"
-
-/// Rays traced by this thread, for rays per second.
-inline constinit thread_local uint64_t rays_traced = 0;
 
 /// A ray that was traced: in search of the nearest surface, or as a shadow ray, of anything.
 struct TracedRay {

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "common/geometry/bvh.h"
@@ -49,7 +50,8 @@ struct Camera {
 
 struct Scene {
     std::string file;             // as named by the user, for messages
-    uint64_t files_checksum = 0;  // of the bytes of all files that it was read from
+    std::set<std::string> files;  // all that it was read from
+    uint64_t files_checksum = 0;  // of their bytes
     Geometry geometry;
     std::vector<Shape> shapes;
     std::vector<Material> materials;

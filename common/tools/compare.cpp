@@ -1,5 +1,6 @@
 // compare A B: how far picture A is from the reference B.
 #include <cstdio>
+#include <filesystem>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -47,6 +48,17 @@ CompareOptions parse(int argc, char** argv) {
                          std::to_string(o.pictures.size()) + "; --help says how");
     }
     return o;
+}
+
+/// The pictures, and what stands beside them.
+std::vector<std::string> all_read(const CompareOptions& o) {
+    std::vector<std::string> files = o.pictures;
+    for (const std::string& picture : o.pictures) {
+        std::filesystem::path errors = picture;
+        errors.replace_extension(".err.pfm");
+        if (std::filesystem::exists(errors)) files.push_back(errors.string());
+    }
+    return files;
 }
 
 void print_mean(const char* name, const PictureFacts& facts, double mean) {
@@ -100,7 +112,7 @@ void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b
 int main(int argc, char** argv) {
     return run_program([&] {
         CompareOptions o = parse(argc, argv);
-        if (!o.out.empty()) check_writable(o.out);
+        if (!o.out.empty()) check_outputs({o.out}, all_read(o));
         Image a = read_image(o.pictures[0]), b = read_image(o.pictures[1]);
         PictureFacts facts_a = facts_of(o.pictures[0], a), facts_b = facts_of(o.pictures[1], b);
         for (const std::string& line : doubts(facts_a, facts_b)) std::printf("%s\n", line.c_str());

@@ -6,7 +6,6 @@
 #include "common/base/json.h"
 #include "common/picture/notes.h"
 #include "common/program/command_line.h"
-#include "common/program/results.h"
 #include "common/program/warnings.h"
 
 namespace {
@@ -37,14 +36,8 @@ MergeOptions parse(int argc, char** argv) {
     }
     std::vector<std::string> written = {o.out};
     if (!o.stats.empty()) written.push_back(o.stats);
-    for (const std::string& film : o.films) check_outputs(written, film);
+    check_outputs(written, o.films);
     return o;
-}
-
-std::vector<std::string> warnings_of(const LabeledFilm& sum) {
-    std::vector<std::string> lines = sum.label.missing();
-    for (const std::string& line : warnings_of(sum.film, sum.label.counts)) lines.push_back(line);
-    return lines;
 }
 
 std::string stats_json(const LabeledFilm& sum) {
@@ -56,15 +49,15 @@ std::string stats_json(const LabeledFilm& sum) {
     json.add("mean", film.mean());
     json.add("standard_error", film.standard_error());
     json.add("samples_not_finite", label.counts.not_finite);
-    json.add("warnings", warnings_of(sum));
+    json.add("warnings", warnings_of(film, label.counts));
     return json.text();
 }
 
 void print_summary(const MergeOptions& o, const LabeledFilm& sum) {
     const auto& [label, film] = sum;
-    std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), film.width, film.height,
-                json_number(film.spp()).c_str(), mean_and_error(film).c_str());
-    for (const std::string& line : warnings_of(sum)) {
+    std::printf("%zu films  %dx%d  %s spp\nmean %.6f +- %.6f\n", o.films.size(), film.width,
+                film.height, json_number(film.spp()).c_str(), film.mean(), film.standard_error());
+    for (const std::string& line : warnings_of(film, label.counts)) {
         std::printf("warning: %s\n", line.c_str());
     }
     std::printf("wrote %s\n", o.out.c_str());

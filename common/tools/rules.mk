@@ -24,8 +24,10 @@ readmes: programs
 compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp)))
 #: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
-	@printf '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
-	    $(foreach file,$(compiled),$(file) $(file)) | sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
+	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
+	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) -c %s"}\n' \
+	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
+	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
 #: make tidy         clang-tidy's checks, those in .clang-tidy (5 minutes)
 tidy: compile_commands.json
 	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy

@@ -237,6 +237,186 @@ TEST_SUITE("files") {
         ::chmod((folder / "d").c_str(), 0755);
     }
 
+    TEST_CASE("files: a write-protected file is not replaced, not even for root") {
+        TemporaryFolder folder;
+        std::string file = folder / "f", link = folder / "link", expected;
+        fs::create_symlink("f", link);
+        for (mode_t mode : {0444u, 0400u, 0555u}) {
+            write_file_atomically(file, "precious");
+            ::chmod(file.c_str(), mode);
+            for (const std::string& name : {file, link}) {
+                expected = name + ": error: cannot write: it is write-protected";
+                CHECK(error_of([&] { check_writable(name); }) == expected);
+                CHECK(error_of([&] { check_outputs({name}); }) == expected);
+                CHECK(error_of([&] { write_file_atomically(name, "x"); }).starts_with(expected));
+            }
+            CHECK(read_file(file) == "precious");
+            ::chmod(file.c_str(), 0644);
+        }
+    }
+
+    TEST_CASE(
+        "files: another user's file in a sticky folder cannot be replaced, and who asks is told") {
+        if (::getuid() != 0) {
+            MESSAGE("skipped: only root can make another user's file");
+            return;
+        }
+        TemporaryFolder folder;
+        ::chmod(folder.path().c_str(), 01777);
+        write_file_atomically(folder / "f", "another's");
+        ::chmod((folder / "f").c_str(), 0666);
+        int failed = in_child([&] {
+            if (::setuid(65534) != 0) return 2;
+            std::string expected = folder / "f" + ": error: cannot write: Operation not permitted";
+            if (error_of([&] { check_writable(folder / "f"); }) != expected) return 3;
+            write_file_atomically(folder / "g", "its own");
+            check_writable(folder / "g");
+            return 0;
+        });
+        CHECK(failed == 0);
+        CHECK(read_file(folder / "f") == "another's");
+        CHECK(folder.names() == std::set<std::string>{"f", "g"});
+    }
+
+    TEST_CASE("files: what cannot be put in its place stays beside it, and the error names it") {
+        TemporaryFolder folder;
+        std::string f = folder / "f", begin = f + ": error: cannot write: ";
+        std::string middle = "; what was to be written is ";
+        for (std::string bytes : {"first", "second"}) {
+            // Somebody protects the file, or makes a folder of its name, while it is written.
+            for (bool is_folder : {false, true}) {
+                fs::remove(f);
+                NewFile file(f);
+                file.write(bytes);
+                if (is_folder) {
+                    fs::create_directories(f);
+                } else {
+                    write_file_atomically(f, "old");
+                    ::chmod(f.c_str(), 0444);
+                }
+                std::string error = error_of([&] { file.commit(); });
+                CHECK(error.starts_with(begin));
+                size_t at = error.find(middle);
+                REQUIRE(at != std::string::npos);
+                std::string kept = error.substr(at + middle.size());
+                CHECK(kept.starts_with(f + ".kept-"));
+                CHECK(read_file(kept) == bytes);
+                if (!is_folder) CHECK(read_file(f) == "old");
+            }
+        }
+        // One file, however often the same process fails.
+        CHECK(folder.names().size() == 2);
+        fs::remove(f);
+        write_file_atomically(f, "third");
+        CHECK(folder.names().size() == 2);  // and no later run removes it
+    }
+
+    TEST_CASE("files: what a killed run left behind is removed; what is being written is not") {
+        TemporaryFolder folder;
+        auto part_of = [&](const std::string& name) {
+            for (const std::string& found : folder.names())
+                if (found.starts_with(name + ".part-")) return found;
+            return std::string();
+        };
+        auto begin_and_wait = [&](const std::string& name) {
+            pid_t child = ::fork();
+            if (child == 0) {
+                NewFile file(folder / name);
+                file.write("half of i");
+                for (;;) ::pause();
+            }
+            while (part_of(name).empty()) ::usleep(1000);
+            ::usleep(20000);  // until it is locked
+            return child;
+        };
+        pid_t other = begin_and_wait("f"), others_file = begin_and_wait("g");
+        std::string living = part_of("f"), of_g = part_of("g");
+        // Names that are nearly those of this program.
+        std::set<std::string> alien = {"f.part-", "f.part-abc",           "f.part-ABCDEFGHIJKL",
+                                       "f.part",  "f.part-abcdefghijklm", "xf.part-abcdefghijkl"};
+        for (const std::string& name : alien) write_file_atomically(folder / name, "of somebody");
+        check_writable(folder / "f");
+        write_file_atomically(folder / "f", "whole");
+        CHECK(folder.names().contains(living));
+
+        for (pid_t child : {other, others_file}) {
+            ::kill(child, SIGKILL);
+            ::waitpid(child, nullptr, 0);
+        }
+        check_writable(folder / "f");
+        std::set<std::string> left = alien;
+        left.insert({"f", of_g});
+        CHECK(folder.names() == left);
+        CHECK(read_file(folder / "f") == "whole");
+    }
+
+    TEST_CASE("files: runs that write the same file at once never remove each other's") {
+        TemporaryFolder folder;
+        const std::string bytes(100000, 'x');
+        std::vector<pid_t> children;
+        for (int i = 0; i < 4; i++) {
+            children.push_back(::fork());
+            if (children.back() != 0) continue;
+            std::string error = error_of([&] {
+                for (int k = 0; k < 200; k++) write_file_atomically(folder / "f", bytes);
+            });
+            ::_exit(error.empty() ? 0 : 1);
+        }
+        for (pid_t child : children) {
+            int status = 0;
+            ::waitpid(child, &status, 0);
+            CHECK(status == 0);
+        }
+        CHECK(read_file(folder / "f") == bytes);
+        CHECK(folder.names() == std::set<std::string>{"f"});
+    }
+
+    TEST_CASE("files: a folder that cannot be made is an error that says why") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "f", "x");
+        make_folder(folder / "a/b/c");
+        make_folder(folder / "a/b/c");
+        CHECK(fs::is_directory(folder / "a/b/c"));
+        for (const char* name : {"f", "f/g"}) {
+            CHECK(error_of([&] { make_folder(folder / name); }) ==
+                  folder / name + ": error: cannot make the folder: Not a directory");
+        }
+        fs::create_directory(folder / "closed");
+        ::chmod((folder / "closed").c_str(), 0555);
+        ::chmod(folder.path().c_str(), 0755);
+        int failed = in_child([&] {
+            if (::getuid() == 0 && ::setuid(65534) != 0) return 2;
+            fs::current_path(folder / "closed");
+            std::string why = ": error: cannot make the folder: Permission denied";
+            if (error_of([&] { make_folder("d"); }) != "d" + why) return 3;
+            return error_of([&] { check_outputs({"out/a.ppm"}); }) == "out" + why ? 0 : 4;
+        });
+        CHECK(failed == 0);
+        ::chmod((folder / "closed").c_str(), 0755);
+    }
+
+    TEST_CASE("files: no output is an input, or another output, under whatever name") {
+        TemporaryFolder folder;
+        fs::create_directory(folder / "d");
+        for (const char* name : {"a", "b"}) write_file_atomically(folder / name, name);
+        fs::create_symlink("../a", folder / "d/to_a");
+        fs::create_hard_link(folder / "a", folder / "d/same_as_a");
+        std::vector<std::string> inputs = {folder / "b", folder / "a"};
+        for (const char* name : {"a", "./a", "d/../a", "d/to_a", "d/same_as_a"}) {
+            CAPTURE(name);
+            std::string error = error_of([&] {
+                check_outputs({folder / "c", folder / name}, inputs);
+            });
+            CHECK(error.starts_with("error: '" + folder / name + "' is an input"));
+            CHECK(error.ends_with(", and would be overwritten"));
+            CHECK(error_of([&] {
+                      check_outputs({folder / "a", folder / name});
+                  }) == "error: '" + folder / "a" + "' and '" + folder / name + "' are one file");
+        }
+        CHECK(error_of([&] { check_outputs({folder / "c", folder / "d/a"}, inputs); }) == "");
+        CHECK(read_file(folder / "a") == "a");
+    }
+
     TEST_CASE("files: asking whether a file can be written changes nothing") {
         TemporaryFolder folder;
         write_file_atomically(folder / "f", "x");

@@ -163,7 +163,7 @@ TEST_SUITE("programs") {
         fs::copy_file("scenes/furnace.pbrt", scene);
         Finished end = run(path_tracer, {scene, "--out", folder / "a.ppm", "--stats", scene});
         CHECK(end.code == 2);
-        CHECK(end.err == "error: '" + scene + "' is the input, and would be overwritten\n");
+        CHECK(end.err == "error: '" + scene + "' is an input, and would be overwritten\n");
         CHECK(read_file(scene) == read_file("scenes/furnace.pbrt"));
         end = run(path_tracer, {"--out", folder / "a.ppm", "--out", folder / "./a.ppm"});
         CHECK(end.code == 2);

@@ -7,10 +7,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <thread>
 
 #include "common/base/stats.h"
 #include "common/path/camera_sample.h"
 #include "common/program/results.h"
+#include "common/program/stop.h"
+#include "common/scene/intersect.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
@@ -240,7 +243,7 @@ TEST_SUITE("render loop") {
         CHECK_FALSE(render_film(scene, quiet_options(), counting).stats.interrupted);
     }
 
-    TEST_CASE("truth: the same signal once more ends the program; an ignored one does nothing") {
+    TEST_CASE("truth: the same signal later ends the program; an ignored one does nothing") {
         for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
             auto raising = [=](const Scene&, Ray, Sampler&, PathLog&) {
                 std::raise(signal);
@@ -248,11 +251,25 @@ TEST_SUITE("render loop") {
             };
             CHECK(Process([&] {
                       std::signal(signal, SIG_DFL);
-                      render_film(empty_scene(300, 300, 1000), quiet_options(1), raising);
+                      StopOnSignal stop;
+                      std::raise(signal);
+                      ::usleep(600'000);
+                      std::raise(signal);
                       return 0;
                   })
                       .wait()
                       .signal == signal);
+            // timeout sends each signal twice at once, and a terminal that closes others with it.
+            CHECK(Process([&] {
+                      for (int all : {SIGINT, SIGTERM, SIGHUP}) std::signal(all, SIG_DFL);
+                      StopOnSignal until_the_end;
+                      Rendering r =
+                          render_film(empty_scene(300, 300, 1000), quiet_options(1), raising);
+                      for (int other : {SIGINT, SIGTERM, SIGHUP}) std::raise(other);
+                      return r.stats.interrupted ? 3 : 0;
+                  })
+                      .wait()
+                      .code == 3);
             CHECK(Process([&] {
                       std::signal(signal, SIG_IGN);  // as nohup does
                       Rendering r = render_film(empty_scene(3, 3, 2), quiet_options(1), raising);
@@ -260,6 +277,53 @@ TEST_SUITE("render loop") {
                   })
                       .wait()
                       .code == 2);
+        }
+    }
+
+    TEST_CASE("truth: a signal before the first sample, or in the last one, is not forgotten") {
+        StopOnSignal outer;
+        std::raise(SIGTERM);
+        Rendering r = render_film(empty_scene(3, 3, 2), quiet_options(), counting);
+        CHECK(r.stats.interrupted);
+        CHECK(r.film.samples() == 0);
+        CHECK(outer.take_request());
+        CHECK_FALSE(outer.requested());
+        CHECK_FALSE(render_film(empty_scene(3, 3, 2), quiet_options(), counting).stats.interrupted);
+        render_film(empty_scene(2, 2, 1), quiet_options(), noise_with_signal(SIGINT, 4));
+        CHECK(outer.requested());
+    }
+
+    TEST_CASE("truth: a path that does not end is given up at the limit, and counts nowhere") {
+        // The left half of the picture sees a path without end, the right one a short path.
+        Scene scene = empty_scene(32, 32, 1 << 20);
+        auto half_endless = [](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+            Rgb L = log.emitted({1, 1, 1});
+            do intersect(s, ray);
+            while (ray.d.x < 0);
+            return L * sampler.u1();
+        };
+        for (SamplerType type : samplers) {
+            for (bool by_signal : {false, true}) {
+                RenderOptions options = quiet_options();
+                options.sampler = type;
+                options.split = "unused";
+                if (!by_signal) options.time = 0.2;
+                auto begin = std::chrono::steady_clock::now();
+                Process signals([] { return 0; });
+                std::atomic<bool> ended = false;
+                std::thread sender([&] {
+                    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+                    if (by_signal) ::kill(::getpid(), SIGINT);
+                });
+                Rendering r = render_film(scene, options, half_endless);
+                sender.join();
+                std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+                CHECK(seconds.count() < 2);
+                CHECK(r.stats.interrupted == by_signal);
+                uint64_t in_classes = 0;
+                for (const auto& [name, film] : r.classes) in_classes += film.samples();
+                CHECK(in_classes == r.film.samples());
+            }
         }
     }
 
