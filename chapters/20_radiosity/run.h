@@ -7,6 +7,7 @@
 #include "chapters/20_radiosity/settings.h"
 #include "common/path/trace.h"
 #include "common/picture/notes.h"
+#include "common/program/code_hash.h"
 #include "common/program/film_keeping.h"
 #include "common/program/progress.h"
 #include "common/program/render.h"
@@ -34,9 +35,10 @@ inline std::string film_label(const Scene& scene, const RenderOptions& options,
     char checksum[17];
     std::snprintf(checksum, sizeof checksum, "%016llx",
                   static_cast<unsigned long long>(scene.files_checksum));
-    return std::string("radiosity of path-by-path, version 1\nscene ") + checksum + "\npatches " +
-           std::to_string(patches) + "\nform-factors " + ways[static_cast<size_t>(settings.way)] +
-           "\nseed " + std::to_string(options.seed) + "\n\n";
+    return "radiosity of path-by-path, version 2\ncode " + code_hash(options.name) + "\nscene " +
+           checksum + "\npatches " + std::to_string(patches) + "\nform-factors " +
+           ways[static_cast<size_t>(settings.way)] + "\nseed " + std::to_string(options.seed) +
+           "\n\n";
 }
 
 /// Which share of its light a patch still waits for, by the ambient estimate: the mean over all

@@ -12,7 +12,7 @@ wasm_programs := $(chapters) merge
 wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
     $(filter-out common/tools/% common/program/film_clock.cpp,$(wildcard common/*/*.cpp))
 wasm_flags    := -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
-    -ffp-contract=off -I. -isystem $(wasm)/include -include common/book/missing.h
+    -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
 wasm_link     := -sMODULARIZE -sEXPORT_NAME=Live -sENVIRONMENT=worker,node -sINVOKE_RUN=0 \
     -sALLOW_MEMORY_GROWTH -sFORCE_FILESYSTEM -sEXPORTED_RUNTIME_METHODS=callMain,FS
 
@@ -21,6 +21,7 @@ $(wasm)/live.js: $(patsubst %.cpp,$(wasm)/obj/%.o,$(wasm_code))
 	@echo "link $@"; NODE_PATH=/usr/share/nodejs em++ $(wasm_flags) $(wasm_link) $^ -o $@
 $(wasm)/obj/%.o: %.cpp common/book/missing.h | $(wasm)/include/programs.h
 	@mkdir -p $(@D); echo "compile $< for the book"; em++ $(wasm_flags) $(main_as) -MMD -MP -c $< -o $@
+$(wasm)/obj/common/program/code_hash.o: $(BUILD)/include/code_hashes.h
 $(wasm)/obj/chapters/%/main.o: main_as = -Dmain=main_$(notdir $(<D))
 $(wasm)/obj/common/tools/merge.o: main_as = -Dmain=main_merge
 -include $(shell find $(wasm)/obj -name '*.d' 2>/dev/null)

@@ -1,13 +1,14 @@
 #include "common/picture/film.h"
 
 Film::Channels Film::mean_of(size_t pixel, double spp) const {
-    const PixelSum& p = pixels_[pixel];
-    double n = static_cast<double>(std::max<uint64_t>(p.n, 1));
-    Channels c = {p.r() / n, p.g() / n, p.b() / n};
+    auto mean = [](const PixelSum& p) {
+        double n = std::max(p.n, 1u);
+        return Channels{p.r() / n, p.g() / n, p.b() / n};
+    };
+    Channels c = mean(pixels_[pixel]);
     if (has_halves_ && audits_[pixel].n > 0) {
-        const PixelSum& b = audits_[pixel];
-        double m = b.n;
-        c = {(c.r + b.r() / m) / 2, (c.g + b.g() / m) / 2, (c.b + b.b() / m) / 2};
+        Channels b = mean(audits_[pixel]);
+        c = pixels_[pixel].n == 0 ? b : Channels{(c.r + b.r) / 2, (c.g + b.g) / 2, (c.b + b.b) / 2};
     }
     if (splats_.empty()) return c;
     const PixelSum& splats = splats_[pixel];
@@ -18,7 +19,7 @@ Film::Channels Film::mean_channels() const {
     Channels sum;
     double all = spp(), seen = 0;
     for (size_t i = 0; i < pixels_.size(); i++) {
-        if (pixels_[i].n == 0) continue;
+        if (count_of(i) == 0) continue;
         Channels c = mean_of(i, all);
         sum.r += c.r, sum.g += c.g, sum.b += c.b;
         seen++;
@@ -69,7 +70,7 @@ void Film::start_halves() {
 
 void Film::start_audit() {
     audited_.clear();
-    for (PixelSum& p : pixels_) p.is_audited = false;
+    for (PixelSum& p : pixels_) p.is_audited = 0;
     for (bool at_edges : {false, true}) {
         std::vector<size_t> some;
         for (size_t i = 0; i < pixels_.size(); i++) {
@@ -83,7 +84,7 @@ void Film::start_audit() {
         }
     }
     std::sort(audited_.begin(), audited_.end());
-    for (size_t pixel : audited_) pixels_[pixel].is_audited = true;
+    for (size_t pixel : audited_) pixels_[pixel].is_audited = 1;
     audits_.assign(audited_.size(), {});
 }
 
@@ -135,8 +136,9 @@ double Film::standard_error() const {
     double seen = 0, sum = 0;
     for (size_t i = 0; i < pixels_.size(); i++) {
         if (count_of(i) == 1) return std::nan("");
-        seen += pixels_[i].n > 0;
+        seen += count_of(i) > 0;
         if (!has_halves_) continue;
+        if ((pixels_[i].n == 0) != (audits_[i].n == 0)) return std::nan("");
         double difference = pixels_[i].mean() - audits_[i].mean();
         sum += difference * difference / 4;
     }
@@ -182,6 +184,12 @@ void Film::add(const Film& other) {
     for (size_t i = 0; i < splats_.size(); i++) splats_[i].add(other.splats_[i]);
     for (size_t i = 0; i < totals_.size(); i++) totals_[i].add(other.totals_[i]);
     for (size_t i = 0; i < batches_.size(); i++) batches_[i].add(other.batches_[i]);
+}
+
+size_t Film::empty_pixels() const {
+    size_t empty = 0;
+    for (size_t i = 0; i < pixels_.size(); i++) empty += count_of(i) == 0;
+    return empty;
 }
 
 uint64_t Film::samples() const {

@@ -61,10 +61,10 @@ public:
     /// (A - B)^2 / 2 is on the mean the variance of one. Of the pixels at the edges of lamps, which
     /// are few and may carry most of the error, and of all others, each: one of 256, or of fewer so
     /// that there are 64 or more. Called once all edges are marked.
-    void mark_edge(size_t pixel) { pixels_[pixel].is_edge = true; }
+    void mark_edge(size_t pixel) { pixels_[pixel].is_edge = 1; }
     void start_audit();
     bool has_audits() const { return !audits_.empty() && !has_halves_; }
-    bool is_audited(size_t pixel) const { return pixels_[pixel].is_audited; }
+    bool is_audited(size_t pixel) const { return pixels_[pixel].is_audited > 0; }
     /// Adds the sample that goes with the last one of this pixel.
     void audit(size_t pixel, Rgb L) {
         auto place = std::lower_bound(audited_.begin(), audited_.end(), pixel);
@@ -102,7 +102,8 @@ public:
     Rgb mean_rgb() const;
 
     /// Standard error of mean(), from the variance within the pixels; unknown (NaN) where a pixel
-    /// has one sample alone. In a film that takes splats, from that of the totals.
+    /// has one sample alone, or samples in one half alone. In a film that takes splats, from that
+    /// of the totals.
     ///
     ///   SE^2 = r sum over the pixels of v,   v = sum (Y - mean)^2 / (n - 1) / n
     ///   r    = sum of (A - B)^2 / 2 over the audited pixels / sum of v over them
@@ -127,7 +128,8 @@ public:
     uint64_t count_of(size_t pixel) const {
         return pixels_[pixel].n + (has_halves_ ? uint64_t{audits_[pixel].n} : 0);
     }
-    /// All samples; samples per pixel, on the mean.
+    size_t empty_pixels() const;  // those without samples
+    /// All samples; samples per pixel, on average.
     uint64_t samples() const;
     double spp() const {
         return static_cast<double>(samples()) / static_cast<double>(pixels_.size());

@@ -9,8 +9,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
-#include <tuple>
 
 #include "common/base/checksum.h"
 #include "common/base/files.h"
@@ -18,32 +16,7 @@
 
 namespace {
 
-constexpr const char* first_line = "film of path-by-path, version 3";
 constexpr size_t longest_label = 1 << 20;  // bytes
-
-/// 0: the pixels alone; 1: with audits; 2: with a second half of each pixel; 3: with batches.
-int kind_of(const Film& film) {
-    return film.has_batches() ? 3 : film.has_halves() ? 2 : film.has_audits();
-}
-
-/// The lines of text at the beginning, up to the empty one.
-std::string text_of(const FilmLabel& label, const Film& film) {
-    std::ostringstream text;
-    text << first_line << '\n';
-    for (const auto& [name, value] : label.options) {
-        text << "option " << name << ' ' << printable(value) << '\n';
-    }
-    for (const SampleRange& r : label.samples) {
-        text << "samples " << r.first << ' ' << r.last << ' ' << r.seed << '\n';
-    }
-    const SampleCounts& c = label.counts;
-    text << "counts " << c.rays << ' ' << c.paths_cut << ' ' << c.not_finite << ' ' << c.bad_seed
-         << ' ' << c.bad_sample << ' ' << c.bad_y << ' ' << c.bad_x << ' '
-         << std::bit_cast<uint64_t>(c.largest) << '\n';
-    text << "size " << film.width << ' ' << film.height << ' ' << kind_of(film) << ' '
-         << film.takes_splats() << "\n\n";
-    return text.str();
-}
 
 std::string_view bytes_of(const std::vector<PixelSum>& sums) {
     return {reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(PixelSum)};
@@ -52,6 +25,36 @@ std::string_view bytes_of(const std::vector<PixelSum>& sums) {
 /// All that a film's file holds, in its order.
 std::array<const std::vector<PixelSum>*, 5> sums_of(const Film& film) {
     return {&film.pixels(), &film.audits(), &film.splats(), &film.totals(), &film.batches()};
+}
+
+/// Whether the numbers of a film fit together, and to its label. All that is an index elsewhere is
+/// checked here or in read_pixels().
+bool is_consistent(const Film& film, const FilmLabel& label) {
+    // The sums themselves: without samples there is nothing to sum up, but for splats.
+    for (const std::vector<PixelSum>* sums : sums_of(film)) {
+        for (const PixelSum& p : *sums) {
+            bool has_flags = p.is_edge || p.is_audited, is_splat = sums == &film.splats();
+            if (!p.is_possible() || (has_flags && sums != &film.pixels())) return false;
+            if (is_splat ? p.n > 0 : p.n == 0 && !p.is_zero()) return false;
+        }
+    }
+    // How many there are. Halves are shared out as the chapter likes.
+    uint64_t most = 0;
+    for (const SampleRange& r : label.samples) most += r.last - r.first;
+    if ((film.samples() > 0) != (most > 0)) return false;
+    if (label.counts.not_finite > film.samples()) return false;
+    if (film.has_halves()) most = PixelSum::most;
+    uint32_t in_pixels = 0, in_batches = 0;  // may be more than fit: then the last 32 bits
+    size_t audit = 0;
+    for (size_t i = 0; i < film.pixels().size(); i++) {
+        uint32_t n = film.pixels()[i].n;
+        in_pixels += n;
+        if (n > most || (film.has_halves() && film.audits()[i].n > most)) return false;
+        if (film.takes_splats() && film.totals()[i].n != n) return false;
+        if (film.is_audited(i) && film.audits()[audit++].n != n) return false;
+    }
+    for (const PixelSum& batch : film.batches()) in_batches += batch.n;
+    return !film.has_batches() || in_batches == in_pixels;
 }
 
 /// Reads a film from the beginning to the end, and adds up its checksum.
@@ -72,7 +75,9 @@ public:
 
 private:
     [[noreturn]] void refuse(const std::string& why) const { fail({path_}, why); }
-    [[noreturn]] void refuse_label() const { refuse("a film whose label cannot be read"); }
+    [[noreturn]] void refuse_numbers() const {
+        refuse("the film is damaged: its numbers contradict each other");
+    }
 
     /// The next bytes, as many as there are up to `size`.
     size_t read_some(char* to, size_t size) {
@@ -86,62 +91,30 @@ private:
         }
         return done;
     }
-    void read_sums(std::vector<PixelSum>& sums);
     std::string read_text();
-    void read_line(const std::string& line);
-    void check(const Film& film) const;
+    void read_sums(std::vector<PixelSum>& sums);
+    void read_pixels(Film& film, const FilmShape& shape);
 
     std::string path_;
     int fd_ = -1;
     Checksum checksum_;
-    FilmLabel label_;
-    int width_ = 0, height_ = 0, kind_ = 0;
-    bool takes_splats_ = false;
 };
 
 std::string FilmReader::read_text() {
     std::string text;
+    auto begins_with = [&](std::string_view line) {
+        return text.starts_with(line.substr(0, text.size()));
+    };
     while (!text.ends_with("\n\n")) {
-        bool begins = text.starts_with(first_line) ||
-                      (!text.empty() && std::string_view(first_line).starts_with(text));
         char c;
-        if (text.size() > longest_label) refuse_label();
-        if (!begins && !text.empty()) refuse("not a film");
-        if (read_some(&c, 1) == 0) refuse(begins ? "the film is cut short" : "not a film");
+        if (text.size() > longest_label) refuse("a film whose label cannot be read");
+        if (!begins_with(film_any_version)) refuse("not a film");
+        if (!begins_with(film_version)) refuse("a film by another version of the program");
+        if (read_some(&c, 1) == 0) refuse(text.empty() ? "not a film" : "the film is cut short");
         text += c;
     }
     checksum_.add(text);
     return text;
-}
-
-void FilmReader::read_line(const std::string& line) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "option") {
-        std::string name, value;
-        words >> name;
-        words.get();
-        std::getline(words, value);
-        label_.options.push_back({name, value});
-        return;
-    }
-    if (kind == "samples") {
-        SampleRange r;
-        words >> r.first >> r.last >> r.seed;
-        label_.samples.push_back(r);
-    } else if (kind == "counts") {
-        SampleCounts& c = label_.counts;
-        uint64_t largest = 0;
-        words >> c.rays >> c.paths_cut >> c.not_finite >> c.bad_seed >> c.bad_sample >> c.bad_y >>
-            c.bad_x >> largest;
-        c.largest = std::bit_cast<double>(largest);
-    } else if (kind == "size") {
-        words >> width_ >> height_ >> kind_ >> takes_splats_;
-    } else if (line != first_line) {
-        refuse_label();
-    }
-    if (line != first_line && words.fail()) refuse_label();
 }
 
 void FilmReader::read_sums(std::vector<PixelSum>& sums) {
@@ -152,43 +125,34 @@ void FilmReader::read_sums(std::vector<PixelSum>& sums) {
     checksum_.add(bytes_of(sums));
 }
 
-/// Throws where a film, though its checksum is right, is none that was written by write_film().
-void FilmReader::check(const Film& film) const {
-    uint64_t most = 0;
-    for (size_t i = 0; i < label_.samples.size(); i++) {
-        const SampleRange& r = label_.samples[i];
-        if (r.first >= r.last || (i > 0 && r <= label_.samples[i - 1])) refuse_label();
-        most += r.last - r.first;
+/// The pixels; those at the edges of lamps decide which are audited, and so how many audits follow.
+void FilmReader::read_pixels(Film& film, const FilmShape& shape) {
+    read_sums(film.pixels());
+    std::vector<bool> audited;
+    for (const PixelSum& p : film.pixels()) {
+        if (std::max(p.is_edge, p.is_audited) > (shape.kind == 1)) refuse_numbers();
+        audited.push_back(p.is_audited);
     }
-    if (most > PixelSum::most) refuse_label();
-    if (film.has_halves()) most = PixelSum::most;  // they are shared out as the chapter likes
-    for (const std::vector<PixelSum>* sums : sums_of(film)) {
-        bool is_batches = sums == &film.batches();  // of many pixels
-        for (const PixelSum& p : *sums) {
-            if ((p.n > most && !is_batches) || !p.has_valid_tops()) refuse_label();
-        }
+    if (shape.kind == 1) film.start_audit();
+    for (size_t i = 0; i < audited.size(); i++) {
+        if (film.is_audited(i) != audited[i]) refuse_numbers();
     }
 }
 
 LabeledFilm FilmReader::read() {
-    std::istringstream text(read_text());
-    for (std::string line; std::getline(text, line) && !line.empty();) read_line(line);
-    bool is_size = width_ > 0 && height_ > 0 && width_ <= 65536 && height_ <= 65536 &&
-                   int64_t{width_} * height_ <= 1 << 28;
-    if (!is_size || kind_ < 0 || kind_ > 3) refuse_label();
+    auto [label, shape] = parse_label(path_, read_text());
     // Ask first whether there are so many bytes: a label alone must not take all memory.
     struct stat file = {};
-    uint64_t least =
-        static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(PixelSum);
-    if (takes_splats_) least *= 3;
-    if (::fstat(fd_, &file) != 0 || static_cast<uint64_t>(file.st_size) < least) {
+    uint64_t pixels = static_cast<uint64_t>(shape.width) * static_cast<uint64_t>(shape.height);
+    uint64_t least = pixels * (shape.takes_splats ? 3 : 1) + (shape.kind == 2 ? pixels : 0);
+    if (::fstat(fd_, &file) != 0 ||
+        static_cast<uint64_t>(file.st_size) < least * sizeof(PixelSum)) {
         refuse("the film is cut short");
     }
-    Film film(width_, height_, takes_splats_);
-    read_sums(film.pixels());
-    if (kind_ == 1) film.start_audit();
-    if (kind_ == 2) film.start_halves();
-    if (kind_ == 3) film.start_batches();
+    Film film(shape.width, shape.height, shape.takes_splats);
+    if (shape.kind == 2) film.start_halves();
+    if (shape.kind == 3) film.start_batches();
+    read_pixels(film, shape);
     for (std::vector<PixelSum>* sums :
          {&film.audits(), &film.splats(), &film.totals(), &film.batches()}) {
         read_sums(*sums);
@@ -199,57 +163,16 @@ LabeledFilm FilmReader::read() {
     if (written != checksum_.value() || read_some(&more, 1) > 0) {
         refuse("the film is damaged: its checksum is wrong");
     }
-    check(film);
-    return {std::move(label_), std::move(film)};
-}
-
-/// The ranges of both, joined where they touch. Throws where they overlap.
-std::vector<SampleRange> joined(const std::vector<SampleRange>& a,
-                                const std::vector<SampleRange>& b, const std::string& path) {
-    std::vector<SampleRange> all = a, result;
-    all.insert(all.end(), b.begin(), b.end());
-    std::sort(all.begin(), all.end());
-    uint64_t samples = 0;
-    for (const SampleRange& r : all) {
-        samples += r.last - r.first;
-        bool same_seed = !result.empty() && result.back().seed == r.seed;
-        if (same_seed && r.first < result.back().last) {
-            fail({path}, "sample " + std::to_string(r.first) + " of seed " +
-                             std::to_string(r.seed) + " would count twice");
-        }
-        if (same_seed && r.first == result.back().last) {
-            result.back().last = r.last;
-        } else {
-            result.push_back(r);
-        }
-    }
-    if (samples > PixelSum::most) fail({path}, "more than 2^28 samples of a pixel, in all");
-    return result;
+    if (!is_consistent(film, label)) refuse_numbers();
+    return {std::move(label), std::move(film)};
 }
 
 }  // namespace
 
-void SampleCounts::add_not_finite(uint32_t seed, int sample, int y, int x) {
-    if (not_finite++ > 0 &&
-        std::tie(bad_seed, bad_sample, bad_y, bad_x) < std::tie(seed, sample, y, x)) {
-        return;
-    }
-    bad_seed = seed, bad_sample = sample, bad_y = y, bad_x = x;
-}
-
-void SampleCounts::add(const SampleCounts& other) {
-    rays += other.rays;
-    paths_cut += other.paths_cut;
-    largest = std::max(largest, other.largest);
-    if (other.not_finite == 0) return;
-    add_not_finite(other.bad_seed, other.bad_sample, other.bad_y, other.bad_x);
-    not_finite += other.not_finite - 1;
-}
-
 void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
     NewFile file(path);
     Checksum checksum;
-    std::string text = text_of(label, film);
+    std::string text = label_text(label, shape_of(film));
     auto write = [&](std::string_view bytes) {
         checksum.add(bytes);
         file.write(bytes);
@@ -273,19 +196,27 @@ void check_options(const std::string& path, const FilmLabel& label,
         }
         const auto& [name, value] = options[i];
         const std::string& its_value = label.options[i].second;
-        if (value == its_value) continue;
+        if (printable(value) == its_value) continue;
+        if (name == "code") fail({path}, "the film was made by other code of this chapter");
         if (name == "scene") fail({path}, "a film of another scene: its files are not the same");
         fail({path}, "its " + name + " is " + quote(its_value) + ", here it is " + quote(value));
     }
 }
 
+void check_sums(const std::string& path, const Film& film, const Film& sum) {
+    if (shape_of(film) != shape_of(sum)) fail({path}, "a film by another version of the program");
+    for (size_t i = 0; i < sum.pixels().size(); i++) {
+        const PixelSum &a = film.pixels()[i], &b = sum.pixels()[i];
+        if (a.is_edge != b.is_edge) fail({path}, "it has other pixels at the edges of lamps");
+        bool fits = a.n + b.n <= PixelSum::most;
+        if (sum.has_halves()) fits &= film.audits()[i].n + sum.audits()[i].n <= PixelSum::most;
+        if (!fits) fail({path}, "more than 2^28 samples of a pixel, in all");
+    }
+}
+
 void add_film(LabeledFilm& sum, const std::string& path, const LabeledFilm& part) {
     check_options(path, part.label, sum.label.options);
-    bool same_size = part.film.width == sum.film.width && part.film.height == sum.film.height &&
-                     kind_of(part.film) == kind_of(sum.film) &&
-                     part.film.takes_splats() == sum.film.takes_splats();
-    if (!same_size) fail({path}, "a film by another version of the program");
-    sum.label.samples = joined(sum.label.samples, part.label.samples, path);
-    sum.label.counts.add(part.label.counts);
+    check_sums(path, part.film, sum.film);
+    sum.label.add(part.label, path);
     sum.film.add(part.film);
 }

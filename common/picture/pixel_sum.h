@@ -48,7 +48,7 @@ struct PixelSum {
 
     double bins[3][sums] = {};
     uint8_t top_channels = 2, top_squares = 2;
-    bool is_edge = false, is_audited = false;  // see Film::start_audit()
+    uint8_t is_edge = 0, is_audited = 0;  // 0 or 1; see Film::start_audit()
     uint32_t n = 0;
 
     /// Adds a sample.
@@ -59,11 +59,9 @@ struct PixelSum {
     }
     /// Adds what part of a sample brings to the sums of the channels alone.
     void add_part(Rgb L) { add_numbers(double{L.r}, double{L.g}, double{L.b}, 0); }
-    /// Whether the bins begin where they can: asked of what was read from a file.
-    bool has_valid_tops() const {
-        size_t end = pixel_sum::tops.limit.size();
-        return top_channels >= 2 && top_channels < end && top_squares >= 2 && top_squares < end;
-    }
+    /// Whether some numbers have this sum: asked of what was read from a file.
+    bool is_possible() const;
+    bool is_zero() const { return r() == 0 && g() == 0 && b() == 0 && sum_of_squares() == 0; }
     /// Adds the samples of another sum.
     void add(const PixelSum& other);
 

@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/position.h"
+#include "common/program/code_hash.h"
 
 namespace {
 
@@ -19,6 +20,7 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     bool has_strata = o.sampler == SamplerType::stratified;  // as many as samples
     std::vector<std::pair<std::string, std::string>> options = {
         {"chapter", o.name},
+        {"code", code_hash(o.name)},
         {"file", printable(std::filesystem::path(scene.file).filename().string())},
         {"scene", scene_bytes},
         {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
@@ -30,9 +32,13 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     return options;
 }
 
-std::string text_of(const SampleRange& r) {
-    return "samples " + std::to_string(r.first) + " to " + std::to_string(r.last - 1) +
-           " of seed " + std::to_string(r.seed);
+/// With --time and no --spp a render takes samples as long as there is time.
+bool is_endless(const RenderOptions& o) { return o.time > 0 && o.spp == 0 && o.parts == 1; }
+
+/// The samples of all parts.
+Goal goal_of(const Scene& scene, const RenderOptions& o) {
+    uint32_t spp = static_cast<uint32_t>(o.time > 0 && o.spp > 0 ? o.spp : scene.spp);
+    return {o.seed, is_endless(o) ? PixelSum::most : spp, static_cast<uint32_t>(o.parts)};
 }
 
 }  // namespace
@@ -44,11 +50,8 @@ SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
     }
     bool fits = o.film.empty() || scene.spp <= static_cast<int>(PixelSum::most);
     if (!fits) throw UsageError("error: --film: a film holds at most 2^28 samples of a pixel");
-    bool endless = o.time > 0 && o.spp == 0 && o.parts == 1;
-    if (endless) return {o.seed, 0, PixelSum::most};
-    int spp = o.time > 0 && o.spp > 0 ? o.spp : scene.spp;
-    auto first_of = [&](int part) { return static_cast<uint32_t>(int64_t{spp} * part / o.parts); };
-    return {o.seed, first_of(o.part - 1), first_of(o.part)};
+    Goal goal = goal_of(scene, o);
+    return {o.seed, goal.first_of(o.part), goal.first_of(o.part + 1)};
 }
 
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering) {
@@ -57,6 +60,7 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     LabeledFilm found = read_film(options.film);
     check_options(options.film, found.label, film_options(scene, options));
     if (found.label.samples.empty()) return;  // stopped before it had any
+    check_sums(options.film, found.film, rendering.film);
     SampleRange wanted = wanted_samples(scene, options);
     for (const SampleRange& r : found.label.samples) {
         bool goes_on = r.seed == wanted.seed && r.first == wanted.first && r.last <= wanted.last;
@@ -73,17 +77,20 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
 }
 
 FilmLabel label_of(const Scene& scene, const RenderOptions& options) {
-    return {film_options(scene, options), {wanted_samples(scene, options)}, {}};
+    return {film_options(scene, options), {wanted_samples(scene, options)}, {}, {}};
 }
 
 FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
     FilmLabel label = label_of(scene, options);
     label.counts = rendering.stats;
+    const Film& film = rendering.film;
     uint32_t most = 0, first = label.samples[0].first;
-    for (const PixelSum& p : rendering.film.pixels()) most = std::max(most, p.n);
-    if (rendering.film.has_halves() && most > 0) most = rendering.begun;
+    for (const PixelSum& p : film.pixels()) most = std::max(most, p.n);
+    if (film.has_halves()) most = film.samples() > 0 ? rendering.begun : 0;
     label.samples.clear();
     if (most > 0) label.samples = {{options.seed, first, first + most}};
+    if (!is_endless(options)) label.goals = {goal_of(scene, options)};
+    label.keep_open_goals();
     return label;
 }
 

@@ -35,9 +35,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     const RenderStats& s = r.stats;
     Rgb mean = r.film.mean_rgb();
     double sum = r.film.mean() * static_cast<double>(r.film.samples());
-    const std::vector<PixelSum>& pixels = r.film.pixels();
-    auto empty =
-        std::count_if(pixels.begin(), pixels.end(), [](const PixelSum& p) { return p.n == 0; });
+    double pixels = static_cast<double>(r.film.pixels().size());
     JsonObject json;
     json.add("scene", scene.file);
     json.add("chapter", options.name);
@@ -60,7 +58,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("largest_sample", s.largest);
     json.add("largest_sample_share", sum > 0 ? s.largest / sum : 0);
     json.add("effective_samples", r.film.effective_samples());
-    json.add("empty_pixels_share", static_cast<double>(empty) / static_cast<double>(pixels.size()));
+    json.add("empty_pixels_share", static_cast<double>(r.film.empty_pixels()) / pixels);
     json.add("warnings", warnings_of(scene, options, r));
     json.add("interrupted", s.interrupted);
     return json.text();
@@ -72,13 +70,7 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), printable(scene.file).c_str(),
                 r.film.width, r.film.height, json_number(r.film.spp()).c_str(),
                 s.interrupted ? " (interrupted)" : "");
-    double error = r.film.standard_error();
-    if (std::isnan(error)) {
-        std::printf("mean %.6f, standard error unknown%s\n", r.film.mean(),
-                    r.film.spp() > 1 ? "" : " (1 sample)");
-    } else {
-        std::printf("mean %.6f +- %.6f\n", r.film.mean(), error);
-    }
+    std::printf("%s\n", mean_and_error(r.film).c_str());
     for (const std::string& line : warnings_of(scene, options, r)) {
         std::printf("warning: %s\n", line.c_str());
     }
@@ -166,6 +158,18 @@ bool write_files(const Scene& scene, const RenderOptions& options, const Renderi
 }
 
 }  // namespace
+
+std::string mean_and_error(const Film& film) {
+    double error = film.standard_error();
+    char text[800];
+    if (std::isnan(error)) {
+        std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", film.mean(),
+                      film.spp() > 1 ? "" : " (1 sample)");
+    } else {
+        std::snprintf(text, sizeof text, "mean %.6f +- %.6f", film.mean(), error);
+    }
+    return text;
+}
 
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     if (!options.quiet) print_summary(scene, options, r);

@@ -5,3 +5,6 @@
 /// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 when a sample was
 /// not finite, 3 when a signal stopped the render before its end.
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+
+/// "mean 0.150432 +- 0.000102", or with "standard error unknown".
+std::string mean_and_error(const Film& film);

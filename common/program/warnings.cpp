@@ -123,12 +123,10 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, double s
 std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts) {
     std::vector<std::string> lines;
     double samples = static_cast<double>(film.samples());
-    const std::vector<PixelSum>& pixels = film.pixels();
-    auto empty =
-        std::count_if(pixels.begin(), pixels.end(), [](const PixelSum& p) { return p.n == 0; });
+    double empty = static_cast<double>(film.empty_pixels());
     if (empty > 0) {
         lines.push_back("it ended before " +
-                        percent(static_cast<double>(empty) / static_cast<double>(pixels.size())) +
+                        percent(empty / static_cast<double>(film.pixels().size())) +
                         " of the pixels had a sample: they are black");
     }
     double sum = film.mean() * samples;

@@ -43,6 +43,8 @@ void read_solution(const std::string& path, const std::string& label, Solution& 
         size_t end = label.find('\n', line) + 1;
         std::string found = bytes.substr(line, bytes.find('\n', line) + 1 - line);
         std::string wanted = label.substr(line, end - line);
+        if (found != wanted && wanted.starts_with("code "))
+            fail({path}, "the film was made by other code of this chapter");
         if (found != wanted) {
             fail({path}, "it is of " + quote(found.substr(0, found.size() - 1)) + ", here it is " +
                              quote(wanted.substr(0, wanted.size() - 1)));

@@ -53,7 +53,7 @@ std::string NamedFiles::read(const std::string& path, const Position& at) {
     }
     files_read_.insert(path);
     bytes_read_ += bytes.size();
-    checksum_.add(bytes);
+    add_to_checksum(bytes);
     if (bytes_read_ > limits_.file_bytes) {
         stop_reading(at, "more than " + std::to_string(limits_.file_bytes) +
                              " bytes are read, from all files together");
@@ -61,10 +61,21 @@ std::string NamedFiles::read(const std::string& path, const Position& at) {
     return bytes;
 }
 
+void NamedFiles::add_to_checksum(std::string_view bytes) {
+    add_number(bytes.size());
+    checksum_.add(bytes);
+}
+
+void NamedFiles::add_number(uint64_t number) {
+    checksum_.add({reinterpret_cast<const char*>(&number), sizeof number});
+}
+
 const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at) {
     std::string file = canonical(path);
     auto [place, is_new] = meshes_.try_emplace(file);
     Mesh& known = place->second;
+    if (is_new) known.number = meshes_.size();
+    add_number(known.number);
     if (!known.error.empty()) throw InputError(known.error);
     if (!is_new) return known.mesh;
     if (report_) report_("reading " + path, 0);

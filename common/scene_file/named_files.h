@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "common/base/checksum.h"
 #include "common/base/position.h"
@@ -30,9 +31,10 @@ public:
     /// more than the limit would be read in all.
     std::string read(const std::string& path, const Position& at);
 
-    /// Of all bytes that were read, in the order in which the scene names the files. The main file
-    /// is read elsewhere, and added by who reads it.
-    Checksum& checksum() { return checksum_; }
+    /// Of the lengths and bytes of all files, in the order in which the scene names them. The main
+    /// file is read elsewhere, and added by who reads it.
+    uint64_t checksum() const { return checksum_.value(); }
+    void add_to_checksum(std::string_view bytes);
     const std::set<std::string>& files_read() const { return files_read_; }
 
     /// The mesh in a PLY file, which is read once, however often it is named; also a file that is
@@ -43,16 +45,19 @@ public:
     size_t missing() const { return missing_.size(); }
 
 private:
+    struct Mesh {
+        TriangleMesh mesh;
+        std::string error;    // of a file that is no mesh
+        uint64_t number = 0;  // in the order in which they are read
+    };
+    void add_number(uint64_t number);  // to the checksum
+
     const std::string main_file_;
     const Limits limits_;
     const Report report_;
     std::set<std::string> files_read_;
     uint64_t bytes_read_ = 0;
     Checksum checksum_;
-    struct Mesh {
-        TriangleMesh mesh;
-        std::string error;  // of a file that is no mesh
-    };
     std::map<std::string, Mesh> meshes_;  // by the canonical names of their files
     std::set<std::string> missing_;       // the paths
 };

@@ -102,13 +102,12 @@ void skip_arguments(Lexer& lexer) {
 
 Scene Reader::read_scene(std::string text) {
     try {
-        Checksum& checksum = directives_.files().checksum();
-        checksum.add(text);
+        directives_.files().add_to_checksum(text);
         read(main_file_, std::move(text));
         // What is missing may be in what could not be used.
         if (error_lines_.empty()) {
             Scene scene = directives_.finish();
-            scene.files_checksum = checksum.value();
+            scene.files_checksum = directives_.files().checksum();
             scene.files = directives_.files().files_read();
             scene.files.insert(main_file_);
             return scene;

@@ -6,6 +6,7 @@
 #include "common/base/json.h"
 #include "common/picture/notes.h"
 #include "common/program/command_line.h"
+#include "common/program/results.h"
 #include "common/program/warnings.h"
 
 namespace {
@@ -40,6 +41,12 @@ MergeOptions parse(int argc, char** argv) {
     return o;
 }
 
+std::vector<std::string> warnings_of(const LabeledFilm& sum) {
+    std::vector<std::string> lines = sum.label.missing();
+    for (const std::string& line : warnings_of(sum.film, sum.label.counts)) lines.push_back(line);
+    return lines;
+}
+
 std::string stats_json(const LabeledFilm& sum) {
     const auto& [label, film] = sum;
     JsonObject json;
@@ -49,15 +56,15 @@ std::string stats_json(const LabeledFilm& sum) {
     json.add("mean", film.mean());
     json.add("standard_error", film.standard_error());
     json.add("samples_not_finite", label.counts.not_finite);
-    json.add("warnings", warnings_of(film, label.counts));
+    json.add("warnings", warnings_of(sum));
     return json.text();
 }
 
 void print_summary(const MergeOptions& o, const LabeledFilm& sum) {
     const auto& [label, film] = sum;
-    std::printf("%zu films  %dx%d  %s spp\nmean %.6f +- %.6f\n", o.films.size(), film.width,
-                film.height, json_number(film.spp()).c_str(), film.mean(), film.standard_error());
-    for (const std::string& line : warnings_of(film, label.counts)) {
+    std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), film.width, film.height,
+                json_number(film.spp()).c_str(), mean_and_error(film).c_str());
+    for (const std::string& line : warnings_of(sum)) {
         std::printf("warning: %s\n", line.c_str());
     }
     std::printf("wrote %s\n", o.out.c_str());

@@ -25,7 +25,7 @@ compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common
 #: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
 	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
-	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) -c %s"}\n' \
+	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
 	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
 	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
 #: make tidy         clang-tidy's checks, those in .clang-tidy (5 minutes)

@@ -106,6 +106,24 @@ TEST_SUITE("film") {
         CHECK(std::isnan(Film(3, 2).standard_error()));
     }
 
+    TEST_CASE(
+        "truth: a pixel with samples in one half alone has their mean, and an unknown error") {
+        for (int half : {0, 1}) {
+            Film film(2, 1);
+            film.start_halves();
+            CHECK(film.empty_pixels() == 2);
+            for (float x : {1.0f, 3.0f}) film.add(0, grey(x), half);
+            CHECK(film.empty_pixels() == 1);
+            CHECK(film.mean() == 2);
+            CHECK(film.image().at(0, 0) == grey(2));
+            CHECK(film.image().at(1, 0) == grey(0));
+            CHECK(std::isnan(film.standard_error()));
+            film.add(0, grey(6), 1 - half);
+            CHECK(film.mean() == 4);
+            CHECK(film.standard_error() == about(2));
+        }
+    }
+
     TEST_CASE("truth: one sample says nothing about its error") {
         CHECK(std::isnan(film_of({{3}, {5}}).standard_error()));
         CHECK(film_of({{3}, {5}}).mean() == 4);

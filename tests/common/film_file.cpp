@@ -8,6 +8,7 @@
 
 #include "common/base/checksum.h"
 #include "common/base/files.h"
+#include "tests/fuzz/films.h"
 #include "tests/support/folder.h"
 
 namespace {
@@ -71,6 +72,26 @@ std::string refusal(const std::string& bytes) {
     std::string where = folder / "a.film" + ": error: ";
     CHECK(error.find('\n') == std::string::npos);
     return error.starts_with(where) ? error.substr(where.size()) : error;
+}
+
+LabeledFilm read_film_of(const std::string& bytes) {
+    TemporaryFolder folder;
+    write_file_atomically(folder / "a.film", bytes);
+    return read_film(folder / "a.film");
+}
+
+/// The same for a film whose checksum is made right after it was changed.
+std::string refusal_of_changed(std::string bytes) {
+    bytes.resize(bytes.size() - 8);
+    return refusal(bytes + FilmFuzzer::checksum(bytes));
+}
+
+/// The film with a number of one of its sums replaced. `which` counts all sums of the file.
+template <typename Number>
+std::string with_number(std::string bytes, size_t which, size_t where, Number number) {
+    size_t at = bytes.find("\n\n") + 2 + which * sizeof(PixelSum) + where;
+    std::memcpy(bytes.data() + at, &number, sizeof number);
+    return bytes;
 }
 
 }  // namespace
@@ -227,6 +248,11 @@ TEST_SUITE("film files") {
         other = film_of(9, 12);
         other.label.options.pop_back();
         CHECK(with(other) == "b.film: error: a film by another version of the program");
+        sum.label.options[1] = {"code", "123"};
+        before = bytes_of(sum);
+        other = film_of(9, 12);
+        other.label.options[1] = {"code", "124"};
+        CHECK(with(other) == "b.film: error: the film was made by other code of this chapter");
     }
 
     TEST_CASE("teeth: a film with any bit flipped, or cut anywhere, is refused") {
@@ -252,23 +278,149 @@ TEST_SUITE("film files") {
     TEST_CASE("input: a film whose label lies is refused, though its checksum is right") {
         std::string bytes = bytes_of(film_of(0, 2));
         auto with = [&](const std::string& from, const std::string& to) {
-            std::string changed = bytes.substr(0, bytes.size() - 8);
-            changed.replace(changed.find(from), from.size(), to);
-            Checksum sum;
-            sum.add(changed);
-            uint64_t value = sum.value();
-            return refusal(changed.append(reinterpret_cast<const char*>(&value), 8));
+            std::string changed = bytes;
+            return refusal_of_changed(changed.replace(changed.find(from), from.size(), to));
         };
         const std::string bad = "a film whose label cannot be read";
+        const std::string contradiction = "the film is damaged: its numbers contradict each other";
         CHECK(with("samples 0 2 1", "samples 0 2 1") == "");
         CHECK(with("samples 0 2 1", "samples 2 2 1") == bad);
-        CHECK(with("samples 0 2 1", "samples 0 1 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 1 1") == contradiction);
         CHECK(with("samples 0 2 1", "samples 0 x 1") == bad);
         CHECK(with("samples 0 2 1", "samples 0 2") == bad);
         CHECK(with("samples 0 2 1", "samples 0 4000000000 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 -1 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 02 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 2 1\nsamples 2 3 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 4 6 1\nsamples 0 2 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 2 1 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 0 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 10 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 3 1\ngoal 8 3 1") == bad);
+        CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 9 1") == "");
+        CHECK(with("samples 0 2 1", "samples 0 2 1 ") == bad);
+        CHECK(with("samples 0 2 1\n", "") == contradiction);
+        CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 31 0 1 2 4") == contradiction);
+        CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 1 0 1 3 4") == bad);
+        CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 1 0 1 2 5") == bad);
+        CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 1 0 -1 2 4") == bad);
+        CHECK(with("counts 30 0 0 0 0 0 0 0", "counts 30 0 0 0 0 0 0 9218868437227405312") == bad);
+        CHECK(with("size 5 3 1 1", "size 3 5 1 1") == "");
+        CHECK(with("option paths", "option size 5x3\noption paths") == "");
+        CHECK(with("option paths", "option size 5x4\noption paths") == bad);
+        CHECK(with("size 5 3 1 1", "size 5 3 2 1") != "");
+        CHECK(with("size 5 3 1 1", "size 5 3 3 1") != "");
+        CHECK(with("size 5 3 1 1", "size 5 3 4 1") == bad);
+        CHECK(with("size 5 3 1 1", "size 5 3 1 0") != "");
         CHECK(with("size 5 3 1", "size 65536 65536 1") == bad);
         CHECK(with("size 5 3 1", "size 0 3 1") == bad);
         CHECK(with("size 5 3 1", "size 60000 3000 1") == "the film is cut short");
         CHECK(with("counts", "count") == bad);
+        CHECK(with("version 4", "version 3") == "a film by another version of the program");
+        CHECK(with("version 4", "version 40") == "a film by another version of the program");
+    }
+
+    TEST_CASE(
+        "input: a film whose numbers contradict each other is refused, though its checksum is "
+        "right") {
+        // 15 pixels, and as many audits, splats and totals, of 12 numbers, 4 small ones and a
+        // count.
+        std::string bytes = bytes_of(film_of(0, 2));
+        auto with = [&](size_t which, size_t where, auto number) {
+            return refusal_of_changed(with_number(bytes, which, where, number));
+        };
+        const std::string bad = "the film is damaged: its numbers contradict each other";
+        CHECK(refusal_of_changed(bytes) == "");
+        for (size_t which : {0, 14, 15, 30, 59}) {
+            CHECK(with(which, 0, HUGE_VAL) == bad);
+            CHECK(with(which, 64, std::nan("")) == bad);  // one bin of three
+            for (size_t top : {96, 97}) {
+                CHECK(with(which, top, uint8_t{1}) == bad);
+                CHECK(with(which, top, uint8_t{29}) == bad);
+            }
+            for (uint8_t flag : {uint8_t{2}, uint8_t{255}}) {
+                CHECK(with(which, 98, flag) == bad);
+                CHECK(with(which, 99, flag) == bad);
+            }
+            for (uint32_t n : {1u, 3u, 1u << 28, 0xffffffffu}) CHECK(with(which, 100, n) == bad);
+        }
+        CHECK(with(3, 98, uint8_t{1}) == "");  // a pixel at the edge of a lamp: all are audited
+        CHECK(with(3, 99, uint8_t{0}) == bad);
+        CHECK(with(15, 98, uint8_t{1}) == bad);
+        std::string nan = bytes;
+        for (size_t bin : {0, 1, 2}) nan = with_number(nan, 4, 32 * bin, std::nan(""));
+        CHECK(refusal_of_changed(nan) == "");
+
+        // Halves of a pixel may have any number of samples, batches what the pixels have.
+        FilmFuzzer fuzzer;
+        std::string halves = fuzzer.films()[6], batches = fuzzer.films()[9];
+        REQUIRE(read_film_of(halves).film.has_halves());
+        REQUIRE(read_film_of(batches).film.has_batches());
+        CHECK(refusal_of_changed(with_number(halves, 9, 100, uint32_t{77})) == "");
+        CHECK(refusal_of_changed(with_number(halves, 9, 100, 1u << 29)) == bad);
+        CHECK(refusal_of_changed(with_number(halves, 9, 98, uint8_t{1})) == bad);
+        CHECK(refusal_of_changed(with_number(batches, 143, 100, uint32_t{77})) == bad);
+    }
+
+    TEST_CASE("input: films that fit no other are not added, though each is right by itself") {
+        LabeledFilm sum = film_of(0, 2), edges = film_of(2, 4), many = film_of(2, 4);
+        edges.film.mark_edge(3);
+        std::string before = bytes_of(sum);
+        CHECK(error_of([&] { add_film(sum, "b", edges); }) ==
+              "b: error: it has other pixels at the edges of lamps");
+        for (int kind : {0, 1, 2, 3}) {
+            LabeledFilm a = any_film(kind, false, 0, 2);
+            for (int other = 0; other < 6; other++) {
+                LabeledFilm b = any_film(other % 4, other > 3, 2, 4);
+                std::string error = error_of([&] { add_film(a, "b", b); });
+                bool fits = other == kind;
+                CHECK(error == (fits ? "" : "b: error: a film by another version of the program"));
+            }
+        }
+        // Samples of a pixel that are more than its count can hold.
+        LabeledFilm a = any_film(2, false, 0, 2), b = any_film(2, false, 2, 4);
+        a.film.pixels()[7].n = b.film.pixels()[7].n = 1u << 28;
+        CHECK(error_of([&] { add_film(a, "b", b); }) ==
+              "b: error: more than 2^28 samples of a pixel, in all");
+        CHECK(bytes_of(sum) == before);
+    }
+
+    TEST_CASE("input: damaged films, though their checksums are right, are refused, or films") {
+        FuzzResult result = fuzz_films(1'000'000, 1000);
+        CHECK(result.read > 50);
+        CHECK(result.refused > 300);
+    }
+
+    TEST_CASE("truth: what is missing is named, sample by sample and part by part") {
+        auto missing = [](std::vector<SampleRange> samples, std::vector<Goal> goals) {
+            FilmLabel label{{}, samples, goals, {}};
+            label.keep_open_goals();
+            return label.missing();
+        };
+        using Lines = std::vector<std::string>;
+        CHECK(missing({{0, 0, 6}}, {{0, 6, 5}}) == Lines{});
+        CHECK(missing({{0, 0, 9}}, {{0, 6, 5}}) == Lines{});
+        CHECK(missing({{0, 0, 4}}, {{0, 6, 5}}) ==
+              Lines{"samples 4 to 5 of seed 0 are missing: part 5/5"});
+        CHECK(missing({{0, 1, 2}, {0, 4, 6}}, {{0, 6, 5}}) ==
+              Lines{"sample 0 of seed 0 is missing: part 1/5",
+                    "samples 2 to 3 of seed 0 are missing: parts 3/5 to 4/5"});
+        CHECK(missing({}, {{3, 6, 1}}) == Lines{"samples 0 to 5 of seed 3 are missing"});
+        // Of several renders of one seed the largest counts; and each seed by itself.
+        CHECK(missing({{0, 0, 4}, {1, 0, 2}}, {{0, 4, 2}, {0, 8, 2}, {0, 6, 3}, {1, 4, 2}}) ==
+              Lines{"samples 4 to 7 of seed 0 are missing: part 2/2",
+                    "samples 2 to 3 of seed 1 are missing: part 2/2"});
+        for (uint32_t samples = 1; samples < 12; samples++) {
+            for (uint32_t parts = 1; parts <= samples; parts++) {
+                Goal goal = {0, samples, parts};
+                CHECK(goal.first_of(1) == 0);
+                CHECK(goal.first_of(static_cast<int>(parts) + 1) == samples);
+                for (uint32_t s = 0; s < samples; s++) {
+                    int part = static_cast<int>(goal.part_of(s));
+                    CHECK(goal.first_of(part) <= s);
+                    CHECK(s < goal.first_of(part + 1));
+                }
+            }
+        }
     }
 }

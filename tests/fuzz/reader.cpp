@@ -1,5 +1,5 @@
-// fuzz_reader [COUNT [FIRST [pictures]]]: the readers against damaged scenes and meshes (see
-// fuzz.h), or against damaged pictures (see pictures.h).
+// fuzz_reader [COUNT [FIRST [pictures|films]]]: the readers against damaged scenes and meshes (see
+// fuzz.h), or against damaged pictures or films (see pictures.h, films.h).
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #define DOCTEST_CONFIG_DISABLE  // this is no test, though it uses the same helpers
+#include "tests/fuzz/films.h"
 #include "tests/fuzz/pictures.h"
 
 namespace {
@@ -53,9 +54,9 @@ int main(int argc, char** argv) {
     uint32_t first = argc > 2 ? static_cast<uint32_t>(std::atoi(argv[2])) : 0;
     try {
         std::signal(SIGPROF, end_slow_input);
-        bool of_pictures = argc > 3;
-        FuzzResult result = of_pictures ? fuzz_pictures(first, count, begin_input)
-                                        : fuzz(first, count, begin_input);
+        std::string what = argc > 3 ? argv[3] : "";
+        auto run = what == "pictures" ? fuzz_pictures : what == "films" ? fuzz_films : fuzz;
+        FuzzResult result = run(first, count, begin_input);
         std::printf(
             "%u damaged inputs: %llu read, %llu refused, the slowest in %.3f s, %.0f MB at most\n",
             count, static_cast<unsigned long long>(result.read),
