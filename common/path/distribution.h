@@ -44,8 +44,7 @@ inline Wavelength sample_wavelength(const std::vector<Rgb>& shares, float u) {
     return {static_cast<float>(nm / 1000), shares[i] / p};
 }
 
-/// What is prepared for a scene: its lights, for each pixel of its sky the share of light that is
-/// in those before it (and 1), and white light.
+/// A scene's lights, the share of the sky's light before each pixel (and 1 at the end), and white.
 struct Prepared {
     ManyLights lights;
     std::vector<double> sky;
@@ -63,27 +62,27 @@ inline Prepared prepare(const Scene& scene, int M = 64) {
     return prepared;
 }
 
-/// The density of direction uv of the sky.      pdf_w = pmf pixels / (solid angle per area)
-inline float pdf_sky_image(const SkyImage& sky, const std::vector<double>& shares, Vec2 uv) {
-    size_t i = sky.pixel_at(uv);
-    double pmf = shares[i + 1] - shares[i], pixels = static_cast<double>(sky.pixels.size());
+/// The density at uv, in pixel i of the sky.      pdf_w = pmf pixels / (solid angle per area)
+inline float pdf_sky_image(const SkyImage& sky, const std::vector<double>& cdf, size_t i, Vec2 uv) {
+    double pmf = cdf[i + 1] - cdf[i], pixels = static_cast<double>(sky.pixels.size());
     return static_cast<float>(pmf * pixels) / solid_angle_per_area(sky, uv);
 }
 
-/// Estimates what the picture of the sky sends by way of x to wo, from a point in one of its
-/// pixels.
+/// Estimates what the picture of the sky sends by way of x to wo, from a point in its pixel i. By
+/// rounding the point may lie in the next pixel, which may be black: i tells Le and density.
 ///
 ///   Ld = mis_l f Le V cos / pdf_l      tested by  "truth: skies of known irradiance"
-inline Rgb sky_light(const Scene& scene, const std::vector<double>& shares, const Hit& x, Vec3 wo,
+inline Rgb sky_light(const Scene& scene, const std::vector<double>& cdf, const Hit& x, Vec3 wo,
                      double u, Vec2 u2, Rgb beta, PathLog& log) {
     if (is_specular(*x.material) || is_black(beta)) return {};
     const SkyImage& sky = *scene.sky_image;
-    auto chosen = std::upper_bound(shares.begin() + 1, shares.end() - 1, u) - shares.begin() - 1;
-    Vec2 uv = sky.point_in(static_cast<size_t>(chosen), u2);
+    auto chosen = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u) - cdf.begin() - 1;
+    size_t i = static_cast<size_t>(chosen);
+    Vec2 uv = sky.point_in(i, u2);
     Vec3 wi = direction_of(sky, uv);
-    float pdf_l = pdf_sky_image(sky, shares, uv), pdf_b = pdf_bsdf(x, wo, wi);
+    float pdf_l = pdf_sky_image(sky, cdf, i, uv), pdf_b = pdf_bsdf(x, wo, wi);
     float mis_l = power_heuristic(pdf_l, pdf_b);
-    Rgb Ld = eval_bsdf(x, wo, wi) * sky.at(uv) * (mis_l * dot(wi, x.n) / pdf_l);
+    Rgb Ld = eval_bsdf(x, wo, wi) * sky.pixels[i] * (mis_l * dot(wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, wi))) return {};
     return log.direct(beta * Ld, wi, pdf_l, pdf_b, mis_l);
 }
@@ -119,10 +118,11 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
             L += log.emitted(beta * Le * mis_b, mis_b);
         }
         if (!x && scene.sky_image) {
-            Vec2 uv = point_of(*scene.sky_image, ray.d);
-            float pdf_l = pdf_sky_image(*scene.sky_image, prepared.sky, uv);
+            const SkyImage& sky = *scene.sky_image;
+            Vec2 uv = point_of(sky, ray.d);
+            float pdf_l = pdf_sky_image(sky, prepared.sky, sky.pixel_at(uv), uv);
             float mis_b = only_way ? 1 : power_heuristic(pdf_b, pdf_l);
-            L += log.emitted(beta * scene.sky_image->at(uv) * mis_b, mis_b);
+            L += log.emitted(beta * sky.at(uv) * mis_b, mis_b);
         }
         if (!x) return L;
         if (depth == scene.max_depth) {

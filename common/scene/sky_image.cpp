@@ -45,5 +45,6 @@ Vec2 point_of(const SkyImage& sky, Vec3 wi) {
 }
 
 float solid_angle_per_area(const SkyImage& sky, Vec2 uv) {
-    return sky.map == SkyImage::Map::square ? 4 * pi : 2 * pi * pi * std::sin(pi * uv.y);
+    if (sky.map == SkyImage::Map::square) return 4 * pi;
+    return 2 * pi * pi * std::max(std::sin(pi * uv.y), 1e-20f);
 }

@@ -553,6 +553,77 @@ TEST_SUITE("ch15 sky") {
         is({0.3f, 1}, {0, 0, -1});
     }
 
+    TEST_CASE("truth: skies with black pixels") {
+        // Of each sky some pixels are black; of the last all but one, and that is as bright as can
+        // be. 997 rows and columns: many points of pixels lie at the edge of the next, if rounded.
+        struct {
+            const char* name;
+            std::function<float(int, int, int)> L;  // of column, row, rows
+        } skies[] = {
+            {"checks", [](int i, int j, int) { return float((i + j) % 2); }},
+            {"stars",
+             [](int i, int j, int) { return float(i * 7919 % 101 + j * 104729 % 103 < 9); }},
+            {"a black half", [](int i, int, int n) { return i % n < n / 2 ? 1e-6f : 0.0f; }},
+            {"a range",
+             [](int i, int j, int) { return i % 2 ? std::pow(10.0f, float(j % 46 - 30)) : 0; }},
+            {"one pixel",
+             [](int i, int j, int n) { return i == n / 4 && j == n / 3 ? 1e15f : 0; }}};
+        for (const auto& sky : skies)
+            for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide}) {
+                CAPTURE(std::string(sky.name));
+                int h = map == SkyImage::Map::square ? 997 : 499,
+                    w = map == SkyImage::Map::square ? h : 2 * h;
+                Scene scene = under_sky(
+                    map, w, h, [](Vec3) { return Rgb{}; }, white_floor);
+                SkyImage& image = *scene.sky_image;
+                double E = 0, area = 1.0 / w / h;
+                for (size_t p = 0; p < image.pixels.size(); p++) {
+                    float L = sky.L(static_cast<int>(p) % w, static_cast<int>(p) / w, h);
+                    image.pixels[p] = {L, L, L};
+                    for (int k = 0; k < 4 && L > 0; k++) {
+                        Vec2 uv = image.point_in(
+                            p, {0.25f + 0.5f * float(k % 2), 0.25f + 0.5f * float(k / 2)});
+                        float cosine = std::max(0.0f, direction_of(image, uv).y);
+                        E +=
+                            double{L} * double{cosine * solid_angle_per_area(image, uv)} * area / 4;
+                    }
+                }
+                scene.max_depth = 1;
+                RunningStats s = irradiance(scene, by_fifteen(scene), 200000);
+                check_bounded(s, E, 0.01);
+            }
+    }
+
+    TEST_CASE(
+        "density: a sky's density is a number everywhere, 0 where it is black, and sums to 1") {
+        Sampler random = random_numbers(3);
+        for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide})
+            for (int h : {1, 2, 64}) {
+                int w = map == SkyImage::Map::square ? h : 2 * h;
+                Scene scene = under_sky(
+                    map, w, h,
+                    [](Vec3 d) {
+                        return Rgb{d.y > 0.7f ? 0.0f : 1.0f, 0, 2};
+                    },
+                    white_floor);
+                const SkyImage& sky = *scene.sky_image;
+                std::vector<double> cdf = ch15::prepare(scene).sky;
+                auto pdf = [&](Vec3 wi) {
+                    Vec2 uv = point_of(sky, wi);
+                    return ch15::pdf_sky_image(sky, cdf, sky.pixel_at(uv), uv);
+                };
+                RunningStats sum;
+                for (int i = 0; i < 200000; i++)
+                    sum.add(4 * pi_exact * double{pdf(uniform_direction(random.u2()))});
+                check_bounded(sum, 1, 0.01);
+                for (float x : {-1.0f, 0.0f, 1.0f})
+                    for (float y : {-1.0f, 0.0f, 1.0f})
+                        for (float z : {-1.0f, 0.0f, 1.0f})
+                            if (x != 0 || y != 0 || z != 0)
+                                CHECK(pdf(normalize(Vec3{x, y, z})) >= 0);
+            }
+    }
+
     TEST_CASE("truth: skies of known irradiance") {
         struct {
             std::function<float(float)> L;
