@@ -10,6 +10,7 @@
 #include "common/base/json.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
+#include "common/picture/finite_part.h"
 #include "common/picture/heat_map.h"
 #include "common/picture/notes.h"
 #include "common/program/class_sheet.h"
@@ -33,7 +34,7 @@ Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering
 
 std::string stats_json(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
-    Rgb mean = r.film.mean_rgb();
+    FinitePart finite = finite_part(r.film);
     double sum = r.film.mean() * static_cast<double>(r.film.samples());
     double pixels = static_cast<double>(r.film.pixels().size());
     JsonObject json;
@@ -50,10 +51,12 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("samples_per_second", per_second(r.film.samples(), s.samples_before, s));
     json.add("rays", s.rays);
     json.add("rays_per_second", per_second(s.rays, s.rays_before, s));
-    json.add("mean", r.film.mean());
-    json.add("mean_rgb", std::vector<double>{double{mean.r}, double{mean.g}, double{mean.b}});
-    json.add("standard_error", r.film.standard_error());
+    json.add("mean", finite.mean);
+    json.add("mean_rgb",
+             std::vector<double>{double{finite.rgb.r}, double{finite.rgb.g}, double{finite.rgb.b}});
+    json.add("standard_error", finite.error);
     json.add("samples_not_finite", s.not_finite);
+    json.add("pixels_not_finite_share", 1 - finite.share);
     json.add("paths_cut_by_depth", s.paths_cut);
     json.add("largest_sample", s.largest);
     json.add("largest_sample_share", sum > 0 ? s.largest / sum : 0);
@@ -160,15 +163,20 @@ bool write_files(const Scene& scene, const RenderOptions& options, const Renderi
 }  // namespace
 
 std::string mean_and_error(const Film& film) {
-    double error = film.standard_error();
+    FinitePart finite = finite_part(film);
+    if (finite.share == 0) return "mean unknown: every pixel has samples that are not finite";
+    std::string of_others = finite.share == 1
+                                ? ""
+                                : " without the " + percent(1 - finite.share) +
+                                      " of the pixels that have samples that are not finite";
     char text[800];
-    if (std::isnan(error)) {
-        std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", film.mean(),
+    if (std::isnan(finite.error)) {
+        std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", finite.mean,
                       film.spp() > 1 ? "" : " (1 sample)");
     } else {
-        std::snprintf(text, sizeof text, "mean %.6f +- %.6f", film.mean(), error);
+        std::snprintf(text, sizeof text, "mean %.6f +- %.6f", finite.mean, finite.error);
     }
-    return text;
+    return text + of_others;
 }
 
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {

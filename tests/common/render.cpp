@@ -11,6 +11,7 @@
 
 #include "common/base/stats.h"
 #include "common/path/camera_sample.h"
+#include "common/picture/finite_part.h"
 #include "common/program/results.h"
 #include "common/program/stop.h"
 #include "common/scene/intersect.h"
@@ -424,6 +425,66 @@ TEST_SUITE("render loop") {
         CHECK(read_image(folder / "a.ppm").at(1, 1) == Rgb{1, 0, 1});
         std::string json = read_file(folder / "s.json");
         CHECK(json.find("\"samples_not_finite\": 1,") != std::string::npos);
-        CHECK(json.find("\"mean\": null,") != std::string::npos);
+        CHECK(json.find("\"mean\": 1,") != std::string::npos);
+        CHECK(json.find("\"pixels_not_finite_share\": 0.015625,") != std::string::npos);
+    }
+
+    TEST_CASE("failure: where samples are not finite, the mean is that of the other pixels") {
+        TemporaryFolder folder;
+        Scene scene = empty_scene(16, 16, 8);
+        scene.file = "a.pbrt";
+        auto summary = [&](Rendering r) {
+            Finished end = Process([&] {
+                               RenderOptions options = quiet_options();
+                               options.quiet = false;
+                               options.stats = folder / "s.json";
+                               return write_results(scene, options, r);
+                           }).wait();
+            CHECK(end.code == 1);
+            CHECK(end.out.find("nan") == std::string::npos);
+            return end.out;
+        };
+        auto is_close = [](double a, double b) {
+            return std::isfinite(a) && std::abs(a - b) <= 1e-6 * b;
+        };
+        // Samples, halves, splats and passes: the pixels on the left are as they were, and some on
+        // the right have a sample that is not finite.
+        for (bool splats : {false, true})
+            for (bool halves : {false, true}) {
+                if (splats && halves) continue;
+                Film film(16, 16, splats), left(8, 16, splats);
+                if (halves) film.start_halves(), left.start_halves();
+                auto add = [&](Film& into, size_t pixel, Rgb L, int half) {
+                    into.add(pixel, L, half);
+                    if (!splats) return;
+                    into.splat(pixel, {1, 2, 3});
+                    into.add_total(pixel, L + Rgb{1, 2, 3});
+                };
+                for (size_t i = 0; i < 256; i++)
+                    for (size_t s = 0; s < 8; s++) {
+                        float L = static_cast<float>(i % 7 + s * i % 3);
+                        int half = halves ? static_cast<int>(s % 2) : 0;
+                        bool on_left = i % 16 < 8;
+                        if (on_left) add(left, i / 16 * 8 + i % 16, {L, L, L}, half);
+                        add(film, i, {L, s == 3 && !on_left ? infinity : L, L}, half);
+                    }
+                FinitePart finite = finite_part(film);
+                CHECK(finite.share == 0.5);
+                CHECK(is_close(finite.mean, left.mean()));
+                CHECK(is_close(double{finite.rgb.g}, double{left.mean_rgb().g}));
+                CHECK(is_close(finite.error, left.standard_error()));
+                Rendering r{film, {}, {}};
+                r.stats.not_finite = 128, r.stats.seconds = 1;
+                CHECK(summary(r).find(" without the 50 % of the pixels that have samples that are "
+                                      "not finite\n") != std::string::npos);
+            }
+        // None of all pixels is left.
+        Film film(16, 16);
+        for (size_t i = 0; i < 256; i++) film.add(i, {std::nanf(""), 1, 1});
+        Rendering r{film, {}, {}};
+        r.stats.not_finite = 256, r.stats.seconds = 1;
+        CHECK(summary(r).find("\nmean unknown: every pixel has samples that are not finite\n") !=
+              std::string::npos);
+        CHECK(read_file(folder / "s.json").find("\"mean\": null,") != std::string::npos);
     }
 }
