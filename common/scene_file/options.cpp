@@ -43,11 +43,15 @@ void place_camera(const Params& params, const Transform& world_from_camera, Came
     }
 }
 
+// The narrowest field of view, in degrees: in a narrower one floats do not tell the rays of
+// neighbouring pixels apart.
+constexpr float narrowest = 0.001f;
+
 // Reads what part of the plane in front of the camera is seen.
 void read_screen(Params& params, Camera& camera) {
     camera.fov = params.number("fov", 90);
-    if (!(camera.fov > 0 && camera.fov < 180)) {
-        fail(params.at("fov"), "fov must be greater than 0 and less than 180 degrees");
+    if (!(camera.fov >= narrowest && camera.fov < 180)) {
+        fail(params.at("fov"), "fov must be at least 0.001 and less than 180 degrees");
     }
     if (const Param* aspect = params.find_exactly("float", "frameaspectratio", 1)) {
         camera.frame_aspect = static_cast<float>(aspect->numbers[0]);
@@ -60,6 +64,10 @@ void read_screen(Params& params, Camera& camera) {
         std::transform(window->numbers.begin(), window->numbers.end(), w.begin(),
                        [](double x) { return static_cast<float>(x); });
         if (!(w[0] < w[1] && w[2] < w[3])) fail(window->at, "screenwindow is empty");
+        float shorter = std::min(w[1] - w[0], w[3] - w[2]);
+        if (!(std::tan(camera.fov * pi / 360) * shorter >= narrowest * pi / 180)) {
+            fail(window->at, "screenwindow shows less than 0.001 degrees");
+        }
         for (float edge : w) {
             if (std::abs(edge) > 1e4f) fail(window->at, "screenwindow reaches farther than 1e4");
         }
@@ -90,6 +98,14 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
     read_lens(params, camera);
     camera.shutter_open = params.number("shutteropen", 0);
     camera.shutter_close = params.number("shutterclose", 1);
+    // A pinhole has no size, so the unit of its axes is free: near 1, their products are neither
+    // too small nor too large for floats. A power of two leaves all rays as they are.
+    if (camera.lens_radius == 0) {
+        int exponent = static_cast<int>(std::lround(std::log2(length(camera.forward))));
+        for (Vec3* axis : {&camera.right, &camera.up, &camera.forward}) {
+            *axis = std::ldexp(1.0f, -exponent) * *axis;
+        }
+    }
     exposure.shutter = camera.shutter_close - camera.shutter_open;
     if (!(exposure.shutter > 0)) {
         fail(params.at("shutterclose"), "shutterclose must be after shutteropen");

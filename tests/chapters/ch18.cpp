@@ -4,6 +4,7 @@
 #include "chapters/14_mis_ris/estimator.h"
 #include "chapters/17_light_tracing/estimator.h"
 #include "chapters/18_bidirectional/estimator.h"
+#include "common/base/json.h"
 #include "common/path/bidirectional.h"
 #include "tests/support/ggx_truth.h"
 #include "tests/support/known_lights.h"
@@ -349,6 +350,37 @@ TEST_SUITE("ch18 bidirectional") {
             CHECK(std::abs(m.mean - 2) < 5 * m.se);
             CHECK(m.se < 0.01);
         }
+    }
+
+    TEST_CASE("truth: a disk fills its share of the picture at any field of view and in any unit") {
+        // A disk of half the picture's width: pi / 16 of the film. The camera's unit is no length.
+        for (double fov : {0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 170.0})
+            for (const char* unit : {"1e-5", "1", "1e5"}) {
+                CAPTURE(fov);
+                CAPTURE(unit);
+                double radius = 10 * std::tan(fov * pi_exact / 360) / 2;
+                std::string u = std::string(unit) + " ";
+                Scene scene = scene_of(
+                    "Scale " + u + u + u + "Rotate 30 1 0 0 Rotate 50 0 1 0\n" +
+                    "Camera \"perspective\" \"float fov\" " + json_number(fov) + " WorldBegin\n" +
+                    shining +
+                    "Rotate -50 0 1 0 Rotate -30 1 0 0 Translate 0 0 10 Rotate 180 1 0 0 Shape "
+                    "\"disk\" \"float radius\" " +
+                    json_number(radius) + "\n");
+                scene.width = scene.height = 24, scene.max_depth = 1;
+                auto check = [&](const Film& film) {
+                    double truth = pi_exact / 16;
+                    CAPTURE(film.mean());
+                    CAPTURE(film.standard_error());
+                    CHECK(std::abs(film.mean() - truth) <=
+                          5 * film.standard_error() + 1e-3 * truth);
+                    CHECK(film.standard_error() < 0.01 * truth);
+                };
+                check(film_of(scene, by_fourteen(scene), 16).film);
+                SplatTrace by_light = trace_light_with<ch17::trace_light>(ch17::ends_of(scene));
+                check(film_of(scene, by_light, 16).film);
+                for (const Form& form : forms) check(film_of(scene, form(scene), 16).film);
+            }
     }
 
     TEST_CASE("truth: a light in a mirror and straight on, without noise, by both ends") {
