@@ -6,6 +6,8 @@
 
 #include "common/base/percent.h"
 #include "common/light/light_table.h"
+#include "common/program/black_picture.h"
+#include "common/program/metal_light.h"
 #include "common/scene/camera.h"
 #include "common/scene/intersect.h"
 
@@ -20,12 +22,19 @@ bool is_receiver(const Material& m) {
     return !is_specular(m) && !(m.type == MaterialType::diffuse && is_black(m.reflectance));
 }
 
-/// How often a light is met, about: in a closed room each patch of the wall is met in proportion to
-/// its area, and the scene has at most the walls of the sphere around it.
-double expected_hits(const Scene& scene, size_t light, double samples) {
+/// How likely a light is met, about: in a closed room each patch of the wall is met in proportion
+/// to its area, and the scene has at most the walls of the sphere around it.
+double chance_of(const Scene& scene, size_t light) {
     double radius = static_cast<double>(scene.radius);
-    return samples * static_cast<double>(scene.light_shapes[light].area) /
+    return static_cast<double>(scene.light_shapes[light].area) /
            (4 * std::numbers::pi * radius * radius);
+}
+double chance_of_any(const Scene& scene) {
+    double sum = 0;
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        sum += scene.lights[i].type == LightType::area ? chance_of(scene, i) : 0;
+    }
+    return scene.sky_light >= 0 || scene.sky_image ? 1 : std::min(sum, 1.0);
 }
 
 /// Whether a light that matters is so small that chance meets it too rarely.
@@ -37,28 +46,30 @@ bool has_rare_light(const Scene& scene, double samples) {
     for (size_t i = 0; i < scene.lights.size(); i++) {
         bool matters = static_cast<double>(light_power(scene, i)) > 0.01 * all;
         bool is_area = scene.lights[i].type == LightType::area;
-        if (matters && is_area && expected_hits(scene, i, samples) < few_hits) return true;
+        if (matters && is_area && samples * chance_of(scene, i) < few_hits) return true;
     }
     return false;
 }
 
-/// Which share of the pixels shows mirror or glass in its middle.
-double seen_in_mirrors(const Scene& scene) {
+/// Which share of the pixels shows such a material in its middle.
+template <class IsSuch>
+double share_in_view(const Scene& scene, const IsSuch& is_such) {
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     double seen = 0;
     for (int y = 0; y < scene.height; y++) {
         for (int x = 0; x < scene.width; x++) {
             Vec2 middle = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
             std::optional<Hit> hit = intersect(scene, camera_ray(view, middle));
-            seen += hit && is_specular(*hit->material);
+            seen += hit && is_such(*hit->material);
         }
     }
     return seen / scene.width / scene.height;
 }
 
 /// Light that this way of looking for it leaves out, or meets by chance.
-void add_missed_light(const Scene& scene, const RenderOptions& options, double samples,
+void add_missed_light(const Scene& scene, const RenderOptions& options, const Film& film,
                       std::vector<std::string>& lines) {
+    double samples = static_cast<double>(film.samples()), error = film.standard_error();
     if (options.search == LightSearch::by_chance) {
         if (has_rare_light(scene, samples)) {
             lines.push_back(
@@ -68,11 +79,20 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, double s
         return;
     }
     if (options.search == LightSearch::from_lights) {
-        double share = seen_in_mirrors(scene);
-        if (share == 0) return;
-        lines.push_back(percent(share) +
-                        " of the picture shows a mirror or glass: black, since no path from a "
-                        "light can be joined with the camera there");
+        double share = share_in_view(scene, is_specular);
+        double nearly =
+            share_in_view(scene, [&](const Material& m) { return is_nearly_mirror(m, samples); });
+        if (nearly * film.mean() > error) {
+            lines.push_back(percent(nearly) +
+                            " of the picture shows metal that is nearly a mirror: few paths from "
+                            "a light leave it towards the camera, and the error may not know of "
+                            "what they bring");
+        }
+        if (share > 0) {
+            lines.push_back(percent(share) +
+                            " of the picture shows a mirror or glass: black, since no path from a "
+                            "light can be joined with the camera there");
+        }
         return;
     }
     if (options.search == LightSearch::photons) {
@@ -90,6 +110,17 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, double s
         return std::any_of(scene.lights.begin(), scene.lights.end(),
                            [&](const Light& light) { return is(light.type); });
     };
+    if (options.search == LightSearch::aims && any_material(is_receiver)) {
+        // Chapter 12 aims alone, unless told otherwise; those after it also follow the metal.
+        bool aims_alone = std::count(options.own.begin(), options.own.end(),
+                                     std::pair<std::string, std::string>("strategy", "light")) > 0;
+        double hidden = light_by_nearly_mirrors(scene, samples, !aims_alone);
+        if (hidden > 0 && !(hidden <= error)) {
+            lines.push_back(
+                "light that reaches a surface by way of metal that is nearly a mirror is met only "
+                "by chance: the error may not know of it");
+        }
+    }
     if (!any_material(is_specular) || !any_material(is_receiver)) return;
     auto is_area = [](LightType type) { return type == LightType::area; };
     auto is_delta = [](LightType type) {
@@ -130,6 +161,7 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
                         " of the pixels had a sample: they are black");
     }
     double sum = film.mean() * samples;
+    if (samples > 0 && sum == 0) lines.push_back("the picture is black: no sample found light");
     if (sum > 0 && counts.largest > too_much * sum) {
         lines.push_back("one sample carries " + percent(counts.largest / sum) +
                         " of the whole picture");
@@ -160,7 +192,12 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
 std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
                                      const Rendering& r) {
     std::vector<std::string> lines = warnings_of(r.film, r.stats);
-    add_missed_light(scene, options, static_cast<double>(r.film.samples()), lines);
+    if (r.film.samples() > 0 && r.film.mean() == 0) {
+        for (const std::string& cause : causes_of_black(scene, options, chance_of_any(scene))) {
+            lines.push_back("possible cause: " + cause);
+        }
+    }
+    add_missed_light(scene, options, r.film, lines);
     lines.insert(lines.end(), r.warnings.begin(), r.warnings.end());
     return lines;
 }
