@@ -25,7 +25,7 @@ void Messages::add(const InputError& error) {
     }
 }
 
-std::string megabytes(uint64_t bytes) {
+std::string whole_megabytes(uint64_t bytes) {
     constexpr uint64_t mega = 1'000'000;
     return std::to_string((bytes + mega - 1) / mega) + " MB";
 }

@@ -35,7 +35,7 @@ private:
 };
 
 /// As messages give sizes: "12 MB".
-std::string megabytes(uint64_t bytes);
+std::string whole_megabytes(uint64_t bytes);
 
 /// All lines as one text, one below the other.
 std::string join_lines(const std::vector<std::string>& lines);

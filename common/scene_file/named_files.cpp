@@ -19,7 +19,7 @@ std::string read_scene_file(const std::string& path) {
         return read_file(path);
     } catch (const std::bad_alloc&) {
         uintmax_t bytes = fs::file_size(path, none);
-        fail({path}, "out of memory: the file has " + megabytes(none ? 0 : bytes));
+        fail({path}, "out of memory: the file has " + whole_megabytes(none ? 0 : bytes));
     }
 }
 
@@ -89,6 +89,6 @@ const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at
         throw;
     } catch (const std::bad_alloc&) {
         stop_reading(at, quote_file(path) + ": out of memory: a mesh from a file of " +
-                             megabytes(bytes.size()));
+                             whole_megabytes(bytes.size()));
     }
 }

@@ -173,7 +173,7 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
         (directives_.*read)(lexer, word);
     } catch (const std::bad_alloc&) {
         stop_reading(at, "out of memory: " + name + " needs more, and what was read before takes " +
-                             megabytes(directives_.bytes()));
+                             whole_megabytes(directives_.bytes()));
     }
 }
 
