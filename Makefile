@@ -38,7 +38,7 @@ out/%.png: $(BUILD)/% $(made)
 
 #: make test         build, and run all tests but the slow ones; T='NAME': those so named
 test: $(BUILD)/tests programs
-	$(if $(T),,common/tools/fill_readmes --check)
+	$(if $(T),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
 	$(RUN) $(BUILD)/tests $(if $(T),--test-case="$$T",--test-suite-exclude='*slow*')
 #: make test-slow    run the slow ones
 test-slow: $(BUILD)/tests programs

@@ -16,9 +16,9 @@ steps:
 pictures: programs
 	common/tools/make_pictures $(BUILD)
 	common/tools/make_strips $(BUILD)
-#: make readmes      put code, diffs and what the programs print into the READMEs
+#: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
 readmes: programs
-	common/tools/fill_readmes
+	common/tools/fill_readmes $(if $(SLOW),--slow)
 
 # One entry for each file that is compiled, in the form that editors and clang-tidy read.
 compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp)))

@@ -43,7 +43,7 @@ references: $(BUILD)/references $(made)
 #: make bench        rays per second of each step of chapter 05, beside Embree (2 minutes)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
-readmes: $(BUILD)/efficiency $(BUILD)/bench $(BUILD)/radiosity
+readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
 harness := $(common) $(BUILD)/obj/tests/support/main.o
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
