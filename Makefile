@@ -39,10 +39,10 @@ out/%.png: $(BUILD)/% $(made)
 #: make test         build, and run all tests but the slow ones; T='NAME': those so named
 test: $(BUILD)/tests programs
 	$(if $(T),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
-	$(RUN) $(BUILD)/tests $(if $(T),--test-case="$$T",--test-suite-exclude='*slow*')
+	tests/run $(BUILD) $(if $(T),--test-case="$$T",--test-suite-exclude='*slow*')
 #: make test-slow    run the slow ones
 test-slow: $(BUILD)/tests programs
-	$(RUN) $(BUILD)/tests --test-suite='*slow*'
+	tests/run $(BUILD) --test-suite='*slow*'
 
 #: make 06           build and run one chapter
 $(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $(made)

@@ -3,42 +3,50 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include <optional>
-
+#include "tests/support/process.h"
 #include "tests/support/program.h"
-#include "tests/support/work.h"
 
 namespace {
 
-bool ran_none = false, only_counts = false;
-unsigned count = 0;  // of tests that are to run
+bool ran_none = false;
 
 struct Reporter : doctest::ConsoleReporter {
     explicit Reporter(const doctest::ContextOptions& options) : ConsoleReporter(options) {}
-    void report_query(const doctest::QueryData& data) override {
-        if (only_counts && data.run_stats) {
-            count = data.run_stats->numTestCasesPassingFilters;
-        } else if (!only_counts) {
-            ConsoleReporter::report_query(data);
-        }
-    }
-    void test_run_start() override {
-        ConsoleReporter::test_run_start();
-        if (count > 20) work_.emplace("tests: " + std::to_string(count), count);
-    }
     void test_case_start(const doctest::TestCaseData& data) override {
         ConsoleReporter::test_case_start(data);
-        if (work_) work_->next(data.m_name);
+        name_ = data.m_name;
+        is_slow_ = std::string(data.m_test_suite).find("slow") != std::string::npos;
+        begun_ = seconds();
+    }
+    void test_case_end(const doctest::CurrentTestCaseStats& stats) override {
+        ConsoleReporter::test_case_end(stats);
+        double taken = seconds() - begun_;
+        if (is_slow_ || taken <= 10) return;
+        std::printf(
+            "'%s' takes %.0f s of processor time: beyond 10 s a test belongs into a slow suite\n",
+            name_.c_str(), taken);
     }
     void test_run_end(const doctest::TestRunStats& stats) override {
-        work_.reset();
         ConsoleReporter::test_run_end(stats);
         ran_none = stats.numTestCasesPassingFilters == 0;
         if (ran_none) std::fprintf(stderr, "error: no test has this name\n");
     }
 
 private:
-    std::optional<Work> work_;
+    /// Of processor time so far, with that of the programs that tests start.
+    static double seconds() {
+        double sum = 0;
+        for (int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+            rusage used;
+            ::getrusage(who, &used);
+            sum += processor_seconds(used);
+        }
+        return sum;
+    }
+
+    std::string name_;
+    bool is_slow_ = false;
+    double begun_ = 0;
 };
 
 /// doctest takes a comma for the end of a name, unless a backslash stands before it.
@@ -58,16 +66,8 @@ int main(int argc, char** argv) {
     program_folder = std::filesystem::path(argv[0]).parent_path();
     std::vector<std::string> words = {argv[0], "--reporters=tests"};
     for (int i = 1; i < argc; i++) words.push_back(escape_commas(argv[i]));
-    auto run = [&] {
-        std::vector<const char*> pointers;
-        for (const std::string& word : words) pointers.push_back(word.c_str());
-        return doctest::Context(static_cast<int>(pointers.size()), pointers.data()).run();
-    };
-    words.push_back("--count");
-    only_counts = true;
-    run();
-    only_counts = false;
-    words.pop_back();
-    int result = run();
+    std::vector<const char*> pointers;
+    for (const std::string& word : words) pointers.push_back(word.c_str());
+    int result = doctest::Context(static_cast<int>(pointers.size()), pointers.data()).run();
     return ran_none ? 1 : result;
 }
