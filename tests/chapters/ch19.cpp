@@ -464,7 +464,7 @@ TEST_SUITE("ch19 photon mapping") {
 
     TEST_CASE("agreement: sizes of samples and units leave the mean alone") {
         const std::string path = "scenes/cornell-spheres.pbrt";
-        Settings settings{.photons = 10000};
+        Settings settings{.photons = 4000};
         Scene scene = scene_from(path, 32, 5);
         Measured a = mean_over_seeds(scene, settings, 12, 32);
         CHECK(a.se < 0.005 * a.mean);
