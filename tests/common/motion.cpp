@@ -13,6 +13,14 @@ Transform any_rotation(Sampler& random) {
     return rotation(360 * double{random.u1()}, any_direction(random));
 }
 
+/// An axis of space, or one next to it.
+Double3 any_axis(int i) {
+    double next = i % 6 < 3 ? 0 : 1e-5;
+    Double3 axis = {next, next, next};
+    axis[static_cast<size_t>(i % 3)] = 1;
+    return axis;
+}
+
 /// The angle of a rotation, in radians: its trace is 1 + 2 cos.
 double angle_of(const Transform& r) {
     return std::acos(std::clamp((r.x[0] + r.y[1] + r.z[2] - 1) / 2, -1.0, 1.0));
@@ -36,7 +44,7 @@ std::string as_text(const Transform& t) {
 /// Two triangles with a normal at each corner that leans away from their own.
 const std::string bent_mesh =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-1 -1 0  1 -1 .2  1 1 "
-    "0  -1 1 .3] \"normal N\" [-.4 -.2 1  .3 -.3 1  .4 .4 1  -.2 .5 1] ";
+    "0  -1 1 .3] \"normal N\" [-.2 -.1 1  .1 -.1 1  .2 .1 1  -.1 .2 1] ";
 
 Scene moving_mesh(const Transform& start, const Transform& end) {
     return world_of(
@@ -53,8 +61,10 @@ TEST_SUITE("motion") {
         Sampler random = random_numbers(7);
         for (int i = 0; i < 400; i++) {
             Transform start = i % 4 == 0 ? Transform{} : any_rotation(random);
-            Transform end =
-                i % 4 == 1 ? rotation(180, any_direction(random)) * start : any_rotation(random);
+            Transform end = any_rotation(random);
+            if (i % 4 == 1) end = rotation(180, any_direction(random)) * start;
+            if (i < 12) end = rotation(i < 6 ? 180 : 179.999, any_axis(i));
+            if (i < 12) start = {};
             Motion motion(start, end);
             double whole = angle_of(end * inverse(start));
             CHECK(motion.turns());
@@ -92,9 +102,10 @@ TEST_SUITE("motion") {
         int hits = 0;
         for (int i = 0; i < 12; i++) {
             CAPTURE(i);
-            Double3 stretch = {1, 0.4, i % 3 == 0 ? -2.0 : 2.0};
+            Double3 stretch = {1, 0.6, i % 3 == 0 ? -1.5 : 1.5};
             Transform start = any_rotation(random) * scaling(stretch);
-            Transform end = translation(any_direction(random)) * any_rotation(random) * start;
+            Transform end = translation(any_direction(random)) * any_rotation(random) *
+                            scaling({0.6, i % 2 == 0 ? 1.0 : 2.0, 1}) * start;
             Scene moving = moving_mesh(start, end);
             REQUIRE(moving.movers.size() == 1);
             double time = double{random.u1()};
@@ -105,6 +116,8 @@ TEST_SUITE("motion") {
                 Ray ray = {o, normalize(at - o), infinity, static_cast<float>(time)};
                 std::optional<Hit> a = intersect(moving, ray), b = intersect(still, ray);
                 if (!a || !b || a->front != b->front) continue;  // at a rim, by rounding
+                // Seen edge-on, a smoothed normal is used or not: rounding decides.
+                if (std::min(-dot(ray.d, a->n), -dot(ray.d, b->n)) < 0.05f) continue;
                 hits++;
                 CHECK(length(a->p - b->p) < 2e-5f);
                 CHECK(length(a->n - b->n) < 1e-4f);
@@ -119,22 +132,27 @@ TEST_SUITE("motion") {
 
     TEST_CASE("truth: a point that moves is within its stated error of the plane that moves") {
         Sampler random = random_numbers(10);
-        double worst = 0;
+        double worst[4] = {};
         int hits = 0;
+        // Near or far from the origin at the start and at the end, and a hundred times as large.
+        struct {
+            double start, end, size;
+        } cases[] = {{1, 1, 1}, {1000, 1, 1}, {1, 1000, 1}, {30, 0, 100}};
         for (int i = 0; i < 40; i++) {
-            double far = i % 2 == 0 ? 1 : 1000;
-            Transform start = translation(far * any_direction(random)) * any_rotation(random) *
-                              scaling({3, 2, 1});
-            Transform end = translation(far * any_direction(random)) * any_rotation(random);
+            const auto& c = cases[i % 4];
+            Transform start = translation(c.start * any_direction(random)) * any_rotation(random);
+            Transform end = translation(c.end * any_direction(random)) * any_rotation(random) *
+                            scaling({c.size, c.size, 1.5 * c.size});
             Scene scene = moving_mesh(start, end);
             const Mover& mover = scene.movers[0];
             for (int k = 0; k < 50; k++) {
                 Ray ray;
-                ray.time = random.u1();
+                ray.time = k % 2 == 0 ? 1 : random.u1();
                 Transform now = mover.world_from_start(double{ray.time});
                 Vec3 centre = to_vec3(mover.motion.at(double{ray.time}).o);
-                ray.o = centre + to_vec3(6.0 * any_direction(random));
-                ray.d = normalize(centre + 0.5f * uniform_direction(random.u2()) - ray.o);
+                float size = static_cast<float>(length(now.x));
+                ray.o = centre + 6 * size * uniform_direction(random.u2());
+                ray.d = normalize(centre + 0.5f * size * uniform_direction(random.u2()) - ray.o);
                 std::optional<Hit> x = intersect(scene, ray);
                 if (!x) continue;
                 hits++;
@@ -148,11 +166,13 @@ TEST_SUITE("motion") {
                     Double3 n = normalize(cross(p[1] - p[0], p[2] - p[0]));
                     nearest = std::min(nearest, std::abs(dot(n, to_double3(x->p) - p[0])));
                 }
-                worst = std::max(worst, nearest / double{x->eps});
+                worst[i % 4] = std::max(worst[i % 4], nearest / double{x->eps});
             }
         }
         CHECK(hits > 500);
-        CHECK(worst < 1);
-        CHECK(worst > 0.03);  // not much more careful than is needed
+        for (double of_case : worst) {
+            CHECK(of_case < 1);
+            CHECK(of_case > 0.05);  // not much more careful than is needed
+        }
     }
 }
