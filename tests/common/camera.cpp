@@ -88,7 +88,7 @@ TEST_SUITE("camera") {
             CHECK(error("\"float fov\" " + std::string(fov)) == "");
         }
         CHECK(error("\"float fov\" 1 \"float screenwindow\" [0 1e-4 0 1]") ==
-              "test.pbrt:1:38: error: screenwindow shows less than 0.001 degrees");
+              "test.pbrt:1:36: error: screenwindow shows less than 0.001 degrees");
         CHECK(error("\"float fov\" 1 \"float screenwindow\" [0 1e-2 0 1]") == "");
     }
 

@@ -161,7 +161,6 @@ TEST_SUITE("warnings") {
         // Rough metal, a large lamp, a black plate or many samples: nothing is hidden.
         CHECK_FALSE(said_of("14_mis_ris", scene("0.2", "0.02", bright)).says(warning));
         CHECK_FALSE(said_of("14_mis_ris", scene("0.005", "0.7", bright)).says(warning));
-        CHECK(said_of("12_glossy", scene("0.005", "0.7", bright)).says(warning));  // aims alone
         CHECK_FALSE(said_of("14_mis_ris", scene("0.005", "0.02", "0 0 0")).says(warning));
         CHECK_FALSE(
             said_of("14_mis_ris", scene("0.02", "0.02", bright), {"--spp", "1024"}).says(warning));
