@@ -9,16 +9,19 @@
 ///   R_p = R_s (cos^2 a2_b2 - 2 a cos sin^2 + sin^4) / (cos^2 a2_b2 + 2 a cos sin^2 + sin^4)
 ///   R = (R_s + R_p) / 2
 ///
+/// Numerators are sums of squares, (a - cos)^2 + b^2 and its like: rounding must not make them
+/// negative. a2_b2 is 0 for eta = k = 0 straight on, where R_p would be 0 / 0: R is then 1.
 /// source  Born, Wolf, "Principles of Optics", ch. 14
 /// tested by  "identity: a metal's reflectance is Fresnel's with a complex index"
 inline float fresnel_conductor(float cos_i, float eta, float k) {
     float cos2 = cos_i * cos_i, sin2 = std::max(0.0f, 1 - cos2);
     float d = eta * eta - k * k - sin2;
-    float a2_b2 = std::sqrt(d * d + 4 * eta * eta * k * k);
+    float a2_b2 = std::max(std::sqrt(d * d + 4 * eta * eta * k * k), 1e-20f);
     float a = std::sqrt(std::max(0.0f, (a2_b2 + d) / 2));
     float s = 2 * a * cos_i, p = s * sin2;
-    float R_s = (a2_b2 - s + cos2) / (a2_b2 + s + cos2);
-    float R_p = R_s * (cos2 * a2_b2 - p + sin2 * sin2) / (cos2 * a2_b2 + p + sin2 * sin2);
+    float R_s = std::max(0.0f, a2_b2 - s + cos2) / (a2_b2 + s + cos2);
+    float R_p =
+        R_s * std::max(0.0f, cos2 * a2_b2 - p + sin2 * sin2) / (cos2 * a2_b2 + p + sin2 * sin2);
     return (R_s + R_p) / 2;
 }
 inline Rgb fresnel_conductor(float cos_i, Rgb eta, Rgb k) {

@@ -288,6 +288,24 @@ TEST_SUITE("metal") {
         }
     }
 
+    TEST_CASE("truth: metal reflects from nothing to all, whatever eta, k and angle") {
+        std::vector<float> numbers = {0};
+        for (int decade = -24; decade <= 3; decade++)
+            for (double digit : {1.0, 1.5, 3.0, 10.0})
+                numbers.push_back(static_cast<float>(digit * std::pow(10, decade)));
+        std::vector<float> cosines = {0, 1e-30f, 1e-10f, 1e-6f, 1e-3f, 1 - 0x1p-24f, 1 + 0x1p-23f};
+        for (int i = 1; i <= 50; i++) cosines.push_back(static_cast<float>(i) / 50);
+        int outside = 0;
+        for (float eta : numbers)
+            for (float k : numbers)
+                for (float cos_i : cosines) {
+                    float R = fresnel_conductor(cos_i, eta, k);
+                    outside += !(R >= 0 && R <= 1.000001f);
+                }
+        CHECK(outside == 0);
+        CHECK(fresnel_conductor(1, 0, 0) == 1);  // nothing enters a metal of index 0
+    }
+
     TEST_CASE("identity: a metal that does not absorb reflects as glass does") {
         for (float cos_i : {0.01f, 0.1f, 0.5f, 0.9f, 1.0f}) {
             CHECK(std::abs(fresnel_conductor(cos_i, 1.5f, 0) - fresnel_dielectric(cos_i, 1.5f)) <

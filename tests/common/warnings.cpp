@@ -167,4 +167,26 @@ TEST_SUITE("warnings") {
         // Paths from both ends find it.
         CHECK_FALSE(said_of("18_bidirectional", scene("0.005", "0.02", bright)).says(warning));
     }
+
+    TEST_CASE(
+        "truth: metal that reflects nothing in a channel sends nothing less, in any chapter") {
+        TemporaryFolder folder;
+        for (const std::string& program : programs(true))
+            for (const char* roughness : {"0", "0.1"}) {
+                bool is_early = program < "12";
+                if (is_early && roughness[1] != 0) continue;
+                CAPTURE(program);
+                std::string metal =
+                    "Material \"conductor\" \"rgb reflectance\" [0.9 0 0] \"float roughness\" " +
+                    std::string(roughness);
+                said_of(program,
+                        camera + in(metal, ball("0 0.5 0", "0.5") + floor_2) +
+                            lamp(ball("0 5 0", "2")) + "LightSource \"infinite\"\n",
+                        {"--size", "32x32", "--out", folder / "b.pfm"});
+                float lowest = 0;
+                for (Rgb L : read_image(folder / "b.pfm").pixels)
+                    lowest = std::min({lowest, L.r, L.g, L.b});
+                CHECK(lowest == 0);
+            }
+    }
 }
