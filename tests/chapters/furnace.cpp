@@ -76,4 +76,17 @@ TEST_SUITE("furnace of all things") {
                          30000);
         }
     }
+
+    TEST_CASE("agreement: the same, each length and class of path by one end and by both") {
+        // A mirror and glass fill the picture: light by way of mirrors is seen by way of mirrors.
+        Scene scene = furnace(
+            lamps + things +
+            thing("\"dielectric\"", "Translate 0.8 0.4 -4 Shape \"sphere\" \"float radius\" 0.9") +
+            thing("\"conductor\" \"rgb reflectance\" [1 1 1]",
+                  "Translate -1 -0.4 -4 Shape \"sphere\" \"float radius\" 0.8"));
+        scene.max_depth = 6;
+        CHECK(check_classes(scene, trace_with<ch14::trace>(ch14::prepare(scene)), scene,
+                            splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
+                            100000) > 40);
+    }
 }
