@@ -71,18 +71,6 @@ $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(BUILD)/packages
 	@$(CXX) $(CXXFLAGS) $(own_flags) $(if $(WERROR),-Werror) -MMD -MP -c $< -o $@
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
-# A hash of each chapter's code: a film continues with the code that began it, and with no other.
-hash_flags  := -isystem $(BUILD)/include
-compiled_in := $(filter-out common/tools/% common/book/%,$(wildcard common/*/*.h common/*/*.cpp))
-$(BUILD)/include/code_hashes.h: $(compiled_in) $(wildcard chapters/*/*.h chapters/*/*.cpp)
-	@mkdir -p $(@D); common=$$(cksum $(compiled_in)); { \
-	    echo 'inline constexpr struct { const char *chapter, *hash; } code_hashes[] = {'; \
-	    for chapter in $(chapters); do \
-	        hash=$$({ echo "$$common"; cksum chapters/$$chapter/*.{h,cpp}; } | LC_ALL=C sort | cksum); \
-	        echo "    {\"$$chapter\", \"$${hash%% *}\"},"; \
-	    done; echo '};'; } >$@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
-$(BUILD)/obj/common/program/code_hash.o: own_flags = $(hash_flags)
-$(BUILD)/obj/common/program/code_hash.o: $(BUILD)/include/code_hashes.h
 # Changes when the compiler or its flags do: then all is compiled again.
 $(BUILD)/flags: always
 	@mkdir -p $(@D); echo '$(CXX) $(CXXFLAGS)' | cmp -s - $@ || echo '$(CXX) $(CXXFLAGS)' >$@

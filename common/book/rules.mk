@@ -11,7 +11,7 @@ wasm          := $(BUILD)/wasm
 wasm_programs := $(chapters) merge
 wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
     $(filter-out common/tools/% common/program/film_clock.cpp,$(wildcard common/*/*.cpp))
-wasm_flags    := -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
+wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
 wasm_link     := -sMODULARIZE -sEXPORT_NAME=Live -sENVIRONMENT=worker,node -sINVOKE_RUN=0 \
     -sALLOW_MEMORY_GROWTH -sFORCE_FILESYSTEM -sEXPORTED_RUNTIME_METHODS=callMain,FS
