@@ -147,6 +147,7 @@ TEST_SUITE("explain") {
                         Rgb{static_cast<float>(told.rows.r), static_cast<float>(told.rows.g),
                             static_cast<float>(told.rows.b)};
                 }
+                CHECK(end.out.find("\nwrote " + folder / "b.svg") != std::string::npos);
                 std::string svg = read_file(folder / "b.svg");
                 CHECK(svg.starts_with("<svg xmlns='http://www.w3.org/2000/svg' "));
                 CHECK(svg.ends_with("</svg>\n"));
