@@ -83,7 +83,7 @@ inline Rgb sky_light(const Scene& scene, const std::vector<double>& cdf, const H
     float pdf_l = pdf_sky_image(sky, cdf, i, uv), pdf_b = pdf_bsdf(x, wo, wi);
     float mis_l = power_heuristic(pdf_l, pdf_b);
     Rgb Ld = eval_bsdf(x, wo, wi) * sky.pixels[i] * (mis_l * dot(wi, x.n) / pdf_l);
-    if (is_black(Ld) || occluded(scene, spawn_ray(x, wi))) return {};
+    if (!(max_component(Ld) > 0) || occluded(scene, spawn_ray(x, wi))) return {};  // or 0 / 0
     return log.direct(beta * Ld, wi, pdf_l, pdf_b, mis_l);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/percent.h"
+#include "common/picture/finite_part.h"
 #include "common/picture/sheet.h"
 
 namespace {
@@ -29,7 +30,10 @@ Image class_sheet(const std::map<std::string, Film>& classes) {
     constexpr int most_width = 320;  // pixels, of a tile
     std::vector<std::pair<double, std::string>> order;
     double all = 0;
-    for (const auto& [name, film] : classes) order.push_back({-film.mean(), name});
+    for (const auto& [name, film] : classes) {
+        double mean = finite_part(film).mean;
+        order.push_back({std::isnan(mean) ? 0 : -mean, name});
+    }
     for (const auto& [minus_mean, name] : order) all -= minus_mean;
     std::sort(order.begin(), order.end());
     std::vector<Tile> tiles;

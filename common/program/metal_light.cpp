@@ -5,9 +5,13 @@
 #include <numbers>
 
 #include "common/path/light_paths.h"
+#include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/scene/intersect.h"
 
 namespace {
+
+constexpr uint32_t tried = 1 << 14, tried_from_camera = 1 << 16;
 
 /// What the camera sees of flux that arrives at x from wi; see chapter 17.
 Rgb shown(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb flux) {
@@ -61,10 +65,43 @@ double size_of_sky(const SkyImage& sky) {
     return squares > 0 ? sum * sum / squares / static_cast<double>(sky.pixels.size()) : 1;
 }
 
+/// Aims at a light from x.
+Rgb aim(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo, Sampler& sampler) {
+    double u = join(sampler.u2());
+    LightSample y = sample_light(scene, lights, x, u, sampler.u2());
+    if (y.pdf_w == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
+    return is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist)) ? Rgb{} : Ld;
+}
+
+/// Light along a ray from the camera, from one path, as in chapter 12: nearly mirrors follow the
+/// BSDF, all else aims. Adds to `hits` where the path meets a light by way of a nearly mirror.
+Rgb light_along(const Scene& scene, const LightTable& lights, double paths, Ray ray,
+                Sampler& sampler, double& hits) {
+    Rgb L, beta = {1, 1, 1};
+    bool by_nearly_mirror = false, count_emission = true;
+    for (int depth = 0;; depth++) {
+        std::optional<Hit> x = intersect(scene, ray);
+        Rgb Le = x ? emission(scene, *x) : scene.sky;
+        if (count_emission) L += beta * Le;
+        hits += by_nearly_mirror && !is_black(Le);
+        if (!x || depth == scene.max_depth) return L;
+        by_nearly_mirror = is_nearly_mirror(*x->material, paths);
+        count_emission = by_nearly_mirror || is_specular(*x->material);
+        if (!count_emission) L += beta * aim(scene, lights, *x, -ray.d, sampler);
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, -ray.d, u1, sampler.u2());
+        if (s.pdf_w == 0) return L;
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w / q);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
 }  // namespace
 
 double light_by_nearly_mirrors(const Scene& scene, double paths, bool meets_lights) {
-    constexpr uint32_t tried = 1 << 14;
     auto has_any = [&](double size) {
         return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const Shape& s) {
             return is_nearly_mirror(scene.materials[s.material], paths, size);
@@ -83,4 +120,40 @@ double light_by_nearly_mirrors(const Scene& scene, double paths, bool meets_ligh
         if (is_finite(L)) sum += static_cast<double>(average(L));
     }
     return sum / tried;
+}
+
+NearlyMirrorsSeen nearly_mirrors_seen(const Scene& scene, const Film& film) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    double paths = static_cast<double>(film.samples());
+    auto ray_of = [&](size_t pixel, Vec2 u) {
+        size_t width = static_cast<size_t>(scene.width);
+        return camera_ray(view, {static_cast<float>(pixel % width) + u.x,
+                                 static_cast<float>(pixel / width) + u.y});
+    };
+    Image image = film.image();
+    std::vector<size_t> seen;
+    NearlyMirrorsSeen result;
+    for (size_t i = 0; i < image.pixels.size(); i++) {
+        std::optional<Hit> hit = intersect(scene, ray_of(i, {0.5f, 0.5f}));
+        if (!hit || !is_nearly_mirror(*hit->material, paths)) continue;
+        seen.push_back(i);
+        result.found += static_cast<double>(average(image.pixels[i]));
+    }
+    if (seen.empty()) return {};
+    double pixels = static_cast<double>(image.pixels.size());
+    result.found /= pixels;
+    result.share = static_cast<double>(seen.size()) / pixels;
+    LightTable lights = build_light_table(light_pmf(scene, 0.25));
+    Sampler sampler(SamplerType::independent, 1, 1);
+    double sum = 0, squares = 0, n = tried_from_camera;
+    for (uint32_t i = 0; i < tried_from_camera; i++) {
+        sampler.start(0, i);
+        Ray ray = ray_of(seen[i * seen.size() / tried_from_camera], sampler.u2());
+        double L = static_cast<double>(
+            average(light_along(scene, lights, paths, ray, sampler, result.hits)));
+        sum += L, squares += L * L;
+    }
+    result.expected = result.share * sum / n;
+    result.error = result.share * std::sqrt((squares - sum * sum / n) / n / n);
+    return result;
 }

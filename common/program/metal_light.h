@@ -1,5 +1,6 @@
 // Light that paths from the camera rarely find: by way of metal that is nearly a mirror.
 #pragma once
+#include "common/picture/film.h"
 #include "common/scene/scene.h"
 
 /// Whether metal is so smooth that of so many paths too few find what it reflects.
@@ -25,3 +26,15 @@ inline bool is_nearly_mirror(const Material& m, double paths, double size = 0) {
 /// meets_lights  whether directions of the metal that meet a light count, or aiming alone does
 /// tested by  "failure: metal that is nearly a mirror hides light, and a warning says so"
 double light_by_nearly_mirrors(const Scene& scene, double paths, bool meets_lights);
+
+/// The pixels of a picture that show nearly mirrors, where paths begin at the lights.
+struct NearlyMirrorsSeen {
+    double share = 0;     // of the picture
+    double found = 0;     // what they add to its mean, in the film
+    double expected = 0;  // the same, by paths from the camera
+    double error = 0;     // of what is expected
+    double hits = 0;      // how many of these paths met a light by way of a nearly mirror
+};
+
+/// tested by  "failure: paths from lights miss what nearly mirrors show, and a warning says so"
+NearlyMirrorsSeen nearly_mirrors_seen(const Scene& scene, const Film& film);

@@ -126,7 +126,8 @@ void write_classes(const Scene& scene, const RenderOptions& options, const Rende
                                 comment_of(notes_of(scene, options, r, path_class)));
                 }
             },
-            "  mean " + json_number(film.mean()));
+            "  " + (std::isfinite(film.mean()) ? "mean " + json_number(film.mean())
+                                               : mean_and_error(film)));
     }
     std::string path = options.split + "/classes.png";
     writer.write(

@@ -6,6 +6,8 @@
 
 #include "common/base/percent.h"
 #include "common/light/light_table.h"
+#include "common/material/cosine.h"
+#include "common/path/sampler.h"
 #include "common/program/black_picture.h"
 #include "common/program/metal_light.h"
 #include "common/scene/camera.h"
@@ -51,19 +53,36 @@ bool has_rare_light(const Scene& scene, double samples) {
     return false;
 }
 
-/// Which share of the pixels shows such a material in its middle.
-template <class IsSuch>
-double share_in_view(const Scene& scene, const IsSuch& is_such) {
+/// Which share of the pixels shows a mirror or glass in its middle.
+double share_of_mirrors(const Scene& scene) {
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     double seen = 0;
     for (int y = 0; y < scene.height; y++) {
         for (int x = 0; x < scene.width; x++) {
             Vec2 middle = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
             std::optional<Hit> hit = intersect(scene, camera_ray(view, middle));
-            seen += hit && is_such(*hit->material);
+            seen += hit && is_specular(*hit->material);
         }
     }
     return seen / scene.width / scene.height;
+}
+
+/// Whether a surface in view faces another one that reflects light.
+bool surfaces_face_each_other(const Scene& scene) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < 256; i++) {
+        sampler.start(0, i);
+        Vec2 u = sampler.u2();
+        Vec2 point = {u.x * static_cast<float>(scene.width),
+                      u.y * static_cast<float>(scene.height)};
+        std::optional<Hit> x = intersect(scene, camera_ray(view, point));
+        if (!x || !is_receiver(*x->material)) continue;
+        Vec3 wi = Frame(x->n).to_world(sample_cosine_hemisphere(sampler.u2()));
+        std::optional<Hit> y = intersect(scene, spawn_ray(*x, wi));
+        if (y && is_receiver(*y->material)) return true;
+    }
+    return false;
 }
 
 /// Light that this way of looking for it leaves out, or meets by chance.
@@ -79,13 +98,15 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
         return;
     }
     if (options.search == LightSearch::from_lights) {
-        double share = share_in_view(scene, is_specular);
-        double nearly =
-            share_in_view(scene, [&](const Material& m) { return is_nearly_mirror(m, samples); });
-        if (nearly * film.mean() > error) {
-            lines.push_back(percent(nearly) +
+        double share = share_of_mirrors(scene);
+        NearlyMirrorsSeen metal = nearly_mirrors_seen(scene, film);
+        bool is_off = metal.hits < few_hits ? metal.share * film.mean() > error
+                                            : std::abs(metal.found - metal.expected) >
+                                                  2 * std::hypot(error, metal.error);
+        if (is_off && options.paths.empty()) {
+            lines.push_back(percent(metal.share) +
                             " of the picture shows metal that is nearly a mirror: few paths from "
-                            "a light leave it towards the camera, and the error may not know of "
+                            "a light leave it towards the camera, and the error does not know of "
                             "what they bring");
         }
         if (share > 0) {
@@ -121,6 +142,9 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
                 "by chance: the error may not know of it");
         }
     }
+    bool leaves_out = options.search == LightSearch::direct && scene.max_depth > 1;
+    if (leaves_out && !any_material(is_specular) && surfaces_face_each_other(scene))
+        lines.push_back("light from surface to surface is left out");
     if (!any_material(is_specular) || !any_material(is_receiver)) return;
     auto is_area = [](LightType type) { return type == LightType::area; };
     auto is_delta = [](LightType type) {

@@ -624,6 +624,31 @@ TEST_SUITE("ch15 sky") {
             }
     }
 
+    TEST_CASE(
+        "truth: the sky's light is finite where a pixel has less of it than floats can tell") {
+        for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide})
+            for (float faint : {1e-10f, 1e-20f, 1e-30f}) {
+                int h = 8, w = map == SkyImage::Map::square ? h : 2 * h;
+                Scene scene = under_sky(
+                    map, w, h,
+                    [](Vec3) {
+                        return Rgb{1e20f, 1e20f, 1e20f};
+                    },
+                    white_floor);
+                scene.sky_image->pixels[0] = {faint, faint, faint};
+                ch15::Prepared prepared = ch15::prepare(scene);
+                std::optional<Hit> x = intersect(scene, {{0, 1, 0}, {0, -1, 0}});
+                REQUIRE(x);
+                PathLog log;
+                for (float u : {0.0f, 0.25f, 0.75f}) {
+                    CAPTURE(faint);
+                    Rgb L = ch15::sky_light(scene, prepared.sky, *x, {0, 1, 0}, 0.0, {u, u},
+                                            {1, 1, 1}, log);
+                    CHECK(is_finite(L));
+                }
+            }
+    }
+
     TEST_CASE("truth: skies of known irradiance") {
         struct {
             std::function<float(float)> L;

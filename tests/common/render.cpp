@@ -429,6 +429,37 @@ TEST_SUITE("render loop") {
         CHECK(json.find("\"pixels_not_finite_share\": 0.015625,") != std::string::npos);
     }
 
+    TEST_CASE("failure: --split tells the mean of a class of which some samples are not finite") {
+        TemporaryFolder folder;
+        Film sound(8, 8), some(8, 8), none(8, 8);
+        for (size_t i = 0; i < 64; i++) {
+            sound.add(i, {1, 1, 1});
+            some.add(i, i < 16 ? Rgb{infinity, 0, 0} : Rgb{2, 2, 2});
+            none.add(i, {std::nanf(""), 0, 0});
+        }
+        Finished end = Process([&] {
+                           Scene scene = empty_scene(8, 8, 1);
+                           scene.file = "a.pbrt";
+                           RenderOptions options = quiet_options();
+                           options.quiet = false;
+                           options.split = folder.path();
+                           Rendering r{sound, {}, {}};
+                           r.classes = {{"LDE", sound}, {"LDDE", some}, {"LE", none}};
+                           return write_results(scene, options, r);
+                       }).wait();
+        CHECK(end.code == 0);
+        for (const char* line :
+             {"/LDE.pfm  mean 1\n",
+              "/LDDE.pfm  mean 2.000000, standard error unknown (1 sample) without the 25 % of the "
+              "pixels that have samples that are not finite\n",
+              "/LE.pfm  mean unknown: every pixel has samples that are not finite\n"}) {
+            CAPTURE(end.out);
+            CHECK(end.out.find(line) != std::string::npos);
+        }
+        CHECK(end.out.find("null") == std::string::npos);
+        CHECK(read_image(folder / "classes.png").width > 8);
+    }
+
     TEST_CASE("failure: where samples are not finite, the mean is that of the other pixels") {
         TemporaryFolder folder;
         Scene scene = empty_scene(16, 16, 8);

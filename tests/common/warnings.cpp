@@ -168,6 +168,70 @@ TEST_SUITE("warnings") {
         CHECK_FALSE(said_of("18_bidirectional", scene("0.005", "0.02", bright)).says(warning));
     }
 
+    TEST_CASE("failure: paths from lights miss what nearly mirrors show, and a warning says so") {
+        const std::string warning = "metal that is nearly a mirror: few paths from a light leave";
+        // A plate of metal that shows a lamp: the warning names the runs whose intervals miss the
+        // truth, however smooth the plate is.
+        auto plate = [](const std::string& alpha, const std::string& reflectance) {
+            return "LookAt 0 1.5 -3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 40 "
+                   "WorldBegin\n" +
+                   lamp(ball("0 1.5 3", "0.4"), "6 6 6") +
+                   in("Material \"conductor\" \"rgb reflectance\" [" + reflectance +
+                          "] \"bool remaproughness\" false \"float roughness\" " + alpha,
+                      "Scale 0.5 1 0.5 " + floor_2) +
+                   in("", "Translate 0 -0.5 0 Scale 3 1 3 " + grey_floor);
+        };
+        struct Count {
+            int right = 0, wrong = 0, right_named = 0, wrong_named = 0;
+        };
+        auto count = [&](const std::string& scene, const std::string& spp, int seeds, Count& n) {
+            Said truth = said_of("14_mis_ris", scene, {"--spp", "1024"});
+            for (int seed = 1; seed <= seeds; seed++) {
+                Said said = said_of("17_light_tracing", scene,
+                                    {"--spp", spp, "--seed", std::to_string(seed)});
+                bool is_right =
+                    std::abs(said.mean - truth.mean) <= 2 * std::hypot(said.error, truth.error);
+                (is_right ? n.right : n.wrong)++;
+                (is_right ? n.right_named : n.wrong_named) += said.says(warning);
+            }
+        };
+        Count plates;
+        for (const char* alpha : {"0.001", "0.004", "0.01"})
+            for (const char* spp : {"4", "64"}) count(plate(alpha, "0.9 0.9 0.9"), spp, 5, plates);
+        CHECK(plates.wrong >= 15);
+        CHECK(plates.wrong_named >= 0.9 * plates.wrong);
+        CHECK(plates.right_named <= 0.05 * plates.right);
+        // Where most intervals cover the truth, most runs have no warning.
+        Count lamps;
+        count(read_file("scenes/veach-mis.pbrt"), "64", 12, lamps);
+        CHECK(lamps.right >= 6);
+        CHECK(lamps.right_named <= 1);
+        // Nothing is missed: the plate is black or rough.
+        CHECK_FALSE(said_of("17_light_tracing", plate("0.001", "0 0 0")).says(warning));
+        CHECK_FALSE(said_of("17_light_tracing", plate("0.2", "0.9 0.9 0.9")).says(warning));
+    }
+
+    TEST_CASE("failure: chapter 04 says that it leaves out light from surface to surface") {
+        const std::string program = "04_ray_casting", high_lamp = lamp(ball("0 5 0", "0.3")),
+                          warning = "warning: light from surface to surface is left out\n";
+        auto beside_floor = [&](const std::string& reflectance) {
+            return camera + grey_floor + high_lamp +
+                   in("", "Translate 0 1 1 Rotate -90 1 0 0 " + floor_of(reflectance));
+        };
+        for (const char* reflectance : {"0.2 0.2 0.2", "0.9 0.9 0.9"}) {
+            Said four = said_of(program, beside_floor(reflectance), {"--spp", "16"});
+            Said all = said_of("14_mis_ris", beside_floor(reflectance), {"--spp", "64"});
+            CHECK(four.mean + 2 * four.error < all.mean - 2 * all.error);
+            CHECK(four.says(warning));
+        }
+        // Where it leaves out nothing, it does not say so.
+        const std::string alone = camera + grey_floor + high_lamp;
+        CHECK_FALSE(said_of(program, alone).says(warning));
+        CHECK_FALSE(said_of(program, beside_floor("0 0 0")).says(warning));
+        CHECK_FALSE(
+            said_of(program, beside_floor("0.5 0.5 0.5"), {"--max-depth", "1"}).says(warning));
+    }
+
     TEST_CASE(
         "truth: metal that reflects nothing in a channel sends nothing less, in any chapter") {
         TemporaryFolder folder;
