@@ -142,6 +142,9 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
                 "by chance: the error may not know of it");
         }
     }
+    bool is_lit_by_sky = scene.sky_light >= 0 && scene.max_depth > 0 && any_material(is_receiver);
+    if (options.search == LightSearch::direct && is_lit_by_sky)
+        lines.push_back("light from the sky to a surface is left out: the sky is only seen");
     bool leaves_out = options.search == LightSearch::direct && scene.max_depth > 1;
     if (leaves_out && !any_material(is_specular) && surfaces_face_each_other(scene))
         lines.push_back("light from surface to surface is left out");

@@ -211,7 +211,9 @@ TEST_SUITE("warnings") {
         CHECK_FALSE(said_of("17_light_tracing", plate("0.2", "0.9 0.9 0.9")).says(warning));
     }
 
-    TEST_CASE("failure: chapter 04 says that it leaves out light from surface to surface") {
+    TEST_CASE(
+        "failure: chapter 04 says that it leaves out light from surface to surface and from the "
+        "sky") {
         const std::string program = "04_ray_casting", high_lamp = lamp(ball("0 5 0", "0.3")),
                           warning = "warning: light from surface to surface is left out\n";
         auto beside_floor = [&](const std::string& reflectance) {
@@ -224,6 +226,11 @@ TEST_SUITE("warnings") {
             CHECK(four.mean + 2 * four.error < all.mean - 2 * all.error);
             CHECK(four.says(warning));
         }
+        const std::string sky_warning = "warning: light from the sky to a surface is left out",
+                          sky = "LightSource \"infinite\"\n";
+        CHECK(said_of(program, camera + sky + grey_floor + high_lamp).says(sky_warning));
+        CHECK_FALSE(said_of(program, camera + sky + floor_of("0 0 0")).says(sky_warning));
+        CHECK_FALSE(said_of(program, beside_floor("0.5 0.5 0.5")).says(sky_warning));
         // Where it leaves out nothing, it does not say so.
         const std::string alone = camera + grey_floor + high_lamp;
         CHECK_FALSE(said_of(program, alone).says(warning));
