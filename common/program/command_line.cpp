@@ -28,14 +28,6 @@ namespace {
         (nearest.empty() ? "; --help lists them" : ", did you mean '" + nearest + "'?"));
 }
 
-// Hands over what was printed; throws when it did not all arrive, as on a full disk.
-void flush_stdout() {
-    errno = 0;
-    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
-    std::string why = errno != 0 ? std::strerror(errno) : "some of the output is lost";
-    throw InputError("stdout: error: cannot write: " + why);
-}
-
 [[noreturn]] void print_usage(const char* program, const std::string& positional,
                               const std::string& about, const std::vector<Option>& options) {
     std::printf("usage: %s%s%s [OPTION]...\n%s\n\n", program, positional.empty() ? "" : " ",
@@ -82,6 +74,13 @@ int set_option(int argc, char** argv, int i, const std::vector<Option>& options)
 }
 
 }  // namespace
+
+void flush_stdout() {
+    errno = 0;
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+    std::string why = errno != 0 ? std::strerror(errno) : "some of the output is lost";
+    throw InputError("stdout: error: cannot write: " + why);
+}
 
 void parse_options(int argc, char** argv, const std::string& positional, const std::string& about,
                    std::vector<Option> options,

@@ -40,3 +40,6 @@ std::string command_line(int argc, char** argv);
 /// Runs a program: returns its exit code, 1 after an InputError or when not all that it printed
 /// arrived, 2 after a UsageError. Errors are lines on stderr.
 int run_program(const std::function<int()>& program);
+
+/// Hands over what was printed; throws InputError when it did not all arrive, as on a full disk.
+void flush_stdout();

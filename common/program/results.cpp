@@ -14,6 +14,7 @@
 #include "common/picture/heat_map.h"
 #include "common/picture/notes.h"
 #include "common/program/class_sheet.h"
+#include "common/program/command_line.h"
 #include "common/program/film_keeping.h"
 #include "common/program/warnings.h"
 
@@ -183,7 +184,7 @@ std::string mean_and_error(const Film& film) {
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     if (!options.quiet) print_summary(scene, options, r);
     bool all_written = write_files(scene, options, r);
-    std::fflush(stdout);  // while a signal is still waited for
+    flush_stdout();  // while a signal is still waited for
     if (r.stats.not_finite == 0 && all_written) return r.stats.interrupted ? 3 : 0;
     if (r.stats.not_finite == 0) return 1;
     // The command without what --explain does not take.
