@@ -68,14 +68,6 @@ inline Radiosity escaped_by(const Matrix& m, const std::vector<Patch>& patch, co
     return escaped;
 }
 
-/// "out/room.png" with shots 100: "out/room-000100.png".
-inline std::string numbered(const std::string& path, uint64_t shots) {
-    char number[24];
-    std::snprintf(number, sizeof number, "-%06llu", static_cast<unsigned long long>(shots));
-    size_t dot = path.rfind('.');
-    return path.substr(0, dot) + number + path.substr(dot);
-}
-
 /// One run of the program: patches, solution, pictures.
 class Run {
 public:

@@ -1,5 +1,9 @@
 // What the user asks for beside what all programs know.
 #pragma once
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
 #include "chapters/20_radiosity/estimator.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -65,11 +69,35 @@ inline void check_together(const RenderOptions& options, const Settings& s) {
     }
 }
 
+/// "out/room.png" with shots 100: "out/room-000100.png".
+inline std::string numbered(const std::string& path, uint64_t shots) {
+    char number[24];
+    std::snprintf(number, sizeof number, "-%06llu", static_cast<unsigned long long>(shots));
+    size_t dot = path.rfind('.');
+    return path.substr(0, dot) + number + path.substr(dot);
+}
+
+/// Whether a file in the folder of the first picture has the name of one that --every may write.
+inline bool is_numbered(const std::string& name, const std::string& path, const Settings& s) {
+    std::string file = std::filesystem::path(path).filename().string();
+    size_t dot = file.rfind('.');
+    if (name.size() <= dot || name.compare(0, dot, file, 0, dot) != 0) return false;
+    uint64_t shots = std::strtoull(name.c_str() + dot + 1, nullptr, 10);
+    bool is_written = shots > 0 && shots % s.every == 0 && (s.shots == 0 || shots <= s.shots);
+    return is_written && name == numbered(file, shots);
+}
+
 /// Throws now what writing would throw later.
 inline void check_all_outputs(const Scene& scene, const RenderOptions& options, const Settings& s) {
     std::vector<std::string> mesh;
     if (!s.mesh.empty()) mesh.push_back(s.mesh);
-    check_outputs(scene, options, mesh);
+    IsWritten is_on_the_way;
+    if (s.every > 0) {
+        is_on_the_way = [&](const std::string& name) {
+            return is_numbered(name, options.out[0], s);
+        };
+    }
+    check_outputs(scene, options, mesh, is_on_the_way);
 }
 
 }  // namespace ch20

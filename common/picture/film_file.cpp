@@ -61,10 +61,12 @@ bool is_consistent(const Film& film, const FilmLabel& label) {
 class FilmReader {
 public:
     explicit FilmReader(const std::string& path) : path_(path) {
-        if (std::error_code none; std::filesystem::is_directory(path, none))
+        if (std::error_code none; std::filesystem::is_directory(path, none)) {
             errno = EISDIR;
-        else
+        } else {
+            check_film_is_file(path);
             fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        }
         if (fd_ < 0) refuse(std::string("cannot read: ") + std::strerror(errno));
     }
     ~FilmReader() { ::close(fd_); }
@@ -183,6 +185,13 @@ void write_film(const std::string& path, const FilmLabel& label, const Film& fil
     file.write({reinterpret_cast<const char*>(&sum), sizeof sum});
     file.write_through();
     file.commit();
+}
+
+void check_film_is_file(const std::string& path) {
+    std::error_code none;
+    std::filesystem::file_status status = std::filesystem::status(path, none);
+    if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+    fail({path}, "a film must be a file: what this is cannot be read and replaced");
 }
 
 LabeledFilm read_film(const std::string& path) { return FilmReader(path).read(); }

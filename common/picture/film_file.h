@@ -18,6 +18,9 @@ inline constexpr const char* film_ending = ".film";
 /// InputError; the file that was there before stays until the new one is whole and on the disk.
 void write_film(const std::string& path, const FilmLabel& label, const Film& film);
 
+/// Throws InputError for a pipe or a device: a film is read before it is written again.
+void check_film_is_file(const std::string& path);
+
 /// Reads a film. Throws InputError, one line, for a file that is cut short, damaged in any bit, or
 /// no film; and for one whose numbers contradict each other, though its checksum is right.
 LabeledFilm read_film(const std::string& path);

@@ -22,28 +22,21 @@ bool is_of_split(const fs::path& name) {
            stem.find_first_not_of("DS", 1) == stem.size() - 1;
 }
 
-/// Adds the pictures of --split to the files. Which classes there are is not known yet: so they are
-/// those of `others` that may be one of its pictures, through links too.
-void add_split(const std::string& folder, const std::vector<std::string>& others,
-               std::vector<std::string>& files) {
-    make_folder(folder);
-    std::vector<std::string> names = {"LE.pfm"};
-    for (const auto& entry : fs::directory_iterator(folder))
+/// Adds the files of a folder that may be written by the names that they get later. Which there
+/// will be is not known yet: so they are those that are there already, and those of `others`, where
+/// their names are right.
+void add_later(const std::string& folder, const std::vector<std::string>& others,
+               const IsWritten& is_written, std::vector<std::string>& files) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, none))
         names.push_back(entry.path().filename().string());
     for (const std::string& other : others) names.push_back(fs::path(other).filename().string());
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     for (const std::string& name : names) {
-        if (is_of_split(name)) files.push_back((fs::path(folder) / name).string());
+        if (is_written(name)) files.push_back((fs::path(folder) / name).string());
     }
-}
-
-/// A film is read before it is written again: a pipe or a device cannot be.
-void check_film(const std::string& film) {
-    std::error_code none;
-    fs::file_status status = fs::status(film, none);
-    bool is_other = fs::exists(status) && !fs::is_regular_file(status);
-    if (is_other) fail({film}, "a film must be a file: what this is cannot be read and replaced");
 }
 
 /// What is known of the sizes of files: pictures that are not compressed, and the sums of a film.
@@ -65,7 +58,7 @@ std::string drawing_path(const RenderOptions& options) {
 }
 
 void check_outputs(const Scene& scene, const RenderOptions& options,
-                   const std::vector<std::string>& more) {
+                   const std::vector<std::string>& more, const IsWritten& is_beside) {
     std::vector<std::string> inputs(scene.files.begin(), scene.files.end());
     if (options.explain || options.explain_brightest)
         return check_outputs({drawing_path(options)}, inputs);
@@ -73,11 +66,16 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
     for (const std::string& file : {options.film, options.stats, options.map})
         if (!file.empty()) files.push_back(file);
     files.insert(files.end(), more.begin(), more.end());
-    if (!options.film.empty()) check_film(options.film);
+    if (!options.film.empty()) check_film_is_file(options.film);
+    std::vector<std::string> others = inputs;
+    others.insert(others.end(), files.begin(), files.end());
     if (!options.split.empty()) {
-        std::vector<std::string> others = inputs;
-        others.insert(others.end(), files.begin(), files.end());
-        add_split(options.split, others, files);
+        make_folder(options.split);
+        others.push_back("LE.pfm");  // of any class
+        add_later(options.split, others, is_of_split, files);
+    }
+    if (is_beside) {
+        add_later(fs::path(options.out[0]).parent_path().string(), others, is_beside, files);
     }
     check_outputs(files, inputs);
     check_space(scene, files);

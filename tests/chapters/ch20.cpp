@@ -1222,6 +1222,40 @@ TEST_SUITE("ch20 program") {
         CHECK(scene.geometry.positions.size() == 3 * patches.patch.size());
     }
 
+    TEST_CASE("files: pictures on the way overwrite no input and no other output") {
+        TemporaryFolder folder;
+        std::string room = read_file("scenes/cornell.pbrt");
+        for (const char* name : {"a.pbrt", "a-000020.png", "a-000030.png", "b-1000000.png"}) {
+            write_file_atomically(folder / name, room);
+        }
+        std::filesystem::create_symlink(folder / "a.pbrt", folder / "c-000040.png");
+        auto refused = [&](const std::string& scene, const std::string& out,
+                           const Words& more = {}) {
+            Words words = {"--quiet", "--every", "20", "--out", folder / out};
+            words.insert(words.end(), more.begin(), more.end());
+            if (more.empty()) words.insert(words.end(), {"--shots", "60"});
+            Finished end = start_program(words, folder / scene).wait();
+            CAPTURE(end.err);
+            CHECK((end.code == 0 || std::count(end.err.begin(), end.err.end(), '\n') == 1));
+            for (const char* name : {"a.pbrt", "b-1000000.png"}) {
+                CHECK(read_file(folder / name) == room);
+            }
+            return end.code == 2;
+        };
+        CHECK(refused("a-000020.png", "a.png"));
+        CHECK(refused("a.pbrt", "c.png"));  // through a link
+        CHECK(refused("a.pbrt", "d.png", {"--shots", "60", "--out", folder / "d-000060.png"}));
+        CHECK(refused("a.pbrt", "d.ppm", {"--shots", "60", "--out", folder / "d-000020.ppm"}));
+        CHECK(refused("b-1000000.png", "b.png", {"--shots", "1000000"}));
+        // Names that are none of these pictures'.
+        CHECK_FALSE(refused("a-000030.png", "a.png"));
+        CHECK_FALSE(refused("b-1000000.png", "b.png"));  // 60 shots
+        CHECK_FALSE(
+            refused("a.pbrt", "e.png", {"--shots", "50", "--out", folder / "e-000060.png"}));
+        CHECK_FALSE(refused("a.pbrt", "e.png", {"--shots", "50", "--out", folder / "e-20.png"}));
+        CHECK_FALSE(refused("a.pbrt", "a.png"));  // over pictures of an earlier run
+    }
+
     TEST_CASE("input: options that mean nothing to radiosity are refused") {
         for (const Words& words : {Words{"--max-depth", "3"},
                                    {"--explain", "1,1"},

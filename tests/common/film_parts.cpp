@@ -1,5 +1,6 @@
 // Films by the programs: of parts, with parts missing, and by other code.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <map>
@@ -124,6 +125,100 @@ TEST_SUITE("films of parts") {
         CHECK_FALSE(has(out, "nan"));
     }
 
+    TEST_CASE("input: merge refuses a pipe or a device in one line, and does not wait for it") {
+        TemporaryFolder folder;
+        REQUIRE(::mkfifo((folder / "pipe.film").c_str(), 0600) == 0);
+        fs::create_symlink(folder / "pipe.film", folder / "link.film");
+        REQUIRE(run(path_tracer, {spheres, "--size", "9x7", "--spp", "1", "--quiet", "--film",
+                                  folder / "a.film", "--out", folder / "a.ppm"})
+                    .code == 0);
+        std::string good = folder / "a.film";
+        for (const std::string& bad :
+             {folder / "pipe.film", folder / "link.film", std::string("/dev/null")}) {
+            for (const Words& films : {Words{bad, good}, {good, bad}}) {
+                Finished end =
+                    Process([&] {
+                        ::alarm(20);  // s: ends it where it waits
+                        return execute("merge", {folder / "out.pfm", films[0], films[1]});
+                    }).wait();
+                CHECK(end.code == 1);
+                CHECK(end.err == bad +
+                                     ": error: a film must be a file: what this is cannot be read "
+                                     "and replaced\n");
+            }
+        }
+    }
+
+    TEST_CASE(
+        "teeth: bytes that move from one file of a scene to the next, and meshes that change "
+        "places, make it another scene") {
+        const std::string head = "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n";
+        auto include = [](const std::string& name) { return "Include \"" + name + "\"\n"; };
+        auto mesh = [](const std::string& name) {
+            return "Shape \"plymesh\" \"string filename\" \"" + name + "\"\n";
+        };
+        auto ply = [](const std::string& z) {
+            return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                   "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                   "end_header\n0 0 " +
+                   z + " 1 0 " + z + " 0 1 " + z + "\n3 0 1 2\n";
+        };
+        using Files = std::map<std::string, std::string>;
+        const std::string meshes = head + mesh("a.ply") + mesh("b.ply");
+        const std::string includes = head + include("a.pbrt") + include("b.pbrt");
+        const std::string sphere = "Shape \"sphere\"\n", blank = "\n";
+        // Two versions of a scene whose bytes, one file after the other, are the same.
+        for (const auto& [before, after] : std::vector<std::pair<Files, Files>>{
+                 // from the end of a mesh to the start of the next one, which is read all the same
+                 {{{"s.pbrt", meshes}, {"a.ply", ply("2") + ply("3")}, {"b.ply", ply("4")}},
+                  {{"s.pbrt", meshes}, {"a.ply", ply("2")}, {"b.ply", ply("3") + ply("4")}}},
+                 // from the end of an included file to the start of the next one
+                 {{{"s.pbrt", includes}, {"a.pbrt", sphere + blank}, {"b.pbrt", sphere}},
+                  {{"s.pbrt", includes}, {"a.pbrt", sphere}, {"b.pbrt", blank + sphere}}},
+                 // all of it
+                 {{{"s.pbrt", includes}, {"a.pbrt", sphere}, {"b.pbrt", ""}},
+                  {{"s.pbrt", includes}, {"a.pbrt", ""}, {"b.pbrt", sphere}}},
+                 // the names of two meshes
+                 {{{"s.pbrt", meshes}, {"a.ply", ply("2")}, {"b.ply", ply("3")}},
+                  {{"s.pbrt", meshes}, {"a.ply", ply("3")}, {"b.ply", ply("2")}}},
+                 // a link, from one mesh to the other
+                 {{{"s.pbrt", meshes + mesh("c.ply")},
+                   {"a.ply", ply("2")},
+                   {"b.ply", ply("3")},
+                   {"c.ply", "-> a.ply"}},
+                  {{"c.ply", "-> b.ply"}}}}) {
+            TemporaryFolder folder;
+            auto write = [&](const Files& files) {
+                for (const auto& [name, bytes] : files) {
+                    fs::remove(folder / name);
+                    if (bytes.starts_with("-> "))
+                        fs::create_symlink(bytes.substr(3), folder / name);
+                    else
+                        write_file_atomically(folder / name, bytes);
+                }
+            };
+            auto render = [&](const std::string& film, const char* seed) {
+                return run(path_tracer,
+                           {folder / "s.pbrt", "--size", "4x3", "--spp", "1", "--quiet", "--seed",
+                            seed, "--film", folder / film, "--out", folder / "a.ppm"});
+            };
+            write(before);
+            REQUIRE(render("a.film", "1").code == 0);
+            write(after);
+            const std::string why =
+                ": error: a film of another scene: its files are not the same\n";
+            Finished end = render("a.film", "1");
+            CHECK(end.code == 1);
+            CHECK(end.err == folder / "a.film" + why);
+            REQUIRE(render("b.film", "2").code == 0);
+            end = run("merge", {folder / "out.pfm", folder / "a.film", folder / "b.film"});
+            CHECK(end.code == 1);
+            CHECK(end.err == folder / "b.film" + why);
+            write(before);
+            CHECK(render("a.film", "1").code == 0);
+        }
+    }
+
     TEST_CASE(
         "teeth: the hash of a chapter's code changes with any file of it, and of no other "
         "chapter") {
@@ -147,5 +242,63 @@ TEST_SUITE("films of parts") {
         // A tool is in no chapter.
         std::ofstream(copy / "common/tools/compare.cpp", std::ios::app) << "// more\n";
         CHECK(copy.hashes() == before);
+    }
+}
+
+TEST_SUITE("films, slow") {
+    TEST_CASE("teeth: a chapter that was edited and compiled again refuses its old films") {
+        TemporaryFolder folder;
+        // What make needs to compile one file of the chapter and the hashes, and to link.
+        Finished end = Process([&] {
+                           ::unsetenv("MAKEFLAGS");
+                           ::unsetenv("MAKELEVEL");
+                           ::setenv("program", path_tracer.c_str(), 1);
+                           ::setenv("programs", program_folder.c_str(), 1);
+                           ::setenv("copy", folder.path().c_str(), 1);
+                           const char* script = R"bash(set -e
+mkdir -p "$copy/build/obj"
+cp -a Makefile common chapters "$copy"
+cp -a "$programs"/{flags,packages,include} "$copy/build"
+cp -a "$programs/obj/common" "$copy/build/obj"
+rm -f "$copy"/build/obj/*/*/*.d
+cd "$copy"
+echo '// more' >>"chapters/$program/estimator.h"
+make --quiet CXX="$(cut -d' ' -f1 build/flags)" CXXFLAGS="$(cut -d' ' -f2- build/flags)" \
+    BUILD=build "build/$program")bash";
+                           ::execlp("bash", "bash", "-c", script, nullptr);
+                           return 127;
+                       }).wait();
+        CAPTURE(end.err);
+        REQUIRE(end.code == 0);
+        MESSAGE(end.out);
+        std::string edited = folder / "build/" + path_tracer;
+        auto words = [&](const char* film, const char* seed) {
+            return Words{spheres, "--size",  "4x3",    "--spp",       "1",     "--seed",
+                         seed,    "--quiet", "--film", folder / film, "--out", folder / "a.ppm"};
+        };
+        REQUIRE(run(path_tracer, words("a.film", "1")).code == 0);
+        std::string before = read_file(folder / "a.film");
+        auto render_edited = [&](const char* film, const char* seed) {
+            return Process([&] {
+                       std::vector<char*> argv = {edited.data()};
+                       Words all = words(film, seed);
+                       for (std::string& word : all) argv.push_back(word.data());
+                       argv.push_back(nullptr);
+                       ::execv(argv[0], argv.data());
+                       return 127;
+                   })
+                .wait();
+        };
+        const std::string why = ": error: the film was made by other code of this chapter\n";
+        end = render_edited("a.film", "1");
+        CHECK(end.code == 1);
+        CHECK(end.err == folder / "a.film" + why);
+        CHECK(read_file(folder / "a.film") == before);
+        REQUIRE(render_edited("b.film", "2").code == 0);
+        end = run("merge", {folder / "out.pfm", folder / "a.film", folder / "b.film"});
+        CHECK(end.code == 1);
+        CHECK(end.err == folder / "b.film" + why);
+        CHECK(render_edited("b.film", "2").code == 0);
+        CHECK(run(path_tracer, words("a.film", "1")).code == 0);
     }
 }
