@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <memory>
 #include <thread>
 
 #include "common/base/stats.h"
@@ -296,6 +297,22 @@ TEST_SUITE("render loop") {
         };
         render_film(empty_scene(1, 1, 1), quiet_options(), raising);
         CHECK(outer.requested());
+    }
+
+    TEST_CASE(
+        "truth: limits of renders that overlap end in any order, and none outlives its render") {
+        Scene scene = empty_scene(2, 2, 1);
+        auto trace_many = [&] {
+            for (int i = 0; i < 1000; i++) intersect(scene, {{0, 0, 0}, {0, 0, 1}});
+        };
+        auto first = std::make_unique<TracingLimit>([] { return true; });
+        CHECK_THROWS_AS(trace_many(), TracingEnds);
+        auto second = std::make_unique<TracingLimit>([] { return false; });
+        trace_many();
+        first.reset();
+        trace_many();
+        second.reset();
+        trace_many();
     }
 
     TEST_CASE("truth: a path that does not end is given up at the limit, and counts nowhere") {
