@@ -35,9 +35,7 @@ inline Vec2 invert_uniform_hemisphere(Vec3 w) {
 inline BsdfSample sample_mirror(const Hit& x, Vec3 wo) {
     float cos_o = dot(wo, x.n);
     Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
-    Vec3 wi = reflect(wo, x.n);
-    if (dot(wi, x.ng) <= 0) return {};  // into the metal: x.n is smoothed, and leans too far
-    return {wi, F / cos_o, 1, true};
+    return {reflect(wo, x.n), F / cos_o, 1, true};
 }
 
 /// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
@@ -50,13 +48,11 @@ inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
     float eta = x.front ? x.material->ior : 1 / x.material->ior;
     float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
     if (u < R) {
-        Vec3 wi = reflect(wo, x.n);
-        if (dot(wi, x.ng) <= 0) return {};
         float f = R / cos_o;
-        return {wi, {f, f, f}, R, true};
+        return {reflect(wo, x.n), {f, f, f}, R, true};
     }
     std::optional<Vec3> wi = refract(wo, x.n, eta);
-    if (!wi || dot(*wi, x.ng) >= 0) return {};
+    if (!wi) return {};
     float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
     return {*wi, {f, f, f}, 1 - R, true};
 }

@@ -52,10 +52,11 @@ std::string any_material(Draw& draw) {
     }
 }
 
-/// A shape about as large as the unit ball: whole, flat, or with normals that lean.
-std::string any_shape(Draw& draw) {
+/// A shape about as large as the unit ball: whole, flat, or, where `leaning`, with normals that
+/// lean.
+std::string any_shape(Draw& draw, bool leaning) {
     std::string turn = draw.turn();
-    switch (draw.index(4)) {
+    switch (draw.index(leaning ? 4 : 3)) {
         case 0: return "Shape \"sphere\" \"float radius\" 0.7\n";
         case 1: return turn + "Shape \"disk\" \"float radius\" 0.9\n";
         case 2: return turn + square(0, draw.coin());
@@ -84,7 +85,7 @@ std::string any_light(Draw& draw) {
             std::string both = draw.coin() ? " \"bool twosided\" true\n" : "\n";
             std::string side = draw.coin() ? "ReverseOrientation " : "";
             return "AttributeBegin " + matt(draw) + place + side + "AreaLightSource \"diffuse\" " +
-                   L + both + any_shape(draw) + "AttributeEnd\n";
+                   L + both + any_shape(draw, true) + "AttributeEnd\n";
         }
     }
 }
@@ -110,7 +111,11 @@ Room generated_room(uint32_t seed) {
         std::string where = "Translate " + std::to_string(x) + " " +
                             std::to_string(draw.number(-0.6, 0.2)) + " 0 Scale .8 .8 .8 ";
         std::string material = any_material(draw);
-        world += placed(material + where, any_shape(draw));
+        // Mirrors and glass with normals that lean too far let paths through in one direction
+        // alone.
+        bool leaning = material.find("diffuse") != std::string::npos ||
+                       material.find("roughness") != std::string::npos;
+        world += placed(material + where, any_shape(draw, leaning));
     }
     Room room{world_of(world), has_delta_light};
     room.scene.max_depth = 4;
