@@ -44,7 +44,7 @@ test: $(BUILD)/tests programs
 test-slow: $(BUILD)/tests programs
 	tests/run $(BUILD) --test-suite='*slow*'
 
-#: make 06           build and run one chapter
+#: make 07           build and run one chapter
 $(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $(made)
 	$(RUN) $<
 

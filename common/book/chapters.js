@@ -7,63 +7,63 @@ const number = (name, label, value) => ({name, label, value});
 const chapters = {
     '01_monte_carlo_pi': {kind: 'table', n: 1 << 20},
     '02_stratification': {kind: 'table', n: 1024},
-    '03_importance': {kind: 'table', n: 1000000},
-    '04_ray_casting': {kind: 'film', scene: 'cornell-spheres'},
-    '05_bvh': {
+    '04_importance': {kind: 'table', n: 1000000},
+    '05_ray_casting': {kind: 'film', scene: 'cornell-spheres'},
+    '06_bvh': {
         kind: 'once', scene: 'knot', words: ['--quiet'],  // the table needs a clock of the processor
         own: [choice('step', 'work of', 'ordered', 'linear', 'median', 'sah', 'four', 'wide')]
     },
-    '06_path_tracing': {kind: 'film', scene: 'cornell'},
-    '07_russian_roulette': {kind: 'film', scene: 'cornell', against: '06_path_tracing'},
-    '08_light_sampling': {
-        kind: 'film', scene: 'cornell', against: '07_russian_roulette',
+    '07_path_tracing': {kind: 'film', scene: 'cornell'},
+    '08_russian_roulette': {kind: 'film', scene: 'cornell', against: '07_path_tracing'},
+    '09_light_sampling': {
+        kind: 'film', scene: 'cornell', against: '08_russian_roulette',
         own: [choice('light-by', 'points on lights by', 'solid-angle', 'area')]
     },
-    '09_cosine_sampling': {kind: 'film', scene: 'cornell', against: '08_light_sampling'},
-    '10_light_importance': {
-        kind: 'film', scene: 'thousand-lights', against: '09_cosine_sampling'
+    '10_cosine_sampling': {kind: 'film', scene: 'cornell', against: '09_light_sampling'},
+    '11_light_importance': {
+        kind: 'film', scene: 'thousand-lights', against: '10_cosine_sampling'
     },
-    '11_ris': {
-        kind: 'film', scene: 'thousand-lights', against: '10_light_importance',
+    '12_ris': {
+        kind: 'film', scene: 'thousand-lights', against: '11_light_importance',
         own: [number('m', 'candidates M', 16)]
     },
-    '12_glossy': {
-        kind: 'film', scene: 'veach-mis', against: '12_glossy',
+    '13_glossy': {
+        kind: 'film', scene: 'veach-mis', against: '13_glossy',
         own: [choice('strategy', 'find light by', 'light', 'bsdf')]
     },
-    '13_mis': {
-        kind: 'film', scene: 'veach-mis', against: '12_glossy',
+    '14_mis': {
+        kind: 'film', scene: 'veach-mis', against: '13_glossy',
         own: [choice('heuristic', 'heuristic', 'power', 'balance'),
               choice('ways', 'ways at a vertex', 'both', 'one-sample')]
     },
-    '14_mis_ris': {
-        kind: 'film', scene: 'thousand-lights', against: '13_mis',
+    '15_mis_ris': {
+        kind: 'film', scene: 'thousand-lights', against: '14_mis',
         own: [number('m', 'candidates M', 64)]
     },
-    '15_distribution': {
-        kind: 'film', scene: 'bokeh', against: '15_distribution',
+    '16_distribution': {
+        kind: 'film', scene: 'bokeh', against: '16_distribution',
         own: [number('m', 'candidates M', 64),
               choice('pixel', 'of each pixel', 'area', 'centre')]
     },
-    '16_adaptive': {
-        kind: 'film', scene: 'high-contrast', against: '15_distribution',
+    '19_adaptive': {
+        kind: 'film', scene: 'high-contrast', against: '16_distribution',
         own: [number('pilot', 'samples of the pilot', 16),
               choice('judge', 'a half is judged by', 'other', 'own')]
     },
-    '17_light_tracing': {kind: 'film', scene: 'caustic', against: '14_mis_ris'},
-    '18_bidirectional': {
-        kind: 'film', scene: 'cornell-spheres', against: '14_mis_ris',
+    '20_light_tracing': {kind: 'film', scene: 'caustic', against: '15_mis_ris'},
+    '21_bidirectional': {
+        kind: 'film', scene: 'cornell-spheres', against: '15_mis_ris',
         own: [choice('strategy', 'strategy s,t', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2'),
               choice('form', 'form', 'fast', 'plain')]
     },
-    '19_photon_mapping': {
-        kind: 'film', scene: 'pool', against: '18_bidirectional', spp: 8,
+    '23_photon_mapping': {
+        kind: 'film', scene: 'pool', against: '21_bidirectional', spp: 8,
         own: [number('photons', 'photons in each pass', 100000),
               choice('gather', 'count photons', 'final', 'direct', 'nearest'),
               number('nearest', 'photons in the first radius', 50),
               choice('kernel', 'kernel', 'epanechnikov', 'cone', 'box')]
     },
-    '20_radiosity': {
+    '26_radiosity': {
         kind: 'once', scene: 'cornell',
         own: [number('patches', 'patches at least', 1200),
               number('shots', 'shots at most', 1000),

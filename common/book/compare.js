@@ -47,7 +47,7 @@ function mean(picture) {
 /// Two methods side by side in equal time, and their error as it falls.
 function race(live) {
     const names = Object.keys(chapters).filter(name => chapters[name].kind === 'film');
-    const other = field('other', 'against', {}, [live.about.against || '14_mis_ris', ...names]);
+    const other = field('other', 'against', {}, [live.about.against || '15_mis_ris', ...names]);
     const words = field('words', 'with', {placeholder: 'its options', size: 18});
     const time = field('time', 'seconds each', {type: 'number', min: 1, value: 5});
     const chart = svg('svg', {viewBox: '0 0 360 220', class: 'chart', role: 'img', 'aria-label': 'error against time'});

@@ -1,4 +1,4 @@
-// How a ray finds its way through the hierarchy of bounding boxes (chapter 05).
+// How a ray finds its way through the hierarchy of bounding boxes (chapter 06).
 #include "common/geometry/bvh.h"
 
 #include <bit>

@@ -1,6 +1,6 @@
-// The hierarchy of bounding boxes that finds what a ray hits (chapter 05).
+// The hierarchy of bounding boxes that finds what a ray hits (chapter 06).
 //
-// scene.h includes this header, and chapter 04 has intersect_triangle() and its like as its own
+// scene.h includes this header, and chapter 05 has intersect_triangle() and its like as its own
 // lesson: so this header must not include shapes.h; what needs it belongs into bvh.cpp.
 #pragma once
 #include "common/geometry/geometry.h"

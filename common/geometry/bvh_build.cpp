@@ -1,4 +1,4 @@
-// Builds the hierarchy of bounding boxes (chapter 05): a tree of two children per node where the
+// Builds the hierarchy of bounding boxes (chapter 06): a tree of two children per node where the
 // surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
 #include "common/geometry/bvh_build.h"
 

@@ -1,4 +1,4 @@
-// Builds the hierarchy of bounding boxes (chapter 05).
+// Builds the hierarchy of bounding boxes (chapter 06).
 #pragma once
 #include "common/base/report.h"
 #include "common/geometry/bvh.h"

@@ -1,4 +1,4 @@
-// taught by chapter 04
+// taught by chapter 05
 // The tests of a ray against each kind of primitive, and against all of them in turn.
 #pragma once
 #include <optional>

@@ -1,5 +1,5 @@
 // Many floats at once: 16 with AVX-512, 8 with AVX2, twice 4 in WebAssembly, elsewhere plain loops
-// over 8. Each instruction that chapter 05 needs is named here once. The arithmetic is that of
+// over 8. Each instruction that chapter 06 needs is named here once. The arithmetic is that of
 // single floats, lane by lane, with the same rounding, so that all of them give the same hits.
 #pragma once
 #include <array>

@@ -29,7 +29,7 @@ LightBounds bounds_of(const Scene& scene, const LightTable& table, size_t i) {
     return b;
 }
 
-/// Chapter 10's choice with int for size_t, for the sake of vector instructions.
+/// Chapter 11's choice with int for size_t, for the sake of vector instructions.
 inline int pick(const AliasColumn* table, int N, double u) {
     double at = u * N;
     int column = std::min(static_cast<int>(at), N - 1);
@@ -78,7 +78,7 @@ struct SideBySide {
     }
 };
 
-/// Chapter 11's potential, as one formula for all lights, for the sake of vector instructions.
+/// Chapter 12's potential, as one formula for all lights, for the sake of vector instructions.
 inline float potential(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
     float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));

@@ -1,4 +1,4 @@
-// Choosing among candidate lights by what they could give: chapter 11's way, all candidates at
+// Choosing among candidate lights by what they could give: chapter 12's way, all candidates at
 // once.
 #pragma once
 #include "common/light/light_table.h"
@@ -28,7 +28,7 @@ struct Candidates {
     static constexpr int most = 1024;
     int M;
     int light[most];
-    float p_hat[most];   // W m^-2: the potential, as in chapter 11
+    float p_hat[most];   // W m^-2: the potential, as in chapter 12
     float weight[most];  // p_hat / pmf
 };
 
@@ -40,8 +40,8 @@ struct Kept {
 
 /// Draws one candidate from each of M slices of the table; u in [0,1) is the place in each slice.
 ///
-/// The same lights and potentials as chapter 11's, one after the other, but for rounding.
-/// tested by  "identity: candidates all at once are those of chapter 11"
+/// The same lights and potentials as chapter 12's, one after the other, but for rounding.
+/// tested by  "identity: candidates all at once are those of chapter 12"
 Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u);
 
 /// Keeps each candidate with probability weight / weight_sum.      W = weight_sum / (M p_hat)

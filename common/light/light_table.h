@@ -1,4 +1,4 @@
-// taught by chapter 10
+// taught by chapter 11
 // Choosing lights by power, in O(1).
 #pragma once
 #include "common/light/lights.h"

@@ -1,4 +1,4 @@
-// taught by chapter 09
+// taught by chapter 10
 // Aiming at one light.
 #pragma once
 #include "common/light/light_shapes.h"

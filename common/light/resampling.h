@@ -1,4 +1,4 @@
-// taught by chapter 11
+// taught by chapter 12
 // Choosing one of M candidate lights by what each could give.
 #pragma once
 #include "common/light/light_table.h"

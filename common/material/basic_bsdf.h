@@ -1,4 +1,4 @@
-// taught by chapter 09
+// taught by chapter 10
 // The BSDF of diffuse surfaces, mirrors and glass: its value, its samples and their density.
 #pragma once
 #include "common/material/bsdf.h"

@@ -1,4 +1,4 @@
-// taught by chapter 06
+// taught by chapter 07
 // What sampling a surface returns; uniform directions, mirrors and glass.
 #pragma once
 #include "common/material/hit.h"

@@ -1,4 +1,4 @@
-// taught by chapter 09
+// taught by chapter 10
 // The warp for diffuse surfaces.
 #pragma once
 #include "common/base/vec.h"

@@ -1,4 +1,4 @@
-// taught by chapter 12
+// taught by chapter 13
 // Rough metal, and the BSDF of all materials with it.
 #pragma once
 #include "common/material/basic_bsdf.h"

@@ -1,4 +1,4 @@
-// taught by chapter 04
+// taught by chapter 05
 // Mirrors and glass: where light goes, and how much of it.
 #pragma once
 #include <optional>

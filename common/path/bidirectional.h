@@ -1,4 +1,4 @@
-// The fast form of chapter 18: weights at a constant price, one join for each vertex from the eye,
+// The fast form of chapter 21: weights at a constant price, one join for each vertex from the eye,
 // and more chances for what mirrors and glass alone bring. The same means as the lesson's.
 #pragma once
 #include "common/path/bidirectional_joins.h"
@@ -38,7 +38,7 @@ inline void walk_from_light(const Scene& scene, const Prepared& prepared, Sample
         path.push_back(next);
         if (depth == scene.max_depth) return;
 
-        // Go on as in chapter 17.
+        // Go on as in chapter 20.
         float u1 = sampler.u1();
         BsdfSample s = sample_light_bsdf(scene, *x, next.back, u1, sampler.u2());
         float u_q = sampler.u1();
@@ -95,7 +95,7 @@ inline Rgb join_any(const Scene& scene, const Prepared& prepared, const std::vec
 ///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
 ///
 /// Unbiased up to scene.max_depth scattering events.
-/// source  Lafortune, Willems 1993; Veach, Guibas 1994      tested by  "ch18 bidirectional"
+/// source  Lafortune, Willems 1993; Veach, Guibas 1994      tested by  "ch21 bidirectional"
 inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& splats,
                  Sampler& sampler, PathLog& log) {
     // Walk from a light, with numbers that have their own dimensions, and show it to the camera.

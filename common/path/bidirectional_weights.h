@@ -1,4 +1,4 @@
-// The weights of chapter 18, at a constant price: what each vertex of a path remembers, so that the
+// The weights of chapter 21, at a constant price: what each vertex of a path remembers, so that the
 // weight of a strategy costs the same however long its path is.
 #pragma once
 #include "common/path/light_paths.h"

@@ -17,7 +17,7 @@ struct CameraSample {
 
 /// A ray through a random point of pixel (x, y), by the first two numbers of a sample. All points
 /// are equally likely: the mean of what comes along the rays is the pixel of a box filter.
-/// `centre`: always through the middle, which is a mistake that chapter 15 shows.
+/// `centre`: always through the middle, which is a mistake that chapter 16 shows.
 ///
 /// tested by  "identity: a camera sample is the ray through its pixel, at the next two numbers"
 inline CameraSample camera_sample(const CameraView& view, int x, int y, Sampler& sampler,

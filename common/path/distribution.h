@@ -1,4 +1,4 @@
-// taught by chapter 15
+// taught by chapter 16
 // The path tracer of many lights, with lens, shutter, wavelength and sky.
 #pragma once
 #include "common/material/observer.h"
@@ -92,7 +92,7 @@ inline Rgb sky_light(const Scene& scene, const std::vector<double>& cdf, const H
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
 /// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
-/// source  Veach, Guibas 1995      tested by  "ch15 distribution"
+/// source  Veach, Guibas 1995      tested by  "ch16 distribution"
 inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler& sampler,
                  PathLog& log) {
     const ManyLights& lights = prepared.lights;
@@ -169,7 +169,7 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
         log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
-        float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 07
+        float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 08
         if (sampler.u1() >= q) return L;
         beta /= q;
         log.roulette(q, beta);

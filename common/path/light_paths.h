@@ -1,4 +1,4 @@
-// taught by chapter 17
+// taught by chapter 20
 // Where paths from lights begin, how they go on, and where the camera sees them.
 #pragma once
 #include "common/light/light_table.h"
@@ -66,7 +66,7 @@ struct Ends {
 };
 inline Ends ends_of(const Scene& scene) {
     Box box = bounds_of(scene.geometry);
-    LightTable lights = build_light_table(light_pmf(scene, 0.25));  // as in chapter 10
+    LightTable lights = build_light_table(light_pmf(scene, 0.25));  // as in chapter 11
     return {lights, (box.low + box.high) / 2, pinhole_of(scene)};
 }
 

@@ -1,4 +1,4 @@
-// taught by chapter 14
+// taught by chapter 15
 // Aiming at lights in two ways, each with its MIS weight.
 #pragma once
 #include "common/light/fast_resampling.h"
@@ -9,7 +9,7 @@
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 
-/// Chapter 13's weight for three ways: a^2 / (a^2 + b^2 + c^2). Those of one direction sum to 1.
+/// Chapter 14's weight for three ways: a^2 / (a^2 + b^2 + c^2). Those of one direction sum to 1.
 /// tested by  "identity: the three weights sum to 1"
 inline float mis_weight(float a, float b, float c) {
     return 1 / (1 + (b / a) * (b / a) + (c / a) * (c / a));

@@ -1,4 +1,4 @@
-// taught by chapter 13
+// taught by chapter 14
 // How two ways of drawing the same direction share it.
 #pragma once
 

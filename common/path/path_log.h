@@ -58,7 +58,7 @@ public:
     void roulette(float q, Rgb beta) {
         if (listening_) note_roulette(q, beta);
     }
-    /// Goes back to the vertex before, whose other branch comes next (chapter 04 walks a tree).
+    /// Goes back to the vertex before, whose other branch comes next (chapter 05 walks a tree).
     void step_back() {
         if (listening_) note_step_back();
     }

@@ -8,7 +8,7 @@
 /// Follows one path as its PathLog hears of it, and writes down each step, what it adds, which
 /// shadow rays were blocked, and why it ends.
 ///
-/// Of rays it sees all that this thread traces until ends(); without any (chapter 04 has a search
+/// Of rays it sees all that this thread traces until ends(); without any (chapter 05 has a search
 /// of its own) it cannot tell how the path ends.
 class PathStory {
 public:
@@ -23,7 +23,7 @@ public:
         size_t pixel = own_pixel;
     };
 
-    /// counts_photons: a path may end where photons tell the rest, as in chapter 19.
+    /// counts_photons: a path may end where photons tell the rest, as in chapter 23.
     PathStory(int max_depth, bool counts_photons);
     ~PathStory();
     PathStory(const PathStory&) = delete;

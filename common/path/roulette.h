@@ -1,4 +1,4 @@
-// taught by chapter 07
+// taught by chapter 08
 // When a path ends by chance.
 #pragma once
 #include "common/base/vec.h"

@@ -25,7 +25,7 @@ public:
 
     /// From now on each pixel has two halves, 0 and 1, that count their samples each. The picture
     /// is the mean of both halves' means, and they tell the error: (A - B)^2 / 4 is on the mean the
-    /// variance of (A + B) / 2. For samples that are shared out unevenly, as in chapter 16: each
+    /// variance of (A + B) / 2. For samples that are shared out unevenly, as in chapter 19: each
     /// half's mean is then without bias if the other half alone decided on the number of samples.
     void start_halves();
     bool has_halves() const { return has_halves_; }

@@ -117,7 +117,7 @@ std::string of_search(LightSearch search, double chance) {
         case LightSearch::by_chance:
             std::snprintf(text, sizeof text,
                           "lights are met only by chance here, by about one path in %.2g: more "
-                          "samples find them, or a chapter that aims at lights (from 08 on)",
+                          "samples find them, or a chapter that aims at lights (from 09 on)",
                           1 / chance);
             return text;
         case LightSearch::from_lights:
@@ -172,7 +172,7 @@ std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions
     } else if (s.reach == Reach::through_glass) {
         causes.push_back(
             "light comes to what is in view only through glass, where aiming at a light does not "
-            "find it: chapters 17 to 19 do");
+            "find it: chapters 20 to 23 do");
     }
     if (s.reach != Reach::arrives && scene.max_depth == 1) {
         causes.push_back("with a depth of 1 light comes straight from the lights alone");

@@ -57,7 +57,7 @@ void refuse_delta_lights(const Scene& scene) {
         fail(
             {scene.file, light.line, light.column},
             std::string("a ") + (light.type == LightType::point ? "point" : "distant") +
-                " light has no size, so no path finds it by chance; chapters from 08 on sample it");
+                " light has no size, so no path finds it by chance; chapters from 09 on sample it");
     }
 }
 
@@ -66,7 +66,7 @@ void refuse_glossy(const Scene& scene) {
         const Material& m = scene.materials[shape.material];
         if (!is_rough(m)) continue;
         fail({scene.file, m.line, m.column},
-             "rough conductors are not supported before chapter 12");
+             "rough conductors are not supported before chapter 13");
     }
 }
 
@@ -74,7 +74,7 @@ void refuse_distribution(const Scene& scene) {
     const Camera& camera = scene.camera;
     if (camera.lens_radius > 0) {
         fail({scene.file, camera.line, camera.column},
-             "all chapters but 15 and 16 have a pinhole: lensradius must be 0");
+             "all chapters but 16 and 19 have a pinhole: lensradius must be 0");
     }
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
@@ -82,15 +82,15 @@ void refuse_distribution(const Scene& scene) {
         char eta[32];
         std::snprintf(eta, sizeof eta, "%.5g", double{m.ior});
         fail({scene.file, m.line, m.column},
-             std::string("outside chapters 15 and 16 glass does not ") +
+             std::string("outside chapters 16 and 19 glass does not ") +
                  "disperse: try \"float eta\" " + eta);
     }
     if (!scene.movers.empty()) {
         fail({scene.file, scene.movers[0].line, scene.movers[0].column},
-             "outside chapters 15 and 16 nothing moves");
+             "outside chapters 16 and 19 nothing moves");
     }
     if (scene.sky_image) {
         fail({scene.file, scene.sky_image->line, scene.sky_image->column},
-             "outside chapters 15 and 16 the sky has no picture");
+             "outside chapters 16 and 19 the sky has no picture");
     }
 }

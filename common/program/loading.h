@@ -13,10 +13,10 @@ Scene load(const RenderOptions& options, bool has_distribution = false);
 /// by chance never finds one.
 void refuse_delta_lights(const Scene& scene);
 
-/// Throws InputError when a surface of the scene is a rough conductor, which chapters before 12
+/// Throws InputError when a surface of the scene is a rough conductor, which chapters before 13
 /// have not got.
 void refuse_glossy(const Scene& scene);
 
-/// Throws InputError when the scene has what chapter 15 is about: a lens, shapes that move, glass
+/// Throws InputError when the scene has what chapter 16 is about: a lens, shapes that move, glass
 /// that disperses, or a picture for the sky.
 void refuse_distribution(const Scene& scene);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t tried = 1 << 14, tried_from_camera = 1 << 16;
 
-/// What the camera sees of flux that arrives at x from wi; see chapter 17.
+/// What the camera sees of flux that arrives at x from wi; see chapter 20.
 Rgb shown(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb flux) {
     Vec3 away = x.p - camera.view.o;
     std::optional<Sight> sight = sight_of(camera, away);
@@ -74,7 +74,7 @@ Rgb aim(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo, Sam
     return is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist)) ? Rgb{} : Ld;
 }
 
-/// Light along a ray from the camera, from one path, as in chapter 12: nearly mirrors follow the
+/// Light along a ray from the camera, from one path, as in chapter 13: nearly mirrors follow the
 /// BSDF, all else aims. Adds to `hits` where the path meets a light by way of a nearly mirror.
 Rgb light_along(const Scene& scene, const LightTable& lights, double paths, Ray ray,
                 Sampler& sampler, double& hits) {

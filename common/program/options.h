@@ -19,7 +19,7 @@ enum class LightSearch : uint8_t {
 
 /// What every chapter that renders a scene understands.
 struct RenderOptions {
-    std::string name;     // of the chapter, such as "06_path_tracing"
+    std::string name;     // of the chapter, such as "07_path_tracing"
     std::string command;  // as typed
     std::string scene;
     int spp = 0;                // 0: as the scene says
@@ -43,8 +43,8 @@ struct RenderOptions {
     /// The chapter's own options, with their values.
     std::vector<std::pair<std::string, std::string>> own = {};
     bool quiet = false;
-    bool pixel_centre = false;  // chapter 15: see camera_sample.h
-    std::string map;            // chapter 16: picture of how many samples each pixel has
+    bool pixel_centre = false;  // chapter 16: see camera_sample.h
+    std::string map;            // chapter 19: picture of how many samples each pixel has
 };
 
 /// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.
@@ -56,7 +56,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
 /// The name of a picture, or UsageError.
 std::string parse_picture(const std::string& option, const std::string& text);
 
-/// What the chapters without a scene (01 to 03) understand.
+/// What the chapters without a scene (01 to 04) understand.
 struct TableOptions {
     std::string name;
     std::string comment;  // for the picture; see picture/notes.h

@@ -132,7 +132,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
                            [&](const Light& light) { return is(light.type); });
     };
     if (options.search == LightSearch::aims && any_material(is_receiver)) {
-        // Chapter 12 aims alone, unless told otherwise; those after it also follow the metal.
+        // Chapter 13 aims alone, unless told otherwise; those after it also follow the metal.
         bool aims_alone = std::count(options.own.begin(), options.own.end(),
                                      std::pair<std::string, std::string>("strategy", "light")) > 0;
         double hidden = light_by_nearly_mirrors(scene, samples, !aims_alone);

@@ -33,6 +33,6 @@ Rgb radiosity_at(const Shown& shown, const Hit& x);
 /// What x reflects to wo, W m^-2 sr^-1, by a path of `bounces` bounces, for this point and not for
 /// its patch. Lights are sampled at each bounce; the last bounce finds the radiosity of a patch,
 /// without what it emits.
-/// tested by  "agreement: the final gather with chapter 14, block by block within 2 %"
+/// tested by  "agreement: the final gather with chapter 15, block by block within 2 %"
 Rgb final_gather(const Scene& scene, const Shown& shown, Hit x, Vec3 wo, Sampler& sampler,
                  int bounces = 1);

@@ -10,7 +10,7 @@ void refuse(const Scene& scene) {
                                                               : "a sky";
         fail({scene.file, light.line, light.column},
              std::string("radiosity knows lamps with a surface alone: ") + name +
-                 " has no patches; chapters from 08 on render it");
+                 " has no patches; chapters from 09 on render it");
     }
     auto refuse_material = [&](uint32_t shape) {
         const Material& m = scene.materials[scene.shapes[shape].material];

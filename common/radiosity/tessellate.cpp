@@ -82,7 +82,7 @@ void check_area(const Scene& scene, double area, double wanted, const char* kind
     char text[200];
     std::snprintf(text, sizeof text,
                   "the %s of radius %g at (%g, %g, %g) is too small to be cut into triangles; "
-                  "chapters from 08 on render it",
+                  "chapters from 09 on render it",
                   kind, double{r}, double{c.x}, double{c.y}, double{c.z});
     const Material& m = scene.materials[scene.shapes[shape].material];
     int light = scene.shapes[shape].light;

@@ -1,4 +1,4 @@
-// taught by chapter 04
+// taught by chapter 05
 // The pinhole camera.
 #pragma once
 #include "common/scene/scene.h"

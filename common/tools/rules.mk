@@ -1,7 +1,7 @@
 # Pages, and what looks at the text of the code.
 .PHONY: diff steps lint pictures readmes tidy
 
-#: make diff CH=07   what a chapter changes of the one before
+#: make diff CH=08   what a chapter changes of the one before
 diff:
 	@common/tools/chapter_diff '$(CH)'
 #: make lint         the rules that the text of the code keeps

@@ -70,19 +70,19 @@ async function all_same_bytes(browser, chapters) {
             await same_bytes(browser, chapter, {n: some, seed: 3}, ['--n', some, '--seed', '3']);
             continue;
         }
-        const scene = {'15_distribution': 'bokeh', '16_adaptive': 'high-contrast'}[chapter] || 'cornell-spheres';
+        const scene = {'16_distribution': 'bokeh', '19_adaptive': 'high-contrast'}[chapter] || 'cornell-spheres';
         const size = '24x24', words = [`scenes/${scene}.pbrt`, '--size', size];
         if (kind === 'film') words.push('--spp', '18', '--seed', '5');
-        if (chapter === '20_radiosity') words.splice(0, 1, 'scenes/cornell.pbrt', '--patches', '200', '--shots', '50');
+        if (chapter === '26_radiosity') words.splice(0, 1, 'scenes/cornell.pbrt', '--patches', '200', '--shots', '50');
         const set = {scene: words[0].slice(7, -5), size, spp: 18, seed: 5, patches: 200, shots: 50};
-        if (chapter === '19_photon_mapping') set.photons = 2000, words.push('--photons', '2000');
+        if (chapter === '23_photon_mapping') set.photons = 2000, words.push('--photons', '2000');
         await same_bytes(browser, chapter, set, words);
     }
 }
 
 async function live(browser) {
     await browser.width(1200);
-    await browser.open(page('14_mis_ris'));
+    await browser.open(page('15_mis_ris'));
     await browser.until(`document.querySelector('.go')`);
     await browser.value(`live.fill({scene: 'cornell', spp: 4})`);
     await browser.value(`live.node.scrollIntoView(); document.querySelector('.go').click()`);
@@ -146,14 +146,14 @@ async function wrong_scene(browser) {
 /// Samples a second in the page, with one worker and with two, beside the program with as many threads.
 async function speed(browser) {
     const seconds = {}, spp = 64, picture = `${build}/book-test.pfm`;
-    await browser.open(page('14_mis_ris'));
+    await browser.open(page('15_mis_ris'));
     await browser.until(`document.querySelector('.go')`);
     await browser.value(`live.fill({scene: 'cornell', size: '256x256', spp: ${spp}})`);
     const keep = (name, time) => { seconds[name] = Math.min(time, seconds[name] ?? time); };
     for (let round = 0; round < 3; round++) {
         for (const n of [1, 2]) {
             const begin = performance.now();
-            execFileSync(`${build}/14_mis_ris`, ['scenes/cornell.pbrt', '--size', '256x256', '--spp', `${spp}`,
+            execFileSync(`${build}/15_mis_ris`, ['scenes/cornell.pbrt', '--size', '256x256', '--spp', `${spp}`,
                 '--threads', `${n}`, '--out', picture, '--quiet']);
             keep(`program ${n}`, (performance.now() - begin) / 1000);
             await browser.value(`Object.defineProperty(navigator, 'hardwareConcurrency', {value: ${n}, configurable: true});
@@ -177,11 +177,11 @@ function size(folder = book) {
 }
 
 async function races(browser) {
-    await browser.open(page('14_mis_ris'));
+    await browser.open(page('15_mis_ris'));
     await browser.until(`document.querySelector('.go')`);
     await browser.value(`live.fill({scene: 'veach-mis', size: '64x64'}); document.querySelector('.race').open = true;
         { const form = document.querySelector('.race form'); form.elements.time.value = 4;
-        form.elements.other.value = '12_glossy'; form.requestSubmit(); }`);
+        form.elements.other.value = '13_glossy'; form.requestSubmit(); }`);
     await browser.until(`document.querySelector('.race .status').textContent.includes('relMSE')`, 30);
     const said = await browser.value(`document.querySelector('.race .status').textContent`);
     const [mis] = await browser.value(`[...document.querySelectorAll('.race .curve')].map(curve =>
@@ -191,14 +191,14 @@ async function races(browser) {
 }
 
 async function holding(browser) {
-    await browser.open(page('14_mis_ris'));
+    await browser.open(page('15_mis_ris'));
     await browser.value(`document.querySelector('.hold').click()`);
     const [open, text] = await browser.value(`(() => { const d = document.querySelector('dialog');
         return [d.open, d.querySelector('canvas').getAttribute('aria-label')]; })()`);
     check('a picture of the page can be held', open && text.length > 0, text);
     await browser.value(`document.querySelector('dialog .close').click()`);
     await browser.key('ArrowRight');
-    await browser.until(`location.href.includes('15_distribution')`);
+    await browser.until(`location.href.includes('16_distribution')`);
     check('an arrow turns the page', true);
 }
 

@@ -1,317 +1,360 @@
-// Chapter 04: Whitted's ray tracing: exact where it sees, and blind to the rest.
+// Chapter 04: exact means and variances of sums and integrals, and densities that fail.
 #include <doctest/doctest.h>
 
-#include <regex>
+#include <array>
+#include <utility>
 
-#include "chapters/04_ray_casting/estimator.h"  // first: it has functions that common/ has too
-#include "chapters/06_path_tracing/estimator.h"
-#include "common/geometry/shapes.h"
+#include "chapters/04_importance/figure.h"
 #include "tests/support/gates.h"
-#include "tests/support/scenes.h"
 
 namespace {
 
-constexpr double pi_exact = std::numbers::pi;
+using ch04::Density;
+using ch04::Experiment;
 
-/// What chapter 04 sees along the ray, and by which classes.
-struct Seen {
-    Rgb L;
-    std::map<std::string, double> classes;
-    uint64_t cut = 0;
+constexpr double lowest_u = 0x1p-49, highest_u = 1 - 0x1p-49;  // of open_unit
+constexpr Density all_densities[] = {ch04::uniform,      ch04::linear,  ch04::quadratic,
+                                     ch04::inverse_root, ch04::falling, ch04::rising,
+                                     ch04::left_half,    ch04::distance};
+
+double relative(double value, double truth) { return std::abs(value / truth - 1); }
+
+Experiment find(const std::vector<Experiment>& list, const std::string& what,
+                const std::string& density) {
+    for (const Experiment& e : list)
+        if (e.what == what && e.density == density) return e;
+    FAIL("no experiment ", what, " with ", density);
+    return {};
+}
+
+/// Moments of X(u) over u in (0,1) by the midpoint rule.
+struct Moments {
+    double mean = 0, variance = 0, kurtosis = 0;
 };
-
-Seen look(const Scene& scene, Vec3 from, Vec3 to, uint32_t seed = 1) {
-    Sampler sampler = random_numbers(seed);
-    PathLog log("");
-    log.start();
-    Seen seen;
-    seen.L = ch04::trace(scene, {from, normalize(to - from)}, sampler, log);
-    for (const auto& [name, L, pixel] : log.contributions()) {
-        seen.classes[name] += static_cast<double>(average(L));
-    }
-    seen.cut = log.paths_cut();
-    return seen;
+Moments moments(const Experiment& e, int n) {
+    std::vector<double> X;
+    Moments m;
+    for (int i = 0; i < n; i++) X.push_back(e.X((i + 0.5) / n));
+    for (double x : X) m.mean += x / n;
+    for (double x : X) m.variance += std::pow(x - m.mean, 2) / n;
+    for (double x : X) m.kurtosis += std::pow(x - m.mean, 4) / n;
+    m.kurtosis /= m.variance * m.variance;
+    return m;
 }
-
-/// A white floor at y = 0 below this light.
-Scene floor_under(const std::string& light) {
-    return world_of(
-        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 50 1 50 " +
-        square(0, true) + "AttributeEnd\n" + light);
-}
-const std::string shining =
-    "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
-
-/// The irradiance that chapter 04 finds at the floor point (x, 0, 0).
-double irradiance(const Scene& scene, float x) {
-    return static_cast<double>(look(scene, {x - 3, 0.4f, 0}, {x, 0, 0}).L.g) * pi_exact;
-}
-
-bool is_close(double value, double truth) { return std::abs(value - truth) < 2e-6 * truth; }
 
 }  // namespace
 
-TEST_SUITE("ch04 lamps") {
-    TEST_CASE("truth: a point light gives I cos / r^2") {
-        Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
-        CHECK(is_close(irradiance(scene, 1), 0.1788854382));
-        CHECK(is_close(irradiance(scene, 0), 0.25));
-        scene = floor_under("LightSource \"point\" \"point3 from\" [0 0.001 0] \"rgb I\" [1 1 1]");
-        CHECK(std::abs(irradiance(scene, 0) / 1e6 - 1) < 0.01);  // large, but right
-    }
-
-    TEST_CASE("truth: a distant light gives E cos, and its shadows are parallel") {
-        Scene scene = floor_under(
-            "LightSource \"distant\" \"point3 from\" [3 4 0] \"point3 to\" [0 0 0] \"rgb L\" [5 5 "
-            "5]\n"
-            "Translate 3 4 0 Shape \"sphere\" \"float radius\" 0.5");
-        CHECK(is_close(irradiance(scene, 2), 4));
-        CHECK(is_close(irradiance(scene, -30), 4));
-        CHECK(irradiance(scene, 0.3f) == 0);
-    }
-
-    TEST_CASE("truth: a ball of light gives pi (R / D)^2 cos, as if it were a point") {
-        Scene scene = floor_under(shining + "Translate 0 2 0 Shape \"sphere\"");
-        CHECK(is_close(irradiance(scene, 0), 0.7853981633974));
-        double D2 = 4 + 4.0 / 3;  // 30 degrees from the normal
-        CHECK(is_close(irradiance(scene, 2 / std::sqrt(3.0f)),
-                       pi_exact / D2 * std::cos(pi_exact / 6)));
-    }
-
-    TEST_CASE("truth: a square is two lamps, each in the middle of its triangle") {
-        for (float h : {10.0f, 1.0f}) {
-            Scene scene = floor_under(shining + "Scale 0.5 1 0.5 " + square(h, false));
-            double r2 = static_cast<double>(h) * h + 1.0 / 18;  // the middles are 1/6, 1/6 aside
-            CHECK(is_close(irradiance(scene, 0), static_cast<double>(h) * h / (r2 * r2)));
+TEST_SUITE("ch04 sums") {
+    TEST_CASE("density: choices by chance") {
+        std::vector<double> pmf = {0.1, 0, 0.4, 0.2, 0.3};
+        std::array<double, 4> counts{}, expected = {10000, 40000, 20000, 30000};
+        Sampler sampler(SamplerType::independent, 1, 1);
+        for (uint32_t i = 0; i < 100000; i++) {
+            sampler.start(0, i);
+            size_t choice = ch04::sample_pmf(pmf, double{sampler.u1()});
+            REQUIRE(choice != 1);
+            counts[choice == 0 ? 0 : choice - 1]++;
         }
+        CHECK(chi_square_tail(chi_square(counts, expected), 3) > 1e-6);
     }
 
-    TEST_CASE("failure: lamps as points are right far away, and wrong close by") {
-        for (auto [h, E, wrong] : {std::tuple{10.0f, 0.009966782906402, 0.003},
-                                   {1.0f, 0.7522746884541, 0.2},
-                                   {0.1f, 3.04212843837, 0.3}}) {
-            Scene scene = floor_under(shining + "Scale 0.5 1 0.5 " + square(h, false));
-            double error = std::abs(irradiance(scene, 0) / E - 1);
-            CHECK(error < wrong);
-            CHECK(error > wrong / 2);
-        }
+    TEST_CASE("failure: a choice of probability 0 is never made, also not by rounding") {
+        CHECK(ch04::sample_pmf({0, 1}, 0) == 1);
+        CHECK(ch04::sample_pmf({0, 0.5, 0, 0.5, 0}, 0.5) == 3);
+        CHECK(ch04::sample_pmf({0.5, 0.4999999, 0}, 0.99999999) == 1);  // sums to less than 1
+        CHECK(std::isfinite(ch04::estimate_sum({5, 1}, {0, 1}, 0)));
     }
 
-    TEST_CASE("truth: two lamps give the sum of what each gives") {
-        std::string one = "LightSource \"point\" \"point3 from\" [0 2 0] \"rgb I\" [1 1 1]\n";
-        std::string two = "LightSource \"point\" \"point3 from\" [1 3 0] \"rgb I\" [4 4 4]\n";
-        double both = irradiance(floor_under(one + two), 1);
-        CHECK(is_close(both, 0.1788854382 + 4.0 / 9));
+    TEST_CASE("truth: mean and variance of two dice under eight densities") {
+        auto dice = [](const char* density, double mean, double variance) {
+            CAPTURE(density);
+            Experiment e = find(ch04::sums(), "dice 6a+b", density);
+            CHECK(relative(e.truth, 24.5) < 1e-12);
+            CHECK(relative(e.mean, mean) < 1e-12);
+            CHECK(std::abs(e.variance - variance) < 1e-10);
+        };
+        dice("fair", 24.5, 1295.0 / 12);
+        dice("~ 6a+b, the best", 24.5, 0);
+        dice("~ a", 24.5, 13573.0 / 1440);
+        dice("~ mean over b", 24.5, 64872482143.0 / 17695367052.0);
+        dice("~ root mean square over b", 24.5, 3.6576811462594);
+        dice("~ 7-a, backwards", 24.5, 1285417.0 / 1440);
+        dice("~ b, the wrong die", 24.5, 13573.0 / 40);
+        dice("0 for a = 1: biased", 275.0 / 12, 22475.0 / 432);
     }
 
-    TEST_CASE("identity: nothing from the back of a lamp, from below, or through a wall") {
-        CHECK(irradiance(floor_under(shining + square(2, true)), 0) == 0);
-        CHECK(irradiance(floor_under("LightSource \"point\" \"point3 from\" [0 -2 0]"), 0) == 0);
-        std::string lamp = "LightSource \"point\" \"point3 from\" [0 2 0]\n";
-        CHECK(irradiance(floor_under(lamp + square(1, true)), 0.5f) == 0);
-        CHECK(irradiance(floor_under(lamp + square(1, true)), 5) > 0);
-        std::string two_sided = "AreaLightSource \"diffuse\" \"bool twosided\" true\n";
-        CHECK(irradiance(floor_under(two_sided + square(2, true)), 0) ==
-              irradiance(floor_under(shining + square(2, false)), 0));
+    TEST_CASE("truth: mean and variance of two lights") {
+        auto lights = [](const char* what, const char* density, double mean, double variance) {
+            Experiment e = find(ch04::sums(), what, density);
+            CHECK(relative(e.mean, mean) < 1e-14);
+            CHECK(std::abs(e.variance - variance) <= 1e-12 * variance);
+        };
+        lights("lights 1, 1", "1/4, 3/4", 2, 4.0 / 3);
+        lights("lights 1, 1", "1/2, 1/2", 2, 0);
+        lights("lights 1, 3", "1/2, 1/2", 4, 4);
+        lights("lights 1, 3", "1/4, 3/4", 4, 0);
+        lights("lights 1, 999", "1/2, 1/2", 1000, 996004);
+        lights("lights 1, 999", "0.999, 0.001", 1000, 996004000000.0 / 999);
+        lights("lights 1, 999", "0, 1: biased", 999, 0);
     }
 
-    TEST_CASE("identity: a bent normal sees no lamp below the surface, and none behind itself") {
-        // The floor's normals lean towards +x: one ball is before them, but below the floor; one is
-        // above the floor, but behind them. A third is both before and above.
-        for (auto [ball, L] :
-             {std::pair{"4 -1.5 0", 0.0}, {"-4 1.5 0", 0.0}, {"4 1.5 0", 0.0525884}}) {
-            Scene scene = world_of(
-                "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n"
-                "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\""
-                " [-50 0 -50  -50 0 50  50 0 50  50 0 -50]"
-                " \"normal N\" [.8 .6 0  .8 .6 0  .8 .6 0  .8 .6 0] AttributeEnd\n" +
-                shining + "Translate " + ball + " Shape \"sphere\"\n");
-            CHECK(std::abs(static_cast<double>(look(scene, {0, 1, 0}, {0, 0, 0}).L.g) - L) < 1e-6);
-        }
+    TEST_CASE("truth: a thousand choices of 25 % and 75 % sum to 2000, with 4/3 and not 1.3333") {
+        Experiment e = find(ch04::sums(), "lights 1, 1", "1/4, 3/4");
+        CHECK(e.X(0.1) == 4);
+        CHECK(e.X(0.9) == 4.0 / 3);
+        CHECK(250 * e.X(0.1) + 750 * e.X(0.9) == doctest::Approx(2000).epsilon(1e-15).scale(0));
+        CHECK(250 * 4 + 750 * 1.3333 == doctest::Approx(1999.975).epsilon(1e-15).scale(0));
     }
 
-    TEST_CASE("truth: what is just below a lamp hides it, what is just behind it does not, in 04") {
-        for (float gap : {1e-4f, -1e-4f}) {
-            Scene scene = floor_under("AttributeBegin " + shining +
-                                      "Translate 0 2 0 Rotate 90 1 0 0 Shape \"disk\""
-                                      " AttributeEnd Translate 0 " +
-                                      std::to_string(2 - gap) + " 0 " + square(0, false));
-            CHECK((irradiance(scene, 0) == 0) == (gap > 0));
-        }
+    TEST_CASE("teeth: without the 1/p two equal lights give half the light") {
+        double undivided = 0;
+        for (double p : {0.25, 0.75}) undivided += p * 1;  // E[f[i]]
+        CHECK(undivided == 1);
+        CHECK(find(ch04::sums(), "lights 1, 1", "1/4, 3/4").mean == 2);
     }
 
-    TEST_CASE("teeth: a lamp without one of its factors is rejected") {
-        Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
-        Hit x = *intersect(scene, {{1, 1, 0}, {0, -1, 0}});
-        double E = 0.1788854382, r2 = 5, cos = 2 / std::sqrt(5.0);
-        ch04::Lamp lamp{scene.lights[0].p, {}, {1, 1, 1}, 0, true};
-        double right = static_cast<double>(ch04::shade(scene, x, lamp).g) * pi_exact;
-        CHECK(is_close(right, E));
-        CHECK_FALSE(is_close(right / cos, E));
-        CHECK_FALSE(is_close(right * r2, E));
-        CHECK_FALSE(is_close(right * std::sqrt(r2), E));
-        CHECK_FALSE(is_close(right * pi_exact, E));
-    }
-}
-
-TEST_SUITE("ch04 triangles") {
-    TEST_CASE("truth: a ray that leaves a thin trim does not meet it, and misses what is far off") {
-        // In float t is 3.2e-5, in double precision -3.7e-6.
-        Vec3 corner = {0x1.3fbe76p+1f, 0x1.656e6ap+1f, -0x1.f024c4p+0f};
-        Vec3 d = {0x1.abdbp-1f, -0x1.8f5e66p-2f, 0x1.8c079p-2f};
-        Ray leaves = {{-0x1.3a5396p+0f, 0x1.656e5ep+1f, -0x1.f026ccp+0f}, d};
-        CHECK_FALSE(ch04::intersect_triangle(leaves, ch04::shear_to_ray(d), corner,
-                                             {-corner.x, corner.y, corner.z},
-                                             {-corner.x, corner.y, -0x1.f0506ap+0f}));
-        // This one passes 28 units from a triangle of size 0.0008, and two of its areas round to 0.
-        d = {0x1.71f122p-2f, 0x1.4f03fcp-2f, -0x1.c7eca4p-1f};
-        Ray passes = {{-0x1.2bbb02p+5f, -0x1.3a7f9ap-1f, 0x1.00fa7ep+5f}, d};
-        CHECK_FALSE(ch04::intersect_triangle(passes, ch04::shear_to_ray(d),
-                                             {0x1.7306p+1f, 0x1.185154p+1f, -0x1.3df352p+0f},
-                                             {0x1.7304acp+1f, 0x1.1855dap+1f, -0x1.3e031cp+0f},
-                                             {0x1.72ecdp+1f, 0x1.185692p+1f, -0x1.3de4f8p+0f}));
-    }
-}
-
-TEST_SUITE("ch04 mirrors and glass") {
-    const std::string lamp_behind_camera =
-        shining + "Translate 0 0 -10 Rotate 90 1 0 0 Scale 9 1 9 " + square(0, true);
-
-    TEST_CASE("truth: a mirror shows the lamp times its reflectance") {
-        Scene scene =
-            world_of("Material \"conductor\" \"rgb reflectance\" [0.9 0.5 0.2] Rotate 90 1 0 0 " +
-                     square(0, false) + "Rotate -90 1 0 0 " + lamp_behind_camera);
-        Seen seen = look(scene, {0, 0, -4}, {0.01f, 0, 0});
-        CHECK(std::abs(seen.L.r - 0.9f) < 1e-5f);
-        CHECK(std::abs(seen.L.g - 0.5f) < 1e-5f);
-        CHECK(std::abs(seen.L.b - 0.2f) < 1e-5f);
-        CHECK(seen.classes.size() == 1);
-        CHECK(seen.classes.count("LSE") == 1);
+    TEST_CASE("identity: the best density makes every single roll 24.5") {
+        Experiment e = find(ch04::sums(), "dice 6a+b", "~ 6a+b, the best");
+        for (double u = 0; u < 1; u += 0.001) CHECK(relative(e.X(u), 24.5) < 1e-14);
     }
 
-    TEST_CASE("truth: a pane of glass, up to the branches that are too faint") {
-        // T = (1 - R)^2 (1 + R^2 + ...), R = 0.04: the second term is dropped; so are those of
-        // R_slab = R + (1 - R)^2 R (1 + R^2 + ...)
-        std::string pane = "AttributeBegin Material \"dielectric\" Rotate 90 1 0 0 Scale 9 1 9 " +
-                           square(0, false) + square(0.1f, true) + "AttributeEnd\n";
-        Seen through = look(world_of(pane + "LightSource \"infinite\""), {0, 0, -4}, {0, 0, 0});
-        CHECK(std::abs(through.classes["LSSE"] - 0.9216) < 1e-6);
-        CHECK(std::abs(through.classes["LSE"] - 0.04) < 1e-6);
-        CHECK(std::abs(through.classes["LSSSE"] - 0.036864) < 1e-6);
-        CHECK(through.classes.size() == 3);
-        CHECK(through.L.g > 0.998f);
-    }
-
-    TEST_CASE("furnace: a glass ball is invisible, up to the branches that are too faint") {
-        Scene scene = world_of("LightSource \"infinite\" Material \"dielectric\" Shape \"sphere\"");
-        Rendering r = film_of(scene, ch04::trace, 4);
-        CHECK(r.film.mean() < 1.000001);
-        CHECK(r.film.mean() > 0.998);
-        for (const PixelSum& p : r.film.pixels()) CHECK(p.mean() > 0.99);
-    }
-
-    TEST_CASE("failure: a ray that glass reflects for ever ends at the depth limit, and says so") {
-        Scene scene = world_of(
-            "LightSource \"infinite\" Material \"dielectric\"\n"
-            "Shape \"trianglemesh\" \"integer indices\" [0 3 1 0 2 3 4 7 6 4 5 7 0 5 4 0 1 5"
-            " 2 7 3 2 6 7 0 6 2 0 4 6 1 7 5 1 3 7]\n \"point3 P\" [-1 -1 -1  1 -1 -1"
-            "  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1]");
-        Seen seen = look(scene, {0.1f, 0.2f, 0.3f}, {1.1f, 1.2f, 1.3f});
-        CHECK(seen.cut == 1);
-        CHECK(is_black(seen.L));
-        seen = look(scene, {0.1f, 0.2f, 0.3f}, {0.1f, 0.2f, 5});
-        CHECK(seen.cut == 0);
-        CHECK(std::abs(seen.L.g - 2.25f) < 0.01f);  // inside glass light is n^2 as bright
-    }
-}
-
-TEST_SUITE("ch04 classes of paths") {
-    TEST_CASE("identity: only LE, LDE, LS+E and LDS+E, and together they are the whole") {
-        for (const char* file : {"cornell-spheres", "cornell", "caustic"}) {
-            Scene scene = scene_from("scenes/" + std::string(file) + ".pbrt", 32, 100);
-            PathCensus census = census_of(scene, ch04::trace, 4000, 1);
-            CHECK(census.worst_sum < 1e-5);
-            for (const auto& [name, sum] : census.by_class) {
-                const std::string& path_class = name;
-                CAPTURE(path_class);
-                CHECK(std::regex_match(path_class, std::regex("LD?S*E")));
+    TEST_CASE("variance: a million rolls and choices have the exact mean and variance") {
+        for (const Experiment& e : ch04::sums()) {
+            CAPTURE(e.what);
+            CAPTURE(e.density);
+            RunningStats s = ch04::run(e, 1000000, 1).stats;
+            if (e.variance < 1e-20) {
+                CHECK(relative(s.mean(), e.mean) < 1e-12);
+                CHECK(s.variance() < 1e-20);
+            } else {
+                check_mean(s, e.mean, e.variance, 0.3 * e.mean);
+                double kurtosis = moments(e, 100000).kurtosis;
+                // A fair coin has kurtosis 1: its s^2 differs from Var X by z^2 / N only.
+                if (kurtosis < 1.0001)
+                    CHECK(relative(s.variance(), e.variance) < 30 / 1e6);
+                else
+                    check_variance(s, e.variance, kurtosis);
             }
-            CHECK(census.by_class.count("LDE") == 1);
-            if (std::string(file) != "cornell") CHECK(census.by_class.count("LDSE") == 1);
         }
     }
 
-    TEST_CASE("agreement: what is seen directly, in mirrors and through glass, with chapter 06") {
-        // A ball of metal and one of glass between two walls that shine at each other.
-        Scene scene = world_of(
-            "AttributeBegin Material \"conductor\" Translate 1 0 0 Shape \"sphere\" AttributeEnd\n"
-            "AttributeBegin Material \"dielectric\" Translate -1 0 0 Shape \"sphere\""
-            " AttributeEnd\n" +
-            shining + "Rotate 90 1 0 0 Scale 9 1 9 " + square(-9, true) + square(5, false));
-        PathCensus a = census_of(scene, ch04::trace, 40000, 1);
-        PathCensus b = census_of(scene, ch06::trace, 40000, 2);
-        for (std::string name : {"LE", "LSE", "LSSE"}) {
-            CAPTURE(name);
-            Measured of_a = a.by_class[name].measured(a.paths);
-            Measured of_b = b.by_class[name].measured(b.paths);
-            CHECK(z_between(of_a, of_b) < 5);
-            CHECK(of_a.mean > 0);
-            CHECK(std::hypot(of_a.se, of_b.se) < 0.02 * of_a.mean);
+    TEST_CASE("failure: a density of 0 where f is not converges, to the wrong sum") {
+        for (auto [what, density] :
+             {std::pair{"dice 6a+b", "0 for a = 1: biased"}, {"lights 1, 999", "0, 1: biased"}}) {
+            Experiment e = find(ch04::sums(), what, density);
+            RunningStats s = ch04::run(e, 100000, 1).stats;
+            CHECK(std::abs(s.mean() - e.truth) > 20 * s.standard_error());
+            CHECK(std::abs(s.mean() - e.truth) > 0.9);
+            CHECK(std::isfinite(s.mean()));
+        }
+    }
+}
+
+TEST_SUITE("ch04 densities") {
+    TEST_CASE("consistency: invert finds the u of a sample") {
+        for (const Density& density : all_densities) {
+            CAPTURE(density.name);
+            for (double u : {lowest_u, 1e-6, 0.05, 0.1, 0.3, 0.5, 0.9, 0.999999, highest_u}) {
+                double x = density.sample(u);
+                CHECK(x >= 0);
+                CHECK(x <= 1);
+                CHECK(std::abs(density.invert(x) - u) < 1e-12);
+            }
         }
     }
 
-    TEST_CASE("failure: no colour bleeds: the floor between coloured walls stays grey") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 100);
-        Vec3 eye = scene.camera.o, near_red = {1.8f, 0, 1};
-        Seen seen = look(scene, eye, near_red);
-        CHECK(seen.L.r > 0);
-        CHECK(seen.L.r == seen.L.b);
-        Sampler sampler = random_numbers(1);
-        PathLog log;
-        double red = 0, blue = 0;
-        for (int i = 0; i < 20000; i++) {
-            Rgb L = ch06::trace(scene, {eye, normalize(near_red - eye)}, sampler, log);
-            red += static_cast<double>(L.r), blue += static_cast<double>(L.b);
-        }
-        CHECK(red > 1.1 * blue);
-    }
-
-    TEST_CASE("failure: no caustic: glass casts the shadow of a stone") {
-        Scene scene = floor_under(
-            "LightSource \"point\" \"point3 from\" [0 4 0]\n"
-            "Material \"dielectric\" Translate 0 1.5 0 Shape \"sphere\"");
-        CHECK(irradiance(scene, 0) == 0);
-        CHECK(irradiance(scene, 5) > 0);
-    }
-
-    TEST_CASE("identity: --max-depth 0 shows lamps only, 1 direct light, 2 the first mirror") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 0);
-        PathCensus census = census_of(scene, ch04::trace, 4000, 1);
-        CHECK(census.by_class.size() == 1);
-        CHECK(census.by_class.count("LE") == 1);
-        for (int depth : {1, 2}) {
-            scene.max_depth = depth;
-            census = census_of(scene, ch04::trace, 4000, 1);
-            CHECK(census.by_length.rbegin()->first == static_cast<size_t>(depth));
+    TEST_CASE("jacobian: the density is the slope of the inverse") {
+        for (const Density& density : all_densities) {
+            CAPTURE(density.name);
+            for (double x : {0.01, 0.1, 0.24, 0.26, 0.4, 0.49}) {
+                constexpr double h = 1e-5;
+                double slope = (density.invert(x + h) - density.invert(x - h)) / (2 * h);
+                CHECK(relative(slope, density.pdf(x)) < 1e-5);
+            }
         }
     }
 
-    TEST_CASE("identity: there is no chance in it") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 100);
-        Seen a = look(scene, {278, 273, -800}, {200, 100, 200}, 1);
-        Seen b = look(scene, {278, 273, -800}, {200, 100, 200}, 2);
-        CHECK(a.L == b.L);
-        CHECK_FALSE(is_black(a.L));
+    TEST_CASE("density: samples fall into 64 cells as the density says") {
+        for (const Density& density : all_densities) {
+            CAPTURE(density.name);
+            constexpr int cells = 64, n = 200000;
+            bool half = density.pdf(0.75) == 0;
+            double width = (half ? 0.5 : 1.0) / cells;
+            std::vector<double> counts(cells, 0), expected;
+            for (int c = 0; c < cells; c++)
+                expected.push_back(n *
+                                   (density.invert((c + 1) * width) - density.invert(c * width)));
+            Sampler sampler(SamplerType::independent, 1, 1);
+            for (uint32_t i = 0; i < n; i++) {
+                sampler.start(0, i);
+                double x = density.sample(ch04::open_unit(sampler.u2()));
+                counts[static_cast<size_t>(std::min(x / width, cells - 1.0))]++;
+            }
+            CHECK(chi_square_tail(chi_square(counts, expected), cells - 1) > 1e-6);
+        }
     }
 
-    TEST_CASE("truth: an empty scene is black, or all sky") {
-        Scene scene;
-        prepare(scene, 1);
-        CHECK(is_black(look(scene, {0, 0, 0}, {0, 0, 1}).L));
-        scene.lights.emplace_back();
-        scene.lights[0].type = LightType::infinite;
-        scene.lights[0].L = {0.5f, 1, 2};
-        prepare(scene, 1);
-        CHECK(look(scene, {0, 0, 0}, {1, 2, 3}).L == Rgb{0.5f, 1, 2});
+    TEST_CASE("identity: random numbers stay off 0 and 1, and every sample is finite") {
+        constexpr float largest = 0x1.fffffep-1f;
+        CHECK(ch04::open_unit({0, 0}) == lowest_u);
+        CHECK(ch04::open_unit({largest, largest}) == highest_u);
+        CHECK(ch04::open_unit({0.5f, 0}) > 0.5);
+        for (const Experiment& e : ch04::integrals())
+            for (double u : {lowest_u, highest_u}) CHECK(std::isfinite(e.X(u)));
+        // and where there is nothing to divide by, nothing is divided
+        auto root = [](double x) { return 1 / std::sqrt(x); };
+        CHECK(ch04::estimate_integral(root, ch04::inverse_root, 0) == 0);
+        CHECK(ch04::estimate_integral(root, ch04::linear, 0) == 0);
+    }
+}
+
+TEST_SUITE("ch04 integrals") {
+    TEST_CASE("truth: mean and variance of each integrand and density, against quadrature") {
+        for (const Experiment& e : ch04::integrals()) {
+            CAPTURE(e.what);
+            CAPTURE(e.density);
+            if (std::isinf(e.variance)) continue;
+            Moments m = moments(e, 1000000);
+            // Midpoints see a step to 1e-6; x^-1/2, the square of x^-1/4, only to 1/sqrt(n).
+            double tolerance = e.what == "x^-1/4" ? 5e-3 : 1e-5;
+            CHECK(relative(m.mean, e.mean) < tolerance);
+            if (e.variance == 0)
+                CHECK(m.variance < 1e-20);
+            else
+                CHECK(relative(m.variance, e.variance) < tolerance);
+        }
+    }
+
+    TEST_CASE("truth: the values of the integrals and of the variances") {
+        auto row = [](const char* what, const char* density, double truth, double variance) {
+            Experiment e = find(ch04::integrals(), what, density);
+            CHECK(relative(e.truth, truth) < 1e-12);
+            CHECK((e.variance == variance || relative(e.variance, variance) < 1e-12));
+        };
+        row("x^2", "1", 1.0 / 3, 4.0 / 45);
+        row("x^2", "2x", 1.0 / 3, 1.0 / 72);
+        row("x^2", "3x^2", 1.0 / 3, 0);
+        row("x^2", "1/(2 sqrt x)", 1.0 / 3, 25.0 / 99);
+        row("x^2", "2(1-x)", 1.0 / 3, INFINITY);
+        row("e^x", "1", 1.718281828459045, 0.24203560745276);
+        row("e^x", "(2/3)(1+x)", 1.718281828459045, 0.0269084281835);
+        row("x^-1/2", "1", 2, INFINITY);
+        row("x^-1/2", "1/(2 sqrt x)", 2, 0);
+        row("x^-1/4", "1", 4.0 / 3, 2.0 / 9);
+        row("[x < 1/pi]", "1", 0.318309886183791, 0.216988702541518);
+        row("x - 1/4", "1", 0.25, 1.0 / 12);
+        row("x - 1/4", "(16/5)|x-1/4|", 0.25, 0.03515625);
+        CHECK(find(ch04::integrals(), "x^2", "2 on [0,1/2]").mean ==
+              doctest::Approx(1.0 / 24).scale(0));
+    }
+
+    TEST_CASE("variance: a million samples have the exact mean and variance") {
+        for (const Experiment& e : ch04::integrals()) {
+            CAPTURE(e.what);
+            CAPTURE(e.density);
+            RunningStats s = ch04::run(e, 1000000, 1).stats;
+            CHECK(std::isfinite(s.mean()));
+            if (std::isinf(e.variance)) continue;  // no gate knows such a mean
+            if (e.variance == 0) {
+                CHECK(relative(s.mean(), e.mean) < 1e-13);
+                CHECK(s.variance() < 1e-28);
+            } else {
+                check_mean(s, e.mean, e.variance, 0.02 * e.mean);
+                // x^-1/4: its fourth moment is infinite, and its s^2 knows no gate
+                if (e.what != "x^-1/4") check_variance(s, e.variance, moments(e, 100000).kurtosis);
+            }
+        }
+    }
+
+    TEST_CASE("identity: a density proportional to f >= 0 makes every sample the integral") {
+        for (double u : {lowest_u, 0.001, 0.37, 0.999, highest_u}) {
+            CHECK(find(ch04::integrals(), "x^-1/2", "1/(2 sqrt x)").X(u) == 2);
+            CHECK(relative(find(ch04::integrals(), "x^2", "3x^2").X(u), 1.0 / 3) < 1e-15);
+        }
+    }
+
+    TEST_CASE("truth: for a signed f the least variance is not 0 but (int |f|)^2 - (int f)^2") {
+        Experiment e = find(ch04::integrals(), "x - 1/4", "(16/5)|x-1/4|");
+        CHECK(e.variance == 5.0 / 16 * 5.0 / 16 - 1.0 / 16);
+        for (double u : {0.05, 0.09}) CHECK(relative(e.X(u), -5.0 / 16) < 1e-12);
+        for (double u : {0.11, 0.9}) CHECK(relative(e.X(u), 5.0 / 16) < 1e-12);
+    }
+
+    TEST_CASE("variance: e^x by antithetic pairs, u and 1 - u, 0.0039") {
+        auto f = [](double x) { return std::exp(x); };
+        RunningStats s;
+        Sampler sampler(SamplerType::independent, 1, 1);
+        for (uint32_t i = 0; i < 100000; i++) {
+            sampler.start(0, i);
+            double u = ch04::open_unit(sampler.u2());
+            s.add((ch04::estimate_integral(f, ch04::uniform, u) +
+                   ch04::estimate_integral(f, ch04::uniform, 1 - u)) /
+                  2);
+        }
+        double e = std::numbers::e, truth = (e * e - 1) / 4 + e / 2 - (e - 1) * (e - 1);
+        CHECK(relative(truth, 0.003912496949625) < 1e-12);
+        check_mean(s, e - 1, truth, 0.01);
+        check_variance(s, truth, 3);  // bounded and flat: its kurtosis is below 3
+    }
+
+    TEST_CASE("failure: without the division x^2 under 2x comes out as 1/2") {
+        Experiment e = find(ch04::integrals(), "x^2, not divided", "2x");
+        CHECK(e.mean == 0.5);
+        RunningStats s = ch04::run(e, 100000, 1).stats;
+        CHECK(std::abs(s.mean() - 1.0 / 3) > 100 * s.standard_error());
+    }
+
+    TEST_CASE("failure: a density on the left half only finds 1/24 of 1/3") {
+        Experiment e = find(ch04::integrals(), "x^2", "2 on [0,1/2]");
+        RunningStats s = ch04::run(e, 100000, 1).stats;
+        CHECK(std::abs(s.mean() - 1.0 / 24) < 5 * std::sqrt(e.variance / 1e5));
+        CHECK(std::abs(s.mean() - e.truth) > 1000 * s.standard_error());  // and looks converged
+    }
+
+    TEST_CASE("failure: the second moment of x^2 under 2(1-x) grows by ln(10)/2 per decade") {
+        // integral of x^4 / pdf from 0 to 1 - e, with 1 - x = exp(-t): no end to it as e -> 0
+        auto second_moment = [](double e) {
+            constexpr int n = 100000;
+            double end = -std::log(e), sum = 0;
+            for (int i = 0; i < n; i++) {
+                double t = (i + 0.5) / n * end, x = -std::expm1(-t);
+                sum += std::pow(x, 4) / ch04::falling.pdf(x) * std::exp(-t) * end / n;
+            }
+            return sum;
+        };
+        for (double e : {1e-4, 1e-6, 1e-8})
+            CHECK(std::abs(second_moment(e / 10) - second_moment(e) - std::log(10.0) / 2) < 1e-3);
+    }
+
+    TEST_CASE("failure: infinite variance shows in the largest sample, not in the standard error") {
+        for (const char* what : {"x^-1/2", "x^2"}) {
+            bool root = std::string(what) == "x^-1/2";
+            Experiment bad = find(ch04::integrals(), what, root ? "1" : "2(1-x)");
+            Experiment good = find(ch04::integrals(), "x^2", "1/(2 sqrt x)");
+            RunningStats bad_share, good_share;
+            for (uint32_t seed = 0; seed < 50; seed++) {
+                bad_share.add(ch04::run(bad, 10000, seed).largest_share);
+                good_share.add(ch04::run(good, 10000, seed).largest_share);
+            }
+            CHECK(bad_share.mean() > 0.08);
+            CHECK(good_share.mean() < 0.002);
+        }
+    }
+
+    TEST_CASE("identity: of N equal samples each has the share 1/N of the squares") {
+        Experiment e = find(ch04::integrals(), "x^-1/2", "1/(2 sqrt x)");
+        CHECK(ch04::run(e, 1000, 1).largest_share == 0.001);
+        CHECK(ch04::run(e, 1, 1).largest_share == 1);
+    }
+
+    TEST_CASE("teeth: a density that does not integrate to 1 is seen at once") {
+        Density wrong = ch04::linear;
+        wrong.pdf = [](double x) { return 1.02 * 2 * x; };
+        auto f = [](double x) { return x * x; };
+        Experiment e{"",       "",
+                     1.0 / 3,  1.0 / 3,
+                     1.0 / 72, [=](double u) { return ch04::estimate_integral(f, wrong, u); }};
+        RunningStats s = ch04::run(e, 1000000, 1).stats;
+        CHECK(std::abs(s.mean() - e.mean) > 5 * std::sqrt(e.variance / 1e6));
     }
 }

@@ -1,314 +1,317 @@
-// Chapter 05: every step finds the same hits, with less and less work.
+// Chapter 05: Whitted's ray tracing: exact where it sees, and blind to the rest.
 #include <doctest/doctest.h>
 
-#include "chapters/05_bvh/estimator.h"
-#include "common/path/sampler.h"
+#include <regex>
+
+#include "chapters/05_ray_casting/estimator.h"  // first: it has functions that common/ has too
+#include "chapters/07_path_tracing/estimator.h"
+#include "common/geometry/shapes.h"
 #include "tests/support/gates.h"
-#include "tests/support/meshes.h"
+#include "tests/support/scenes.h"
 
 namespace {
 
-Vec3 random_point(Sampler& sampler) {
-    Vec2 u = sampler.u2();
-    return {2 * u.x - 1, 2 * u.y - 1, 2 * sampler.u1() - 1};
-}
+constexpr double pi_exact = std::numbers::pi;
 
-/// Small random triangles, some large ones, and a few spheres and disks.
-Scene clutter(uint32_t triangles) {
-    Scene scene;
-    Geometry& g = scene.geometry;
-    Sampler sampler(SamplerType::independent, 5, 1);
-    for (uint32_t i = 0; i < triangles; i++) {
-        sampler.start(i, 0);
-        Vec3 centre = random_point(sampler);
-        float size = i % 50 == 0 ? 1.0f : 0.1f;
-        for (int k = 0; k < 3; k++) g.positions.push_back(centre + size * random_point(sampler));
-        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, 0});
+/// What chapter 05 sees along the ray, and by which classes.
+struct Seen {
+    Rgb L;
+    std::map<std::string, double> classes;
+    uint64_t cut = 0;
+};
+
+Seen look(const Scene& scene, Vec3 from, Vec3 to, uint32_t seed = 1) {
+    Sampler sampler = random_numbers(seed);
+    PathLog log("");
+    log.start();
+    Seen seen;
+    seen.L = ch05::trace(scene, {from, normalize(to - from)}, sampler, log);
+    for (const auto& [name, L, pixel] : log.contributions()) {
+        seen.classes[name] += static_cast<double>(average(L));
     }
-    g.spheres = {{{0.3f, 0.2f, 0.1f}, 0.2f, 0}, {{-0.5f, 0, 0}, 0.3f, 0}};
-    g.disks = {{{0, 0.5f, 0}, normalize({1, 1, 0}), 0.4f, 0}};
-    return scene;
+    seen.cut = log.paths_cut();
+    return seen;
 }
 
-/// Random rays; every fourth is parallel to an axis, with zeros of either sign.
-Ray ray_number(uint32_t i) {
-    Sampler sampler(SamplerType::independent, 6, 1);
-    sampler.start(i, 0);
-    Vec3 o = 2 * random_point(sampler), d = random_point(sampler) - o;
-    if (i % 4 == 0) {
-        Vec3 axis = {0.0f, -0.0f, 0.0f};
-        axis[static_cast<int>(i / 4 % 3)] = i % 8 == 0 ? 1.0f : -1.0f;
-        d = axis;
-    }
-    return {o, d};
+/// A white floor at y = 0 below this light.
+Scene floor_under(const std::string& light) {
+    return world_of(
+        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 50 1 50 " +
+        square(0, true) + "AttributeEnd\n" + light);
+}
+const std::string shining =
+    "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+
+/// The irradiance that chapter 05 finds at the floor point (x, 0, 0).
+double irradiance(const Scene& scene, float x) {
+    return static_cast<double>(look(scene, {x - 3, 0.4f, 0}, {x, 0, 0}).L.g) * pi_exact;
 }
 
-std::vector<ch05::Finder> all_finders(const Scene& scene) {
-    std::vector<ch05::Finder> finders;
-    for (size_t step = 0; step < ch05::step_names.size(); step++) {
-        finders.push_back(make_finder(scene, static_cast<ch05::Step>(step)));
-    }
-    return finders;
-}
-
-/// All steps have the very bits of the linear scan, but `wide`, which works in float first.
-bool agrees(const ch05::Finder& finder, const PrimHit& hit, const PrimHit& truth) {
-    if (finder.step == ch05::Step::wide) return same_hit(hit, truth);
-    return hit.prim == truth.prim && hit.t == truth.t && hit.b1 == truth.b1 && hit.b2 == truth.b2;
-}
+bool is_close(double value, double truth) { return std::abs(value - truth) < 2e-6 * truth; }
 
 }  // namespace
 
-TEST_SUITE("ch05 bvh") {
-    TEST_CASE("brute: every step finds what the linear scan finds") {
-        Scene scene = clutter(500);
-        std::vector<ch05::Finder> finders = all_finders(scene);
-        int hits = 0;
-        for (uint32_t i = 0; i < 20000; i++) {
-            Ray ray = ray_number(i);
-            PrimHit truth = linear_scan(scene.geometry, ray);
-            hits += truth.prim != PrimHit::none;
-            for (const ch05::Finder& finder : finders) {
-                ch05::Work work;
-                PrimHit hit = find(finder, scene.geometry, ray, work);
-                CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
-                REQUIRE(agrees(finder, hit, truth));
-            }
-        }
-        CHECK(hits > 5000);
-        CHECK(hits < 19000);
+TEST_SUITE("ch05 lamps") {
+    TEST_CASE("truth: a point light gives I cos / r^2") {
+        Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
+        CHECK(is_close(irradiance(scene, 1), 0.1788854382));
+        CHECK(is_close(irradiance(scene, 0), 0.25));
+        scene = floor_under("LightSource \"point\" \"point3 from\" [0 0.001 0] \"rgb I\" [1 1 1]");
+        CHECK(std::abs(irradiance(scene, 0) / 1e6 - 1) < 0.01);  // large, but right
     }
 
-    TEST_CASE("brute: rays in planes, along edges and through corners, along all three axes") {
-        // 27 cubes side by side, of thirds, which no float holds exactly; every ray along an axis
-        // through their corners and the middles of their edges and sides, both ways, from outside
-        // and from inside.
+    TEST_CASE("truth: a distant light gives E cos, and its shadows are parallel") {
+        Scene scene = floor_under(
+            "LightSource \"distant\" \"point3 from\" [3 4 0] \"point3 to\" [0 0 0] \"rgb L\" [5 5 "
+            "5]\n"
+            "Translate 3 4 0 Shape \"sphere\" \"float radius\" 0.5");
+        CHECK(is_close(irradiance(scene, 2), 4));
+        CHECK(is_close(irradiance(scene, -30), 4));
+        CHECK(irradiance(scene, 0.3f) == 0);
+    }
+
+    TEST_CASE("truth: a ball of light gives pi (R / D)^2 cos, as if it were a point") {
+        Scene scene = floor_under(shining + "Translate 0 2 0 Shape \"sphere\"");
+        CHECK(is_close(irradiance(scene, 0), 0.7853981633974));
+        double D2 = 4 + 4.0 / 3;  // 30 degrees from the normal
+        CHECK(is_close(irradiance(scene, 2 / std::sqrt(3.0f)),
+                       pi_exact / D2 * std::cos(pi_exact / 6)));
+    }
+
+    TEST_CASE("truth: a square is two lamps, each in the middle of its triangle") {
+        for (float h : {10.0f, 1.0f}) {
+            Scene scene = floor_under(shining + "Scale 0.5 1 0.5 " + square(h, false));
+            double r2 = static_cast<double>(h) * h + 1.0 / 18;  // the middles are 1/6, 1/6 aside
+            CHECK(is_close(irradiance(scene, 0), static_cast<double>(h) * h / (r2 * r2)));
+        }
+    }
+
+    TEST_CASE("failure: lamps as points are right far away, and wrong close by") {
+        for (auto [h, E, wrong] : {std::tuple{10.0f, 0.009966782906402, 0.003},
+                                   {1.0f, 0.7522746884541, 0.2},
+                                   {0.1f, 3.04212843837, 0.3}}) {
+            Scene scene = floor_under(shining + "Scale 0.5 1 0.5 " + square(h, false));
+            double error = std::abs(irradiance(scene, 0) / E - 1);
+            CHECK(error < wrong);
+            CHECK(error > wrong / 2);
+        }
+    }
+
+    TEST_CASE("truth: two lamps give the sum of what each gives") {
+        std::string one = "LightSource \"point\" \"point3 from\" [0 2 0] \"rgb I\" [1 1 1]\n";
+        std::string two = "LightSource \"point\" \"point3 from\" [1 3 0] \"rgb I\" [4 4 4]\n";
+        double both = irradiance(floor_under(one + two), 1);
+        CHECK(is_close(both, 0.1788854382 + 4.0 / 9));
+    }
+
+    TEST_CASE("identity: nothing from the back of a lamp, from below, or through a wall") {
+        CHECK(irradiance(floor_under(shining + square(2, true)), 0) == 0);
+        CHECK(irradiance(floor_under("LightSource \"point\" \"point3 from\" [0 -2 0]"), 0) == 0);
+        std::string lamp = "LightSource \"point\" \"point3 from\" [0 2 0]\n";
+        CHECK(irradiance(floor_under(lamp + square(1, true)), 0.5f) == 0);
+        CHECK(irradiance(floor_under(lamp + square(1, true)), 5) > 0);
+        std::string two_sided = "AreaLightSource \"diffuse\" \"bool twosided\" true\n";
+        CHECK(irradiance(floor_under(two_sided + square(2, true)), 0) ==
+              irradiance(floor_under(shining + square(2, false)), 0));
+    }
+
+    TEST_CASE("identity: a bent normal sees no lamp below the surface, and none behind itself") {
+        // The floor's normals lean towards +x: one ball is before them, but below the floor; one is
+        // above the floor, but behind them. A third is both before and above.
+        for (auto [ball, L] :
+             {std::pair{"4 -1.5 0", 0.0}, {"-4 1.5 0", 0.0}, {"4 1.5 0", 0.0525884}}) {
+            Scene scene = world_of(
+                "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n"
+                "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\""
+                " [-50 0 -50  -50 0 50  50 0 50  50 0 -50]"
+                " \"normal N\" [.8 .6 0  .8 .6 0  .8 .6 0  .8 .6 0] AttributeEnd\n" +
+                shining + "Translate " + ball + " Shape \"sphere\"\n");
+            CHECK(std::abs(static_cast<double>(look(scene, {0, 1, 0}, {0, 0, 0}).L.g) - L) < 1e-6);
+        }
+    }
+
+    TEST_CASE("truth: what is just below a lamp hides it, what is just behind it does not, in 05") {
+        for (float gap : {1e-4f, -1e-4f}) {
+            Scene scene = floor_under("AttributeBegin " + shining +
+                                      "Translate 0 2 0 Rotate 90 1 0 0 Shape \"disk\""
+                                      " AttributeEnd Translate 0 " +
+                                      std::to_string(2 - gap) + " 0 " + square(0, false));
+            CHECK((irradiance(scene, 0) == 0) == (gap > 0));
+        }
+    }
+
+    TEST_CASE("teeth: a lamp without one of its factors is rejected") {
+        Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
+        Hit x = *intersect(scene, {{1, 1, 0}, {0, -1, 0}});
+        double E = 0.1788854382, r2 = 5, cos = 2 / std::sqrt(5.0);
+        ch05::Lamp lamp{scene.lights[0].p, {}, {1, 1, 1}, 0, true};
+        double right = static_cast<double>(ch05::shade(scene, x, lamp).g) * pi_exact;
+        CHECK(is_close(right, E));
+        CHECK_FALSE(is_close(right / cos, E));
+        CHECK_FALSE(is_close(right * r2, E));
+        CHECK_FALSE(is_close(right * std::sqrt(r2), E));
+        CHECK_FALSE(is_close(right * pi_exact, E));
+    }
+}
+
+TEST_SUITE("ch05 triangles") {
+    TEST_CASE("truth: a ray that leaves a thin trim does not meet it, and misses what is far off") {
+        // In float t is 3.2e-5, in double precision -3.7e-6.
+        Vec3 corner = {0x1.3fbe76p+1f, 0x1.656e6ap+1f, -0x1.f024c4p+0f};
+        Vec3 d = {0x1.abdbp-1f, -0x1.8f5e66p-2f, 0x1.8c079p-2f};
+        Ray leaves = {{-0x1.3a5396p+0f, 0x1.656e5ep+1f, -0x1.f026ccp+0f}, d};
+        CHECK_FALSE(ch05::intersect_triangle(leaves, ch05::shear_to_ray(d), corner,
+                                             {-corner.x, corner.y, corner.z},
+                                             {-corner.x, corner.y, -0x1.f0506ap+0f}));
+        // This one passes 28 units from a triangle of size 0.0008, and two of its areas round to 0.
+        d = {0x1.71f122p-2f, 0x1.4f03fcp-2f, -0x1.c7eca4p-1f};
+        Ray passes = {{-0x1.2bbb02p+5f, -0x1.3a7f9ap-1f, 0x1.00fa7ep+5f}, d};
+        CHECK_FALSE(ch05::intersect_triangle(passes, ch05::shear_to_ray(d),
+                                             {0x1.7306p+1f, 0x1.185154p+1f, -0x1.3df352p+0f},
+                                             {0x1.7304acp+1f, 0x1.1855dap+1f, -0x1.3e031cp+0f},
+                                             {0x1.72ecdp+1f, 0x1.185692p+1f, -0x1.3de4f8p+0f}));
+    }
+}
+
+TEST_SUITE("ch05 mirrors and glass") {
+    const std::string lamp_behind_camera =
+        shining + "Translate 0 0 -10 Rotate 90 1 0 0 Scale 9 1 9 " + square(0, true);
+
+    TEST_CASE("truth: a mirror shows the lamp times its reflectance") {
+        Scene scene =
+            world_of("Material \"conductor\" \"rgb reflectance\" [0.9 0.5 0.2] Rotate 90 1 0 0 " +
+                     square(0, false) + "Rotate -90 1 0 0 " + lamp_behind_camera);
+        Seen seen = look(scene, {0, 0, -4}, {0.01f, 0, 0});
+        CHECK(std::abs(seen.L.r - 0.9f) < 1e-5f);
+        CHECK(std::abs(seen.L.g - 0.5f) < 1e-5f);
+        CHECK(std::abs(seen.L.b - 0.2f) < 1e-5f);
+        CHECK(seen.classes.size() == 1);
+        CHECK(seen.classes.count("LSE") == 1);
+    }
+
+    TEST_CASE("truth: a pane of glass, up to the branches that are too faint") {
+        // T = (1 - R)^2 (1 + R^2 + ...), R = 0.04: the second term is dropped; so are those of
+        // R_slab = R + (1 - R)^2 R (1 + R^2 + ...)
+        std::string pane = "AttributeBegin Material \"dielectric\" Rotate 90 1 0 0 Scale 9 1 9 " +
+                           square(0, false) + square(0.1f, true) + "AttributeEnd\n";
+        Seen through = look(world_of(pane + "LightSource \"infinite\""), {0, 0, -4}, {0, 0, 0});
+        CHECK(std::abs(through.classes["LSSE"] - 0.9216) < 1e-6);
+        CHECK(std::abs(through.classes["LSE"] - 0.04) < 1e-6);
+        CHECK(std::abs(through.classes["LSSSE"] - 0.036864) < 1e-6);
+        CHECK(through.classes.size() == 3);
+        CHECK(through.L.g > 0.998f);
+    }
+
+    TEST_CASE("furnace: a glass ball is invisible, up to the branches that are too faint") {
+        Scene scene = world_of("LightSource \"infinite\" Material \"dielectric\" Shape \"sphere\"");
+        Rendering r = film_of(scene, ch05::trace, 4);
+        CHECK(r.film.mean() < 1.000001);
+        CHECK(r.film.mean() > 0.998);
+        for (const PixelSum& p : r.film.pixels()) CHECK(p.mean() > 0.99);
+    }
+
+    TEST_CASE("failure: a ray that glass reflects for ever ends at the depth limit, and says so") {
+        Scene scene = world_of(
+            "LightSource \"infinite\" Material \"dielectric\"\n"
+            "Shape \"trianglemesh\" \"integer indices\" [0 3 1 0 2 3 4 7 6 4 5 7 0 5 4 0 1 5"
+            " 2 7 3 2 6 7 0 6 2 0 4 6 1 7 5 1 3 7]\n \"point3 P\" [-1 -1 -1  1 -1 -1"
+            "  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1]");
+        Seen seen = look(scene, {0.1f, 0.2f, 0.3f}, {1.1f, 1.2f, 1.3f});
+        CHECK(seen.cut == 1);
+        CHECK(is_black(seen.L));
+        seen = look(scene, {0.1f, 0.2f, 0.3f}, {0.1f, 0.2f, 5});
+        CHECK(seen.cut == 0);
+        CHECK(std::abs(seen.L.g - 2.25f) < 0.01f);  // inside glass light is n^2 as bright
+    }
+}
+
+TEST_SUITE("ch05 classes of paths") {
+    TEST_CASE("identity: only LE, LDE, LS+E and LDS+E, and together they are the whole") {
+        for (const char* file : {"cornell-spheres", "cornell", "caustic"}) {
+            Scene scene = scene_from("scenes/" + std::string(file) + ".pbrt", 32, 100);
+            PathCensus census = census_of(scene, ch05::trace, 4000, 1);
+            CHECK(census.worst_sum < 1e-5);
+            for (const auto& [name, sum] : census.by_class) {
+                const std::string& path_class = name;
+                CAPTURE(path_class);
+                CHECK(std::regex_match(path_class, std::regex("LD?S*E")));
+            }
+            CHECK(census.by_class.count("LDE") == 1);
+            if (std::string(file) != "cornell") CHECK(census.by_class.count("LDSE") == 1);
+        }
+    }
+
+    TEST_CASE("agreement: what is seen directly, in mirrors and through glass, with chapter 07") {
+        // A ball of metal and one of glass between two walls that shine at each other.
+        Scene scene = world_of(
+            "AttributeBegin Material \"conductor\" Translate 1 0 0 Shape \"sphere\" AttributeEnd\n"
+            "AttributeBegin Material \"dielectric\" Translate -1 0 0 Shape \"sphere\""
+            " AttributeEnd\n" +
+            shining + "Rotate 90 1 0 0 Scale 9 1 9 " + square(-9, true) + square(5, false));
+        PathCensus a = census_of(scene, ch05::trace, 40000, 1);
+        PathCensus b = census_of(scene, ch07::trace, 40000, 2);
+        for (std::string name : {"LE", "LSE", "LSSE"}) {
+            CAPTURE(name);
+            Measured of_a = a.by_class[name].measured(a.paths);
+            Measured of_b = b.by_class[name].measured(b.paths);
+            CHECK(z_between(of_a, of_b) < 5);
+            CHECK(of_a.mean > 0);
+            CHECK(std::hypot(of_a.se, of_b.se) < 0.02 * of_a.mean);
+        }
+    }
+
+    TEST_CASE("failure: no colour bleeds: the floor between coloured walls stays grey") {
+        Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 100);
+        Vec3 eye = scene.camera.o, near_red = {1.8f, 0, 1};
+        Seen seen = look(scene, eye, near_red);
+        CHECK(seen.L.r > 0);
+        CHECK(seen.L.r == seen.L.b);
+        Sampler sampler = random_numbers(1);
+        PathLog log;
+        double red = 0, blue = 0;
+        for (int i = 0; i < 20000; i++) {
+            Rgb L = ch07::trace(scene, {eye, normalize(near_red - eye)}, sampler, log);
+            red += static_cast<double>(L.r), blue += static_cast<double>(L.b);
+        }
+        CHECK(red > 1.1 * blue);
+    }
+
+    TEST_CASE("failure: no caustic: glass casts the shadow of a stone") {
+        Scene scene = floor_under(
+            "LightSource \"point\" \"point3 from\" [0 4 0]\n"
+            "Material \"dielectric\" Translate 0 1.5 0 Shape \"sphere\"");
+        CHECK(irradiance(scene, 0) == 0);
+        CHECK(irradiance(scene, 5) > 0);
+    }
+
+    TEST_CASE("identity: --max-depth 0 shows lamps only, 1 direct light, 2 the first mirror") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 0);
+        PathCensus census = census_of(scene, ch05::trace, 4000, 1);
+        CHECK(census.by_class.size() == 1);
+        CHECK(census.by_class.count("LE") == 1);
+        for (int depth : {1, 2}) {
+            scene.max_depth = depth;
+            census = census_of(scene, ch05::trace, 4000, 1);
+            CHECK(census.by_length.rbegin()->first == static_cast<size_t>(depth));
+        }
+    }
+
+    TEST_CASE("identity: there is no chance in it") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 100);
+        Seen a = look(scene, {278, 273, -800}, {200, 100, 200}, 1);
+        Seen b = look(scene, {278, 273, -800}, {200, 100, 200}, 2);
+        CHECK(a.L == b.L);
+        CHECK_FALSE(is_black(a.L));
+    }
+
+    TEST_CASE("truth: an empty scene is black, or all sky") {
         Scene scene;
-        Geometry& g = scene.geometry;
-        auto third = [](int i) { return static_cast<float>(i) / 3; };
-        for (int i = 0; i < 27; i++) {
-            int x = i % 3, y = i / 3 % 3, z = i / 9;
-            add_box(g, {third(x), third(y), third(z)}, {third(x + 1), third(y + 1), third(z + 1)});
-        }
-        std::vector<ch05::Finder> finders = all_finders(scene);
-        int missed = 0;
-        for (int axis = 0; axis < 3; axis++) {
-            CAPTURE(axis);
-            for (int k = 0; k < 7 * 7 * 8; k++) {
-                Ray ray;
-                ray.o[(axis + 1) % 3] = static_cast<float>(k % 7) / 6;
-                ray.o[(axis + 2) % 3] = static_cast<float>(k / 7 % 7) / 6;
-                int from = k / 49 / 2;  // outside; and on a side
-                ray.o[axis] = from == 0 ? -1 : third(from - 1);
-                ray.d = Vec3{k % 2 == 0 ? 0.0f : -0.0f, 0.0f, -0.0f};
-                ray.d[axis] = 1;
-                if (k / 49 % 2 == 1) ray.d[axis] = -1, ray.o[axis] = 1 - ray.o[axis];
-                PrimHit truth = linear_scan(g, ray);
-                missed += truth.prim == PrimHit::none;
-                for (const ch05::Finder& finder : finders) {
-                    CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
-                    ch05::Work work;
-                    PrimHit hit = find(finder, g, ray, work);
-                    CHECK(agrees(finder, hit, truth));
-                }
-            }
-        }
-        CHECK(missed == 0);
-    }
-
-    TEST_CASE("brute: no step loses a ray at the edges and corners of a closed mesh") {
-        Scene scene;
-        scene.geometry = closed_mesh(2);
-        const Geometry& g = scene.geometry;
-        std::vector<ch05::Finder> finders = all_finders(scene);
-        Sampler sampler(SamplerType::independent, 8, 1);
-        for (uint32_t i = 0; i < 10000; i++) {
-            sampler.start(i, 0);
-            const Triangle& t = g.triangles[i % g.triangles.size()];
-            Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]];
-            Vec3 from = 0.2f * random_point(sampler);
-            Vec3 at = i % 4 == 0 ? a : a + sampler.u1() * (b - a);
-            Ray ray = {from, at - from};
-            PrimHit truth = linear_scan(g, ray);
-            REQUIRE(truth.prim != PrimHit::none);
-            for (const ch05::Finder& finder : finders) {
-                CAPTURE(ch05::step_names[static_cast<size_t>(finder.step)]);
-                ch05::Work work;
-                PrimHit hit = find(finder, g, ray, work);
-                CHECK(agrees(finder, hit, truth));
-            }
-        }
-    }
-
-    TEST_CASE("variance: each step does less work than the one before") {
-        Scene scene = clutter(5000);
-        std::vector<uint64_t> work;
-        for (const ch05::Finder& finder : all_finders(scene)) {
-            ch05::Work sum;
-            for (uint32_t i = 0; i < 1000; i++) find(finder, scene.geometry, ray_number(i), sum);
-            work.push_back(sum.boxes + sum.prims);
-        }
-        CHECK(work[1] < work[0] / 10);
-        CHECK(work[2] < work[1]);
-        CHECK(work[3] < work[2]);
-        CHECK(work[4] < work[3]);
-        CHECK(work[5] < work[4]);
-    }
-
-    TEST_CASE("identity: nodes of four hold the leaves of the binary tree, each in its box") {
-        Scene scene = clutter(5000);
-        ch05::Hierarchy two = ch05::build(scene.geometry, ch05::split_sah);
-        ch05::FourHierarchy four = ch05::collapse(two);
-        CHECK(four.prims == two.prims);
-        std::vector<int> leaves_of(two.prims.size(), 0);
-        for (const ch05::Node& node : two.nodes) {
-            if (node.count > 0) leaves_of[node.first]++;
-        }
-        size_t children = 0;
-        for (const ch05::FourNode& node : four.nodes) {
-            REQUIRE(node.size >= 2);
-            children += node.size;
-            for (size_t i = 0; i < node.size; i++) {
-                const ch05::Node& child = node.child[i];
-                if (child.count > 0) {
-                    leaves_of[child.first]--;
-                    continue;
-                }
-                REQUIRE(node.size == 4);  // else there would have been room for its own children
-                // The box of an inner child is the one around its own children.
-                ch05::Box around;
-                const ch05::FourNode& below = four.nodes[child.first];
-                for (size_t k = 0; k < below.size; k++) around.add(below.child[k].box);
-                REQUIRE(around.low == child.box.low);
-                REQUIRE(around.high == child.box.high);
-            }
-        }
-        for (int n : leaves_of) REQUIRE(n == 0);
-        // Every leaf, and every node but the root, is the child of one node.
-        size_t leaves = (two.nodes.size() + 1) / 2;
-        CHECK(children == leaves + four.nodes.size() - 1);
-    }
-
-    TEST_CASE("truth: nodes of four open the largest child first") {
-        // A root of two inner nodes, the second of which is larger, and has an inner child again.
-        ch05::Hierarchy h;
-        auto box = [](float size) {
-            ch05::Box b;
-            b.add(Vec3{0, 0, 0});
-            b.add(Vec3{size, size, size});
-            return b;
-        };
-        h.nodes = {{box(9), 4, 0}, {box(2), 3, 0}, {box(1), 0, 1}, {box(1), 1, 1}, {box(8), 8, 0},
-                   {box(7), 7, 0}, {box(1), 2, 1}, {box(1), 3, 1}, {box(1), 4, 1}};
-        h.prims = {0, 1, 2, 3, 4};
-        ch05::FourHierarchy four = ch05::collapse(h);
-        REQUIRE(four.nodes.size() == 2);
-        REQUIRE(four.nodes[0].size == 4);
-        // Left as it was: the small inner node; in the place of the large ones: their children.
-        CHECK(four.nodes[0].child[0].count == 0);
-        CHECK(four.nodes[0].child[0].first == 1);
-        CHECK(four.nodes[0].child[1].first == 2);
-        CHECK(four.nodes[0].child[2].first == 4);
-        CHECK(four.nodes[0].child[3].first == 3);
-        CHECK(four.nodes[1].size == 2);
-        CHECK(four.nodes[1].child[0].first == 0);
-        CHECK(four.nodes[1].child[1].first == 1);
-    }
-
-    TEST_CASE("truth: the SAH cost of a root parted into two cubes is 1 + 12/10") {
-        ch05::Hierarchy h;
-        ch05::Box root, left, right;
-        left.add(Vec3{0, 0, 0}), left.add(Vec3{1, 1, 1});
-        right.add(Vec3{1, 0, 0}), right.add(Vec3{2, 1, 1});
-        root.add(left), root.add(right);
-        h.nodes = {{root, 2, 0}, {left, 0, 1}, {right, 1, 1}};
-        CHECK(sah_cost(h) == doctest::Approx(1 + 1.2).scale(0));
-    }
-
-    TEST_CASE("truth: a box in its sphere is met by 2 / pi of the lines") {
-        ch05::Box cube;
-        cube.add(Vec3{-1, -1, -1}), cube.add(Vec3{1, 1, 1});
-        Sampler sampler(SamplerType::independent, 7, 1);
-        constexpr uint32_t n = 1000000;
-        RunningStats met;
-        for (uint32_t i = 0; i < n; i++) {
-            // An isotropic line through the sphere: a direction, and a point of the disk across it.
-            sampler.start(i, 0);
-            Vec2 u = sampler.u2(), v = sampler.u2();
-            float z = 2 * u.x - 1, r = std::sqrt(1 - z * z), phi = 2 * pi * u.y;
-            Vec3 d = {r * std::cos(phi), r * std::sin(phi), z};
-            Frame frame(d);
-            float radius = std::sqrt(3 * v.x), angle = 2 * pi * v.y;
-            Vec3 across = radius * std::cos(angle) * frame.s + radius * std::sin(angle) * frame.t;
-            Ray ray{across - 4 * d, d};
-            met.add(enter(cube, ray, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity ? 1 : 0);
-        }
-        double p = 2 / std::numbers::pi;
-        check_mean(met, p, p * (1 - p), 0.005);
-    }
-
-    TEST_CASE("truth: the box test takes rays in the plane of a side") {
-        ch05::Box box;
-        box.add(Vec3{0, 0, 0}), box.add(Vec3{1, 1, 1});
-        // A ray that starts at (a, b, c) and goes along +z, with the axes turned by `turns`.
-        auto hit = [&](float a, float b, float c, float zero, int turns) {
-            Vec3 o, d;
-            o[turns] = a, o[(turns + 1) % 3] = b, o[(turns + 2) % 3] = c;
-            d[turns] = d[(turns + 1) % 3] = zero, d[(turns + 2) % 3] = 1;
-            return enter(box, {o, d}, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity;
-        };
-        for (int turns = 0; turns < 3; turns++) {
-            for (float zero : {0.0f, -0.0f}) {
-                CHECK(hit(0, 0.5f, -1, zero, turns));
-                CHECK(hit(1, 0.5f, -1, zero, turns));
-                CHECK(hit(0.5f, 0, -1, zero, turns));
-                CHECK(hit(0.5f, 1, -1, zero, turns));
-                CHECK(hit(0, 0, -1, zero, turns));
-                CHECK(hit(1, 1, -1, zero, turns));
-                CHECK(hit(1, 0, -1, zero, turns));
-                CHECK(hit(0.5f, 0.5f, 0.5f, zero, turns));
-                CHECK_FALSE(hit(1.0001f, 0.5f, -1, zero, turns));
-                CHECK_FALSE(hit(-0.0001f, 0.5f, -1, zero, turns));
-                CHECK_FALSE(hit(0.5f, 1.0001f, -1, zero, turns));
-                CHECK_FALSE(hit(0.5f, 0.5f, 1.0001f, zero, turns));
-            }
-        }
-    }
-
-    TEST_CASE("failure: a thousand equal triangles still end in a tree") {
-        Scene scene;
-        Geometry& g = scene.geometry;
-        g.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-        g.triangles.assign(1000, {{0, 1, 2}, 0});
-        for (const ch05::Finder& finder : all_finders(scene)) {
-            ch05::Work work;
-            PrimHit hit = find(finder, g, {{0.2f, 0.2f, 1}, {0, 0, -1}}, work);
-            CHECK(hit.prim == 0);  // the lowest number among equals
-            CHECK(hit.t == 1);
-        }
-        CHECK(ch05::build(g, ch05::split_sah).nodes.size() < 1000);
-    }
-
-    TEST_CASE("failure: NaN triangles are never hit, and hide nothing") {
-        Scene scene = clutter(100), broken = clutter(100);
-        broken.geometry.positions[30] = {std::nanf(""), 0, 0};
-        scene.geometry.positions[30] = scene.geometry.positions[31];  // flat: never hit either
-        scene.geometry.positions[32] = scene.geometry.positions[31];
-        std::vector<ch05::Finder> finders = all_finders(broken);
-        for (uint32_t i = 0; i < 2000; i++) {
-            PrimHit truth = linear_scan(scene.geometry, ray_number(i));
-            for (const ch05::Finder& finder : finders) {
-                ch05::Work work;
-                CHECK(find(finder, broken.geometry, ray_number(i), work).prim == truth.prim);
-            }
-        }
-    }
-
-    TEST_CASE("failure: an empty scene is missed") {
-        Scene scene;
-        for (const ch05::Finder& finder : all_finders(scene)) {
-            ch05::Work work;
-            CHECK(find(finder, scene.geometry, ray_number(1), work).prim == PrimHit::none);
-        }
+        prepare(scene, 1);
+        CHECK(is_black(look(scene, {0, 0, 0}, {0, 0, 1}).L));
+        scene.lights.emplace_back();
+        scene.lights[0].type = LightType::infinite;
+        scene.lights[0].L = {0.5f, 1, 2};
+        prepare(scene, 1);
+        CHECK(look(scene, {0, 0, 0}, {1, 2, 3}).L == Rgb{0.5f, 1, 2});
     }
 }

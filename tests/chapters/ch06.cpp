@@ -1,504 +1,314 @@
-// Chapter 06: path tracing: furnaces, closed enclosures, light found by chance, and teeth.
+// Chapter 06: every step finds the same hits, with less and less work.
 #include <doctest/doctest.h>
 
-#include <array>
-
-#include "chapters/06_path_tracing/estimator.h"
-#include "common/base/error.h"
+#include "chapters/06_bvh/estimator.h"
+#include "common/path/sampler.h"
 #include "tests/support/gates.h"
-#include "tests/support/scenes.h"
+#include "tests/support/meshes.h"
 
 namespace {
 
-constexpr double pi_exact = std::numbers::pi;
+Vec3 random_point(Sampler& sampler) {
+    Vec2 u = sampler.u2();
+    return {2 * u.x - 1, 2 * u.y - 1, 2 * sampler.u1() - 1};
+}
 
-/// The green channel of chapter 06 along one ray, over and over.
-RunningStats repeat(const Scene& scene, const Ray& ray, int paths, uint32_t seed = 1) {
-    RunningStats stats;
-    Sampler sampler(SamplerType::independent, seed, 1);
-    PathLog log;
-    for (int i = 0; i < paths; i++) {
-        sampler.start(0, static_cast<uint32_t>(i));
-        stats.add(static_cast<double>(ch06::trace(scene, ray, sampler, log).g));
+/// Small random triangles, some large ones, and a few spheres and disks.
+Scene clutter(uint32_t triangles) {
+    Scene scene;
+    Geometry& g = scene.geometry;
+    Sampler sampler(SamplerType::independent, 5, 1);
+    for (uint32_t i = 0; i < triangles; i++) {
+        sampler.start(i, 0);
+        Vec3 centre = random_point(sampler);
+        float size = i % 50 == 0 ? 1.0f : 0.1f;
+        for (int k = 0; k < 3; k++) g.positions.push_back(centre + size * random_point(sampler));
+        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, 0});
     }
-    return stats;
-}
-
-/// The inside of a ball whose wall emits 1 and reflects the share a.
-Scene closed_sphere(double a, int max_depth) {
-    std::string albedo = std::to_string(a);
-    Scene scene = world_of(
-        "ReverseOrientation AreaLightSource \"diffuse\"\n"
-        "Material \"diffuse\" \"rgb reflectance\" [" +
-        albedo + " " + albedo + " " + albedo + "] Shape \"sphere\"");
-    scene.camera.o = {0, 0, 0};
-    scene.max_depth = max_depth;
-    return scene;
-}
-const Ray from_inside = {{0, 0, 0}, {0, 0, 1}};
-
-/// A white floor under this light, seen at the origin.
-Scene floor_under(const std::string& light) {
-    Scene scene = world_of(
-        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 500 1 500 " +
-        square(0, true) + "AttributeEnd\n" + light);
-    scene.max_depth = 1;
-    return scene;
-}
-const Ray onto_floor = {{-3, 0.01f, 0}, {3, -0.01f, 0}};
-const std::string shining =
-    "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
-
-/// |mean - truth| in known standard errors; the largest over the pixels that the ball covers.
-double worst_pixel(const Film& film, const std::array<double, 3>& albedo, double radius) {
-    double worst = 0, n = film.spp();
-    for (int y = 0; y < film.height; y++)
-        for (int x = 0; x < film.width; x++) {
-            if (std::hypot(x + 0.5 - film.width / 2.0, y + 0.5 - film.height / 2.0) > radius)
-                continue;
-            const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
-            std::array<double, 3> sums = {p.r(), p.g(), p.b()};
-            for (size_t c = 0; c < 3; c++) {
-                double se = albedo[c] / std::sqrt(3 * n);  // one path: variance a^2 / 3
-                worst = std::max(worst, std::abs(sums[c] / n - albedo[c]) / se);
-            }
-        }
-    return worst;
-}
-
-/// The Cornell box, camera and all, with all lengths multiplied.
-Scene cornell_in_units(double unit) {
-    auto times = [&](std::initializer_list<double> numbers) {
-        std::string text;
-        for (double x : numbers) text += std::to_string(x * unit) + " ";
-        return text;
-    };
-    std::string text = read_file("scenes/cornell.pbrt"), scale = std::to_string(unit) + " ";
-    text.replace(text.find("278 273 -800  278 273 0"), 23, times({278, 273, -800, 278, 273, 0}));
-    text.replace(text.find("WorldBegin"), 10, "WorldBegin Scale " + scale + scale + scale);
-    Scene scene = scene_of(text);
-    scene.width = scene.height = 32;
+    g.spheres = {{{0.3f, 0.2f, 0.1f}, 0.2f, 0}, {{-0.5f, 0, 0}, 0.3f, 0}};
+    g.disks = {{{0, 0.5f, 0}, normalize({1, 1, 0}), 0.4f, 0}};
     return scene;
 }
 
-/// Chapter 06's trace() with a mistake planted.
-enum class Flaw { none, no_cosine, no_pi, light_ends_path, no_background, half_depth };
-
-template <Flaw flaw>
-Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog&) {
-    Rgb L, beta = {1, 1, 1};
-    for (int depth = 0;; depth++) {
-        std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return flaw == Flaw::no_background ? L : L + beta * scene.sky;
-        L += beta * emission(scene, *x);
-        if (flaw == Flaw::light_ends_path && x->light >= 0) return L;
-        if (depth == (flaw == Flaw::half_depth ? scene.max_depth / 2 : scene.max_depth)) return L;
-        float u1 = sampler.u1();
-        auto drawn = ch06::sample_bsdf(*x, -ray.d, u1, sampler.u2());
-        if (drawn.pdf_w == 0) return L;
-        float cos =
-            flaw == Flaw::no_cosine && !drawn.specular ? 0.5f : std::abs(dot(drawn.wi, x->n));
-        if (flaw == Flaw::no_pi && !drawn.specular) cos *= pi;
-        beta *= drawn.f * (cos / drawn.pdf_w);
-        ray = spawn_ray(*x, drawn.wi);
+/// Random rays; every fourth is parallel to an axis, with zeros of either sign.
+Ray ray_number(uint32_t i) {
+    Sampler sampler(SamplerType::independent, 6, 1);
+    sampler.start(i, 0);
+    Vec3 o = 2 * random_point(sampler), d = random_point(sampler) - o;
+    if (i % 4 == 0) {
+        Vec3 axis = {0.0f, -0.0f, 0.0f};
+        axis[static_cast<int>(i / 4 % 3)] = i % 8 == 0 ? 1.0f : -1.0f;
+        d = axis;
     }
+    return {o, d};
+}
+
+std::vector<ch06::Finder> all_finders(const Scene& scene) {
+    std::vector<ch06::Finder> finders;
+    for (size_t step = 0; step < ch06::step_names.size(); step++) {
+        finders.push_back(make_finder(scene, static_cast<ch06::Step>(step)));
+    }
+    return finders;
+}
+
+/// All steps have the very bits of the linear scan, but `wide`, which works in float first.
+bool agrees(const ch06::Finder& finder, const PrimHit& hit, const PrimHit& truth) {
+    if (finder.step == ch06::Step::wide) return same_hit(hit, truth);
+    return hit.prim == truth.prim && hit.t == truth.t && hit.b1 == truth.b1 && hit.b2 == truth.b2;
 }
 
 }  // namespace
 
-TEST_SUITE("ch06 bsdf") {
-    TEST_CASE("identity: cylindrical coordinates") {
-        for (int i = 0; i <= 4096; i++) {
-            double u = i / 4096.0, phi = 2 * std::numbers::pi * u;
-            Vec3 p = from_cylindrical(2, static_cast<float>(u), 3);
-            CHECK(std::abs(static_cast<double>(p.x) - 2 * std::cos(phi)) < 2.4e-7);
-            CHECK(std::abs(static_cast<double>(p.y) - 2 * std::sin(phi)) < 2.4e-7);
-            CHECK(p.z == 3);
-        }
-        CHECK(from_cylindrical(1, 0, 0) == Vec3{1, 0, 0});
-        CHECK(from_cylindrical(1, 0.75f, 0) == Vec3{0, -1, 0});
-    }
-
-    TEST_CASE("density: uniform hemisphere") {
-        std::array<double, 100> counts{};
-        RunningStats z, z2, x2;
-        Sampler random = random_numbers(1);
-        for (int i = 0; i < 100000; i++) {
-            Vec2 u = random.u2();
-            Vec3 w = ch06::sample_uniform_hemisphere(u);
-            z.add(static_cast<double>(w.z));
-            z2.add(static_cast<double>(w.z) * w.z);
-            x2.add(static_cast<double>(w.x) * w.x);
-            double phi = std::atan2(static_cast<double>(w.y), static_cast<double>(w.x));
-            counts[std::min(static_cast<size_t>(w.z * 10), size_t{9}) * 10 +
-                   static_cast<size_t>((phi / pi_exact + 1) * 4.9999999)]++;
-            Vec2 again = ch06::invert_uniform_hemisphere(w);
-            CHECK(std::abs(again.x - u.x) < 1e-6f);
-            if (u.x > 1e-3f) CHECK(std::abs(again.y - u.y) < 1e-5f);
-        }
-        check_mean(z, 0.5, 1.0 / 12, 0.01);
-        check_mean(z2, 1.0 / 3, 4.0 / 45, 0.01);
-        check_mean(x2, 1.0 / 3, 4.0 / 45, 0.01);
-        CHECK(chi_square_tail(chi_square(counts), 99) > 1e-6);
-        CHECK(static_cast<double>(ch06::pdf_uniform_hemisphere()) ==
-              doctest::Approx(1 / (2 * pi_exact)).epsilon(1e-7).scale(0));
-        for (float u : {0.0f, 0x1.fffffep-1f}) CHECK(ch06::sample_uniform_hemisphere({u, u}).z > 0);
-    }
-
-    TEST_CASE("consistency: samples, densities and values of every material agree") {
-        for (const char* material :
-             {"\"diffuse\" \"rgb reflectance\" [0.7 0.5 0.3]", "\"conductor\"", "\"dielectric\""}) {
-            Scene scene = world_of("LightSource \"infinite\" Material " + std::string(material) +
-                                   " Shape \"sphere\"");
-            Sampler random = random_numbers(1);
-            for (int i = 0; i < 2000; i++) {
-                Hit x = *intersect(scene, {1.01f * uniform_direction(random.u2()), {0, 0, 0}});
-                x = *intersect(scene, {{0, 0, 0}, uniform_direction(random.u2())});
-                Vec3 wo = -normalize(x.p);
-                if (i % 2 == 0) {  // from outside
-                    Vec3 from = 3 * uniform_direction(random.u2());
-                    wo = normalize(from);
-                    x = *intersect(scene, {from, -wo});
-                }
-                float u1 = random.u1();
-                auto s = ch06::sample_bsdf(x, wo, u1, random.u2());
-                REQUIRE(s.pdf_w > 0);
-                CHECK(std::abs(length(s.wi) - 1) < 1e-6f);
-                Rgb f = ch06::eval_bsdf(x, wo, s.wi);
-                float pdf_w = ch06::pdf_bsdf(x, wo, s.wi);
-                CHECK(f == (s.specular ? Rgb{} : s.f));
-                CHECK(pdf_w == (s.specular ? 0 : s.pdf_w));
-                CHECK(f == ch06::eval_bsdf(x, s.wi, wo));
-                CHECK(is_black(ch06::eval_bsdf(x, wo, -x.n)));
-                CHECK(ch06::pdf_bsdf(x, wo, -x.n) == 0);
-                // No path gains: f cos / pdf_w is at most 2 (uniform), 1, or 1 / eta^2.
-                float weight = max_component(s.f) * std::abs(dot(s.wi, x.n)) / s.pdf_w;
-                float most = !s.specular          ? 2 * 0.7f
-                             : dot(s.wi, x.n) > 0 ? 1
-                             : x.front            ? 1 / 2.25f
-                                                  : 2.25f;
-                CHECK(weight <= most * 1.00001f);
+TEST_SUITE("ch06 bvh") {
+    TEST_CASE("brute: every step finds what the linear scan finds") {
+        Scene scene = clutter(500);
+        std::vector<ch06::Finder> finders = all_finders(scene);
+        int hits = 0;
+        for (uint32_t i = 0; i < 20000; i++) {
+            Ray ray = ray_number(i);
+            PrimHit truth = linear_scan(scene.geometry, ray);
+            hits += truth.prim != PrimHit::none;
+            for (const ch06::Finder& finder : finders) {
+                ch06::Work work;
+                PrimHit hit = find(finder, scene.geometry, ray, work);
+                CAPTURE(ch06::step_names[static_cast<size_t>(finder.step)]);
+                REQUIRE(agrees(finder, hit, truth));
             }
         }
+        CHECK(hits > 5000);
+        CHECK(hits < 19000);
     }
 
-    TEST_CASE("identity: below the surface itself, a bent normal reflects nothing") {
-        Hit x{};
-        Material material;
-        x.material = &material;
-        x.ng = {0, 0, 1};
-        x.n = normalize({0.8f, 0, 1});
-        Vec3 wi = normalize({1, 0, -0.1f});  // above n's horizon, below the surface
-        CHECK(dot(wi, x.n) > 0);
-        CHECK(is_black(ch06::eval_bsdf(x, {0, 0, 1}, wi)));
-        CHECK(ch06::pdf_bsdf(x, {0, 0, 1}, wi) == 0);
-    }
-}
-
-TEST_SUITE("ch06 path tracing") {
-    TEST_CASE("truth: a diffuse ball in a white sky: mean a, variance a^2 / 3") {
-        Scene scene = world_of("LightSource \"infinite\" Shape \"sphere\"");  // albedo 0.5
-        RunningStats s = repeat(scene, {{0, 0, -4}, {0, 0, 1}}, 400000);
-        check_mean(s, 0.5, 0.25 / 3, 0.005);
-        check_variance(s, 0.25 / 3, 1.8);  // evenly spread on [0, 2a]
-    }
-
-    TEST_CASE("furnace: every pixel of a convex diffuse ball is its albedo") {
-        Scene scene = world_of(
-            "LightSource \"infinite\" Material \"diffuse\" \"rgb reflectance\" [0.8 0.5 0.2]\n"
-            "Shape \"sphere\"");
-        Rendering r = film_of(scene, ch06::trace, 256);
-        CHECK(worst_pixel(r.film, {0.8, 0.5, 0.2}, 10.5) < 5);  // the ball's radius is 11.35 pixels
-        for (int corner : {0, 31}) {
-            const PixelSum& p = r.film.pixels()[static_cast<size_t>(corner)];
-            CHECK(p.mean() == 1);  // beside it there is sky
-        }
-    }
-
-    TEST_CASE("furnace: also far from the origin, and in any unit: no path meets the ball twice") {
-        for (auto [x, size] :
-             {std::pair{1e4f, 1.0f}, {0.0f, 1e-3f}, {0.0f, 556.0f}, {1e3f, 10.0f}}) {
-            Scene scene = world_of(
-                "LightSource \"infinite\" Material \"diffuse\" \"rgb reflectance\" [0.8 0.8 0.8]\n"
-                "Shape \"sphere\"");
-            scene.geometry.spheres[0] = {{x, 0, 0}, size, 0};
-            scene.camera.o = {x, 0, -4 * size};
-            prepare(scene, 1);
-            PathCensus census = census_of(scene, ch06::trace, 40000, 1);
-            CHECK(census.by_class.size() == 2);
-            CHECK(census.by_class.count("LE") == 1);
-            CHECK(census.by_class.count("LDE") == 1);
-            CHECK(worst_pixel(film_of(scene, ch06::trace, 64).film, {0.8, 0.8, 0.8}, 10.5) < 5);
-        }
-    }
-
-    TEST_CASE("truth: inside a closed sphere that emits 1 and reflects half: 2, variance 1/2") {
-        // X = 1 + 2 a cos X': second moment (1 + 2 a E[X]) / (1 - 4 a^2 / 3); kurtosis 4
-        RunningStats s = repeat(closed_sphere(0.5, 25), from_inside, 100000);
-        check_mean(s, 2, 0.5, 0.02);
-        check_variance(s, 0.5, 4);
-    }
-
-    TEST_CASE("truth: closed sphere, cut off: every length of path brings a^k, no more, no less") {
-        for (double a : {0.5, 0.8}) {
-            constexpr int longest = 5;
-            PathCensus census = census_of(closed_sphere(a, longest), ch06::trace, 100000, 1);
-            CHECK(census.by_length.rbegin()->first == longest);
-            double sum = 0, power = 1;
-            for (size_t k = 0; k <= longest; k++, power *= a) {
-                Measured part = census.by_length[k].measured(census.paths);
-                CAPTURE(k);
-                CHECK(std::abs(part.mean - power) <= 5 * part.se + 1e-6);
-                CHECK(part.se < 0.015 * power);
-                sum += power;
-            }
-            CHECK(sum == doctest::Approx((1 - power) / (1 - a)).epsilon(1e-12).scale(0));
-            Measured all = census.all.measured(census.paths);
-            CHECK(std::abs(all.mean - sum) < 5 * all.se);
-        }
-    }
-
-    TEST_CASE("furnace: every pixel of the closed sphere is Le / (1 - a)") {
-        Film film = film_of(closed_sphere(0.5, 25), ch06::trace, 64).film;
-        double worst = 0;
-        for (const PixelSum& p : film.pixels()) {
-            worst = std::max(worst, std::abs(p.mean() - 2) / std::sqrt(0.5 / 64));
-        }
-        CHECK(worst < 5.5);  // kurtosis 4, 1024 pixels
-    }
-
-    TEST_CASE("truth: a ball inside a ball: 10/9 and 2/9") {
-        Scene scene = world_of(
-            "AttributeBegin AreaLightSource \"diffuse\" Shape \"sphere\" AttributeEnd\n"
-            "ReverseOrientation Shape \"sphere\" \"float radius\" 2");
-        scene.max_depth = 25;
-        for (auto [ray, L] : {std::pair{Ray{{0, 0, -1.5f}, {0, 0, 1}}, 10.0 / 9},
-                              {Ray{{0, 0, -1.5f}, {0, 0, -1}}, 2.0 / 9}}) {
-            RunningStats s = repeat(scene, ray, 50000);
-            CHECK(std::abs(s.mean() - L) < 5 * s.standard_error());
-            CHECK(s.standard_error() < 0.01 * L);
-        }
-    }
-
-    TEST_CASE("truth: two endless planes, one of which emits: 5/3 and 4/3") {
-        Scene scene = world_of(
-            "Scale 1e5 1 1e5\n"
-            "AttributeBegin AreaLightSource \"diffuse\" " +
-            square(0, true) +
-            "AttributeEnd\n"
-            "Material \"diffuse\" \"rgb reflectance\" [0.8 0.8 0.8] " +
-            square(1, false));
-        scene.max_depth = 25;
-        for (auto [d, L] : {std::pair{Vec3{0, -1, 0}, 5.0 / 3}, {Vec3{0, 1, 0}, 4.0 / 3}}) {
-            RunningStats s = repeat(scene, {{0, 0.5f, 0}, d}, 50000);
-            CHECK(std::abs(s.mean() - L) < 5 * s.standard_error());
-            CHECK(s.standard_error() < 0.01 * L);
-        }
-    }
-
-    TEST_CASE("truth: the floor beside a black ball") {
-        // E = pi (1 - (R / D)^2 cos): the ball rests on the floor, 2 aside, and touches the
-        // horizon.
-        Scene scene = floor_under(
-            "LightSource \"infinite\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n"
-            "Translate 2 1 0 Shape \"sphere\"");
-        RunningStats s = repeat(scene, {{-3, 3, 0}, {1, -1, 0}}, 400000);
-        CHECK(std::abs(s.mean() * pi_exact - 2.860600064348) < 5 * pi_exact * s.standard_error());
-        CHECK(s.standard_error() < 0.002);
-    }
-
-    TEST_CASE("truth: a disk found by chance: irradiance pi/2, relative variance 2.4477") {
-        Scene scene = floor_under(shining + "Translate 0 1 0 Rotate 90 1 0 0 Shape \"disk\"");
-        RunningStats s = repeat(scene, onto_floor, 400000);
-        double L = 0.5, variance = 2.447715250169 * L * L;  // L = E / pi
-        check_mean(s, L, variance, 0.02 * L);
-        CHECK(std::abs(s.variance() / variance - 1) < 0.02);
-    }
-
-    TEST_CASE("truth: a square, aside and overhead") {
-        for (auto [x, E] : {std::pair{0.0f, 0.7522746884541}, {1.5f, 0.1046370751909}}) {
-            Scene scene = floor_under(shining + "Translate " + std::to_string(x) +
-                                      " 0 0 Scale 0.5 1 0.5 " + square(1, false));
-            RunningStats s = repeat(scene, onto_floor, 400000);
-            CHECK(std::abs(s.mean() * pi_exact - E) < 5 * pi_exact * s.standard_error());
-            CHECK(s.standard_error() * pi_exact < 0.02 * E);
-        }
-    }
-
-    TEST_CASE("failure: a small light is missed by all, and 0 +- 0 is reported") {
-        Scene scene = floor_under(
-            shining + "Translate 0 1 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" 0.01");
-        RunningStats s = repeat(scene, onto_floor, 1000, 3);  // each hits with probability 5e-5
-        CHECK(s.mean() == 0);
-        CHECK(s.standard_error() == 0);
-        RunningStats many = repeat(scene, onto_floor, 2000000, 2);
-        double L = 1e-4 / (1 + 1e-4);
-        CHECK(std::abs(many.mean() - L) < 5 * many.standard_error());
-        CHECK(many.standard_error() < 0.15 * L);
-        CHECK(many.variance() / (L * L) > 1e4);
-    }
-
-    TEST_CASE("identity: emission is one-sided unless the file says otherwise") {
-        for (bool two_sided : {false, true}) {
-            Scene scene = world_of("AreaLightSource \"diffuse\" \"bool twosided\" " +
-                                   std::string(two_sided ? "true " : "false ") + square(0, true));
-            scene.max_depth = 0;
-            CHECK(repeat(scene, {{0, 1, 0}, {0, -1, 0}}, 1).mean() == 1);
-            CHECK(repeat(scene, {{0, -1, 0}, {0, 1, 0}}, 1).mean() == (two_sided ? 1 : 0));
-        }
-    }
-
-    TEST_CASE("identity: parts and whole of a path agree, and --paths keeps only its classes") {
-        for (const char* file : {"cornell", "cornell-spheres", "color-bleeding", "caustic"}) {
-            Scene scene = scene_from("scenes/" + std::string(file) + ".pbrt", 32, 8);
-            PathCensus census = census_of(scene, ch06::trace, 20000, 1);
-            CHECK(census.worst_sum < 1e-5);
-            CHECK(census.all.sum > 0);
-        }
-        Scene scene = scene_from("scenes/cornell.pbrt", 32, 8);
-        Sampler a = random_numbers(1), b = random_numbers(1);
-        PathLog all(""), direct("LD?E");
-        Vec3 d = normalize({-0.1f, 0.2f, 1});
-        double kept = 0;
-        for (int i = 0; i < 20000; i++) {
-            all.start(), direct.start();
-            ch06::trace(scene, {scene.camera.o, d}, a, all);
-            Rgb L = ch06::trace(scene, {scene.camera.o, d}, b, direct);
-            for (const auto& [name, part, pixel] : all.contributions()) {
-                if (name == "LE" || name == "LDE") L = L - part;
-            }
-            kept = std::max(kept, static_cast<double>(max_component(L)));
-            CHECK(std::abs(average(L)) < 1e-6f);
-        }
-        CHECK(kept < 1e-6);
-    }
-
-    TEST_CASE("truth: a scene without light is black, one without things is sky: exactly") {
+    TEST_CASE("brute: rays in planes, along edges and through corners, along all three axes") {
+        // 27 cubes side by side, of thirds, which no float holds exactly; every ray along an axis
+        // through their corners and the middles of their edges and sides, both ways, from outside
+        // and from inside.
         Scene scene;
-        prepare(scene, 1);
-        CHECK(repeat(scene, from_inside, 10).mean() == 0);
-        scene.lights.emplace_back();
-        scene.lights[0].type = LightType::infinite;
-        scene.lights[0].L = {0.5f, 0.75f, 2};
-        prepare(scene, 1);
-        CHECK(repeat(scene, from_inside, 10).mean() == 0.75);
-        Scene black = closed_sphere(0.5, 50);
-        black.lights.clear();
-        black.shapes[0].light = -1;
-        CHECK(repeat(black, from_inside, 100).mean() == 0);
-        Scene dark = closed_sphere(0, 50);  // black paint: the path ends after one surface
-        RunningStats s = repeat(dark, from_inside, 100);
-        CHECK(s.mean() == 1);
-        CHECK(s.variance() == 0);
-    }
-
-    TEST_CASE("failure: without roulette a closed scene never ends by itself: all paths are cut") {
-        Rendering r = film_of(closed_sphere(0.9, 100), ch06::trace, 4);
-        CHECK(r.stats.paths_cut == 4 * 32 * 32);
-        double lost = std::pow(0.9, 101);  // the share that the limit takes
-        CHECK(r.film.mean() > 0);
-        CHECK(lost < 3e-5);
-    }
-
-    TEST_CASE("failure: point and distant lights are refused, with their place in the file") {
-        auto message = [](const std::string& light) -> std::string {
-            try {
-                refuse_delta_lights(world_of("\n  LightSource " + light + " Shape \"sphere\""));
-            } catch (const InputError& error) {
-                return error.what();
-            }
-            return "";
-        };
-        CHECK(message("\"point\"") ==
-              "test.pbrt:6:3: error: a point light has no size, so no path finds it by chance; "
-              "chapters from 08 on sample it");
-        CHECK(message("\"distant\"") ==
-              "test.pbrt:6:3: error: a distant light has no size, so no path finds it by chance; "
-              "chapters from 08 on sample it");
-        CHECK(message("\"infinite\"") == "");
-        Scene scene = world_of("LightSource \"point\" Shape \"disk\"");
-        CHECK(film_of(scene, ch06::trace, 4).film.mean() == 0);
-    }
-}
-
-TEST_SUITE("ch06 pictures") {
-    TEST_CASE("agreement: the picture does not depend on the unit of length") {
-        // The same seeds, so that only what rounding does to a path can make a difference.
-        Film film = film_of(cornell_in_units(1), ch06::trace, 128).film;
-        for (double unit : {0.001, 1000.0}) {
-            Agreement a =
-                hold_against(film_of(cornell_in_units(unit), ch06::trace, 128).film, film);
-            CAPTURE(unit);
-            CHECK(a.agrees());
-            CHECK(a.relative < 0.002);
+        Geometry& g = scene.geometry;
+        auto third = [](int i) { return static_cast<float>(i) / 3; };
+        for (int i = 0; i < 27; i++) {
+            int x = i % 3, y = i / 3 % 3, z = i / 9;
+            add_box(g, {third(x), third(y), third(z)}, {third(x + 1), third(y + 1), third(z + 1)});
         }
-    }
-
-    TEST_CASE("agreement: 1, 2, 3, 5, 7 or 16 samples have the same mean, with every sampler") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 16, 4);
-        Film reference = film_of(scene, ch06::trace, 500, 99).film;
-        for (SamplerType type :
-             {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-            for (int spp : {1, 2, 3, 5, 7, 16}) {
-                RunningStats means;
-                for (uint32_t seed = 0; seed < 200 / static_cast<uint32_t>(spp); seed++) {
-                    means.add(film_of(scene, ch06::trace, spp, seed, type).film.mean());
+        std::vector<ch06::Finder> finders = all_finders(scene);
+        int missed = 0;
+        for (int axis = 0; axis < 3; axis++) {
+            CAPTURE(axis);
+            for (int k = 0; k < 7 * 7 * 8; k++) {
+                Ray ray;
+                ray.o[(axis + 1) % 3] = static_cast<float>(k % 7) / 6;
+                ray.o[(axis + 2) % 3] = static_cast<float>(k / 7 % 7) / 6;
+                int from = k / 49 / 2;  // outside; and on a side
+                ray.o[axis] = from == 0 ? -1 : third(from - 1);
+                ray.d = Vec3{k % 2 == 0 ? 0.0f : -0.0f, 0.0f, -0.0f};
+                ray.d[axis] = 1;
+                if (k / 49 % 2 == 1) ray.d[axis] = -1, ray.o[axis] = 1 - ray.o[axis];
+                PrimHit truth = linear_scan(g, ray);
+                missed += truth.prim == PrimHit::none;
+                for (const ch06::Finder& finder : finders) {
+                    CAPTURE(ch06::step_names[static_cast<size_t>(finder.step)]);
+                    ch06::Work work;
+                    PrimHit hit = find(finder, g, ray, work);
+                    CHECK(agrees(finder, hit, truth));
                 }
-                CAPTURE(spp);
-                CAPTURE(static_cast<int>(type));
-                double se = std::hypot(means.standard_error(), reference.standard_error());
-                CHECK(std::abs(means.mean() - reference.mean()) < 5 * se);
-                CHECK(se < 0.03 * reference.mean());
+            }
+        }
+        CHECK(missed == 0);
+    }
+
+    TEST_CASE("brute: no step loses a ray at the edges and corners of a closed mesh") {
+        Scene scene;
+        scene.geometry = closed_mesh(2);
+        const Geometry& g = scene.geometry;
+        std::vector<ch06::Finder> finders = all_finders(scene);
+        Sampler sampler(SamplerType::independent, 8, 1);
+        for (uint32_t i = 0; i < 10000; i++) {
+            sampler.start(i, 0);
+            const Triangle& t = g.triangles[i % g.triangles.size()];
+            Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]];
+            Vec3 from = 0.2f * random_point(sampler);
+            Vec3 at = i % 4 == 0 ? a : a + sampler.u1() * (b - a);
+            Ray ray = {from, at - from};
+            PrimHit truth = linear_scan(g, ray);
+            REQUIRE(truth.prim != PrimHit::none);
+            for (const ch06::Finder& finder : finders) {
+                CAPTURE(ch06::step_names[static_cast<size_t>(finder.step)]);
+                ch06::Work work;
+                PrimHit hit = find(finder, g, ray, work);
+                CHECK(agrees(finder, hit, truth));
             }
         }
     }
 
-    TEST_CASE("variance: even sampling helps the first bounce") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 16, 1);
-        auto variance = [&](SamplerType type) {
-            RunningStats means;
-            for (uint32_t seed = 0; seed < 50; seed++) {
-                means.add(film_of(scene, ch06::trace, 16, seed, type).film.mean());
+    TEST_CASE("variance: each step does less work than the one before") {
+        Scene scene = clutter(5000);
+        std::vector<uint64_t> work;
+        for (const ch06::Finder& finder : all_finders(scene)) {
+            ch06::Work sum;
+            for (uint32_t i = 0; i < 1000; i++) find(finder, scene.geometry, ray_number(i), sum);
+            work.push_back(sum.boxes + sum.prims);
+        }
+        CHECK(work[1] < work[0] / 10);
+        CHECK(work[2] < work[1]);
+        CHECK(work[3] < work[2]);
+        CHECK(work[4] < work[3]);
+        CHECK(work[5] < work[4]);
+    }
+
+    TEST_CASE("identity: nodes of four hold the leaves of the binary tree, each in its box") {
+        Scene scene = clutter(5000);
+        ch06::Hierarchy two = ch06::build(scene.geometry, ch06::split_sah);
+        ch06::FourHierarchy four = ch06::collapse(two);
+        CHECK(four.prims == two.prims);
+        std::vector<int> leaves_of(two.prims.size(), 0);
+        for (const ch06::Node& node : two.nodes) {
+            if (node.count > 0) leaves_of[node.first]++;
+        }
+        size_t children = 0;
+        for (const ch06::FourNode& node : four.nodes) {
+            REQUIRE(node.size >= 2);
+            children += node.size;
+            for (size_t i = 0; i < node.size; i++) {
+                const ch06::Node& child = node.child[i];
+                if (child.count > 0) {
+                    leaves_of[child.first]--;
+                    continue;
+                }
+                REQUIRE(node.size == 4);  // else there would have been room for its own children
+                // The box of an inner child is the one around its own children.
+                ch06::Box around;
+                const ch06::FourNode& below = four.nodes[child.first];
+                for (size_t k = 0; k < below.size; k++) around.add(below.child[k].box);
+                REQUIRE(around.low == child.box.low);
+                REQUIRE(around.high == child.box.high);
             }
-            return means.variance();
-        };
-        double independent = variance(SamplerType::independent);
-        CHECK(variance(SamplerType::stratified) < 0.6 * independent);
-        CHECK(variance(SamplerType::sobol) < 0.6 * independent);
+        }
+        for (int n : leaves_of) REQUIRE(n == 0);
+        // Every leaf, and every node but the root, is the child of one node.
+        size_t leaves = (two.nodes.size() + 1) / 2;
+        CHECK(children == leaves + four.nodes.size() - 1);
     }
 
-    TEST_CASE("teeth: mistakes that the pictures show are rejected") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 6);
-        Film film = film_of(scene, ch06::trace, 64).film;
-        int spp = 64;
-        auto agrees = [&](Trace trace) {
-            return hold_against(film_of(scene, trace, spp, 2).film, film).agrees();
+    TEST_CASE("truth: nodes of four open the largest child first") {
+        // A root of two inner nodes, the second of which is larger, and has an inner child again.
+        ch06::Hierarchy h;
+        auto box = [](float size) {
+            ch06::Box b;
+            b.add(Vec3{0, 0, 0});
+            b.add(Vec3{size, size, size});
+            return b;
         };
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::no_cosine>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::no_pi>));
-        scene = scene_from("scenes/furnace.pbrt", 32, 6);
-        film = film_of(scene, ch06::trace, 64).film;
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::no_background>));
-        spp = 16;
-        scene = closed_sphere(0.5, 20);
-        film = film_of(scene, ch06::trace, spp).film;
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::light_ends_path>));
-        scene = closed_sphere(0.9, 20);
-        film = film_of(scene, ch06::trace, spp).film;
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::half_depth>));
+        h.nodes = {{box(9), 4, 0}, {box(2), 3, 0}, {box(1), 0, 1}, {box(1), 1, 1}, {box(8), 8, 0},
+                   {box(7), 7, 0}, {box(1), 2, 1}, {box(1), 3, 1}, {box(1), 4, 1}};
+        h.prims = {0, 1, 2, 3, 4};
+        ch06::FourHierarchy four = ch06::collapse(h);
+        REQUIRE(four.nodes.size() == 2);
+        REQUIRE(four.nodes[0].size == 4);
+        // Left as it was: the small inner node; in the place of the large ones: their children.
+        CHECK(four.nodes[0].child[0].count == 0);
+        CHECK(four.nodes[0].child[0].first == 1);
+        CHECK(four.nodes[0].child[1].first == 2);
+        CHECK(four.nodes[0].child[2].first == 4);
+        CHECK(four.nodes[0].child[3].first == 3);
+        CHECK(four.nodes[1].size == 2);
+        CHECK(four.nodes[1].child[0].first == 0);
+        CHECK(four.nodes[1].child[1].first == 1);
     }
-}
 
-TEST_SUITE("ch06 slow") {
-    TEST_CASE("agreement: the picture does not depend on the unit of length, from other seeds") {
-        Film film = film_of(cornell_in_units(1), ch06::trace, 2048).film;
-        Film small = film_of(cornell_in_units(0.001), ch06::trace, 2048, 2).film;
-        Film large = film_of(cornell_in_units(1000), ch06::trace, 2048, 3).film;
-        check_agreement(hold_against(small, film), 0.007);
-        check_agreement(hold_against(large, film), 0.007);
+    TEST_CASE("truth: the SAH cost of a root parted into two cubes is 1 + 12/10") {
+        ch06::Hierarchy h;
+        ch06::Box root, left, right;
+        left.add(Vec3{0, 0, 0}), left.add(Vec3{1, 1, 1});
+        right.add(Vec3{1, 0, 0}), right.add(Vec3{2, 1, 1});
+        root.add(left), root.add(right);
+        h.nodes = {{root, 2, 0}, {left, 0, 1}, {right, 1, 1}};
+        CHECK(sah_cost(h) == doctest::Approx(1 + 1.2).scale(0));
+    }
+
+    TEST_CASE("truth: a box in its sphere is met by 2 / pi of the lines") {
+        ch06::Box cube;
+        cube.add(Vec3{-1, -1, -1}), cube.add(Vec3{1, 1, 1});
+        Sampler sampler(SamplerType::independent, 7, 1);
+        constexpr uint32_t n = 1000000;
+        RunningStats met;
+        for (uint32_t i = 0; i < n; i++) {
+            // An isotropic line through the sphere: a direction, and a point of the disk across it.
+            sampler.start(i, 0);
+            Vec2 u = sampler.u2(), v = sampler.u2();
+            float z = 2 * u.x - 1, r = std::sqrt(1 - z * z), phi = 2 * pi * u.y;
+            Vec3 d = {r * std::cos(phi), r * std::sin(phi), z};
+            Frame frame(d);
+            float radius = std::sqrt(3 * v.x), angle = 2 * pi * v.y;
+            Vec3 across = radius * std::cos(angle) * frame.s + radius * std::sin(angle) * frame.t;
+            Ray ray{across - 4 * d, d};
+            met.add(enter(cube, ray, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity ? 1 : 0);
+        }
+        double p = 2 / std::numbers::pi;
+        check_mean(met, p, p * (1 - p), 0.005);
+    }
+
+    TEST_CASE("truth: the box test takes rays in the plane of a side") {
+        ch06::Box box;
+        box.add(Vec3{0, 0, 0}), box.add(Vec3{1, 1, 1});
+        // A ray that starts at (a, b, c) and goes along +z, with the axes turned by `turns`.
+        auto hit = [&](float a, float b, float c, float zero, int turns) {
+            Vec3 o, d;
+            o[turns] = a, o[(turns + 1) % 3] = b, o[(turns + 2) % 3] = c;
+            d[turns] = d[(turns + 1) % 3] = zero, d[(turns + 2) % 3] = 1;
+            return enter(box, {o, d}, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity;
+        };
+        for (int turns = 0; turns < 3; turns++) {
+            for (float zero : {0.0f, -0.0f}) {
+                CHECK(hit(0, 0.5f, -1, zero, turns));
+                CHECK(hit(1, 0.5f, -1, zero, turns));
+                CHECK(hit(0.5f, 0, -1, zero, turns));
+                CHECK(hit(0.5f, 1, -1, zero, turns));
+                CHECK(hit(0, 0, -1, zero, turns));
+                CHECK(hit(1, 1, -1, zero, turns));
+                CHECK(hit(1, 0, -1, zero, turns));
+                CHECK(hit(0.5f, 0.5f, 0.5f, zero, turns));
+                CHECK_FALSE(hit(1.0001f, 0.5f, -1, zero, turns));
+                CHECK_FALSE(hit(-0.0001f, 0.5f, -1, zero, turns));
+                CHECK_FALSE(hit(0.5f, 1.0001f, -1, zero, turns));
+                CHECK_FALSE(hit(0.5f, 0.5f, 1.0001f, zero, turns));
+            }
+        }
+    }
+
+    TEST_CASE("failure: a thousand equal triangles still end in a tree") {
+        Scene scene;
+        Geometry& g = scene.geometry;
+        g.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        g.triangles.assign(1000, {{0, 1, 2}, 0});
+        for (const ch06::Finder& finder : all_finders(scene)) {
+            ch06::Work work;
+            PrimHit hit = find(finder, g, {{0.2f, 0.2f, 1}, {0, 0, -1}}, work);
+            CHECK(hit.prim == 0);  // the lowest number among equals
+            CHECK(hit.t == 1);
+        }
+        CHECK(ch06::build(g, ch06::split_sah).nodes.size() < 1000);
+    }
+
+    TEST_CASE("failure: NaN triangles are never hit, and hide nothing") {
+        Scene scene = clutter(100), broken = clutter(100);
+        broken.geometry.positions[30] = {std::nanf(""), 0, 0};
+        scene.geometry.positions[30] = scene.geometry.positions[31];  // flat: never hit either
+        scene.geometry.positions[32] = scene.geometry.positions[31];
+        std::vector<ch06::Finder> finders = all_finders(broken);
+        for (uint32_t i = 0; i < 2000; i++) {
+            PrimHit truth = linear_scan(scene.geometry, ray_number(i));
+            for (const ch06::Finder& finder : finders) {
+                ch06::Work work;
+                CHECK(find(finder, broken.geometry, ray_number(i), work).prim == truth.prim);
+            }
+        }
+    }
+
+    TEST_CASE("failure: an empty scene is missed") {
+        Scene scene;
+        for (const ch06::Finder& finder : all_finders(scene)) {
+            ch06::Work work;
+            CHECK(find(finder, scene.geometry, ray_number(1), work).prim == PrimHit::none);
+        }
     }
 }

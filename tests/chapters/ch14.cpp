@@ -1,249 +1,323 @@
-// Chapter 14: three ways at once, the same candidates as chapter 11's, and what its heuristics may
-// do.
+// Chapter 14: the weights of multiple importance sampling, and all strategies.
 #include <doctest/doctest.h>
 
-#include <array>
-
-#include "chapters/11_ris/estimator.h"
-#include "chapters/13_mis/estimator.h"
-#include "chapters/14_mis_ris/estimator.h"
+#include "chapters/13_glossy/estimator.h"
+#include "chapters/14_mis/estimator.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
 
+using ch14::balance_heuristic, ch14::power_heuristic;
+
 namespace {
 
-/// Of one direction, by each way.
-struct Densities {
-    float any, best, bsdf;
+using Heuristic = float (*)(float a, float b);
+
+/// Either way alone, which is chapter 13; both; or one of them by a coin.
+enum class Strategy { bsdf, light, mis, one_sample };
+constexpr Strategy all_strategies[] = {Strategy::bsdf, Strategy::light, Strategy::mis,
+                                       Strategy::one_sample};
+struct Choice {
+    Strategy strategy = Strategy::mis;
+    Heuristic heuristic = power_heuristic;
 };
+Trace by(Choice choice, const Scene& scene) {
+    LightTable lights = ch14::prepare(scene);
+    if (choice.strategy == Strategy::bsdf)
+        return trace_with<ch13::trace>(lights, ch13::Strategy::bsdf);
+    if (choice.strategy == Strategy::light)
+        return trace_with<ch13::trace>(lights, ch13::Strategy::light);
+    bool one_sample = choice.strategy == Strategy::one_sample;
+    return trace_with<ch14::trace>(lights, ch14::Settings{choice.heuristic, one_sample});
+}
 
-Trace by_eleven(const Scene& scene, int M = 16) {
-    return trace_with<ch11::trace>(ch11::prepare(scene), M);
-}
-Trace by_thirteen(const Scene& scene) {
-    return trace_with<ch13::trace>(ch13::prepare(scene), ch13::Settings{});
-}
-Trace by_fourteen(const Scene& scene, int M = 64) {
-    return trace_with<ch14::trace>(ch14::prepare(scene, M));
+constexpr Heuristic both_heuristics[] = {balance_heuristic, power_heuristic};
+
+/// The heuristic, in double.
+double weight(Heuristic heuristic, double a, double b) {
+    return static_cast<double>(heuristic(static_cast<float>(a), static_cast<float>(b)));
 }
 
-/// Three lights of very unequal power and distance over a floor of rough metal or of paint.
-Scene three_lights(const std::string& material) {
-    auto light = [](const std::string& L, const std::string& shape) {
-        return "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [" + L + " " + L + " " + L +
-               "]\n" + shape + "AttributeEnd\n";
-    };
-    std::string black = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
-    Scene scene = world_of(
-        "AttributeBegin " + material + " Scale 500 1 500 " + square(0, true) + "AttributeEnd\n" +
-        black + light("1", unit_square(0.5, 1.5)) + light("20", disk(0.5, 3, 1)) +
-        light("300", "Translate -1 2 1 Shape \"sphere\" \"float radius\" 0.1\n"));
-    scene.max_depth = 1;
-    return scene;
+/// x^2 or another integrand on [0,1], one sample of each of two densities: MIS as in the chapter.
+struct Line {
+    double (*f)(double);
+    double (*p1)(double), (*p2)(double);
+    double (*sample1)(double), (*sample2)(double);
+
+    double first(Heuristic heuristic, double u) const {
+        double x = sample1(u);
+        return f(x) / p1(x) * weight(heuristic, p1(x), p2(x));
+    }
+    double second(Heuristic heuristic, double u) const {
+        double x = sample2(u);
+        return f(x) / p2(x) * weight(heuristic, p2(x), p1(x));
+    }
+    RunningStats both(Heuristic heuristic, int samples) const {
+        RunningStats stats;
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < samples; i++) {
+            double u1 = static_cast<double>(random.u1()), u2 = static_cast<double>(random.u1());
+            stats.add(first(heuristic, u1) + second(heuristic, u2));
+        }
+        return stats;
+    }
+    RunningStats one(Heuristic heuristic, int samples) const {
+        RunningStats stats;
+        Sampler random = random_numbers(1);
+        for (int i = 0; i < samples; i++) {
+            double u = static_cast<double>(random.u1());
+            bool is_first = random.u1() < 0.5f;
+            stats.add(2 * (is_first ? first(heuristic, u) : second(heuristic, u)));
+        }
+        return stats;
+    }
+};
+const Line square_line = {[](double x) { return x * x; }, [](double) { return 1.0; },
+                          [](double x) { return 2 * x; }, [](double u) { return u; },
+                          [](double u) { return std::sqrt(u); }};
+/// x^-1/2 + (1-x)^-1/2 = 2 (p1 + p2).
+const Line two_poles = {[](double x) { return 1 / std::sqrt(x) + 1 / std::sqrt(1 - x); },
+                        [](double x) { return 0.5 / std::sqrt(x); },
+                        [](double x) { return 0.5 / std::sqrt(1 - x); },
+                        [](double u) { return std::pow(u * (1 - 1e-6) + 5e-7, 2); },
+                        [](double u) { return 1 - std::pow(u * (1 - 1e-6) + 5e-7, 2); }};
+/// The second density sees the left half only.
+const Line half_line = {[](double x) { return x * x; }, [](double) { return 1.0; },
+                        [](double x) { return x < 0.5 ? 2.0 : 0.0; }, [](double u) { return u; },
+                        [](double u) { return u / 2; }};
+
+/// One point of the disk overhead by area, one direction by the cosine: irradiance by MIS.
+RunningStats disk_by_both(Heuristic heuristic, double h, int samples) {
+    RunningStats stats;
+    Sampler random = random_numbers(1);
+    for (int i = 0; i < samples; i++) {
+        double r2 = static_cast<double>(random.u1()), d2 = h * h + r2;
+        double pdf_l = d2 * std::sqrt(d2) / (pi_exact * h), cos = h / std::sqrt(d2);
+        double X = cos / pdf_l * weight(heuristic, pdf_l, cos / pi_exact);
+        Vec3 w = sample_cosine_hemisphere(random.u2());
+        cos = static_cast<double>(w.z);
+        if (h * std::sqrt(1 - cos * cos) < cos) {  // meets the disk, at d = h / cos
+            pdf_l = h * h / (cos * cos * cos * pi_exact);
+            X += pi_exact * weight(heuristic, cos / pi_exact, pdf_l);
+        }
+        stats.add(X);
+    }
+    return stats;
 }
-const std::string paint = "Material \"diffuse\" \"rgb reflectance\" [1 1 1]";
-const std::string metal =
-    "Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] \"float roughness\" 0.3"
-    " \"bool remaproughness\" false";
+
+/// relMSE of one sample for each pixel, over a part of the film.
+double rel_mse_of(const Film& film, int x0, int y0, int x1, int y1) {
+    double sum = 0, mean = 0, n = film.spp();
+    for (int y = y0; y < y1; y++)
+        for (int x = x0; x < x1; x++) {
+            const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
+            sum += p.m2() / (n - 1), mean += p.mean();
+        }
+    double pixels = static_cast<double>((x1 - x0) * (y1 - y0));
+    return sum / pixels / (std::pow(mean / pixels, 2) + 0.01);
+}
 
 }  // namespace
 
 TEST_SUITE("ch14 weights") {
-    TEST_CASE("identity: the three weights sum to 1") {
-        const float inf = infinity;
-        std::vector<Densities> table = {{1, 2, 3},           {0, 0, 5},
-                                        {3e19f, 1, 3e19f},   {1e-23f, 1e-24f, 0},
-                                        {3e38f, 1e-38f, 1},  {inf, 1, 2},
-                                        {0, 7, inf},         {1e-38f, 1e-38f, 1e-38f},
-                                        {1e-45f, 0, 1e-40f}, {3e38f, 3e38f, 3e38f}};
+    TEST_CASE("identity: MIS weights sum to 1") {
+        std::vector<std::pair<float, float>> table = {
+            {1, 2},          {0, 5},           {3e19f, 1},        {3e19f, 3e19f}, {1e-23f, 1e-24f},
+            {3e38f, 1e-38f}, {3e38f, 3e38f},   {1e-38f, 1e-38f},  {infinity, 1},  {infinity, 0},
+            {0, 1e-45f},     {1e-45f, 1e-40f}, {1e-23f, infinity}};
         Sampler random = random_numbers(1);
         for (int i = 0; i < 10000; i++) {
-            auto density = [&] { return std::pow(10.0f, 20 * random.u1() - 10); };
-            float a = density(), b = density();
-            table.push_back({a, b, density()});
+            float a = std::pow(10.0f, 20 * random.u1() - 10);
+            table.push_back({a, std::pow(10.0f, 20 * random.u1() - 10)});
         }
-        for (const Densities& d : table) {
-            CAPTURE(d.any);
-            CAPTURE(d.best);
-            CAPTURE(d.bsdf);
-            double sum = 0;
-            for (auto [a, b, c] : {std::array{d.any, d.best, d.bsdf},
-                                   {d.best, d.any, d.bsdf},
-                                   {d.bsdf, d.any, d.best}}) {
-                if (a == 0) continue;  // draws nothing
-                float weight = ch14::mis_weight(a, b, c);
-                CHECK(weight >= 0);
-                CHECK(weight <= 1);
-                sum += static_cast<double>(weight);
+        for (Heuristic heuristic : both_heuristics)
+            for (auto [a_here, b_here] : table) {
+                float a = a_here, b = b_here;
+                CAPTURE(a);
+                CAPTURE(b);
+                // What has density 0 draws nothing.
+                float of_a = a > 0 ? heuristic(a, b) : 0, of_b = b > 0 ? heuristic(b, a) : 0;
+                CHECK(of_a >= 0);
+                CHECK(of_b >= 0);
+                CHECK(of_a + of_b == doctest::Approx(1).epsilon(1e-6).scale(0));
             }
-            CHECK(sum == doctest::Approx(1).epsilon(1e-6).scale(0));
-        }
     }
 
-    TEST_CASE("identity: where one way draws nothing, the two others share as in chapter 13") {
+    TEST_CASE("truth: the weights are a / (a + b) and a^2 / (a^2 + b^2)") {
         Sampler random = random_numbers(1);
         for (int i = 0; i < 1000; i++) {
-            float a = random.u1() + 0.01f, b = 3 * random.u1() + 0.01f;
-            float expected = ch13::power_heuristic(a, b);
-            CHECK(ch14::mis_weight(a, 0, b) == expected);
-            CHECK(ch14::mis_weight(a, b, 0) == expected);
+            float a = random.u1() + 0.01f, b = 3 * random.u1();
+            double x{a}, y{b};
+            CHECK(balance_heuristic(a, b) == doctest::Approx(x / (x + y)).epsilon(1e-6).scale(0));
+            CHECK(power_heuristic(a, b) ==
+                  doctest::Approx(x * x / (x * x + y * y)).epsilon(1e-6).scale(0));
         }
     }
 
-    TEST_CASE("identity: any positive numbers for the densities keep the mean") {
-        // pdf_best() asks the table's pmf, and nothing else does: what is drawn, and what W says
-        // of it, stays as it is. Plant numbers that have nothing to do with either.
-        for (const std::string& material : {paint, metal}) {
-            Scene scene = three_lights(material);
-            ManyLights honest = ch14::prepare(scene, 2);
-            RunningStats truth =
-                repeat(scene, onto_origin, trace_with<ch14::trace>(honest), 200000, 1);
-            Sampler random = random_numbers(1);
-            for (int i = 0; i < 8; i++) {
-                CAPTURE(i);
-                ManyLights silly = honest;
-                for (AliasColumn& column : silly.table)
-                    column.pmf = std::pow(10.0f, 4 * random.u1() - 3);
-                RunningStats s = repeat(scene, onto_origin, trace_with<ch14::trace>(silly), 100000,
-                                        static_cast<uint32_t>(2 + i));
-                CHECK(z_between({truth.mean(), truth.standard_error()},
-                                {s.mean(), s.standard_error()}) < 5);
-                CHECK(s.standard_error() < 0.02 * s.mean());
-            }
+    TEST_CASE("failure: p^2 / (p^2 + q^2) is NaN for large and for small densities") {
+        auto naive = [](float a, float b) { return a * a / (a * a + b * b); };
+        CHECK(std::isnan(naive(3e19f, 1)));
+        CHECK(std::isnan(naive(1e-23f, 1e-24f)));
+        CHECK(power_heuristic(3e19f, 1) == 1);
+        CHECK(power_heuristic(1e-23f, 1e-24f) == doctest::Approx(1 / 1.01).epsilon(1e-6).scale(0));
+    }
+
+    TEST_CASE("truth: MIS in one dimension") {
+        struct Row {
+            const Line& line;
+            Heuristic heuristic;
+            double mean, variance;
+        };
+        for (auto [line, heuristic, mean, variance] :
+             {Row{square_line, balance_heuristic, 1.0 / 3, 0.01872105860672},
+              {square_line, power_heuristic, 1.0 / 3, 0.01817598677553},
+              {two_poles, power_heuristic, 4, 8.0 / 15},
+              {half_line, balance_heuristic, 1.0 / 3, 0.1016975308642}}) {
+            RunningStats s = line.both(heuristic, 400000);
+            check_mean(s, mean, variance, 0.01 * mean + 0.01);
+            check_variance(s, variance, 4);
         }
     }
 
-    TEST_CASE("teeth: a wrong pmf where candidates are weighed does move the mean") {
-        Scene scene = three_lights(paint);
-        ManyLights honest = ch14::prepare(scene, 2), wrong = honest;
-        wrong.bounds[2].inv_pmf *= 1.1f;
-        RunningStats truth = repeat(scene, onto_origin, trace_with<ch14::trace>(honest), 200000, 1);
-        RunningStats s = repeat(scene, onto_origin, trace_with<ch14::trace>(wrong), 200000, 2);
-        CHECK(z_between({truth.mean(), truth.standard_error()}, {s.mean(), s.standard_error()}) >
-              5);
-    }
-}
-
-TEST_SUITE("ch14 candidates") {
-    TEST_CASE("identity: candidates all at once are those of chapter 11") {
-        const std::string all_kinds =
-            square(0, false) + "LightSource \"point\" \"point3 from\" [1 2 0]" +
-            "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
-            "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
-            "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
-            "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
-            square(0, false);
-        for (Scene scene :
-             {world_of(all_kinds), scene_from("scenes/thousand-lights.pbrt", 16, 1)}) {
-            LightTable table = ch11::prepare(scene);
-            Sampler random = random_numbers(1);
-            int gave = 0;
-            for (int k = 0; k < 2000; k++) {
-                Hit x{};
-                x.p = scene.radius * random.u1() * uniform_direction(random.u2());
-                x.n = x.ng = uniform_direction(random.u2());
-                ManyLights lights = many_lights(scene, table, 1 + k % 70);
-                int M = lights.M;
-                double u = join(random.u2());
-                Candidates c = draw_candidates(lights, x, u);
-                REQUIRE(c.M == M);
-                for (int i = 0; i < M; i++) {
-                    size_t light = static_cast<size_t>(c.light[i]);
-                    REQUIRE(light == pick_light(table, (i + u) * (1.0 / M)));
-                    float p_hat = ch11::potential(scene, light, x);
-                    REQUIRE(std::abs(c.p_hat[i] - p_hat) <= 1e-5f * p_hat);
-                    float weight = p_hat / pmf_light(table, light);
-                    REQUIRE(std::abs(c.weight[i] - weight) <= 1e-5f * weight);
-                    if (p_hat > 0) gave++;
-                }
-            }
-            CHECK(gave > 5000);
-        }
+    TEST_CASE("truth: one sample by a coin is the mixture of both densities: variance 0.04089") {
+        RunningStats s = square_line.one(balance_heuristic, 400000);
+        check_mean(s, 1.0 / 3, 0.04088549026398, 0.01);
+        check_variance(s, 0.04088549026398, 3);
+        CHECK(s.variance() > 2 * 0.01872105860672);  // one of each is better than half of two
     }
 
-    TEST_CASE("identity: each candidate is kept for its share of u") {
-        Sampler random = random_numbers(1);
-        for (int M : {1, 2, 7, 16, 100, Candidates::most}) {
-            CAPTURE(M);
-            Candidates c{};
-            c.M = M;
-            double sum = 0;
-            for (int i = 0; i < M; i++) {
-                c.light[i] = 3 * i;
-                c.p_hat[i] = i % 3 == 1 ? 0 : random.u1() + 0.1f;
-                c.weight[i] = c.p_hat[i] * (1 + 9 * random.u1());
-                sum += static_cast<double>(c.weight[i]);
-            }
-            constexpr int steps = 1 << 16;
-            std::vector<int> count(static_cast<size_t>(M));
-            for (int k = 0; k < steps; k++) {
-                Kept kept = keep_one(c, (static_cast<float>(k) + 0.5f) / steps);
-                int i = static_cast<int>(kept.light) / 3;
-                REQUIRE(kept.W ==
-                        doctest::Approx(sum / M / double{c.p_hat[i]}).epsilon(1e-5).scale(0));
-                count[static_cast<size_t>(i)]++;
-            }
-            for (int i = 0; i < M; i++) {
-                double share = static_cast<double>(c.weight[i]) / sum * steps;
-                CHECK(std::abs(count[static_cast<size_t>(i)] - share) < (share > 0 ? 2 : 0.5));
+    TEST_CASE("identity: where f is the sum of both densities, every pair of samples is exact") {
+        // Each density alone has infinite variance.
+        RunningStats both = two_poles.both(balance_heuristic, 10000);
+        RunningStats one = two_poles.one(balance_heuristic, 10000);
+        CHECK(both.mean() == doctest::Approx(4).epsilon(1e-5).scale(0));
+        CHECK(std::sqrt(both.variance()) < 1e-5);
+        CHECK(std::sqrt(one.variance()) < 1e-5);
+    }
+
+    TEST_CASE("variance: a disk overhead by area and by the cosine") {
+        struct Row {
+            double h, balance, power;
+        };
+        for (auto [h_here, balance, power] : {Row{1, 0.1718126459636, 0.1287833300175},
+                                              {0.5, 0.1781064946388, 0.2237023499149},
+                                              {0.1, 0.1088012149308, 0.09025985025283}}) {
+            const auto& h = h_here;
+            CAPTURE(h);
+            double E = pi_exact / (1 + h * h);
+            for (Heuristic heuristic : both_heuristics) {
+                double relative = heuristic == balance_heuristic ? balance : power;
+                RunningStats s = disk_by_both(heuristic, h, 400000);
+                check_mean(s, E, relative * E * E, 0.01 * E);
+                check_variance(s, relative * E * E, 20);
             }
         }
     }
 
-    TEST_CASE("failure: no candidate gives light, or too little for float: none is kept") {
-        Candidates c{};
-        c.M = 16;
-        CHECK(keep_one(c, 0.5f).W == 0);
-        c.weight[7] = c.p_hat[7] = 1e-42f;
-        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) CHECK(keep_one(c, u).W == 0);
-        c.weight[7] = c.p_hat[7] = 1e-37f;
-        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f})
-            CHECK(keep_one(c, u).W == doctest::Approx(1 / 16.0).epsilon(1e-5).scale(0));
-    }
-
-    TEST_CASE("failure: weights beyond float: one of the candidates, and a sample that is seen") {
-        Candidates c{};
-        c.M = Candidates::most;
-        for (int i = 0; i < c.M; i++) c.light[i] = i, c.p_hat[i] = c.weight[i] = 1e38f;
-        for (float u : {0.0f, 0.5f, 0x1.fffffep-1f}) {
-            Kept kept = keep_one(c, u);
-            CHECK(kept.light < Candidates::most);
-            CHECK(!std::isfinite(kept.W));
+    TEST_CASE("failure: a density per area beside one per solid angle: 0.881, 1.105, 1.318") {
+        // The light's samples weigh with the right density, the BSDF's with 1 / area.
+        for (auto [h_here, wrong] :
+             {std::pair{0.5, 0.8809532795696}, {1.0, 1.105316968821}, {2.0, 1.317990844865}}) {
+            const auto& h = h_here;
+            CAPTURE(h);
+            // Irradiance of the disk, over z = cos: 2 pi z dz from h / sqrt(1 + h^2) to 1.
+            double low = h / std::sqrt(1 + h * h), right = 0, mixed = 0, both_wrong = 0;
+            for (int i = 0; i < 10000; i++) {
+                double z = low + (1 - low) * (i + 0.5) / 10000;
+                double light = h * h / (z * z * z * pi_exact), raw = 1 / pi_exact;
+                double bsdf = z / pi_exact;
+                auto of_light = [&](double l) { return weight(balance_heuristic, l, bsdf); };
+                auto of_bsdf = [&](double l) { return weight(balance_heuristic, bsdf, l); };
+                right += z * (of_light(light) + of_bsdf(light));
+                mixed += z * (of_light(light) + of_bsdf(raw));
+                both_wrong += z * (of_light(raw) + of_bsdf(raw));
+            }
+            CHECK(mixed / right == doctest::Approx(wrong).epsilon(1e-4).scale(0));
+            CHECK(both_wrong / right == doctest::Approx(1).epsilon(1e-6).scale(0));
         }
     }
 }
 
-TEST_SUITE("ch14 mis ris") {
-    TEST_CASE("truth: irradiance of all lights") {
+TEST_SUITE("ch14 mis") {
+    TEST_CASE("truth: irradiance of all lights, by every strategy") {
         for (const auto& [light_here, E] : lights_of_known_irradiance) {
             const auto& light = light_here;
             CAPTURE(light);
             Scene scene = floor_under(light);
-            for (int M : {1, 2, 64})
-                check_bounded(irradiance(scene, by_fourteen(scene, M), 20000), E, 0.025);
+            for (Strategy strategy : all_strategies)
+                for (Heuristic heuristic : both_heuristics) {
+                    CAPTURE(static_cast<int>(strategy));
+                    bool rare = strategy == Strategy::bsdf || strategy == Strategy::one_sample;
+                    Trace trace = by({strategy, heuristic}, scene);
+                    check_bounded(irradiance(scene, trace, rare ? 60000 : 20000), E, 0.025);
+                }
         }
     }
 
-    TEST_CASE("truth: point and distant lights, which only aiming finds") {
+    TEST_CASE("truth: point and distant lights, which only aiming finds: none is lost") {
         for (const auto& [light, E] : lights_without_size) {
             Scene scene = floor_under(light);
-            RunningStats s = irradiance(scene, by_fourteen(scene), 100);
-            CHECK(s.mean() == doctest::Approx(E).epsilon(1e-5).scale(0));
-            CHECK(s.variance() < 1e-10);
+            for (Strategy strategy : {Strategy::light, Strategy::mis}) {
+                RunningStats s = irradiance(scene, by({strategy}, scene), 100);
+                CHECK(s.mean() == doctest::Approx(E).epsilon(1e-5).scale(0));
+                CHECK(s.variance() < 1e-10);
+            }
+            // One sample: twice, or nothing.
+            RunningStats s = irradiance(scene, by({Strategy::one_sample}, scene), 40000);
+            check_mean(s, E, E * E, 0.05);
         }
     }
 
-    TEST_CASE("truth: a light in a mirror and straight on, without noise") {
+    TEST_CASE("truth: a light in a mirror and straight on, by every strategy, without noise") {
         Scene mirror = light_before_mirror();
-        check_light_before_mirror(mirror, by_fourteen(mirror));
+        for (Strategy strategy : all_strategies)
+            check_light_before_mirror(mirror, by({strategy}, mirror));
     }
 
     TEST_CASE("failure: without lights the picture is black") {
         Scene none = floor_without_lights();
-        CHECK(irradiance(none, by_fourteen(none), 100).mean() == 0);
+        CHECK(irradiance(none, by({}, none), 100).mean() == 0);
     }
 
-    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 11") {
+    TEST_CASE(
+        "consistency: emission is weighed by the density with which it would have been aimed at") {
+        Scene scene = floor_under("AttributeBegin " + shining + unit_square(0.5) +
+                                  "AttributeEnd AttributeBegin " + shining +
+                                  "Translate 1 2 0 Shape \"sphere\" AttributeEnd " +
+                                  "LightSource \"infinite\"\n");
+        LightTable lights = ch14::prepare(scene);
+        Hit x = origin_of(scene);
+        Sampler random = random_numbers(1);
+        int met[3] = {};
+        for (int i = 0; i < 20000; i++) {
+            float u1 = random.u1();
+            LightSample y = sample_light(scene, lights, x, u1, random.u2());
+            if (y.pdf_w == 0 || y.wi.y < 1e-3f) continue;
+            std::optional<Hit> hit = intersect(scene, spawn_ray(x, y.wi));
+            size_t light = pick_light(lights, u1);
+            int met_light = hit ? hit->light : scene.sky_light;
+            if (met_light != static_cast<int>(light)) continue;  // behind another
+            met[light]++;
+            // Of two ways with the same density each gets half.
+            float mis_b = ch14::mis_emission(scene, lights, {}, x, y.wi, y.pdf_w, hit);
+            CHECK(mis_b == doctest::Approx(0.5).epsilon(1e-3).scale(0));
+        }
+        for (int n : met) CHECK(n > 100);
+    }
+
+    TEST_CASE("agreement: all strategies and heuristics on rough, smooth and matt surfaces") {
+        for (std::string name : {"veach-mis", "cornell-spheres"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
+            Film mis = film_of(scene, by({}, scene), 96).film;
+            for (Strategy strategy : all_strategies) {
+                CAPTURE(static_cast<int>(strategy));
+                Trace trace = by({strategy, balance_heuristic}, scene);
+                check_agreement(hold_against(film_of(scene, trace, 128, 2).film, mis, 16), 0.2);
+            }
+        }
+    }
+
+    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 13") {
         for (const auto& [name_here, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
@@ -253,74 +327,90 @@ TEST_SUITE("ch14 mis ris") {
                                                       {"thousand-lights", 4},
                                                       {"near-light", 2},
                                                       {"light-in-glass", 4},
-                                                      {"horizon-sky", 2}}) {
+                                                      {"horizon-sky", 2},
+                                                      {"veach-mis", 6}}) {
             const auto& name = name_here;
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            CHECK(check_classes(scene, by_eleven(scene), scene, by_fourteen(scene), 20000) >=
-                  least);
+            Trace aimed = trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
+            CHECK(check_classes(scene, aimed, scene, by({}, scene), 20000) >= least);
         }
     }
 
-    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 13 on plates") {
+    TEST_CASE("agreement: classes of path by each strategy on Veach's plates") {
         Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
-        for (int M : {1, 4})
-            CHECK(check_classes(scene, by_thirteen(scene), scene, by_fourteen(scene, M), 60000) >=
-                  6);
-        Film a = film_of(scene, by_thirteen(scene), 128).film;
-        Film b = film_of(scene, by_fourteen(scene), 128, 2).film;
-        check_agreement(hold_against(a, b, 16), 0.1);
+        PathCensus mis = census_of(scene, by({}, scene), 60000, 1);
+        for (Strategy strategy : {Strategy::bsdf, Strategy::light, Strategy::one_sample}) {
+            PathCensus census = census_of(scene, by({strategy}, scene), 100000, 2);
+            CHECK(census.worst_sum < 1e-5);
+            for (auto& [name_here, part] : mis.by_class) {
+                const auto& name = name_here;
+                if (part.not_zero < 200 || census.by_class[name].not_zero < 200) continue;
+                CAPTURE(name);
+                CHECK(z_between(part.measured(mis.paths),
+                                census.by_class[name].measured(census.paths)) < 5);
+            }
+        }
     }
+}
 
-    TEST_CASE("agreement: each plate with all lamps, with chapter 13, and hardly more variance") {
-        Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 1);
+TEST_SUITE("ch14 plates") {
+    TEST_CASE("variance: each plate and lamp: the better way's, and at most half a squared mean") {
+        // Balance heuristic, one sample of each: Var <= Var of either + mean^2 / 2. Veach 1997, 9.2
         for (size_t plate = 0; plate < 4; plate++)
             for (size_t lamp = 0; lamp < 4; lamp++) {
                 CAPTURE(plate);
                 CAPTURE(lamp);
-                Ray ray = PlateAndLamp(plate, lamp).ray;
-                RunningStats a = repeat(scene, ray, by_thirteen(scene), 100000, 1);
-                RunningStats b = repeat(scene, ray, by_fourteen(scene), 50000, 2);
-                CHECK(z_between({a.mean(), a.standard_error()}, {b.mean(), b.standard_error()}) <
-                      5);
-                CHECK(b.standard_error() < 0.005 * b.mean());
-                CHECK(relative_variance(b) < relative_variance(a) + 0.15);
+                PlateAndLamp view(plate, lamp);
+                auto variance = [&](Choice choice) {
+                    return relative_variance(view.sample(by(choice, view.scene), 40000));
+                };
+                double better = std::min(variance({Strategy::bsdf}), variance({Strategy::light}));
+                CHECK(variance({Strategy::mis, balance_heuristic}) < better + 0.5);
+                CHECK(variance({Strategy::mis, power_heuristic}) < better + 0.5);
+                CHECK(variance({Strategy::mis, power_heuristic}) < 0.3);
             }
     }
 
-    TEST_CASE("agreement: behind a wall, classes of paths with chapter 13") {
-        Scene scene = scene_from("scenes/hidden-light.pbrt", 32, 8);
-        CHECK(check_classes(scene, by_thirteen(scene), scene, by_fourteen(scene), 100000) >= 4);
-    }
-
-    TEST_CASE("variance: a thousand lights: a third of the relMSE of chapter 11") {
-        Scene scene = scene_from("scenes/thousand-lights.pbrt", 64, 8);
-        double eleven = rel_mse(film_of(scene, by_eleven(scene), 16).film);
-        double fourteen = rel_mse(film_of(scene, by_fourteen(scene), 16).film);
-        CHECK(fourteen < eleven / 3);
-    }
-
-    TEST_CASE("failure: near a light no sample is much brighter than the light") {
-        // Where potentials misjudge near lights, a few samples weigh ten times too much.
-        for (std::string name :
-             {"scenes/near-light", "tests/pictures/references/tiny-close-light"}) {
-            CAPTURE(name);
-            Scene scene = scene_from(name + ".pbrt", 64, 8);
-            float brightest = 0;
-            for (const Light& light : scene.lights)
-                brightest = std::max(brightest, max_component(light.L));
-            for (const Trace& trace : {by_eleven(scene), by_fourteen(scene)}) {
-                Rendering r = film_of(scene, trace, 64);
-                CHECK(r.stats.largest < 1.5 * double{brightest});
-            }
+    TEST_CASE("failure: one sample in place of two: where one way is all, half of them are lost") {
+        // A coin gives twice the truth or nothing: variance 1 of the squared mean.
+        for (auto [plate, lamp] : {std::pair<size_t, size_t>{0, 0}, {3, 3}}) {
+            PlateAndLamp view(plate, lamp);
+            Trace trace = by({Strategy::one_sample}, view.scene);
+            double variance = relative_variance(view.sample(trace, 40000));
+            CHECK(variance > 0.8);
+            CHECK(variance < 1.2);
         }
     }
 
-    TEST_CASE(
-        "variance: a bright light behind a wall: the even way finds what potential misjudges") {
-        Scene scene = scene_from("scenes/hidden-light.pbrt", 32, 8);
-        double eleven = rel_mse(film_of(scene, by_eleven(scene), 64).film);
-        double fourteen = rel_mse(film_of(scene, by_fourteen(scene), 64).film);
-        CHECK(fourteen < eleven / 10);
+    TEST_CASE("agreement: MIS with the way that is sure, on each plate with each lamp") {
+        for (size_t plate = 0; plate < 4; plate++)
+            for (size_t lamp = 0; lamp < 4; lamp++) {
+                CAPTURE(plate);
+                CAPTURE(lamp);
+                PlateAndLamp view(plate, lamp);
+                Strategy sure = plate + lamp < 3 ? Strategy::bsdf : Strategy::light;
+                RunningStats a = view.sample(by({sure}, view.scene), 100000, 1);
+                RunningStats b = view.sample(by({}, view.scene), 100000, 2);
+                Measured alone{a.mean(), a.standard_error()}, mis{b.mean(), b.standard_error()};
+                CHECK(z_between(alone, mis) < 5);
+                CHECK(std::hypot(alone.se, mis.se) < 0.005 * mis.mean);
+            }
+    }
+
+    TEST_CASE("variance: on every plate, MIS has less noise than either strategy alone") {
+        Scene scene = scene_from("scenes/veach-mis.pbrt", 128, 8);
+        auto film = [&](Strategy strategy) {
+            return film_of(scene, by({strategy}, scene), 32).film;
+        };
+        Film mis = film(Strategy::mis), bsdf = film(Strategy::bsdf), light = film(Strategy::light);
+        for (auto [y0_here, y1] : {std::pair{57, 66}, {72, 81}, {85, 95}, {99, 110}}) {
+            const auto& y0 = y0_here;
+            CAPTURE(y0);
+            double m = rel_mse_of(mis, 16, y0, 112, y1), b = rel_mse_of(bsdf, 16, y0, 112, y1),
+                   l = rel_mse_of(light, 16, y0, 112, y1);
+            CHECK(m < b);
+            CHECK(m < l);
+        }
     }
 }

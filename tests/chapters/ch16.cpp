@@ -1,366 +1,798 @@
-// Chapter 16: samples where the error is, and why the mean stays right.
+// Chapter 16: the lens, the shutter, the wavelength and the picture of the sky.
 #include <doctest/doctest.h>
 
-#include <cmath>
+#include <array>
 
-#include "chapters/15_distribution/estimator.h"
-#include "chapters/16_adaptive/estimator.h"
-#include "common/base/files.h"
-#include "common/path/camera_sample.h"
-#include "common/program/film_keeping.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/16_distribution/estimator.h"
+#include "common/base/error.h"
 #include "common/program/loading.h"
-#include "tests/support/folder.h"
-#include "tests/support/stand_ins.h"
+#include "common/scene_file/spectra.h"
+#include "tests/support/estimators.h"
 
 namespace {
 
-RenderOptions quiet_options(uint32_t seed = 1) {
-    RenderOptions options;
-    options.name = "16_adaptive";
-    options.seed = seed;
-    options.threads = static_cast<int>(std::thread::hardware_concurrency());
-    options.quiet = true;
-    return options;
-}
-
-Rendering adaptive(Scene scene, const Trace& trace, int spp, uint32_t seed = 1,
-                   ch16::Shares shares = {}, SamplerType sampler = SamplerType::independent) {
-    scene.spp = spp;
-    RenderOptions options = quiet_options(seed);
-    options.sampler = sampler;
-    return render_film(scene, options, trace, ch16::allocation(shares));
-}
-
-Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
 Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
+Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
 
-/// Light in one sample of twenty, of which a path knows nothing before.
-Rgb rare(const Scene&, Ray, Sampler& sampler, PathLog& log) {
-    float L = sampler.u1() < 0.05f ? 1.0f : 0.0f;
-    return log.emitted({L, L, L});
+/// A camera at the origin that looks along +z, with a lens of radius 0.1 that is sharp at 2.
+Camera camera_with_lens() {
+    Camera camera;
+    camera.right = {1, 0, 0}, camera.up = {0, 1, 0}, camera.forward = {0, 0, 1};
+    camera.lens_radius = 0.1f, camera.focal_distance = 2;
+    return camera;
 }
 
-/// The mean squared error of a picture against another, relative to that.
-double relative_error(const Image& a, const Image& b) {
-    double sum = 0;
-    for (size_t i = 0; i < a.pixels.size(); i++) {
-        for (int c = 0; c < 3; c++) {
-            double x = double{(&a.pixels[i].r)[c]}, y = double{(&b.pixels[i].r)[c]};
-            sum += (x - y) * (x - y) / (y * y + 0.01) / 3;
-        }
+/// Where the ray is at this depth.
+Vec3 at_depth(const Ray& ray, float z) { return ray.o + (z - ray.o.z) / ray.d.z * ray.d; }
+
+const std::string black = "Material \"diffuse\" \"rgb reflectance\" [0 0 0] ";
+
+/// A scene under a picture of the sky of these pixels.
+Scene under_sky(SkyImage::Map map, int width, int height, const std::function<Rgb(Vec3)>& L,
+                const std::string& world) {
+    Scene scene = world_of(world + " LightSource \"infinite\" \"rgb L\" [1 1 1]");
+    scene.lights.clear();
+    scene.sky = {}, scene.sky_light = -1;
+    SkyImage sky;
+    sky.map = map, sky.width = width, sky.height = height;
+    sky.x = {1, 0, 0}, sky.y = {0, 0, -1}, sky.z = {0, 1, 0};  // its top is +y
+    for (size_t i = 0; i < static_cast<size_t>(width) * static_cast<size_t>(height); i++) {
+        sky.pixels.push_back(L(direction_of(sky, sky.middle_of(i))));
     }
-    return sum / static_cast<double>(a.pixels.size());
+    scene.sky_image = sky;
+    return scene;
 }
+const std::string white_floor =
+    "Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 500 1 500 " + square(0, true);
 
 }  // namespace
 
-TEST_SUITE("ch16 adaptive") {
-    TEST_CASE("truth: shares are those of the least error") {
-        // The left half of the picture varies four times as much as the right: its standard
-        // deviation is four times as large, and its mean the same.
-        constexpr int width = 64, height = 32;
-        std::vector<PilotPixel> pilot(width * height);
-        Sampler sampler(SamplerType::independent, 1, 1);
-        for (int i = 0; i < width * height; i++) {
-            PilotPixel& pixel = pilot[static_cast<size_t>(i)];
-            sampler.start(static_cast<uint32_t>(i), 0);
-            for (int k = 0; k < 200; k++) {
-                float L = 1 + (i % width < width / 2 ? 0.4f : 0.1f) * (sampler.u1() - 0.5f);
-                pixel.add({L, L, L});
+TEST_SUITE("ch16 distribution") {
+    TEST_CASE("identity: where nothing is new, each picture is chapter 15's, bit for bit") {
+        for (std::string name : {"cornell", "cornell-spheres", "thousand-lights", "veach-mis"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 16, 8);
+            for (SamplerType sampler :
+                 {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
+                Image a = film_of(scene, by_fifteen(scene), 4, 1, sampler).film.image();
+                Image b = film_of(scene, by_sixteen(scene), 4, 1, sampler).film.image();
+                CHECK(a.pixels == b.pixels);
             }
-            pixel.rays = 200;
         }
-        std::vector<double> shares = ch16::shares(pilot, width);
-        // n in proportion to s: (4 or 1) / 2.5
-        CHECK(shares[16 * width + 10] == doctest::Approx(1.6).epsilon(0.02).scale(0));
-        CHECK(shares[16 * width + 50] == doctest::Approx(0.4).epsilon(0.02).scale(0));
-        double sum = 0;
-        for (double share : shares) sum += share;
-        CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
-        // No other share of the same samples has less error.
-        auto error = [](double left) { return 16 / left + 1 / (2 - left); };
-        CHECK(error(1.6) < error(1.59));
-        CHECK(error(1.6) < error(1.61));
+    }
+}
 
-        // Where samples cost nine times as many rays, a third as many: (4/3 or 1) 6/7.
-        for (int i = 0; i < width * height; i++) {
-            if (i % width < width / 2) pilot[static_cast<size_t>(i)].rays = 1800;
-        }
-        shares = ch16::shares(pilot, width);
-        CHECK(shares[16 * width + 10] == doctest::Approx(8.0 / 7).epsilon(0.02).scale(0));
-        CHECK(shares[16 * width + 50] == doctest::Approx(6.0 / 7).epsilon(0.02).scale(0));
-        // The same error in less time: of all shares x and y with 9 x + y rays, the one with the
-        // least of 16 / x + 1 / y.
-        auto error_at = [](double x) { return 16 / x + 1 / (13 - 9 * x); };
-        CHECK(error_at(4.0 / 3) < error_at(1.32));
-        CHECK(error_at(4.0 / 3) < error_at(1.34));
+TEST_SUITE("ch16 pixel") {
+    constexpr int size = 128;
+
+    /// Whether the zone plate is white at this point of the film, in pixels: 401 rings of equal
+    /// area, out to 1.5 times half the picture.
+    bool is_white(double x, double y) {
+        double r = std::hypot(x - size / 2, y - size / 2) / (size / 2);
+        return static_cast<int>(401 * r * r / 2.25) % 2 == 0;
+    }
+    double mean_of_pixel(int x, int y) {
+        int white = 0, n = 64;
+        for (int i = 0; i < n * n; i++)
+            white += is_white(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n);
+        return static_cast<double>(white) / (n * n);
     }
 
-    TEST_CASE("truth: a pixel varies as relMSE measures it, channel by channel") {
-        // r is 0 or 2, g is 0.1, b is 0 or 0.02: variances 1, 0 and 10^-4 about 1, 0.1 and 0.01.
-        PilotPixel pixel;
-        CHECK(ch16::relative_variance(pixel) == 0);
-        pixel.add({2, 0.1f, 0.02f});
-        CHECK(ch16::relative_variance(pixel) == 0);
-        for (int k = 1; k < 6; k++)
-            pixel.add({k % 2 == 0 ? 2.f : 0.f, 0.1f, k % 2 == 0 ? 0.02f : 0.f});
-        double v = (1 / 1.01 + 1e-4 / 0.0101) / 3;
-        CHECK(ch16::relative_variance(pixel) ==
-              doctest::Approx(v * 6 / 5).epsilon(1e-6).scale(0));  // 6 / 5: by their own mean
+    Image zone_plate(SamplerType type, int spp, bool centre = false) {
+        Scene scene = scene_from("scenes/zone-plate.pbrt", size, 0);
+        scene.spp = spp;
+        RenderOptions options;
+        options.sampler = type, options.threads = 2, options.quiet = true;
+        options.pixel_centre = centre;
+        return render_film(scene, options, by_sixteen(scene)).film.image();
     }
 
-    TEST_CASE("truth: a picture of one color is shared out evenly, and a spike within bounds") {
-        std::vector<PilotPixel> even(64), spiky(10000);
-        for (PilotPixel& pixel : even) {
-            for (int k = 0; k < 5; k++) pixel.add({0.3f, 0.2f, 0.1f});
-        }
-        for (double share : ch16::shares(even, 8)) CHECK(share == 1);
-        for (size_t i = 0; i < 10000; i++) {
-            for (int k = 0; k < 4; k++)
-                spiky[i].add(Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
-        }
-        auto shares = std::make_shared<ch16::Shares>();
-        for (auto& half : shares->of_half) half = ch16::shares(spiky, 100);
-        uint32_t most = 0, least = 1000;
-        auto counts = ch16::samples_of(shares, 0, 216);  // 108 on the mean
-        for (size_t i = 0; i < 10000; i++) {
-            uint32_t n = counts(i);
-            most = std::max(most, n);
-            least = std::min(least, n);
-        }
-        CHECK(least == 13);  // 8 of the pilot, and 0.05 of 100
-        CHECK(most == 16 * 108);
-    }
-
-    TEST_CASE("truth: pixels that have enough leave what their shares ask for to the others") {
-        // Shares of 0.1 and 1.9, a pilot of 16. Of 64 the former would get 6.4: they have more.
-        auto shares = std::make_shared<ch16::Shares>();
-        constexpr size_t pixels = 4000;
-        for (auto& half : shares->of_half) {
-            for (size_t i = 0; i < pixels; i++) half.push_back(i % 2 == 0 ? 0.1 : 1.9);
-        }
-        struct Expected {
-            uint32_t spp;
-            double few, many;  // of both halves
+    TEST_CASE("variance: pixels of a zone plate: chance, then strata, then Sobol points") {
+        // Where rings are wider than a pixel.
+        auto error_of = [](const Image& image) {
+            double sum = 0, n = 0;
+            for (int y = 52; y < 76; y++)
+                for (int x = 52; x < 76; x++, n++)
+                    sum += std::pow(double{image.at(x, y).g} - mean_of_pixel(x, y), 2);
+            return sum / n;
         };
-        for (auto [spp, few, many] : {Expected{64, 16 + 0.05 * 48, 128 - (16 + 0.05 * 48)},
-                                      Expected{640, 0.1 * 640, 1.9 * 640}}) {
-            CAPTURE(spp);
-            auto a = ch16::samples_of(shares, 0, spp), b = ch16::samples_of(shares, 1, spp);
-            double sum[2] = {};
-            for (size_t i = 0; i < pixels; i++) sum[i % 2] += a(i) + b(i);
-            double rounding = 5 * std::sqrt(2.0 / 4 / (pixels / 2));
-            CHECK(std::abs(sum[0] / (pixels / 2) - few) < rounding);
-            CHECK(std::abs(sum[1] / (pixels / 2) - many) < rounding);
+        double independent = error_of(zone_plate(SamplerType::independent, 64));
+        double stratified = error_of(zone_plate(SamplerType::stratified, 64));
+        double sobol = error_of(zone_plate(SamplerType::sobol, 64));
+        CAPTURE(stratified);
+        CHECK(independent < 0.25 / 64);
+        CHECK(stratified < 0.5 * independent);
+        CHECK(sobol < 0.5 * independent);
+    }
+
+    TEST_CASE("failure: the middles of pixels alone see rings that are not there") {
+        // Where rings are narrower than a pixel, the mean of 4 x 4 pixels is nearly one half.
+        Image area = zone_plate(SamplerType::sobol, 64);
+        Image centre = zone_plate(SamplerType::sobol, 1, true);
+        auto off = [](const Image& image) {
+            double worst = 0;
+            for (int y = 0; y < size; y += 4)
+                for (int x = 0; x < size; x += 4) {
+                    if (std::hypot(x - 62, y - 62) < 20) continue;
+                    double sum = 0;
+                    for (int i = 0; i < 16; i++) sum += double{image.at(x + i % 4, y + i / 4).g};
+                    worst = std::max(worst, std::abs(sum / 16 - 0.5));
+                }
+            return worst;
+        };
+        CHECK(off(area) < 0.1);
+        CHECK(off(centre) > 0.4);
+        // More samples of the same point change nothing.
+        CHECK(zone_plate(SamplerType::sobol, 4, true).pixels == centre.pixels);
+    }
+}
+
+TEST_SUITE("ch16 lens") {
+    TEST_CASE("truth: circles of confusion") {
+        // In the plane of focus a point at depth z is a disk of radius a |z - F| / z.
+        Camera camera = camera_with_lens();
+        struct {
+            float z, radius;
+        } cases[] = {{4, 0.05f}, {1, 0.1f}, {2, 0}, {100, 0.098f}};
+        Sampler random = random_numbers(1);
+        for (auto [z, radius] : cases) {
+            CAPTURE(z);
+            float widest = 0;
+            for (int i = 0; i < 1000; i++) {
+                // A pinhole ray through the point's disk; its lens ray at the rim of the lens.
+                Vec2 rim = {0x1.fffffep-1f, random.u1()};
+                Ray pinhole = {{0, 0, 0},
+                               normalize(uniform_direction(random.u2()) + Vec3{0, 0, 2})};
+                Ray ray = ch16::through_lens(camera, pinhole, rim);
+                Vec3 sharp = at_depth(pinhole, 2), p = at_depth(ray, z);
+                // All rays of a film point meet in the plane of focus, on and off the axis.
+                CHECK(length(at_depth(ray, 2) - sharp) < 1e-6f);
+                // Seen back from p, the centre of the lens is displaced by what the lens is wide.
+                Vec3 back = at_depth({p, p}, 2) - sharp;
+                widest = std::max(widest, length(back));
+                CHECK(length(back) < radius * 1.0001f + 4e-6f);
+            }
+            CHECK(widest > radius * 0.999f - 1e-6f);
         }
     }
 
-    TEST_CASE("identity: samples are as many as the shares say") {
-        auto shares = std::make_shared<ch16::Shares>();
-        shares->pilot = 7;  // 4 and 3
-        constexpr size_t pixels = 4000;
-        for (auto& half : shares->of_half) {
-            for (size_t i = 0; i < pixels; i++)
-                half.push_back(0.2 + 1.6 * (static_cast<double>(i) + 0.5) / pixels);
+    TEST_CASE("density: all points of the lens are equally likely") {
+        Camera camera = camera_with_lens();
+        Sampler random = random_numbers(2);
+        RunningStats x2, r2;
+        for (int i = 0; i < 400000; i++) {
+            Vec3 o = ch16::through_lens(camera, {{0, 0, 0}, {0, 0, 1}}, random.u2()).o;
+            CHECK(o.z == 0);
+            x2.add(100 * static_cast<double>(o.x * o.x));
+            r2.add(100 * static_cast<double>(o.x * o.x + o.y * o.y));
         }
-        for (uint32_t spp : {1u, 2u, 3u, 7u, 8u, 20u, 63u, 1000u}) {
-            CAPTURE(spp);
-            double sum = 0;
-            for (int half : {0, 1}) {
-                auto counts = ch16::samples_of(shares, half, spp);
-                auto more = ch16::samples_of(shares, half, spp + 1);
-                for (size_t i = 0; i < pixels; i++) {
-                    uint32_t n = counts(i);
-                    sum += n;
-                    CHECK(n <= more(i));  // none is taken back
-                    if (spp <= 7) CHECK(n == (half == 0 ? (spp + 1) / 2 : spp / 2));
+        check_mean(x2, 0.25, 1.0 / 16, 0.004);  // r = u in place of sqrt(u): 1/6
+        check_mean(r2, 0.5, 1.0 / 12, 0.004);
+    }
+
+    TEST_CASE("truth: an edge that is out of focus") {
+        // A lamp that fills x < 0 at depth 4; film points whose disk has its middle t radii from
+        // it.
+        std::string lamp = "AreaLightSource \"diffuse\" \"bool twosided\" true " + black +
+                           "Translate -500 0 4 Rotate 90 1 0 0 Scale 500 1 500 " + square(0, true);
+        Scene scene = world_of(lamp);
+        scene.camera = camera_with_lens();
+        scene.max_depth = 0;
+        struct {
+            double t, share;
+        } cases[] = {{0, 0.5}, {0.5, 0.8044988905221}, {0.9, 0.9813069632658}};
+        for (auto [t, share] : cases)
+            for (double side : {-1.0, 1.0}) {
+                CAPTURE(t);
+                Vec3 focus = {static_cast<float>(-side * t * 0.05), 0, 2};
+                RunningStats s =
+                    repeat(scene, {{0, 0, 0}, normalize(focus)}, by_sixteen(scene), 400000, 1);
+                double mean = side > 0 ? share : 1 - share;
+                check_mean(s, mean, share * (1 - share) + 1e-9, 0.007);
+            }
+    }
+
+    TEST_CASE("identity: a camera in other units has the same picture") {
+        // The lens is given in the camera's own units, which its transform may stretch.
+        std::string world = read_file("tests/pictures/references/dof.pbrt");
+        Scene plain = scene_of(world), stretched = plain;
+        Camera& c = stretched.camera;
+        c.right = 2 * c.right, c.up = 2 * c.up, c.forward = 2 * c.forward;
+        c.lens_radius /= 2, c.focal_distance /= 2;
+        Sampler random = random_numbers(3);
+        for (int i = 0; i < 100; i++) {
+            Vec2 film = {256 * random.u1(), 256 * random.u1()}, u = random.u2();
+            Ray a = ch16::through_lens(plain.camera,
+                                       camera_ray(camera_view(plain.camera, 256, 256), film), u);
+            Ray b =
+                ch16::through_lens(stretched.camera, camera_ray(camera_view(c, 256, 256), film), u);
+            CHECK(length(a.o - b.o) < 1e-6f);
+            CHECK(length(a.d - b.d) < 1e-6f);
+        }
+    }
+}
+
+TEST_SUITE("ch16 lens slow") {
+    TEST_CASE("agreement: balls before and behind the plane of focus, with pbrt") {
+        Image reference = read_image("tests/pictures/references/dof.pfm");
+        Image error = read_image("tests/pictures/references/dof.err.pfm");
+        Scene scene = scene_from("tests/pictures/references/dof.pbrt", 128, 100);
+        Film film = film_of(scene, by_sixteen(scene), 1024).film;
+        auto block = [&](int x0, int y0, int side) {
+            double mean = 0, squares = 0, pixels = static_cast<double>(side) * side;
+            for (int y = y0; y < y0 + side; y++)
+                for (int x = x0; x < x0 + side; x++) {
+                    mean += static_cast<double>(average(reference.at(x, y)));
+                    squares += std::pow(static_cast<double>(average(error.at(x, y))), 2);
+                }
+            return Measured{mean / pixels, std::sqrt(squares) / pixels};
+        };
+        check_agreement(
+            hold_against(
+                128, 8, [&](int x, int y, int s) { return block_of(film, x, y, s); }, block),
+            0.0005);
+    }
+}
+
+TEST_SUITE("ch16 shutter") {
+    /// White behind; what is in front moves, and is black.
+    Scene before_white(const std::string& mover) {
+        Scene scene =
+            world_of("LightSource \"infinite\" AttributeBegin " + black + mover + " AttributeEnd");
+        scene.max_depth = 0;
+        return scene;
+    }
+
+    TEST_CASE("truth: how long what moves covers a point") {
+        std::string disk =
+            "Translate -0.5 0 0 ActiveTransform EndTime Translate 1 0 0 ActiveTransform All "
+            "Shape \"disk\" \"float radius\" 0.25";
+        std::string edge =
+            "Translate 0.2 0 0 ActiveTransform EndTime Translate 0.6 0 0 ActiveTransform All "
+            "Translate -5 0 0 Rotate 90 1 0 0 Scale 5 1 5 " +
+            square(0, true);
+        struct {
+            std::string mover;
+            Vec3 p;
+            double covered;
+        } cases[] = {{disk, {0, 0, 0}, 0.5},      {disk, {0, 0.2f, 0}, 0.3},
+                     {disk, {-0.5f, 0, 0}, 0.25}, {disk, {0, 0.26f, 0}, 0},
+                     {edge, {0.5f, 0, 0}, 0.5},   {edge, {0.35f, 0, 0}, 0.75},
+                     {edge, {0.1f, 0, 0}, 1},     {edge, {0.9f, 0, 0}, 0}};
+        for (const auto& c : cases) {
+            CAPTURE(c.p.x);
+            CAPTURE(c.p.y);
+            Scene scene = before_white(c.mover);
+            RunningStats s =
+                repeat(scene, {c.p - Vec3{0, 0, 3}, {0, 0, 1}}, by_sixteen(scene), 100000);
+            check_mean(s, 1 - c.covered, c.covered * (1 - c.covered) + 1e-9, 0.014);
+        }
+    }
+
+    TEST_CASE("truth: a shutter that opens late and closes early sees part of the way") {
+        Scene scene = before_white(
+            "Translate -0.5 0 0 ActiveTransform EndTime Translate 1 0 0 ActiveTransform All "
+            "Shape \"disk\" \"float radius\" 0.25");
+        scene.camera.shutter_open = 0.25f, scene.camera.shutter_close = 0.5f;  // x from -0.25 to 0
+        Ray ray = {{-0.125f, 0.2f, -3}, {0, 0, 1}};
+        RunningStats s = repeat(scene, ray, by_sixteen(scene), 1000);
+        CHECK(s.mean() == 0);  // covered all the time: 0.15 to each side
+        ray.o.x = 0.25f;       // covered from x = 0.1 on: never
+        CHECK(repeat(scene, ray, by_sixteen(scene), 1000).mean() == 1);
+        ray.o.x = 0.05f;  // covered from x = -0.1 on: the last 40 %
+        check_mean(repeat(scene, ray, by_sixteen(scene), 100000), 0.6, 0.24, 0.013);
+    }
+
+    TEST_CASE("truth: a shape that moves is where its parts are at each time") {
+        // A turn of 90 degrees, a stretch from 1 to 3 and a move, each for itself known.
+        Transform start = translation({1, 2, 3});
+        Transform end = translation({3, 2, 1}) * rotation(90, {0, 0, 1}) * scaling({3, 1, 1});
+        Motion motion(start, end);
+        for (double t : {0.0, 0.25, 0.5, 1.0}) {
+            Transform expected = translation({1 + 2 * t, 2, 3 - 2 * t}) *
+                                 rotation(90 * t, {0, 0, 1}) * scaling({1 + 2 * t, 1, 1});
+            for (const Double3& p : {Double3{1, 0, 0}, Double3{0.3, -2, 5}}) {
+                Double3 is = transform_point(motion.at(t), p);
+                CHECK(length(is - transform_point(expected, p)) < 1e-12);
+            }
+        }
+        // The shorter way round, a half turn, a mirror, and no way at all.
+        Transform back = rotation(350, {0, 1, 0});
+        CHECK(length(transform_point(Motion({}, back).at(0.5), {1, 0, 0}) -
+                     transform_point(rotation(-5, {0, 1, 0}), {1, 0, 0})) < 1e-12);
+        for (const Transform& m : {rotation(180, {1, 2, 3}), scaling({-1, 1, 1}),
+                                   scaling({-2, -3, -4}) * rotation(77, {3, 1, 1}), Transform{}}) {
+            Motion way({}, m);
+            for (const Double3& p : {Double3{1, 0, 0}, Double3{0.3, -2, 5}}) {
+                CHECK(length(transform_point(way.at(1), p) - transform_point(m, p)) < 1e-12);
+                CHECK(length(transform_point(way.at(0), p) - p) < 1e-12);
+            }
+        }
+    }
+
+    TEST_CASE("brute: at each time, hits as of the same scene at rest") {
+        // A tetrahedron, a ball and a disk that move, turn and stretch, against copies that are put
+        // where they are at the time.
+        const std::string shapes[] = {
+            "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 1 3 1 2 3 0 3 2] \"point3 P\" "
+            "[-.5 -.5 -.5  .5 -.5 -.5  0 -.5 .5  0 .5 0]",
+            "Shape \"sphere\" \"float radius\" 0.4", "Shape \"disk\" \"float radius\" 0.6"};
+        auto matrix = [](const Transform& t) {
+            std::string text = "ConcatTransform [";
+            for (const Double3& c : {t.x, t.y, t.z}) {
+                for (double x : c) text += std::to_string(x) + " ";
+                text += "0 ";
+            }
+            for (double x : t.o) text += std::to_string(x) + " ";
+            return text + "1]";
+        };
+        std::string move = "Translate 0.5 -0.2 0.3 Rotate 100 1 2 3 ";
+        Transform end = translation({0.5, -0.2, 0.3}) * rotation(100, {1, 2, 3});
+        Sampler random = random_numbers(5);
+        int hits = 0;
+        for (const std::string& shape : shapes) {
+            CAPTURE(shape);
+            Scene moving = world_of("LightSource \"infinite\" ActiveTransform EndTime " + move +
+                                    "ActiveTransform All " + shape);
+            REQUIRE(moving.movers.size() == 1);
+            for (float time : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+                Scene still =
+                    world_of("LightSource \"infinite\" " +
+                             matrix(Motion({}, end).at(static_cast<double>(time))) + shape);
+                for (int i = 0; i < 500; i++) {
+                    Vec3 o = 3 * uniform_direction(random.u2());
+                    Vec3 at = 0.7f * uniform_direction(random.u2());
+                    Ray ray = {o, normalize(at - o), infinity, time};
+                    std::optional<Hit> a = intersect(moving, ray), b = intersect(still, ray);
+                    if (a.has_value() != b.has_value()) {  // at a rim, by rounding
+                        Vec3 p = a ? a->p : b->p;
+                        ray.d = normalize(p - o + 1e-4f * uniform_direction(random.u2()));
+                        continue;
+                    }
+                    CHECK(occluded(moving, ray) == a.has_value());
+                    if (!a) continue;
+                    hits++;
+                    CHECK(std::abs(a->t - b->t) < 2e-5f);
+                    CHECK(length(a->p - b->p) < 2e-5f);
+                    CHECK(length(a->n - b->n) < 1e-3f);
+                    CHECK(length(a->ng - b->ng) < 1e-3f);
+                    CHECK(a->front == b->front);
+                    // A ray that leaves does not meet the same side of the shape again.
+                    std::optional<Hit> again = intersect(moving, spawn_ray(*a, a->ng));
+                    CHECK((!again || again->t > 1e-3f));
                 }
             }
-            // u rounds each of 8000 numbers by half a sample at most, up as often as down.
-            CHECK(std::abs(sum / pixels - spp) < 5 * std::sqrt(2.0 / 4 / pixels));
+        }
+        CHECK(hits > 1000);
+    }
+
+    TEST_CASE("identity: the box of what moves holds it at all times") {
+        Sampler random = random_numbers(6);
+        for (int i = 0; i < 200; i++) {
+            auto any = [&] { return to_double3(uniform_direction(random.u2())); };
+            Transform start = translation(3.0 * any()) * rotation(360 * double{random.u1()}, any());
+            Transform end = translation(3.0 * any()) * scaling({2, 0.5, 1});
+            if (i % 2 == 0) end = end * rotation(360 * double{random.u1()}, any());
+            if (i % 3 == 0) end = translation(any()) * start;  // without a turn
+            Mover mover(start, end);
+            for (int k = 0; k < 8; k++) {
+                Vec3 p = 2 * uniform_direction(random.u2());
+                mover.geometry.positions.push_back(to_vec3(transform_point(start, to_double3(p))));
+            }
+            Box box = box_over_time(mover);
+            for (double t = 0; t <= 1; t += 1.0 / 64)
+                for (Vec3 p : mover.geometry.positions) {
+                    Vec3 q = to_vec3(transform_point(mover.world_from_start(t), to_double3(p)));
+                    for (int axis = 0; axis < 3; axis++) {
+                        CHECK(q[axis] >= box.low[axis]);
+                        CHECK(q[axis] <= box.high[axis]);
+                    }
+                }
         }
     }
 
-    TEST_CASE("truth: a mean that decides itself when it ends is wrong by what theory says") {
-        // Hits of probability 0.05: stop after 16 equal ones, else take 1024. TRUTHS: V20.
-        Sampler sampler(SamplerType::independent, 1, 1);
-        auto hits = [&](int n) {
-            int sum = 0;
-            for (int i = 0; i < n; i++) sum += sampler.u1() < 0.05f;
-            return sum;
-        };
-        RunningStats own, other;
-        for (uint32_t pixel = 0; pixel < 40000; pixel++) {
-            sampler.start(pixel, 0);
-            int a = hits(16), b = hits(16);
-            auto goes_on = [](int pilot) { return pilot > 0 && pilot < 16; };
-            int rest = goes_on(a) || goes_on(b) ? hits(1008) : 0;
-            own.add(goes_on(a) ? (a + rest) / 1024.0 : a / 16.0);
-            other.add(goes_on(b) ? (a + rest) / 1024.0 : a / 16.0);
+    TEST_CASE("truth: shadows and bounces see the shape at the path's own time") {
+        // A roof that closes over the floor at half time: half of the floor's light, and the roof
+        // itself is met by no path of the other half.
+        std::string roof =
+            "Translate 1000 1 0 ActiveTransform EndTime Translate -2000 0 0 ActiveTransform All "
+            "Scale 400 1 400 " +
+            square(0, false);
+        Scene scene = world_of(white_floor +
+                               " LightSource \"distant\" \"point3 from\" [0 1 0] "
+                               "\"point3 to\" [0 0 0] AttributeBegin " +
+                               black + roof + " AttributeEnd");
+        scene.max_depth = 1;
+        // The roof covers the origin for 800 of 2000 m. It hides the lamp from the floor below it.
+        RunningStats s = repeat(scene, onto_origin, by_sixteen(scene), 100000, 1, pi_exact);
+        check_mean(s, 0.6, 0.24, 0.013);
+    }
+}
+
+TEST_SUITE("ch16 wavelengths") {
+    TEST_CASE("identity: all wavelengths together are white") {
+        std::vector<Rgb> white = shares_of_white();
+        Rgb sum;
+        constexpr int n = 1 << 16;
+        double last = 0;
+        for (int i = 0; i < n; i++) {
+            auto drawn = ch16::sample_wavelength(white, (static_cast<float>(i) + 0.5f) / n);
+            CHECK(average(drawn.weight) == doctest::Approx(1).epsilon(1e-5).scale(0));
+            CHECK(double{drawn.micrometres} >= last - 1e-6);
+            last = double{drawn.micrometres};
+            sum += drawn.weight / n;
         }
-        CHECK(std::abs(own.mean() - 0.0283375155273) < 5 * own.standard_error());
-        CHECK(std::abs(other.mean() - 0.05) < 5 * other.standard_error());
-        CHECK(own.standard_error() < 0.0003);
-        CHECK(other.standard_error() < 0.0003);
+        for (float channel : {sum.r, sum.g, sum.b}) CHECK(std::abs(channel - 1) < 3e-4f);
+        CHECK(last < 0.7851);
+        CHECK(ch16::sample_wavelength(white, 0).micrometres > 0.37f);
+        // Blue, green and red, where they are seen.
+        auto weight_at = [&](float micrometres) {
+            float u = 0;
+            while (ch16::sample_wavelength(white, u).micrometres < micrometres) u += 1e-4f;
+            return ch16::sample_wavelength(white, u).weight;
+        };
+        Rgb blue = weight_at(0.45f), green = weight_at(0.54f), red = weight_at(0.64f);
+        CHECK((blue.b > 2 && blue.g < 0.5f));
+        CHECK((green.g > 2 && green.r < 0.5f && green.b < 0.5f));
+        CHECK((red.r > 2.5f && red.g < 0.2f));
+    }
+
+    TEST_CASE("truth: the glasses have the indices and Abbe numbers of their data sheets") {
+        struct {
+            const char* name;
+            double n_d, abbe;
+        } sheets[] = {{"glass-BAF10", 1.67003, 47.11}, {"glass-BK7", 1.516800034501, 64.1673362375},
+                      {"glass-F10", 1.72828, 28.53},   {"glass-F11", 1.78472, 25.68},
+                      {"glass-F5", 1.67270, 32.21},    {"glass-FK51A", 1.48656, 84.47},
+                      {"glass-LASF9", 1.85025, 32.17}};
+        REQUIRE(all_glasses().size() == std::size(sheets));
+        for (size_t i = 0; i < std::size(sheets); i++) {
+            const Glass& glass = all_glasses()[i];
+            CAPTURE(glass.name);
+            CHECK(std::string(glass.name) == sheets[i].name);
+            double F = double{index_of_refraction(glass, 0.4861327)};
+            double d = double{index_of_refraction(glass, 0.5875618)};
+            double C = double{index_of_refraction(glass, 0.6562725)};
+            CHECK(std::abs(d - sheets[i].n_d) < 2e-5);
+            CHECK(std::abs((d - 1) / (F - C) - sheets[i].abbe) < 0.002 * sheets[i].abbe);
+        }
+    }
+
+    TEST_CASE("truth: a prism of 60 degrees bends each color by its own angle") {
+        const Glass& BK7 = all_glasses()[1];
+        struct {
+            double micrometres, degrees;
+        } cases[] = {
+            {0.4861327, 39.14097361135}, {0.5875618, 38.65363675922}, {0.6562725, 38.43841179471}};
+        for (auto [micrometres, degrees] : cases) {
+            float n = index_of_refraction(BK7, micrometres), rad = pi / 180;
+            // Faces whose normals, towards the light and away from it, are 60 degrees apart.
+            Vec3 in = {-std::cos(60 * rad / 2), std::sin(60 * rad / 2), 0};
+            Vec3 out = {-in.x, in.y, 0};
+            float a = std::atan2(in.y, in.x) + 50 * rad;  // towards the lamp, away from the edge
+            Vec3 wo = {std::cos(a), std::sin(a), 0};
+            Vec3 inside = *refract(wo, in, n);
+            Vec3 after = *refract(-inside, -1 * out, 1 / n);
+            double angle = std::acos(static_cast<double>(dot(after, -wo))) * 180 / pi_exact;
+            CHECK(std::abs(angle - degrees) < 2e-4 * degrees);
+        }
+    }
+
+    TEST_CASE("furnace: white in, white out: glass that does not disperse, color by color") {
+        const Glass plain = {"plain", {1.25, 0, 0}, {0, 0, 0}};
+        for (bool disperses : {false, true}) {
+            Scene scene = scene_from("scenes/furnace-glass.pbrt", 16, 100);
+            for (Material& m : scene.materials)
+                if (m.type == MaterialType::dielectric)
+                    m.glass = disperses ? &all_glasses()[3] : &plain;
+            Film film = film_of(scene, by_sixteen(scene), 512).film;
+            Rgb mean = film.mean_rgb();
+            // The variance of a channel of one path is at most that of the weights, 1.2.
+            double se = std::sqrt(1.2 / static_cast<double>(film.samples()));
+            for (float channel : {mean.r, mean.g, mean.b})
+                CHECK(std::abs(double{channel} - 1) < 5 * se);
+            CHECK(std::abs(film.mean() - 1) < 1e-4);
+        }
+    }
+
+    TEST_CASE("agreement: glass of one index by way of wavelengths, with chapter 15") {
+        Scene scene = scene_from("scenes/caustic.pbrt", 16, 8), by_colors = scene;
+        const Glass plain = {"plain", {1.25, 0, 0}, {0, 0, 0}};
+        for (Material& m : by_colors.materials)
+            if (m.type == MaterialType::dielectric) m.glass = &plain, m.ior = 1;
+        for (Material& m : scene.materials) m.ior = 1.5f;
+        CHECK(check_classes(scene, by_fifteen(scene), by_colors, by_sixteen(by_colors), 100000) >=
+              4);
+    }
+}
+
+TEST_SUITE("ch16 sky") {
+    TEST_CASE("identity: each map of the sky and its inverse") {
+        Sampler random = random_numbers(1);
+        for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide}) {
+            SkyImage sky;
+            sky.map = map, sky.width = 64, sky.height = map == SkyImage::Map::square ? 64 : 32;
+            sky.x = {0, 0, -1}, sky.y = {-1, 0, 0}, sky.z = {0, 1, 0};
+            for (int i = 0; i < 10000; i++) {
+                Vec2 uv = random.u2();
+                Vec3 w = direction_of(sky, uv);
+                CHECK(std::abs(length(w) - 1) < 1e-6f);
+                Vec2 back = point_of(sky, w);
+                // Far from poles and seams the inverse is sharp.
+                if (std::min({uv.x, uv.y, 1 - uv.x, 1 - uv.y}) > 0.01f)
+                    CHECK(length(direction_of(sky, back) - w) < 3e-6f);
+                // Solid angle of a small square by its sides.
+                float h = 1e-3f;
+                if (uv.x + h >= 1 || uv.y + h >= 1) continue;
+                Vec3 a = direction_of(sky, {uv.x + h, uv.y}) - w,
+                     b = direction_of(sky, {uv.x, uv.y + h}) - w;
+                float area = length(cross(a, b)) / (h * h);
+                bool folds =
+                    map == SkyImage::Map::square &&
+                    (std::abs(uv.x - 0.5f) < 0.02f || std::abs(uv.y - 0.5f) < 0.02f ||
+                     std::abs(std::abs(uv.x - 0.5f) + std::abs(uv.y - 0.5f) - 0.5f) < 0.02f);
+                Vec2 mid = {uv.x + h / 2, uv.y + h / 2};
+                float expected = solid_angle_per_area(sky, mid);
+                if (!folds) CHECK(std::abs(area - expected) < 0.05f * expected + 0.05f);
+            }
+        }
+        // Where pbrt has them: the middle is +z, the right of it +x, below it +y, the corners -z.
+        SkyImage square;
+        square.width = square.height = 2;
+        auto is = [&](Vec2 uv, Vec3 w) { CHECK(length(direction_of(square, uv) - w) < 1e-6f); };
+        is({0.5f, 0.5f}, {0, 0, 1});
+        is({1, 0.5f}, {1, 0, 0});
+        is({0.5f, 1}, {0, 1, 0});
+        is({0, 0.5f}, {-1, 0, 0});
+        is({1, 1}, {0, 0, -1});
+        square.map = SkyImage::Map::wide;
+        is({0, 0.5f}, {1, 0, 0});
+        is({0.25f, 0.5f}, {0, 1, 0});
+        is({0.3f, 0}, {0, 0, 1});
+        is({0.3f, 1}, {0, 0, -1});
+    }
+
+    TEST_CASE("truth: skies with black pixels") {
+        // Of each sky some pixels are black; of the last all but one, and that is as bright as can
+        // be. 997 rows and columns: many points of pixels lie at the edge of the next, if rounded.
+        struct {
+            const char* name;
+            std::function<float(int, int, int)> L;  // of column, row, rows
+        } skies[] = {
+            {"checks", [](int i, int j, int) { return float((i + j) % 2); }},
+            {"stars",
+             [](int i, int j, int) { return float(i * 7919 % 101 + j * 104729 % 103 < 9); }},
+            {"a black half", [](int i, int, int n) { return i % n < n / 2 ? 1e-6f : 0.0f; }},
+            {"a range",
+             [](int i, int j, int) { return i % 2 ? std::pow(10.0f, float(j % 46 - 30)) : 0; }},
+            {"one pixel",
+             [](int i, int j, int n) { return i == n / 4 && j == n / 3 ? 1e15f : 0; }}};
+        for (const auto& sky : skies)
+            for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide}) {
+                CAPTURE(std::string(sky.name));
+                int h = map == SkyImage::Map::square ? 997 : 499,
+                    w = map == SkyImage::Map::square ? h : 2 * h;
+                Scene scene = under_sky(
+                    map, w, h, [](Vec3) { return Rgb{}; }, white_floor);
+                SkyImage& image = *scene.sky_image;
+                double E = 0, area = 1.0 / w / h;
+                for (size_t p = 0; p < image.pixels.size(); p++) {
+                    float L = sky.L(static_cast<int>(p) % w, static_cast<int>(p) / w, h);
+                    image.pixels[p] = {L, L, L};
+                    for (int k = 0; k < 4 && L > 0; k++) {
+                        Vec2 uv = image.point_in(
+                            p, {0.25f + 0.5f * float(k % 2), 0.25f + 0.5f * float(k / 2)});
+                        float cosine = std::max(0.0f, direction_of(image, uv).y);
+                        E +=
+                            double{L} * double{cosine * solid_angle_per_area(image, uv)} * area / 4;
+                    }
+                }
+                scene.max_depth = 1;
+                RunningStats s = irradiance(scene, by_sixteen(scene), 200000);
+                check_bounded(s, E, 0.01);
+            }
     }
 
     TEST_CASE(
-        "failure: halves that judge themselves are too dark, those that judge each other right") {
-        Scene scene = empty_scene(128, 128, 0);
-        for (ch16::Judge judge : {ch16::Judge::own, ch16::Judge::other}) {
-            RunningStats means;
-            for (uint32_t seed = 1; seed <= 20; seed++) {
-                means.add(adaptive(scene, rare, 24, seed, {8, judge, {}}).film.mean());
+        "density: a sky's density is a number everywhere, 0 where it is black, and sums to 1") {
+        Sampler random = random_numbers(3);
+        for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide})
+            for (int h : {1, 2, 64}) {
+                int w = map == SkyImage::Map::square ? h : 2 * h;
+                Scene scene = under_sky(
+                    map, w, h,
+                    [](Vec3 d) {
+                        return Rgb{d.y > 0.7f ? 0.0f : 1.0f, 0, 2};
+                    },
+                    white_floor);
+                const SkyImage& sky = *scene.sky_image;
+                std::vector<double> cdf = ch16::prepare(scene).sky;
+                auto pdf = [&](Vec3 wi) {
+                    Vec2 uv = point_of(sky, wi);
+                    return ch16::pdf_sky_image(sky, cdf, sky.pixel_at(uv), uv);
+                };
+                RunningStats sum;
+                for (int i = 0; i < 200000; i++)
+                    sum.add(4 * pi_exact * double{pdf(uniform_direction(random.u2()))});
+                check_bounded(sum, 1, 0.01);
+                for (float x : {-1.0f, 0.0f, 1.0f})
+                    for (float y : {-1.0f, 0.0f, 1.0f})
+                        for (float z : {-1.0f, 0.0f, 1.0f})
+                            if (x != 0 || y != 0 || z != 0)
+                                CHECK(pdf(normalize(Vec3{x, y, z})) >= 0);
             }
-            double z = (means.mean() - 0.05) / means.standard_error();
-            CAPTURE(means.mean());
-            CAPTURE(z);
-            CHECK(means.standard_error() < 0.0001);
-            if (judge == ch16::Judge::other) CHECK(std::abs(z) < 5);
-            if (judge == ch16::Judge::own) CHECK(z < -8);
-        }
     }
 
-    TEST_CASE("consistency: the bias over 200 renders is below its standard error times five") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 8);
-        Trace trace = by_sixteen(scene);
-        for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
-            RunningStats difference;
-            for (uint32_t seed = 1; seed <= 200; seed++) {
-                double mean = adaptive(scene, trace, 12, seed, {4, ch16::Judge::other, {}}, sampler)
-                                  .film.mean();
-                difference.add(mean -
-                               film_of(scene, by_fifteen(scene), 12, seed + 1000).film.mean());
-            }
-            CAPTURE(difference.mean());
-            CHECK(std::abs(difference.mean()) < 5 * difference.standard_error());
-            CHECK(difference.standard_error() < 0.01);
-        }
-    }
-
-    TEST_CASE("consistency: the reported error is the spread over seeds, with either sampler") {
-        Scene scene = empty_scene(64, 32, 32);
-        for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
-            RunningStats means, squares;
-            for (uint32_t seed = 0; seed < 200; seed++) {
-                Film film = adaptive(scene, smooth_and_rough, 32, seed, {}, sampler).film;
-                means.add(film.mean());
-                squares.add(film.standard_error() * film.standard_error());
-            }
-            double ratio = std::sqrt(squares.mean() / means.variance());
-            CAPTURE(static_cast<int>(sampler));
-            CHECK(ratio > 1 / 1.25);  // the spread of 200 has a standard error of 5 %
-            CHECK(ratio < 1.25);
-        }
-    }
-
-    TEST_CASE("agreement: with chapter 15, block by block, on scenes with all that it renders") {
-        for (std::string name : {"cornell", "prism", "moving-ball", "high-contrast"}) {
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
-            Film a = adaptive(scene, by_sixteen(scene), 96).film;
-            Film b = film_of(scene, by_fifteen(scene), 96, 2).film;
-            Image of_a = a.image(), of_b = b.image();
-            double v = a.standard_error(), w = b.standard_error();
-            CHECK(std::abs(a.mean() - b.mean()) < 5 * std::hypot(v, w));
-            CHECK(std::hypot(v, w) < 0.02 * b.mean());
-            // Each 8 x 8 block: the two halves tell its error.
-            for (int y = 0; y < 32; y += 8)
-                for (int x = 0; x < 32; x += 8) {
-                    double difference = 0, squares = 0;
-                    for (int j = y; j < y + 8; j++)
-                        for (int i = x; i < x + 8; i++) {
-                            size_t p = static_cast<size_t>(j * 32 + i);
-                            difference +=
-                                double{average(of_a.pixels[p])} - double{average(of_b.pixels[p])};
-                            for (int half : {0, 1}) {
-                                const PixelSum& sum = a.half(half)[p];
-                                squares += sum.m2() / (sum.n - 1.0) / sum.n / 4;
-                            }
-                            const PixelSum& sum = b.half(0)[p];
-                            squares += sum.m2() / (sum.n - 1.0) / sum.n;
-                        }
-                    CHECK(std::abs(difference) < 5 * std::sqrt(squares) + 1e-6);
+    TEST_CASE(
+        "truth: the sky's light is finite where a pixel has less of it than floats can tell") {
+        for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide})
+            for (float faint : {1e-10f, 1e-20f, 1e-30f}) {
+                int h = 8, w = map == SkyImage::Map::square ? h : 2 * h;
+                Scene scene = under_sky(
+                    map, w, h,
+                    [](Vec3) {
+                        return Rgb{1e20f, 1e20f, 1e20f};
+                    },
+                    white_floor);
+                scene.sky_image->pixels[0] = {faint, faint, faint};
+                ch16::Prepared prepared = ch16::prepare(scene);
+                std::optional<Hit> x = intersect(scene, {{0, 1, 0}, {0, -1, 0}});
+                REQUIRE(x);
+                PathLog log;
+                for (float u : {0.0f, 0.25f, 0.75f}) {
+                    CAPTURE(faint);
+                    Rgb L = ch16::sky_light(scene, prepared.sky, *x, {0, 1, 0}, 0.0, {u, u},
+                                            {1, 1, 1}, log);
+                    CHECK(is_finite(L));
                 }
-        }
+            }
     }
 
-    TEST_CASE("variance: at equal samples less error than even sampling, where error is local") {
-        Scene scene = scene_from("scenes/high-contrast.pbrt", 48, 8);
-        Image truth = film_of(scene, by_fifteen(scene), 2048, 77).film.image();
-        double even = 0, shared = 0;
-        for (uint32_t seed = 1; seed <= 4; seed++) {
-            even += relative_error(film_of(scene, by_fifteen(scene), 64, seed).film.image(), truth);
-            Rendering r = adaptive(scene, by_sixteen(scene), 64, seed);
-            shared += relative_error(r.film.image(), truth);
-            CHECK(r.film.spp() == doctest::Approx(64).epsilon(0.005).scale(0));
-        }
-        CAPTURE(shared / even);
-        CHECK(shared < 0.5 * even);
+    TEST_CASE("truth: skies of known irradiance") {
+        struct {
+            std::function<float(float)> L;
+            double E;
+        } skies[] = {{[](float) { return 1.0f; }, pi_exact},
+                     {[](float c) { return c; }, 2.094395102393},
+                     {[](float c) { return 1 - c; }, 1.047197551197},
+                     {[](float c) { return (1 + c) / 2; }, 2.617993877991},
+                     {[](float c) { return (1 + 2 * c) / 3; }, 2.443460952792}};
+        for (const auto& sky : skies)
+            for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide}) {
+                int w = 256, h = map == SkyImage::Map::square ? 256 : 128;
+                Scene scene = under_sky(
+                    map, w, h,
+                    [&](Vec3 d) {
+                        float L = d.y > 0 ? sky.L(d.y) : 0;
+                        return Rgb{L, L, L};
+                    },
+                    white_floor);
+                scene.max_depth = 1;
+                RunningStats s = irradiance(scene, by_sixteen(scene), 200000);
+                CAPTURE(sky.E);
+                // The pixels' own error is below 1e-4.
+                CHECK(std::abs(s.mean() - sky.E) < 5 * s.standard_error() + 1e-3 * sky.E);
+                CHECK(s.standard_error() < 2e-3 * sky.E);
+            }
     }
 
-    TEST_CASE("identity: the same bytes for any threads, parts and stops") {
-        TemporaryFolder folder;
-        Scene scene = scene_from("scenes/high-contrast.pbrt", 24, 4);
-        scene.spp = 40;
+    TEST_CASE("truth: a sky of two colors, by its own sum, and seen by a mirror") {
+        Scene scene = under_sky(
+            SkyImage::Map::square, 32, 32,
+            [](Vec3 d) {
+                return d.x > 0 ? Rgb{1, 2, 4} : Rgb{3, 1, 0.5f};
+            },
+            "AttributeBegin " + white_floor +
+                " AttributeEnd Translate 0 0 -4 Material \"conductor\" "
+                "\"rgb reflectance\" [.9 .9 .9] Translate 0 500 0 Shape \"sphere\"");
+        scene.max_depth = 1;
+        Sampler sampler(SamplerType::independent, 1, 1);
+        PathLog log;
+        RunningStats r, g, b;
         Trace trace = by_sixteen(scene);
-        auto render_to = [&](const std::string& film, int part, int parts, int threads) {
-            RenderOptions options = quiet_options();
-            options.film = folder / film, options.part = part, options.parts = parts;
-            options.threads = threads;
-            Rendering r = render_film(scene, options, trace, ch16::allocation({}));
-            save_film(scene, options, r);
-            return r.film.image();
-        };
-        Image whole = render_to("whole.film", 1, 1, 1);
-        CHECK(render_to("two.film", 1, 1, 2).pixels == whole.pixels);
-        CHECK(read_file(folder / "two.film") == read_file(folder / "whole.film"));
-
-        // Parts, in any order.
-        for (int part : {1, 2, 3}) render_to("part" + std::to_string(part) + ".film", part, 3, 2);
-        LabeledFilm sum = read_film(folder / "part3.film");
-        for (int part : {1, 2}) {
-            std::string path = folder / ("part" + std::to_string(part) + ".film");
-            add_film(sum, path, read_film(path));
+        for (uint32_t i = 0; i < 100000; i++) {
+            sampler.start(0, i);
+            Rgb L = trace(scene, onto_origin, sampler, log);
+            r.add(double{L.r}), g.add(double{L.g}), b.add(double{L.b});
         }
-        CHECK(sum.film.image().pixels == whole.pixels);
-
-        // In the pilot, at its end, after it: a render with fewer samples that goes on.
-        for (int first : {5, 16, 17, 30}) {
-            std::string film = std::to_string(first) + ".film";
-            scene.spp = first;
-            render_to(film, 1, 1, 2);
-            scene.spp = 40;
-            CHECK(render_to(film, 1, 1, 2).pixels == whole.pixels);
-            CHECK(read_file(folder / film) == read_file(folder / "whole.film"));
-        }
+        check_bounded(r, 2, 0.01);
+        check_bounded(g, 1.5, 0.01);
+        check_bounded(b, 2.25, 0.01);
+        // Straight into the sky, there is no chance in it.
+        sampler.start(0, 0);
+        Rgb seen = trace(scene, {{0, 1, 0}, normalize(Vec3{0.5f, 0.5f, 0.1f})}, sampler, log);
+        CHECK(seen == Rgb{1, 2, 4});
     }
 
-    TEST_CASE("identity: the classes of --split sum to the picture") {
-        Scene scene = scene_from("scenes/high-contrast.pbrt", 16, 4);
-        scene.spp = 24;
-        RenderOptions options = quiet_options();
-        options.split = "unused";
-        Rendering r = render_film(scene, options, by_sixteen(scene), ch16::allocation({}));
-        double sum = 0;
-        for (const auto& [name, film] : r.classes) sum += film.mean();
-        CHECK(r.classes.size() > 2);
-        CHECK(sum == doctest::Approx(r.film.mean()).epsilon(1e-6).scale(0));
+    TEST_CASE("variance: a small sun: a fiftieth of what chance would have, and less") {
+        // 1 of 128 x 128 pixels has half of the light.
+        Scene scene = under_sky(
+            SkyImage::Map::square, 128, 128,
+            [](Vec3) {
+                return Rgb{1, 1, 1};
+            },
+            white_floor);
+        scene.max_depth = 1;
+        SkyImage& sky = *scene.sky_image;
+        size_t sun = sky.pixel_at(point_of(sky, normalize(Vec3{0.3f, 0.8f, 0.2f})));
+        sky.pixels[sun] = {128 * 128, 128 * 128, 128 * 128};
+        RunningStats aimed = irradiance(scene, by_sixteen(scene), 100000);
+        // By the cosine alone: E = pi L, one sample each.
+        RunningStats chance;
+        Sampler random = random_numbers(9);
+        for (int i = 0; i < 4000000; i++) {
+            Vec3 w = sample_cosine_hemisphere(random.u2());
+            chance.add(pi_exact * double{sky.at(point_of(sky, {w.x, w.z, w.y})).r});
+        }
+        CHECK(z_between({aimed.mean(), aimed.standard_error()},
+                        {chance.mean(), chance.standard_error()}) < 5);
+        CHECK(aimed.variance() < chance.variance() / 50);
     }
 
-    TEST_CASE("truth: a sample that is not finite is named by the number that replays it") {
-        Scene scene = empty_scene(8, 8, 24);
-        auto bad = [](const Scene&, Ray, Sampler& sampler, PathLog&) {
-            float u = sampler.u1();
-            return u < 0.002f ? Rgb{infinity, 0, 0} : Rgb{u, u, u};
+    TEST_CASE("agreement: sky.pbrt's classes of paths, with the sky found by chance") {
+        // Chance alone: the same trace without aiming, by a sky that is not told.
+        Scene scene = under_sky(
+            SkyImage::Map::wide, 16, 8,
+            [](Vec3 d) {
+                float L = 1 + d.x + (d.y > 0.8f ? 5.0f : 0.0f);
+                return Rgb{L, L, L};
+            },
+            "AttributeBegin " + white_floor +
+                " AttributeEnd Translate 0 1 0 Material \"conductor\" "
+                "\"float roughness\" 0.3 Shape \"sphere\"");
+        scene.max_depth = 4;
+        auto by_chance = [](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+            Rgb beta = {1, 1, 1};
+            for (int depth = 0;; depth++) {
+                std::optional<Hit> x = intersect(s, ray);
+                if (!x) return log.emitted(beta * s.sky_image->at(point_of(*s.sky_image, ray.d)));
+                log.vertex(*x);
+                if (depth == s.max_depth) return Rgb{};
+                Vec2 u = sampler.u2();
+                BsdfSample b = glossy_bsdf::sample_bsdf(*x, -ray.d, sampler.u1(), u);
+                if (b.pdf_w == 0) return Rgb{};
+                beta *= b.f * (std::abs(dot(b.wi, x->n)) / b.pdf_w);
+                log.scatter(b.wi, b.f, b.pdf_w, b.specular, beta);
+                ray = spawn_ray(*x, b.wi);
+            }
         };
-        Rendering r = render_film(scene, quiet_options(), bad, ch16::allocation({}));
-        REQUIRE(r.stats.not_finite > 0);
-        Sampler sampler(SamplerType::independent, r.stats.bad_seed, 1);
-        size_t pixel = static_cast<size_t>(r.stats.bad_y * 8 + r.stats.bad_x);
-        start_sample(sampler, pixel, r.stats.bad_sample % 2,
-                     static_cast<uint32_t>(r.stats.bad_sample / 2));
-        camera_sample(camera_view(scene.camera, 8, 8), r.stats.bad_x, r.stats.bad_y, sampler);
-        CHECK(sampler.u1() < 0.002f);
+        CHECK(check_classes(scene, Trace(by_chance), scene, by_sixteen(scene), 100000) >= 6);
+    }
+}
+
+TEST_SUITE("ch16 distribution") {
+    TEST_CASE("input: chapters before 16 refuse what only 16 can render, at its place") {
+        std::string ball = " Shape \"sphere\"", sky = "LightSource \"infinite\" ";
+        struct {
+            std::string text, error;
+        } cases[] = {
+            {"Camera \"perspective\" \"float lensradius\" 1 WorldBegin " + sky + ball,
+             "test.pbrt:1:1: error: all chapters but 16 and 19 have a pinhole: lensradius must be "
+             "0"},
+            {"Camera \"perspective\" WorldBegin " + sky +
+                 "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"" + ball,
+             "test.pbrt:1:56: error: outside chapters 16 and 19 glass does not disperse: try "
+             "\"float "
+             "eta\" 1.5168"},
+            {"Camera \"perspective\" WorldBegin " + sky + "ActiveTransform EndTime Scale 1 2 1" +
+                 ball,
+             "test.pbrt:1:92: error: outside chapters 16 and 19 nothing moves"},
+            {"Camera \"perspective\" WorldBegin LightSource \"infinite\" \"string filename\" "
+             "\"scenes/sky.pfm\"" +
+                 ball,
+             "test.pbrt:1:33: error: outside chapters 16 and 19 the sky has no picture"},
+            {"Camera \"perspective\" WorldBegin " + sky + ball, ""}};
+        for (const auto& c : cases) {
+            CAPTURE(c.text);
+            Scene scene = scene_of(c.text);
+            std::string said;
+            try {
+                refuse_distribution(scene);
+            } catch (const InputError& error) {
+                said = error.what();
+            }
+            CHECK(said == c.error);
+        }
     }
 }

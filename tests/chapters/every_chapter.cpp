@@ -82,7 +82,7 @@ TEST_SUITE("every chapter") {
         std::string overhead = lamp("10", unit_square(1)), aside = lamp("5", tilted);
         std::string sky = "LightSource \"infinite\" \"float scale\" 2\n";
         Scene scene = floor_under(aside);
-        double of_aside = irradiance(scene, trace_with<ch09::trace>(), 100000).mean();
+        double of_aside = irradiance(scene, trace_with<ch10::trace>(), 100000).mean();
         double E = 2 * pi_exact + 8 * irradiance_of_square(1) + of_aside * 3 / 5;
         for (const std::string& lights :
              {sky + overhead + aside, overhead + sky + aside, aside + overhead + sky}) {
@@ -150,8 +150,8 @@ TEST_SUITE("every chapter") {
             Measured truth = {f * all.mean, f * all.se};
             for (int M : {1, 16, 64}) {
                 CAPTURE(M);
-                for (const Trace& trace : {trace_with<ch11::trace>(ch11::prepare(scene), M),
-                                           trace_with<ch14::trace>(ch14::prepare(scene, M))}) {
+                for (const Trace& trace : {trace_with<ch12::trace>(ch12::prepare(scene), M),
+                                           trace_with<ch15::trace>(ch15::prepare(scene, M))}) {
                     RunningStats s = repeat(scene, ray, trace, M == 1 ? 40000 : 10000);
                     CHECK(z_between({s.mean(), s.standard_error()}, truth) < 5);
                     CHECK(std::hypot(s.standard_error(), truth.se) < 0.03 * truth.mean);

@@ -1,8 +1,8 @@
 // A room in which light is the same everywhere, whatever stands in it: every chapter must find it.
 #include "tests/support/chapters.h"
 // In this order: names of a lower chapter must not be found by way of a higher one.
-#include "chapters/15_distribution/estimator.h"
-#include "chapters/18_bidirectional/estimator.h"
+#include "chapters/16_distribution/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
 #include "common/path/bidirectional.h"
 
 namespace {
@@ -57,7 +57,7 @@ TEST_SUITE("furnace of all things") {
             CAPTURE(around);
             Scene scene = furnace(around, lamps + things);
             std::vector<Chapter> chapters = every_chapter(scene);
-            chapters.push_back({"15", trace_with<ch15::trace>(ch15::prepare(scene))});
+            chapters.push_back({"16", trace_with<ch16::trace>(ch16::prepare(scene))});
             for (const Chapter& chapter : chapters) {
                 CAPTURE(chapter.name);
                 int paths = 25000;
@@ -72,7 +72,7 @@ TEST_SUITE("furnace of all things") {
         for (const std::string& around : {sphere, sky}) {
             CAPTURE(around);
             Scene scene = furnace(around, lamps + things);
-            check_is_two(scene, splat_trace_with<ch18::trace>(ch18::Prepared{ends_of(scene)}),
+            check_is_two(scene, splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene)}),
                          15000);
             check_is_two(scene,
                          splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
@@ -89,7 +89,7 @@ TEST_SUITE("furnace of all things") {
                         thing("\"conductor\" \"rgb reflectance\" [1 1 1]",
                               "Translate -1 -0.4 -4 Shape \"sphere\" \"float radius\" 0.8"));
         scene.max_depth = 6;
-        CHECK(check_classes(scene, trace_with<ch14::trace>(ch14::prepare(scene)), scene,
+        CHECK(check_classes(scene, trace_with<ch15::trace>(ch15::prepare(scene)), scene,
                             splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
                             100000) > 40);
     }
@@ -104,7 +104,7 @@ TEST_SUITE("furnace of all things") {
                                    "Translate -0.5 -0.4 0 Shape \"sphere\" \"float radius\" 0.5") +
                              thing("\"dielectric\"",
                                    "Translate 0.5 -0.4 0 Shape \"sphere\" \"float radius\" 0.5"));
-        check_is_two(scene, splat_trace_with<ch18::trace>(ch18::Prepared{ends_of(scene)}), 15000);
+        check_is_two(scene, splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene)}), 15000);
         check_is_two(scene, splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
                      60000);
     }

@@ -2,10 +2,10 @@
 // light there, class of path by class of path.
 #include <doctest/doctest.h>
 
-#include "chapters/13_mis/estimator.h"
-#include "chapters/14_mis_ris/estimator.h"
-#include "chapters/17_light_tracing/estimator.h"
-#include "chapters/18_bidirectional/estimator.h"
+#include "chapters/14_mis/estimator.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/20_light_tracing/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
 #include "common/path/bidirectional.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
@@ -131,21 +131,21 @@ TEST_SUITE("generated rooms") {
         for (uint32_t seed = 1; seed <= rooms; seed++) {
             CAPTURE(seed);
             auto [scene, has_delta_light] = generated_room(seed);
-            Trace eye = trace_with<ch14::trace>(ch14::prepare(scene));
-            Trace mis = trace_with<ch13::trace>(ch13::prepare(scene), ch13::Settings());
-            SplatTrace lesson = splat_trace_with<ch18::trace>(ch18::Prepared{ends_of(scene)});
+            Trace eye = trace_with<ch15::trace>(ch15::prepare(scene));
+            Trace mis = trace_with<ch14::trace>(ch14::prepare(scene), ch14::Settings());
+            SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene)});
             SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
-            SplatTrace walk = trace_light_with<ch17::trace_light>(ch17::ends_of(scene));
+            SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::ends_of(scene));
             std::string seen = has_delta_light ? "L(D(S|D)*)?E" : "";  // by paths from the camera
             auto compare = [&](const std::string& what, const auto& a, const auto& b, int paths,
                                const std::string& classes) {
                 CAPTURE(what);
                 compared += check_classes(scene, a, scene, b, paths, 2 * seed, classes);
             };
-            compare("13 and 14", mis, eye, 50000, "");
-            compare("14 and fast 18", eye, fast, 50000, seen);
-            compare("18 and its fast form", lesson, fast, 20000, "");
-            compare("17 and fast 18", walk, fast, 50000, shown_by_light);
+            compare("14 and 15", mis, eye, 50000, "");
+            compare("15 and fast 21", eye, fast, 50000, seen);
+            compare("21 and its fast form", lesson, fast, 20000, "");
+            compare("20 and fast 21", walk, fast, 50000, shown_by_light);
         }
         CHECK(compared > 30 * static_cast<int>(rooms));
     }

@@ -7,19 +7,19 @@
 
 namespace {
 
-/// The chapters that differ where there is one light: it is aimed at in the same way by 08 to 12.
+/// The chapters that differ where there is one light: it is aimed at in the same way by 09 to 13.
 std::vector<Chapter> some_chapters(const Scene& scene) {
-    return {{"08", trace_with<ch08::trace>(ch08::LightMeasure::solid_angle)},
-            {"13", trace_with<ch13::trace>(ch13::prepare(scene), ch13::Settings())},
-            {"14", trace_with<ch14::trace>(ch14::prepare(scene))}};
+    return {{"09", trace_with<ch09::trace>(ch09::LightMeasure::solid_angle)},
+            {"14", trace_with<ch14::trace>(ch14::prepare(scene), ch14::Settings())},
+            {"15", trace_with<ch15::trace>(ch15::prepare(scene))}};
 }
 std::vector<Chapter> all_chapters(const Scene& scene) {
     std::vector<Chapter> chapters = some_chapters(scene);
-    chapters.push_back({"09", trace_with<ch09::trace>()});
-    chapters.push_back({"10", trace_with<ch10::trace>(ch10::prepare(scene))});
-    chapters.push_back({"11", trace_with<ch11::trace>(ch11::prepare(scene), 4)});
+    chapters.push_back({"10", trace_with<ch10::trace>()});
+    chapters.push_back({"11", trace_with<ch11::trace>(ch11::prepare(scene))});
+    chapters.push_back({"12", trace_with<ch12::trace>(ch12::prepare(scene), 4)});
     chapters.push_back(
-        {"12", trace_with<ch12::trace>(ch12::prepare(scene), ch12::Strategy::light)});
+        {"13", trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light)});
     return chapters;
 }
 

@@ -22,7 +22,7 @@ std::map<std::string, Quantity> measure(const Method& method, const Probe& probe
     prepare(scene, o.threads);
     std::map<std::string, RunningStats> stats;
     bool shared_out =
-        method.name.starts_with("16") && (probe.name == "floor" || probe.name == "rare light");
+        method.name.starts_with("19") && (probe.name == "floor" || probe.name == "rare light");
     int spp = std::max(samples / batches, shared_out ? 32 : 1);
     for (int batch = 0; batch < batches; batch++) {
         Rendering r = render_once(method, scene, o, spp, seed + static_cast<uint32_t>(batch), true);
@@ -51,16 +51,16 @@ std::map<std::string, Quantity> measure(const Method& method, const Probe& probe
 bool fits(const Probe& probe, const Method& method) {
     int chapter = std::stoi(method.name.substr(0, 2));
     // From a sky, hardly any path meets what these small pictures show.
-    if (chapter == 17 && probe.text.find("infinite") != std::string::npos) return false;
+    if (chapter == 20 && probe.text.find("infinite") != std::string::npos) return false;
     // Photons are counted around a point, which blurs light that is not even.
     static const std::set<std::string> uneven = {"bulb", "mirror", "leaning mirror"};
-    if (chapter == 19 && uneven.contains(probe.name)) return false;
-    return chapter >= probe.first_chapter && std::min(chapter, 18) <= probe.last_chapter;
+    if (chapter == 23 && uneven.contains(probe.name)) return false;
+    return chapter >= probe.first_chapter && std::min(chapter, 21) <= probe.last_chapter;
 }
 
-/// Of chapter 17 what it can see: where the last vertex is no mirror and no glass.
+/// Of chapter 20 what it can see: where the last vertex is no mirror and no glass.
 bool is_seen(const Method& method, const std::string& name) {
-    if (!method.name.starts_with("17") || !is_class(name)) return true;
+    if (!method.name.starts_with("20") || !is_class(name)) return true;
     return name != "longer" && (name == "LE" || name[name.size() - 2] == 'D');
 }
 
@@ -77,7 +77,7 @@ Quantities measure_all(const Method& method, const MeasureOptions& o, double tim
         auto row = measure(method, probe, o, static_cast<int>(probe.samples * times), seed);
         for (const auto& [name, q] : row)
             if (is_seen(method, name)) found[probe.name][name] = q;
-        bool all_seen = !method.name.starts_with("17");
+        bool all_seen = !method.name.starts_with("20");
         if (!all_seen) found[probe.name].erase("all"), found[probe.name].erase("parts");
     }
     return found;
@@ -111,7 +111,7 @@ Findings findings_of(const Method& method, const MeasureOptions& o) {
     for (auto& [probe, row] : expected)
         std::erase_if(row, [&](const auto& cell) {
             bool all = cell.first == "all" || cell.first == "parts";
-            return !is_seen(method, cell.first) || (all && method.name.starts_with("17"));
+            return !is_seen(method, cell.first) || (all && method.name.starts_with("20"));
         });
     return {found, expected};
 }
@@ -168,7 +168,7 @@ struct Answers {
 Answers ask_all(const MeasureOptions& o) {
     Answers answers;
     for (const Method& method : all_methods()) {
-        bool second = method.name == "08-area" || method.name == "12-bsdf";
+        bool second = method.name == "09-area" || method.name == "13-bsdf";
         if (method.biased || (is_variant(method) && !second)) continue;
         std::printf("%s\n", method.name.c_str());
         std::fflush(stdout);
@@ -227,7 +227,7 @@ int write_references(const MeasureOptions& o) {
 }
 
 int check(const std::string& chapter, const MeasureOptions& o) {
-    const std::map<std::string, std::string> as = {{"18", "18-plain"}, {"19", "19-few"}};
+    const std::map<std::string, std::string> as = {{"21", "21-plain"}, {"23", "23-few"}};
     const Method method = methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0);
     Findings found = findings_of(method, o);
     std::vector<Findings> other;
@@ -241,7 +241,7 @@ int check(const std::string& chapter, const MeasureOptions& o) {
         return 1;
     }
     const Findings* second = other.empty() ? nullptr : &other[0];
-    const char* way = chapter == "08" ? "by area" : "by the BSDF alone";
+    const char* way = chapter == "09" ? "by area" : "by the BSDF alone";
     std::vector<Name> names = name_mistake(std::stoi(chapter), found, second);
     for (const Name& name : names) {
         bool by_second = second && !found.off(name.probe, name.path_class) &&
@@ -268,7 +268,7 @@ int main(int argc, char** argv) {
                                                  "which mistake would make them as they are.",
                                                  {}, flags);
         if (references) return write_references(o);
-        if (o.words.size() != 1) throw UsageError("error: one chapter is needed, such as 08");
+        if (o.words.size() != 1) throw UsageError("error: one chapter is needed, such as 09");
         return check(o.words[0], o);
     });
 }

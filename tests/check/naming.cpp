@@ -49,7 +49,7 @@ const std::vector<Rule> rules_of_paths = {
     {"box", "leak",
      "light leaks into a closed box: photons of other surfaces count (or rays start at the point "
      "itself, not just off the surface)",
-     [](const Case& c) { return c.chapter == 19 && c.leaks("box") && !c.f.leaks("box", "LDE"); }},
+     [](const Case& c) { return c.chapter == 23 && c.leaks("box") && !c.f.leaks("box", "LDE"); }},
     {"box", "leak",
      "light leaks into a closed box: rays start at the point itself, not just off the surface",
      [](const Case& c) { return c.leaks("box"); }},
@@ -94,25 +94,25 @@ const std::vector<Rule> rules_of_everything = {
     {"room", "LDDE",
      "each path counts as often as there are strategies that find it: the weights are all 1",
      [](const Case& c) {
-         return c.chapter == 18 && c.ratio("floor") > 1.8 &&
+         return c.chapter == 21 && c.ratio("floor") > 1.8 &&
                 c.ratio("room", "LDDE") > c.ratio("floor");
      }},
     {"sky", "LDE",
      "light counts twice: it is aimed at, and met again by the ray that goes on to where photons "
      "are counted",
      [](const Case& c) {
-         return c.chapter == 19 && c.ratio("floor") > 1.8 && c.ratio("sky") > 1.8;
+         return c.chapter == 23 && c.ratio("floor") > 1.8 && c.ratio("sky") > 1.8;
      }},
     {"sky", "LDE",
      "light that both ways find counts 3/2: what was aimed at counts in full, and what is met "
      "by chance is added to it",
      [](const Case& c) {
-         return c.chapter >= 13 && c.ratio("sky") > 1.3 && c.ratio("near") > 1.05;
+         return c.chapter >= 14 && c.ratio("sky") > 1.3 && c.ratio("near") > 1.05;
      }},
     {"corner", "LDE",
      "too dark in the corners of wide pictures, as a power of the cosine there: cosines are "
      "missing in the camera's importance",
-     [](const Case& c) { return c.chapter >= 17 && c.ratio("corner") < 0.8; }},
+     [](const Case& c) { return c.chapter >= 20 && c.ratio("corner") < 0.8; }},
 };
 
 /// Factors of f, cosine and density.
@@ -163,7 +163,7 @@ const std::vector<Rule> rules_of_factors = {
      "right where light comes evenly from everywhere, wrong where it does not: f cos / pdf is "
      "right, but directions are not drawn with that density (is a root missing?)",
      [](const Case& c) {
-         return c.chapter < 17 && c.right("floor") && c.right("sphere", "LDDE") && c.right("sky") &&
+         return c.chapter < 20 && c.right("floor") && c.right("sphere", "LDDE") && c.right("sky") &&
                 (c.off("room", "LDDE") || c.off("mirror", "LSDE"));
      }},
 };
@@ -199,12 +199,12 @@ const std::vector<Rule> rules_of_lights = {
     {"three", "LDE",
      "of the three ways the one that takes the best of M lights counts too little: its W, "
      "which stands for the lights that were not chosen, is forgotten",
-     [](const Case& c) { return c.chapter == 14 && c.right("floor") && c.ratio("three") < 0.6; }},
+     [](const Case& c) { return c.chapter == 15 && c.right("floor") && c.ratio("three") < 0.6; }},
     {"three", "LDE",
      "of the three ways the one that takes any light counts 1/N: the chance of choosing this "
      "light is forgotten there",
      [](const Case& c) {
-         return c.chapter == 14 && c.right("floor") && c.ratio("three") > 0.85 &&
+         return c.chapter == 15 && c.right("floor") && c.ratio("three") > 0.85 &&
                 c.ratio("three") < 0.97;
      }},
     {"crowd", "LDE",
@@ -290,7 +290,7 @@ const std::vector<Rule> rules_of_materials = {
     {"bulb", "LSDE",
      "light from inside glass is off by eta^2: flux is squeezed as if it were radiance",
      [](const Case& c) {
-         return c.chapter >= 17 && (c.is("bulb", "LSDE", 2.25) || c.is("bulb", "LSDE", 1 / 2.25));
+         return c.chapter >= 20 && (c.is("bulb", "LSDE", 2.25) || c.is("bulb", "LSDE", 1 / 2.25));
      }},
     {"pane", "LSE",
      "glass reflects half of what it should: reflection is chosen half as often, but counts "
@@ -327,18 +327,18 @@ const std::vector<Rule> rules_of_later_chapters = {
      "join "
      "a path at a mirror count, though they cannot find it",
      [](const Case& c) {
-         return c.chapter == 18 && c.right("floor") && c.right("near") &&
+         return c.chapter == 21 && c.right("floor") && c.right("near") &&
                 (c.ratio("bulb", "LSDE") < 0.95 || c.ratio("mirror", "LSDE") < 0.95);
      }},
     {"near", "LDE",
      "near lamps alone are off, under a sky all is right: the weights of both ways do not sum "
      "to 1, one takes the light's density per area for that per solid angle",
-     [](const Case& c) { return c.chapter >= 13 && c.right("sky") && c.off("near"); }},
+     [](const Case& c) { return c.chapter >= 14 && c.right("sky") && c.off("near"); }},
     {"sky, lamp", "LDE",
      "one light is right, of several some are off: the weights of both ways do not sum to 1, "
      "one forgets the chance of choosing this light",
      [](const Case& c) {
-         return c.chapter >= 13 && c.right("sky") && c.right("near") && c.off("sky, lamp");
+         return c.chapter >= 14 && c.right("sky") && c.right("near") && c.off("sky, lamp");
      }},
     {"rim", "LE",
      "a blurred point is bright in its middle and dim at its rim: points of the lens crowd in "
@@ -361,7 +361,7 @@ const std::vector<Rule> rules_of_later_chapters = {
      "too dark where light is found rarely: a pixel that has missed the light so far decides "
      "for itself to take few samples more",
      [](const Case& c) {
-         return c.chapter == 16 && c.off("rare light", "all") &&
+         return c.chapter == 19 && c.off("rare light", "all") &&
                 c.ratio("rare light", "all") < 0.97;
      }},
     {"sphere", "rays",

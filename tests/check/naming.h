@@ -13,7 +13,7 @@ struct Name {
 };
 
 /// The mistake that explains the findings of a chapter; empty: nothing is off. `other`: those of
-/// the chapter's second way (08: by area; 12: by the BSDF alone), or null.
+/// the chapter's second way (09: by area; 13: by the BSDF alone), or null.
 ///
 /// From the pictures alone: nothing here knows the code of the chapter.
 /// tested by  "truth: ratios and the mistakes that make them"

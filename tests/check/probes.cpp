@@ -125,7 +125,7 @@ void add_floors(std::vector<Probe>& p) {
     p.push_back({"unequal", "a strong lamp and a weak one",
                  above + floor_here + lamp(at(-1, 2, 0), 20) + lamp(at(1, 2, 0) + scale(1.3), 1)});
     p.push_back(
-        {"crowd", "a thousand weak lamps", from_above(0.8) + floor_here + crowd(), 8, 18, 16});
+        {"crowd", "a thousand weak lamps", from_above(0.8) + floor_here + crowd(), 9, 21, 16});
     p.push_back(
         {"sizes", "a large lamp and a tiny one",
          above + floor_here + lamp(at(0, 2, 0) + scale(2)) + lamp(at(1.5, 2, 0) + scale(0.02))});
@@ -154,16 +154,16 @@ void add_skies(std::vector<Probe>& p) {
     p.push_back({"sphere", "the inside of a sphere that shines and reflects half",
                  view("0 0 0  0 0 1  0 1 0", "\"float fov\" 60", 6) +
                      group("ReverseOrientation " + shining(1) + paint(0.5) + ball(1)),
-                 6, 18, 256});
+                 7, 21, 256});
     p.push_back({"red", "the same, that reflects red alone, 80 % of it",
                  view("0 0 0  0 0 1  0 1 0", "\"float fov\" 60", 60) +
                      group("ReverseOrientation " + shining(1) +
                            "Material \"diffuse\" \"rgb reflectance\" [0.97 0.02 0.02] " + ball(1)),
-                 6, 18, 16});
+                 7, 21, 16});
     p.push_back({"room", "a grey room with a lamp",
                  view("0 0 -0.95  0 0 0  0 1 0", "\"float fov\" 80", 3) + group(cube(paint(0.5))) +
                      lamp(at(0, 0.99, 0)),
-                 6, 18, 128});
+                 7, 21, 128});
     p.push_back({"box", "a closed box in a bright sky",
                  view("1000 300 0  1001 300 1  0 1 0", "\"float fov\" 60", 4) + sky() +
                      group(at(1000, 300, 0) + "Rotate 33 1 2 3 " + cube(paint(0.8)))});
@@ -184,8 +184,8 @@ void add_bent(std::vector<Probe>& p) {
                  from_above(0.5, 2) + bent + lamp(at(-1.5, 1, 0) + scale(2), 1, false, true) +
                      group(metal(1) + at(-1.5, 2, 0) + scale(4) + square(false))});
     p.push_back({"leaning lamp", "a lamp of four triangles whose normals lean",
-                 above + floor_here + group(shining(1) + paint(0) + at(0, 1.1, 0) + bent_lamp), 6,
-                 18, 256});
+                 above + floor_here + group(shining(1) + paint(0) + at(0, 1.1, 0) + bent_lamp), 7,
+                 21, 256});
     p.push_back({"lamp aside", "a lamp whose normals lean away from the camera",
                  view("-3 -1 0  0 0 0  0 1 0", "\"float fov\" 3") +
                      group(shining(1) + paint(0) + scale(2) + square(false, leaning(80, false)))});
@@ -193,7 +193,7 @@ void add_bent(std::vector<Probe>& p) {
                  above + bent + lamp(turn(-110, z_axis) + at(0, 2, 0))});
     std::string bent_metal = floor_of(metal(1, rough), leaning(40));
     p.push_back({"below metal", "rough metal whose normals lean, over a lamp below it",
-                 above + bent_metal + lamp(turn(-110, z_axis) + at(0, 2, 0)), 12});
+                 above + bent_metal + lamp(turn(-110, z_axis) + at(0, 2, 0)), 13});
     p.push_back({"bent mirror", "a mirror whose normals lean towards its horizon",
                  view("-3 1.73 0  0 0 0  0 1 0", "\"float fov\" 3", 4) + sky() +
                      floor_of(metal(1), leaning(20))});
@@ -215,7 +215,7 @@ void add_glass_and_metal(std::vector<Probe>& p) {
     p.push_back({"bulb", "a lamp in a ball of glass",
                  from_above(0.4, 3) + floor_here + group(at(0, 1.5, 0) + glass + ball(1)) +
                      group(shining(1) + paint(0) + at(0, 1.5, 0) + ball(0.3)),
-                 6, 18, 128});
+                 7, 21, 128});
     p.push_back({"mirror", "a floor lit by way of a mirror",
                  from_above(0.5, 2) + floor_here + lamp(at(1.5, 1, 0) + scale(2), 1, false, true) +
                      group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false))});
@@ -226,13 +226,13 @@ void add_glass_and_metal(std::vector<Probe>& p) {
         return view(format("-1 %g 0  0 0 0  0 1 0", height), "\"float fov\" 5") + sky() +
                floor_of(material);
     };
-    p.push_back({"metal", "rough metal, from above", on_metal(metal(1, rough), 8), 12});
+    p.push_back({"metal", "rough metal, from above", on_metal(metal(1, rough), 8), 13});
     p.push_back(
-        {"metal aslant", "rough metal, along its surface", on_metal(metal(1, rough), 0.25), 12});
+        {"metal aslant", "rough metal, along its surface", on_metal(metal(1, rough), 0.25), 13});
     std::string real =
         "Material \"conductor\" \"rgb eta\" [1.5 1.5 1.5] \"rgb k\" [1 1 1] " + rough + "\n";
     p.push_back({"real metal", "rough metal of real eta and k, along its surface",
-                 on_metal(real, 0.25), 12});
+                 on_metal(real, 0.25), 13});
 }
 
 /// Cameras with a lens, and wide ones.
@@ -249,10 +249,10 @@ void add_cameras(std::vector<Probe>& p) {
     };
     std::string point = group(shining(1) + paint(0) + ball(0.01));
     // The ball is a disk of the radius 0.05 on the screen at distance 1.
-    p.push_back({"blur", "the middle of a blurred lamp", lens("-0.01 0.01 -0.01 0.01") + point, 15,
-                 16, 1024});
-    p.push_back({"rim", "the rim of a blurred lamp", lens("0.035 0.047 -0.006 0.006") + point, 15,
-                 16, 1024});
+    p.push_back({"blur", "the middle of a blurred lamp", lens("-0.01 0.01 -0.01 0.01") + point, 16,
+                 19, 1024});
+    p.push_back({"rim", "the rim of a blurred lamp", lens("0.035 0.047 -0.006 0.006") + point, 16,
+                 19, 1024});
     p.push_back({"focus", "a lamp in focus, in the corner of a wide picture",
                  view("0 0 0  0 0 1  0 1 0",
                       "\"float fov\" 90 \"float screenwindow\" [0.98 1.02 0.98 1.02] "
@@ -261,26 +261,26 @@ void add_cameras(std::vector<Probe>& p) {
                            square(true)) +
                      group(shining(1) + paint(0) + at(4, 4, 4) + turn(-90, x_axis) + scale(0.12) +
                            square(true)),
-                 15, 16});
+                 16, 19});
 }
 
-/// What else the chapters 15 and 16 are about.
+/// What else the chapters 16 and 19 are about.
 void add_wavelengths_and_shares(std::vector<Probe>& p) {
     p.push_back({"dispersing", "a ball of glass that disperses, before a white sky",
                  view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 20", 20) + sky() +
                      group("Material \"dielectric\" \"spectrum eta\" \"glass-F11\" " + ball(1)),
-                 15, 16});
+                 16, 19});
     p.push_back({"sky picture", "a floor under the picture of a sky",
                  from_above(0.5) +
                      group(turn(-90, x_axis) +
                            "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
                      floor_here,
-                 15, 16});
+                 16, 19});
     p.push_back({"rare light", "a floor on which light is found rarely",
                  from_above(0.5, 2) + floor_here +
                      lamp(at(1.5, 1, 0) + scale(0.15), 100, false, true) +
                      group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false)),
-                 16, 16, 512});
+                 19, 19, 512});
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ struct Probe {
     std::string name;
     std::string what;                          // is seen there, in a few words
     std::string text;                          // a pbrt scene
-    int first_chapter = 6, last_chapter = 18;  // that can render it
+    int first_chapter = 7, last_chapter = 21;  // that can render it
     int samples = 64;                          // a pixel, of 16 x 16, in all
 };
 

@@ -1,7 +1,7 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
 .PHONY: exercise check checkers names
 
-#: make exercise CH=08   write my/08_light_sampling/estimator.h, its new functions left to you
+#: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
 exercise:
 	@common/tools/exercise '$(CH)'
 	@MAKEFLAGS= $(MAKE) --no-print-directory checkers
@@ -13,7 +13,7 @@ $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "compile $<"; $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -x c++-header $< -o $@
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
-#: make check CH=08      is it right? one line for each claim, and the name of the mistake (15 s)
+#: make check CH=09      is it right? one line for each claim, and the name of the mistake (15 s)
 check: checkers $(made) \
        $(if $(wildcard tests/measure/method_$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare

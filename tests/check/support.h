@@ -1,4 +1,4 @@
-// What the tests of chapters from 06 on begin with: compiled in advance, so that make check is
+// What the tests of chapters from 07 on begin with: compiled in advance, so that make check is
 // quick.
 #pragma once
 #include <doctest/doctest.h>

@@ -282,7 +282,7 @@ Finished shell(const std::string& command) {
 
 }  // namespace
 
-TEST_SUITE("ch05 bvh hits") {
+TEST_SUITE("ch06 bvh hits") {
     TEST_CASE("brute: meshes, spheres and disks are hit as the linear scan hits them") {
         check_same_hits(random_triangles(500, 0.2f), 0.2);
         check_same_hits(random_triangles(40, 2), 0.2);
@@ -461,7 +461,7 @@ TEST_SUITE("ch05 bvh hits") {
     }
 }
 
-TEST_SUITE("ch05 bvh build") {
+TEST_SUITE("ch06 bvh build") {
     TEST_CASE("brute: a million rays through edges and corners of closed meshes, and no leak") {
         for (Vec3 offset : {Vec3{0, 0, 0}, {148376, 1234, -223423}}) {
             Geometry g = closed_mesh(5);
@@ -554,7 +554,7 @@ TEST_SUITE("ch05 bvh build") {
     }
 }
 
-TEST_SUITE("ch05 bvh slow") {
+TEST_SUITE("ch06 bvh slow") {
     TEST_CASE("truth: building over 10 million triangles takes less than 200 bytes for each") {
         // Beside the mesh itself; in a process of its own, which starts without used memory.
         Finished end = Process([] {
@@ -580,7 +580,7 @@ TEST_SUITE("ch05 bvh slow") {
 
     TEST_CASE("agreement: the same pictures with AVX-512, with AVX2, and without") {
         fs::path build = program_folder;
-        for (const std::string chapter : {"06_path_tracing", "14_mis_ris"}) {
+        for (const std::string chapter : {"07_path_tracing", "15_mis_ris"}) {
             for (std::string instructions : {"x86-64", "x86-64-v3"}) {
                 // Without what the make around this one hands down.
                 fs::path other = build / instructions;

@@ -106,7 +106,7 @@ Vec3 on_triangle(const Geometry& g, MeshRandom& random) {
 
 }  // namespace
 
-TEST_SUITE("ch05 exact hits") {
+TEST_SUITE("ch06 exact hits") {
     TEST_CASE("truth: every hit as in double precision") {
         constexpr Real rounding = 64 * 0x1p-24L;  // of a corner, in parts of its distance
         for (const Mesh& mesh : meshes()) {

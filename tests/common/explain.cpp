@@ -7,10 +7,10 @@
 #include <map>
 #include <sstream>
 
-#include "chapters/07_russian_roulette/estimator.h"
-#include "chapters/08_light_sampling/estimator.h"
-#include "chapters/12_glossy/estimator.h"
-#include "chapters/18_bidirectional/estimator.h"
+#include "chapters/08_russian_roulette/estimator.h"
+#include "chapters/09_light_sampling/estimator.h"
+#include "chapters/13_glossy/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
 #include "common/path/bidirectional.h"
 #include "common/picture/stats_file.h"
 #include "common/program/labels.h"
@@ -135,7 +135,7 @@ TEST_SUITE("explain") {
                 bool has_vertex = end.out.find("\nvertex 1  ") != std::string::npos;
                 seen += has_vertex;
                 CHECK(end.out.find("warning") == std::string::npos);
-                bool has_own_rays = program == "04_ray_casting";
+                bool has_own_rays = program == "05_ray_casting";
                 CHECK((end.out.find("    ends: ") != std::string::npos) == !has_own_rays);
                 for (const auto& [at, told] : read_table(end.out)) {
                     CHECK(near(told.rows.r, told.printed.r));
@@ -195,31 +195,31 @@ TEST_SUITE("explain") {
         Ray ahead = {{0, 0, -4}, {0, 0, 1}};
         const std::string white_sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
         Scene sky = world_of(white_sky + "Translate 50 0 0 Shape \"sphere\"");
-        std::string left = story_of(sky, ch07::trace, 0, ahead);
+        std::string left = story_of(sky, ch08::trace, 0, ahead);
         CHECK(left.find("    sky met: adds (1, 1, 1), mis 1, class LE\n") != std::string::npos);
         CHECK(left.ends_with("    ends: it has left the scene\n"));
 
         Scene ball =
             world_of(white_sky + "Shape \"sphere\" \"float radius\" 9");  // around the camera
-        CHECK(tells(ball, ch07::trace, ahead, "    ends: roulette stops it\n"));
+        CHECK(tells(ball, ch08::trace, ahead, "    ends: roulette stops it\n"));
         ball.max_depth = 2;
-        CHECK(story_of(ball, ch07::trace, 0, ahead)
+        CHECK(story_of(ball, ch08::trace, 0, ahead)
                   .ends_with("    ends: the depth limit, 2 scattering events\n"));
 
         Scene black = world_of(white_sky + black_floor + "Shape \"sphere\"");
-        CHECK(story_of(black, ch07::trace, 0, ahead)
+        CHECK(story_of(black, ch08::trace, 0, ahead)
                   .ends_with("    ends: vertex 1 is black: it absorbs all\n"));
 
         Scene metal =
             world_of("Material \"conductor\" \"float roughness\" 0.8\nShape \"sphere\"\n" +
                      std::string(lamp_above) + square(0, false) + "AttributeEnd");
-        Trace rough = trace_with<ch12::trace>(ch12::prepare(metal), ch12::Strategy::light);
+        Trace rough = trace_with<ch13::trace>(ch13::prepare(metal), ch13::Strategy::light);
         CHECK(tells(metal, rough, {{0, 0.98f, -4}, {0, 0, 1}}, "drawn lies below the surface\n"));
     }
 
-    TEST_CASE("truth: light paths of chapter 18 end at the depth limit, and say so") {
+    TEST_CASE("truth: light paths of chapter 21 end at the depth limit, and say so") {
         Scene scene = scene_from("scenes/cornell.pbrt", 8, 1);
-        SplatTrace lesson = splat_trace_with<ch18::trace>(ch18::prepare(scene));
+        SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::prepare(scene));
         SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
         for (const SplatTrace& trace : {lesson, fast}) {
             Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
@@ -246,7 +246,7 @@ TEST_SUITE("explain") {
             PathLog log("", &story);
             scene.max_depth = 1;
             Sampler sampler = random_numbers(3);
-            Trace trace = trace_with<ch08::trace>(ch08::LightMeasure::solid_angle);
+            Trace trace = trace_with<ch09::trace>(ch09::LightMeasure::solid_angle);
             Rgb L = trace(scene, down, sampler, log);
             story.ends();
             CHECK(is_black(L) == blocked);
@@ -305,7 +305,7 @@ TEST_SUITE("explain") {
     TEST_CASE("identity: --explain-brightest explains the largest sample of the picture") {
         TemporaryFolder folder;
         for (const std::string& program : programs(true)) {
-            if (program == "04_ray_casting") continue;  // all its samples of a lamp are alike
+            if (program == "05_ray_casting") continue;  // all its samples of a lamp are alike
             CAPTURE(program);
             Words words = {spheres, "--size", "9x8", "--spp", "4", "--out", folder / "a.ppm"};
             words.insert(words.end(), {"--max-depth", "6"});

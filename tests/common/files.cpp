@@ -657,7 +657,7 @@ TEST_SUITE("pictures on disk") {
     TEST_CASE("truth: a .png file holds the picture's size, a comment, and right checksums") {
         TemporaryFolder folder;
         write_image(folder / "a.png", numbered(300, 7),
-                    "build/06 --paths 'L\xc3\xa4' \n --seed 1\x1b");
+                    "build/07 --paths 'L\xc3\xa4' \n --seed 1\x1b");
         std::vector<Chunk> chunks = png_chunks(read_file(folder / "a.png"));
         REQUIRE(chunks.size() >= 4);
         CHECK(chunks[0].type == "IHDR");
@@ -666,7 +666,7 @@ TEST_SUITE("pictures on disk") {
         CHECK(chunks[0].data.substr(8) == std::string("\x08\x02\0\0\0", 5));  // 8 bits, RGB
         CHECK(chunks[1].type == "tEXt");
         CHECK(chunks[1].data == std::string("Comment\0", 8) +
-                                    "build/06 --paths 'L?"
+                                    "build/07 --paths 'L?"
                                     "?' \n --seed 1?");
         for (size_t i = 2; i + 1 < chunks.size(); i++) CHECK(chunks[i].type == "IDAT");
         CHECK(chunks.back().type == "IEND");

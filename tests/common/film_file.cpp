@@ -43,7 +43,7 @@ PixelSum sum_of(const std::vector<Rgb>& samples) {
 LabeledFilm film_of(uint32_t first, uint32_t last, uint32_t seed = 1) {
     LabeledFilm f{{}, Film(5, 3, true)};
     f.film.start_audit();
-    f.label.options = {{"chapter", "06"}, {"scene", "abc"}, {"paths", ""}, {"m", "16"}};
+    f.label.options = {{"chapter", "07"}, {"scene", "abc"}, {"paths", ""}, {"m", "16"}};
     f.label.samples = {{seed, first, last}};
     Sampler sampler(SamplerType::independent, seed, 1);
     for (uint32_t s = first; s < last; s++) {

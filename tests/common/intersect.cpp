@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "chapters/06_path_tracing/estimator.h"
+#include "chapters/07_path_tracing/estimator.h"
 #include "common/geometry/bvh_build.h"
 #include "common/geometry/shapes.h"
 #include "tests/support/gates.h"
@@ -347,7 +347,7 @@ TEST_SUITE("intersect hits") {
                 scene.camera.o = centre;
                 scene.max_depth = 20;
                 prepare(scene, 1);
-                Rendering r = film_of(scene, ch06::trace, 16, 2);
+                Rendering r = film_of(scene, ch07::trace, 16, 2);
                 CHECK(r.film.mean() == 0);
                 CHECK(r.stats.paths_cut == 16 * 32 * 32);
             }

@@ -111,7 +111,7 @@ TEST_SUITE("comparison") {
 
     TEST_CASE("identity: notes are read from a .ppm, a .png and a .json as they were written") {
         TemporaryFolder folder;
-        const Notes notes = {{"chapter", "08_light_sampling"},
+        const Notes notes = {{"chapter", "09_light_sampling"},
                              {"scene", "a name # with \"blanks\".pbrt"},
                              {"paths", "LD(S|D)*E"},
                              {"spp", "4"}};
@@ -146,10 +146,10 @@ TEST_SUITE("comparison") {
 
     TEST_CASE("truth: what a film is of, as notes") {
         FilmLabel label;
-        label.options = {{"chapter", "14_mis_ris"}, {"code", "89"}, {"file", "a.pbrt"},
+        label.options = {{"chapter", "15_mis_ris"}, {"code", "89"}, {"file", "a.pbrt"},
                          {"scene", "0123"},         {"spp", "any"}, {"paths", ""}};
         label.samples = {{7, 0, 16}};
-        Notes options = {{"chapter", "14_mis_ris"}, {"scene", "a.pbrt"}, {"checksum", "0123"}};
+        Notes options = {{"chapter", "15_mis_ris"}, {"scene", "a.pbrt"}, {"checksum", "0123"}};
         auto and_more = [&](const Notes& more) {
             Notes all = options;
             all.insert(all.end(), more.begin(), more.end());
@@ -170,7 +170,7 @@ TEST_SUITE("comparison") {
         const PictureFacts a{"a.pfm",
                              NAN,
                              "",
-                             {{"chapter", "08_light_sampling"},
+                             {{"chapter", "09_light_sampling"},
                               {"scene", "a.pbrt"},
                               {"checksum", "1"},
                               {"max-depth", "5"},
@@ -185,7 +185,7 @@ TEST_SUITE("comparison") {
             return lines.empty() ? "" : lines[0];
         };
         CHECK(told("spp", "16") == "");
-        CHECK(told("chapter", "09_cosine_sampling") == "");
+        CHECK(told("chapter", "10_cosine_sampling") == "");
         CHECK(told("sampler", "independent") == "");
         CHECK(told("seed", "1") == "");
         CHECK(told("checksum", "2") == "warning: A and B show different versions of \"a.pbrt\"");
@@ -210,7 +210,7 @@ TEST_SUITE("comparison") {
 
     TEST_CASE("truth: statistics beside a picture count where they are of that picture") {
         TemporaryFolder folder;
-        Notes notes = {{"chapter", "08_light_sampling"}, {"checksum", "1"}, {"seed", "0"}};
+        Notes notes = {{"chapter", "09_light_sampling"}, {"checksum", "1"}, {"seed", "0"}};
         auto beside = [&](const std::string& file, const Notes& its_notes) {
             JsonObject json;
             json.add("spp", 4);

@@ -62,27 +62,27 @@ TEST_SUITE("naming") {
     }
 
     TEST_CASE("truth: ratios and the mistakes that make them") {
-        CHECK(named(8, {}) == "");
+        CHECK(named(9, {}) == "");
         double p = pi_here;
-        CHECK(says(named(6, {{"floor", "LDE", p}, {"room", "LDE", p}, {"room", "LDDE", p * p}}),
+        CHECK(says(named(7, {{"floor", "LDE", p}, {"room", "LDE", p}, {"room", "LDDE", p * p}}),
                    "f is not divided by pi"));
-        CHECK(says(named(6, {{"floor", "LDE", 1 / p}, {"room", "LDDE", 1 / (p * p)}}),
+        CHECK(says(named(7, {{"floor", "LDE", 1 / p}, {"room", "LDDE", 1 / (p * p)}}),
                    "divided by pi twice"));
-        CHECK(says(named(8, {{"floor", "LDE", 2},
+        CHECK(says(named(9, {{"floor", "LDE", 2},
                              {"slant", "LDE", 2},
                              {"far", "LDE", 2},
                              {"turned", "LDE", 2}}),
                    "counted again when the path meets it by chance"));
-        CHECK(says(named(8, {{"three", "LDE", 1.0 / 3}}), "1/N"));
-        CHECK(says(named(8, {{"half", "LDE", 2}}), "nothing casts a shadow"));
-        CHECK(says(named(8, {{"slant", "LDE", 2}, {"floor", "LDE", 1.03}}),
+        CHECK(says(named(9, {{"three", "LDE", 1.0 / 3}}), "1/N"));
+        CHECK(says(named(9, {{"half", "LDE", 2}}), "nothing casts a shadow"));
+        CHECK(says(named(9, {{"slant", "LDE", 2}, {"floor", "LDE", 1.03}}),
                    "cosine there is missing"));
-        CHECK(says(named(8, {{"slant", "LDE", 0.5}, {"floor", "LDE", 0.97}}), "squared"));
-        CHECK(says(named(8, {}, {{"turned", "LDE", 2}}), "cosine at the light is missing"));
-        CHECK(says(named(9, {{"sphere", "LDDE", 4.0 / 3}}), "uniform density"));
-        CHECK(says(named(7, {{"sphere", "LDDDDDE", 0.1}, {"corridor", "LSSSSSSE", 0.3}}), "1/q"));
-        CHECK(says(named(7, {{"corridor", "LSSSSSSE", 0.3}}), "mirrors and glass"));
-        CHECK(says(named(8, {{"gap", "LDE", 0.1}}), "shadow rays end too early"));
+        CHECK(says(named(9, {{"slant", "LDE", 0.5}, {"floor", "LDE", 0.97}}), "squared"));
+        CHECK(says(named(9, {}, {{"turned", "LDE", 2}}), "cosine at the light is missing"));
+        CHECK(says(named(10, {{"sphere", "LDDE", 4.0 / 3}}), "uniform density"));
+        CHECK(says(named(8, {{"sphere", "LDDDDDE", 0.1}, {"corridor", "LSSSSSSE", 0.3}}), "1/q"));
+        CHECK(says(named(8, {{"corridor", "LSSSSSSE", 0.3}}), "mirrors and glass"));
+        CHECK(says(named(9, {{"gap", "LDE", 0.1}}), "shadow rays end too early"));
     }
 
     TEST_CASE("truth: what no mistake in the list explains is told by its factor") {
@@ -92,7 +92,7 @@ TEST_SUITE("naming") {
         CHECK(name_factor(12.6) == "4 pi");
         CHECK(name_factor(1.1) == "");
         CHECK(name_factor(0) == "");
-        CHECK(says(named(9, {{"bulb", "LSDE", 3}}), "a factor 3"));
+        CHECK(says(named(10, {{"bulb", "LSDE", 3}}), "a factor 3"));
     }
 
     TEST_CASE("identity: within their errors, ratios are not off") {
@@ -125,13 +125,13 @@ TEST_SUITE("naming") {
 TEST_SUITE("exercises") {
     TEST_CASE("identity: an exercise keeps signatures, docstrings and headlines, and no more") {
         TemporaryFolder folder;
-        CHECK(says(exercise("08", folder), "sample_area_light, sample_one_light, sample_light, "));
-        std::string text = read_file(folder / "08_light_sampling/estimator.h");
+        CHECK(says(exercise("09", folder), "sample_area_light, sample_one_light, sample_light, "));
+        std::string text = read_file(folder / "09_light_sampling/estimator.h");
         CHECK(says(text, "///   by area:  pdf_w = pdf_A d^2 / cos_y"));
         CHECK(says(text, "inline LightSample sample_light(const Scene& scene, const Hit& x,"));
         CHECK(says(text, "    // Aim at a light.\n"));
-        CHECK(says(text, "    // Yours. As it was: chapters/07_russian_roulette/estimator.h\n"));
-        CHECK(says(text, "    return x.material->reflectance / pi;"));  // as in chapter 07
+        CHECK(says(text, "    // Yours. As it was: chapters/08_russian_roulette/estimator.h\n"));
+        CHECK(says(text, "    return x.material->reflectance / pi;"));  // as in chapter 08
         CHECK_FALSE(says(text, "y.pdf_w /= static_cast<float>(N);"));
         CHECK_FALSE(says(text, "direct_light(scene, *x"));
     }
@@ -151,6 +151,6 @@ TEST_SUITE("exercises") {
             CHECK(says(exercise(number, folder), "stays as it is"));
             CHECK(read_file(mine) == "mine");
         }
-        CHECK(says(exercise("99", folder), "usage: make exercise CH=08"));
+        CHECK(says(exercise("99", folder), "usage: make exercise CH=09"));
     }
 }

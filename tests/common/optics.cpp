@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "chapters/06_path_tracing/estimator.h"
+#include "chapters/07_path_tracing/estimator.h"
 #include "common/material/metal.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
@@ -37,14 +37,14 @@ Ray ray_at(double degrees) {
     return {-5 * d, d};
 }
 
-/// Chapter 06 along one ray, over and over.
+/// Chapter 07 along one ray, over and over.
 RunningStats repeat(const Scene& scene, const Ray& ray, int paths) {
     RunningStats stats;
     Sampler sampler(SamplerType::independent, 1, 1);
     PathLog log;
     for (int i = 0; i < paths; i++) {
         sampler.start(0, static_cast<uint32_t>(i));
-        stats.add(static_cast<double>(ch06::trace(scene, ray, sampler, log).g));
+        stats.add(static_cast<double>(ch07::trace(scene, ray, sampler, log).g));
     }
     return stats;
 }
@@ -54,7 +54,7 @@ bool is_zero_or_one(const Scene& scene, const Ray& ray) {
     Sampler random = random_numbers(5);
     PathLog log;
     for (int i = 0; i < 1000; i++) {
-        float L = ch06::trace(scene, ray, random, log).g;
+        float L = ch07::trace(scene, ray, random, log).g;
         if (L != 0 && std::abs(L - 1) > 1e-5f) return false;
     }
     return true;
@@ -128,7 +128,7 @@ TEST_SUITE("optics") {
         Sampler random = random_numbers(1);
         for (int i = 0; i < 10000; i++) {
             Vec3 n = uniform_direction(random.u2());
-            Vec3 wo = Frame(n).to_world(ch06::sample_uniform_hemisphere(random.u2()));
+            Vec3 wo = Frame(n).to_world(ch07::sample_uniform_hemisphere(random.u2()));
             float eta = 1 + random.u1();
             auto wi = refract(wo, n, eta);
             REQUIRE(wi);
@@ -191,7 +191,7 @@ TEST_SUITE("optics") {
             for (int i = 0; i < 200000; i++) {
                 float s = std::sqrt(random.u1());
                 Ray ray = {{s, 0, -4}, {0, 0, 1}};
-                float L = ch06::trace(scene, ray, random, log).g;
+                float L = ch07::trace(scene, ray, random, log).g;
                 largest = std::max(largest, std::min(std::abs(L), std::abs(L - 1)));
                 stats.add(static_cast<double>(L));
             }
@@ -239,7 +239,7 @@ TEST_SUITE("optics") {
             Vec3 d = uniform_direction(random.u2());
             float largest = max_component(abs(d));
             PathLog log;
-            Rgb L = ch06::trace(scene, {{0.1f, 0.2f, 0.3f}, d}, random, log);
+            Rgb L = ch07::trace(scene, {{0.1f, 0.2f, 0.3f}, d}, random, log);
             trapped.add(log.paths_cut() > 0);
             // Away from the critical angle, whether a path gets out is no matter of chance: for
             // others, a hundred reflections at R < 1 are.
@@ -320,7 +320,7 @@ TEST_SUITE("metal") {
         Sampler random = random_numbers(1);
         PathLog log;
         for (float s : {0.0f, 0.3f, 0.8f, 0.999f}) {
-            Rgb L = ch06::trace(scene, {{s, 0, -4}, {0, 0, 1}}, random, log);
+            Rgb L = ch07::trace(scene, {{s, 0, -4}, {0, 0, 1}}, random, log);
             double degrees = std::asin(static_cast<double>(s)) * 180 / std::numbers::pi;
             CHECK(std::abs(static_cast<double>(L.r) - metal(degrees, 0.9f)) < 1e-5);
             CHECK(std::abs(static_cast<double>(L.g) - metal(degrees, 0.5f)) < 1e-5);

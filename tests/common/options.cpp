@@ -10,7 +10,7 @@ namespace {
 /// The arguments as main() gets them.
 struct Words {
     explicit Words(std::vector<std::string> all) : words(std::move(all)) {
-        words.insert(words.begin(), "build/06");
+        words.insert(words.begin(), "build/07");
         for (std::string& word : words) pointers.push_back(word.data());
     }
     int count() { return static_cast<int>(pointers.size()); }
@@ -21,7 +21,7 @@ struct Words {
 
 RenderOptions options_of(std::vector<std::string> words) {
     Words w(std::move(words));
-    return parse_render_options(w.count(), w.pointers.data(), "06_x", "scenes/default.pbrt");
+    return parse_render_options(w.count(), w.pointers.data(), "07_x", "scenes/default.pbrt");
 }
 
 TableOptions table_options_of(std::vector<std::string> words) {
@@ -44,8 +44,8 @@ std::string usage_error(std::vector<std::string> words) {
 TEST_SUITE("options") {
     TEST_CASE("input: without options, the scene decides") {
         RenderOptions o = options_of({});
-        CHECK(o.name == "06_x");
-        CHECK(o.command == "build/06");
+        CHECK(o.name == "07_x");
+        CHECK(o.command == "build/07");
         CHECK(o.scene == "scenes/default.pbrt");
         CHECK(o.spp == 0);
         CHECK(o.time == 0);
@@ -54,7 +54,7 @@ TEST_SUITE("options") {
         CHECK(o.seed == 0);
         CHECK(o.threads >= 1);
         CHECK(o.sampler == SamplerType::independent);
-        CHECK(o.out == std::vector<std::string>{"out/06_x.ppm"});
+        CHECK(o.out == std::vector<std::string>{"out/07_x.ppm"});
         CHECK(o.stats.empty());
         CHECK_FALSE(o.explain);
         CHECK_FALSE(o.quiet);
@@ -100,10 +100,10 @@ TEST_SUITE("options") {
     }
 
     TEST_CASE("input: the command can be typed again") {
-        CHECK(options_of({"a.pbrt", "--spp", "2"}).command == "build/06 a.pbrt --spp 2");
+        CHECK(options_of({"a.pbrt", "--spp", "2"}).command == "build/07 a.pbrt --spp 2");
         CHECK(options_of({"my scene.pbrt", "--paths", "LD(S|D)*E"}).command ==
-              "build/06 'my scene.pbrt' --paths 'LD(S|D)*E'");
-        CHECK(options_of({"it's"}).command == "build/06 'it'\\''s'");
+              "build/07 'my scene.pbrt' --paths 'LD(S|D)*E'");
+        CHECK(options_of({"it's"}).command == "build/07 'it'\\''s'");
     }
 
     TEST_CASE("input: wrong options name the right one") {

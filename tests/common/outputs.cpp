@@ -19,7 +19,7 @@ namespace {
 
 const std::string overwritten = ", and would be overwritten\n";
 
-/// A room of mirrors, in which a path of chapter 06 hardly ends.
+/// A room of mirrors, in which a path of chapter 07 hardly ends.
 const char* mirrors = R"(
 LookAt 0 0 0  0 0.3 1  0 1 0
 Camera "perspective"
@@ -99,7 +99,7 @@ TEST_SUITE("outputs") {
         fs::create_symlink("../sky.pfm", folder / "d/LDE.pfm");
         auto refuses = [&](const std::string& scene, const Words& words) {
             CAPTURE(words[0] + " " + words[1]);
-            Finished end = run("15_distribution", brief(folder / scene, words));
+            Finished end = run("16_distribution", brief(folder / scene, words));
             CHECK(end.code == 2);
             CHECK(end.out == "");
             CHECK(end.err.ends_with(overwritten));
@@ -117,7 +117,7 @@ TEST_SUITE("outputs") {
         refuses("a.svg", {"--explain-brightest", "--out", folder / "a.ppm"});
         CHECK(folder.names() == before);
         CHECK(read_image(folder / "sky.pfm").at(1, 1) == Rgb{1, 1, 1});
-        CHECK(run("15_distribution", brief(folder / "a.pbrt", {"--out", out})).code == 0);
+        CHECK(run("16_distribution", brief(folder / "a.pbrt", {"--out", out})).code == 0);
     }
 
     TEST_CASE("files: two outputs of one run are never one file, those of --split among them") {
@@ -134,7 +134,7 @@ TEST_SUITE("outputs") {
         CHECK(run(path_tracer, brief(spheres, other)).code == 0);
         CHECK(fs::exists(folder / "d/picture.pfm"));
         Words map = {"--map", folder / "a.ppm", "--out", folder / "a.ppm"};
-        CHECK(run("16_adaptive", brief(spheres, map)).err.ends_with(" are one file\n"));
+        CHECK(run("19_adaptive", brief(spheres, map)).err.ends_with(" are one file\n"));
     }
 
     TEST_CASE("files: compare and merge do not overwrite what they read") {
@@ -314,10 +314,10 @@ TEST_SUITE("outputs") {
         CHECK(run(path_tracer, words).err == "");
     }
 
-    TEST_CASE("truth: --time ends chapters 04 and 06 in a room of mirrors, and so does a signal") {
+    TEST_CASE("truth: --time ends chapters 05 and 07 in a room of mirrors, and so does a signal") {
         TemporaryFolder folder;
         write_file_atomically(folder / "m.pbrt", mirrors);
-        for (const std::string program : {"04_ray_casting", "06_path_tracing"}) {
+        for (const std::string program : {"05_ray_casting", "07_path_tracing"}) {
             Words words = {folder / "m.pbrt", "--size", "64x64",         "--spp", "1000",
                            "--quiet",         "--out",  folder / "a.ppm"};
             CHECK(stopped(program, words).code == 3);
@@ -329,7 +329,7 @@ TEST_SUITE("outputs") {
         }
         // The path that is explained is told up to where it was stopped.
         Words words = {folder / "m.pbrt", "--explain", "3,3", "--quiet", "--out", folder / "a.ppm"};
-        Finished end = stopped("06_path_tracing", words);
+        Finished end = stopped("07_path_tracing", words);
         CHECK(end.code == 3);
         CHECK(end.out.find("\n    given up here: ") != std::string::npos);
         CHECK(read_file(folder / "a.svg").ends_with("</svg>\n"));

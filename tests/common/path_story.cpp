@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "chapters/13_mis/estimator.h"
+#include "chapters/14_mis/estimator.h"
 #include "tests/support/scenes.h"
 
 namespace {
@@ -95,7 +95,7 @@ TEST_SUITE("path story") {
         for (const char* name : {"veach-mis", "cornell-spheres", "cornell"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + std::string(name) + ".pbrt", 16, 30);
-            LightTable lights = ch13::prepare(scene);
+            LightTable lights = ch14::prepare(scene);
             CameraView view = camera_view(scene.camera, 16, 16);
             Sampler sampler(SamplerType::independent, 1, 1);
             Checked checked;
@@ -104,7 +104,7 @@ TEST_SUITE("path story") {
                 Vec2 u = sampler.u2();
                 PathStory story(scene.max_depth, false);
                 PathLog log("", &story);
-                ch13::trace(scene, lights, ch13::Settings(), camera_ray(view, {16 * u.x, 16 * u.y}),
+                ch14::trace(scene, lights, ch14::Settings(), camera_ray(view, {16 * u.x, 16 * u.y}),
                             sampler, log);
                 story.ends();
                 checked.check(story.text());

@@ -195,10 +195,10 @@ TEST_SUITE("programs") {
         }
     }
 
-    TEST_CASE("files: the heat map of chapter 05 has its own table, and refuses before any work") {
+    TEST_CASE("files: the heat map of chapter 06 has its own table, and refuses before any work") {
         TemporaryFolder folder;
         Words words = {spheres, "--size", "33x17", "--out", folder / "a.ppm"};
-        Finished end = run("05_bvh", words);
+        Finished end = run("06_bvh", words);
         CHECK(end.code == 0);
         for (const char* word :
              {"linear", "median", "sah", "ordered", "four", "wide", "M rays/s"}) {
@@ -206,17 +206,17 @@ TEST_SUITE("programs") {
         }
         CHECK(read_image(folder / "a.ppm").width == 33);
         CHECK(
-            run("05_bvh", {spheres, "--step", "sha"}).err ==
+            run("06_bvh", {spheres, "--step", "sha"}).err ==
             "error: --step takes linear, median, sah, ordered, four or wide (did you mean 'sah'?), "
             "not 'sha'\n");
         for (const char* option : {"--explain=1,1", "--spp=4", "--split=out", "--paths=LDE"}) {
-            end = run("05_bvh", {spheres, option});
+            end = run("06_bvh", {spheres, option});
             CHECK(end.code == 2);
             CHECK(end.out == "");
-            CHECK(end.err.find("means nothing to 05_bvh") != std::string::npos);
+            CHECK(end.err.find("means nothing to 06_bvh") != std::string::npos);
         }
-        CHECK(run("05_bvh", {"--help"}).out.find("--explain") == std::string::npos);
-        end = run("05_bvh", {spheres, "--out", "none/a.ppm"});
+        CHECK(run("06_bvh", {"--help"}).out.find("--explain") == std::string::npos);
+        end = run("06_bvh", {spheres, "--out", "none/a.ppm"});
         CHECK(end.code == 1);
         CHECK(end.out == "");
         CHECK(end.err == "none/a.ppm: error: cannot write: No such file or directory\n");
@@ -267,10 +267,10 @@ TEST_SUITE("programs") {
 
     TEST_CASE("identity: a picture's notes tell how to make its bytes again") {
         const std::map<std::string, Words> own = {
-            {"08_light_sampling", {"--light-by", "area"}}, {"11_ris", {"--m", "3"}},
-            {"12_glossy", {"--strategy", "bsdf"}},         {"14_mis_ris", {"--m", "2"}},
-            {"15_distribution", {"--pixel", "centre"}},    {"16_adaptive", {"--pilot", "4"}},
-            {"18_bidirectional", {"--strategy", "1,2"}}};
+            {"09_light_sampling", {"--light-by", "area"}}, {"12_ris", {"--m", "3"}},
+            {"13_glossy", {"--strategy", "bsdf"}},         {"15_mis_ris", {"--m", "2"}},
+            {"16_distribution", {"--pixel", "centre"}},    {"19_adaptive", {"--pilot", "4"}},
+            {"21_bidirectional", {"--strategy", "1,2"}}};
         for (bool render : {false, true}) {
             for (const std::string& program : programs(render)) {
                 CAPTURE(program);
@@ -318,8 +318,8 @@ TEST_SUITE("programs") {
             REQUIRE(run(program, words).code == 0);
         };
         const Words size = {"--size", "32x24", "--spp", "4", "--max-depth", "5"};
-        render("08_light_sampling", "a", size);  // each of its chapter's own scene
-        render("17_light_tracing", "b", size);
+        render("09_light_sampling", "a", size);  // each of its chapter's own scene
+        render("20_light_tracing", "b", size);
         for (const char* a : {"a.ppm", "a.png"}) {
             for (const char* b : {"b.ppm", "b.png"}) {
                 Finished end = run("compare", {folder / a, folder / b});
@@ -336,14 +336,14 @@ TEST_SUITE("programs") {
         std::string out = run("compare", {folder / "a.pfm", folder / "b.pfm"}).out;
         CHECK(out.starts_with("note: whether both show the same scene is not known"));
         // Pictures of other sizes are not compared, but it is told that the scene is another too.
-        render("17_light_tracing", "c", {"--size", "24x32", "--spp", "4"});
+        render("20_light_tracing", "c", {"--size", "24x32", "--spp", "4"});
         Finished end = run("compare", {folder / "a.png", folder / "c.ppm"});
         CHECK(end.code == 1);
         CHECK(end.err == folder / "c.ppm" + ": error: has 24x32 pixels, but " + folder / "a.png" +
                              " has 32x24\n");
         CHECK(end.out.starts_with("warning: A shows"));
         // The same scene by two chapters is what compare is for.
-        render("09_cosine_sampling", "d", size);
+        render("10_cosine_sampling", "d", size);
         out = run("compare", {folder / "a.ppm", folder / "d.png"}).out;
         CHECK(out.find("A shows") == std::string::npos);
         CHECK(out.find("verdict: the same mean within the noise") != std::string::npos);
@@ -487,9 +487,9 @@ TEST_SUITE("programs") {
 
     TEST_CASE("identity: parts of a render, merged in any order, have the bytes of the whole") {
         for (auto [program_here, sampler_here] :
-             {std::pair(std::string("14_mis_ris"), "independent"),
-              {"14_mis_ris", "stratified"},
-              {"14_mis_ris", "sobol"},
+             {std::pair(std::string("15_mis_ris"), "independent"),
+              {"15_mis_ris", "stratified"},
+              {"15_mis_ris", "sobol"},
               {light_tracer, "independent"},
               {light_tracer, "sobol"}}) {
             TemporaryFolder folder;
@@ -527,24 +527,24 @@ TEST_SUITE("programs") {
         TemporaryFolder folder;
         Words first = {spheres,  "--size",          "33x17", "--spp",         "4",
                        "--film", folder / "a.film", "--out", folder / "a.ppm"};
-        REQUIRE(run("11_ris", first).code == 0);
+        REQUIRE(run("12_ris", first).code == 0);
         std::string before = read_file(folder / "a.film");
         struct {
             const char* program;
             Words more;
             const char* error;
         } cases[] = {
-            {"11_ris", {"--size", "33x18"}, "its size is \"33x17\", here it is \"33x18\""},
-            {"11_ris", {"--m", "3"}, "its m is \"16\", here it is \"3\""},
-            {"11_ris", {"--max-depth", "3"}, "its max-depth is \"100\", here it is \"3\""},
-            {"11_ris", {"--paths", "LDE"}, "its paths is \"\", here it is \"LDE\""},
-            {"11_ris",
+            {"12_ris", {"--size", "33x18"}, "its size is \"33x17\", here it is \"33x18\""},
+            {"12_ris", {"--m", "3"}, "its m is \"16\", here it is \"3\""},
+            {"12_ris", {"--max-depth", "3"}, "its max-depth is \"100\", here it is \"3\""},
+            {"12_ris", {"--paths", "LDE"}, "its paths is \"\", here it is \"LDE\""},
+            {"12_ris",
              {"--seed", "7"},
              "it holds samples 0 to 3 of seed 0, which do not begin what is asked for: samples 0 "
              "to 3 of seed 7"},
-            {"10_light_importance",
+            {"11_light_importance",
              {},
-             "its chapter is \"11_ris\", here it is \"10_light_importance\""},
+             "its chapter is \"12_ris\", here it is \"11_light_importance\""},
         };
         for (const auto& c : cases) {
             Words words = first;
@@ -618,7 +618,7 @@ TEST_SUITE("programs") {
             CHECK(end.code == 0);
             CHECK(end.err == "");
             CHECK(end.out.find("/scenes/cornell.pbrt  9x9  1 spp\n") != std::string::npos);
-            CHECK(read_image(folder / "out/06_path_tracing.ppm").width == 9);
+            CHECK(read_image(folder / "out/07_path_tracing.ppm").width == 9);
             fs::remove_all(folder / "out");
         }
         // Where the project is not above the program, it may be the working directory.

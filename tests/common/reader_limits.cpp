@@ -272,7 +272,7 @@ TEST_SUITE("reader: large scenes") {
                               "Sampler \"halton\"\nTexture \"a\" \"float\" \"constant\"\nCamra");
         for (const char* quiet : {"--quiet", "--spp=1"}) {
             Process program([&] {
-                std::vector<std::string> words = program_words("06_path_tracing");
+                std::vector<std::string> words = program_words("07_path_tracing");
                 words.insert(words.end(), {scene, quiet});
                 std::vector<char*> argv;
                 for (std::string& word : words) argv.push_back(word.data());

@@ -7,9 +7,9 @@
 
 TEST_SUITE("work") {
     TEST_CASE("truth: the time left is as long as the share of the work that is left") {
-        CHECK(Work::line("cornell, 14", 0, 0) == "[  0 %] cornell, 14");
-        CHECK(Work::line("cornell, 14", 0.25, 30) ==
-              "[ 25 %] cornell, 14: 30 s so far, about 90 s left");
+        CHECK(Work::line("cornell, 15", 0, 0) == "[  0 %] cornell, 15");
+        CHECK(Work::line("cornell, 15", 0.25, 30) ==
+              "[ 25 %] cornell, 15: 30 s so far, about 90 s left");
         CHECK(Work::line("a", 0.5, 600) == "[ 50 %] a: 10 min so far, about 10 min left");
         CHECK(duration(3 * 3600) == "3.0 h");
     }

@@ -16,7 +16,7 @@
 /// FilmShape.
 inline LabeledFilm any_film(int kind, bool takes_splats, uint32_t first, uint32_t last) {
     LabeledFilm f{{}, Film(11, 13, takes_splats)};
-    f.label.options = {{"chapter", "06"}, {"scene", "abc"}, {"size", "11x13"}, {"paths", ""}};
+    f.label.options = {{"chapter", "07"}, {"scene", "abc"}, {"size", "11x13"}, {"paths", ""}};
     f.label.samples = {{0, first, last}};
     f.label.goals = {{0, 9, 3}};
     f.label.keep_open_goals();

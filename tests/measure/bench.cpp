@@ -1,4 +1,4 @@
-// Rays per second of each step of chapter 05, beside Embree where it is installed.
+// Rays per second of each step of chapter 06, beside Embree where it is installed.
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "chapters/05_bvh/estimator.h"
+#include "chapters/06_bvh/estimator.h"
 #include "common/base/error.h"
 #include "tests/measure/bench_chart.h"
 #include "tests/measure/bench_embree.h"
@@ -143,13 +143,13 @@ private:
     void build(Table& table) {
         const Geometry& g = scene_.geometry;
         double n = static_cast<double>(g.size()), millions = n / 1e6;
-        auto step = [&](ch05::Finder& finder, ch05::Step which) {
+        auto step = [&](ch06::Finder& finder, ch06::Step which) {
             Build build{[] {}, [&finder, which, this] { finder = make_finder(scene_, which); }};
             return build_times({build}, 1)[0];
         };
-        BuildTime by_median = step(median_, ch05::Step::median);
-        BuildTime by_sah = step(sah_, ch05::Step::sah);
-        four_ = make_finder(scene_, ch05::Step::four);
+        BuildTime by_median = step(median_, ch06::Step::median);
+        BuildTime by_sah = step(sah_, ch06::Step::sah);
+        four_ = make_finder(scene_, ch06::Step::four);
         auto own = [&](int threads) {
             return Build{[&] { wide_ = {}; }, [&, threads] { wide_ = build_bvh(g, threads); }};
         };
@@ -181,21 +181,21 @@ private:
     std::vector<Contender> contenders() {
         const Geometry& g = scene_.geometry;
         // The chapter's own steps have no way to ask for any hit: they look for the nearest.
-        auto step = [&g](ch05::Finder& finder, ch05::Step which) {
+        auto step = [&g](ch06::Finder& finder, ch06::Step which) {
             auto closest = [&g, &finder, which](const Ray& ray) {
-                ch05::Work work;
+                ch06::Work work;
                 finder.step = which;
                 return find(finder, g, ray, work).t;
             };
-            return contender(ch05::step_names[static_cast<size_t>(which)], closest,
+            return contender(ch06::step_names[static_cast<size_t>(which)], closest,
                              [=](const Ray& ray) { return closest(ray) < infinity; });
         };
         std::vector<Contender> all;
-        if (g.size() < 1000) all.push_back(step(linear_, ch05::Step::linear));
-        all.push_back(step(median_, ch05::Step::median));
-        all.push_back(step(sah_, ch05::Step::sah));
-        all.push_back(step(sah_, ch05::Step::ordered));
-        all.push_back(step(four_, ch05::Step::four));
+        if (g.size() < 1000) all.push_back(step(linear_, ch06::Step::linear));
+        all.push_back(step(median_, ch06::Step::median));
+        all.push_back(step(sah_, ch06::Step::sah));
+        all.push_back(step(sah_, ch06::Step::ordered));
+        all.push_back(step(four_, ch06::Step::four));
         all.push_back(contender(
             "wide", [this](const Ray& ray) { return closest_hit(wide_, scene_.geometry, ray).t; },
             [this](const Ray& ray) { return any_hit(wide_, scene_.geometry, ray); }));
@@ -247,7 +247,7 @@ private:
     const BenchMesh& mesh_;
     const BenchOptions& o_;
     Scene scene_;
-    ch05::Finder linear_, median_, sah_, four_;
+    ch06::Finder linear_, median_, sah_, four_;
     Bvh wide_;
     std::unique_ptr<Embree> medium_, high_;
 };
@@ -294,7 +294,7 @@ BenchOptions parse_bench_options(int argc, char** argv) {
         {"out", "DIR", "where bench.tsv, bench-build.tsv and the chart go (default out)",
          [&](const std::string& text) { o.out = text; }}};
     parse_options(argc, argv, "MESH...",
-                  "Rays per second of the steps of chapter 05, on one thread, beside Embree where "
+                  "Rays per second of the steps of chapter 06, on one thread, beside Embree where "
                   "it is installed. MESH: part of a name, such as hall.",
                   options, [&](const std::string& word) { o.meshes.push_back(word); });
     return o;

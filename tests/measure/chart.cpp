@@ -55,11 +55,11 @@ void add_summary(const std::string& scene, const std::vector<Curve>& curves, Tab
 std::vector<Method> methods_for(const MeasureOptions& o, const std::string& scene) {
     std::vector<std::string> names = o.methods;
     if (names.empty()) {
-        names = {"all", "14-sobol"};
+        names = {"all", "15-sobol"};
         if (scene == "cornell") {
             names.insert(names.end(), {"depth-cap", "clamp", "wrong-pdf"});
         }
-        if (scene == "veach-mis") names.push_back("12-bsdf");
+        if (scene == "veach-mis") names.push_back("13-bsdf");
     }
     return methods_named(names);
 }

@@ -31,7 +31,7 @@ const Curve* measure_of_all(const std::vector<Curve>& curves);
 /// for one that is exact from the first sample on.
 std::string times_faster(const Curve& curve, const Curve* first);
 
-/// What the curves say: "cornell: 14 is 97 times faster than 06 at equal error".
+/// What the curves say: "cornell: 15 is 97 times faster than 07 at equal error".
 std::string finding(const std::string& scene, const std::vector<Curve>& curves);
 
 /// Root of the mean of the squares; mean.

@@ -33,7 +33,7 @@ MeasureOptions parse_measure_options(int argc, char** argv, const std::string& p
         };
     };
     std::vector<Option> options = {
-        {"methods", "A,B", "such as 08,14; 14+: chapter 14 and its variants; all: every chapter",
+        {"methods", "A,B", "such as 09,15; 15+: chapter 15 and its variants; all: every chapter",
          [&](const std::string& text) { o.methods = split_list(text); }},
         {"spp", "N", "samples per pixel (default " + std::to_string(o.spp) + ")",
          integer("spp", o.spp, 1, 1 << 30)},

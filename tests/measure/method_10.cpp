@@ -1,13 +1,11 @@
-#include "chapters/10_light_importance/estimator.h"
+#include "chapters/10_cosine_sampling/estimator.h"
 #include "tests/measure/methods.h"
 
 [[maybe_unused]] static const bool added =
     add_method({.name = "10",
-                .label = "10 light importance",
-                .color = "#2ca02c",
+                .label = "10 cosine sampling",
+                .color = "#17becf",
                 .finds_light = "by aim",
-                .scenes = {"thousand-lights", "two-lights", "far-and-near"},
+                .scenes = {"cornell", "horizon-sky"},
                 .refuse = {refuse_glossy},
-                .render = by_trace([](const Scene& scene) {
-                    return trace_with<ch10::trace>(ch10::prepare(scene));
-                })});
+                .render = by_trace([](const Scene&) { return trace_with<ch10::trace>(); })});

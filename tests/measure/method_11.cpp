@@ -1,19 +1,13 @@
-#include "chapters/11_ris/estimator.h"
+#include "chapters/11_light_importance/estimator.h"
 #include "tests/measure/methods.h"
 
-static bool add(const char* name, const char* label, const char* color, int M) {
-    return add_method({.name = name,
-                       .label = label,
-                       .color = color,
-                       .finds_light = "by aim",
-                       .scenes = {"thousand-lights", "hidden-light"},
-                       .refuse = {refuse_glossy},
-                       .render = by_trace([=](const Scene& scene) {
-                           return trace_with<ch11::trace>(ch11::prepare(scene), M);
-                       })});
-}
-[[maybe_unused]] static const bool added[] = {
-    add("11", "11 RIS, M = 16", "#ff7f0e", 16),
-    add("11-m2", "11 RIS, M = 2", "#fdae6b", 2),
-    add("11-m32", "11 RIS, M = 32", "#a63603", 32),
-};
+[[maybe_unused]] static const bool added =
+    add_method({.name = "11",
+                .label = "11 light importance",
+                .color = "#2ca02c",
+                .finds_light = "by aim",
+                .scenes = {"thousand-lights", "two-lights", "far-and-near"},
+                .refuse = {refuse_glossy},
+                .render = by_trace([](const Scene& scene) {
+                    return trace_with<ch11::trace>(ch11::prepare(scene));
+                })});

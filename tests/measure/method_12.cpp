@@ -1,29 +1,19 @@
-#include "chapters/12_glossy/estimator.h"
+#include "chapters/12_ris/estimator.h"
 #include "tests/measure/methods.h"
 
-using ch12::Strategy;
-
-static Method method(const char* name, const char* label, const char* color,
-                     const char* finds_light, Strategy strategy) {
-    return {.name = name,
-            .label = label,
-            .color = color,
-            .finds_light = finds_light,
-            .scenes = {"veach-mis"},
-            .render = by_trace([=](const Scene& scene) {
-                return trace_with<ch12::trace>(ch12::prepare(scene), strategy);
-            })};
+static bool add(const char* name, const char* label, const char* color, int M) {
+    return add_method({.name = name,
+                       .label = label,
+                       .color = color,
+                       .finds_light = "by aim",
+                       .scenes = {"thousand-lights", "hidden-light"},
+                       .refuse = {refuse_glossy},
+                       .render = by_trace([=](const Scene& scene) {
+                           return trace_with<ch12::trace>(ch12::prepare(scene), M);
+                       })});
 }
-
-/// Directions of the BSDF alone never meet a point light.
-static Method bsdf_alone() {
-    Method m =
-        method("12-bsdf", "12 glossy, by the BSDF alone", "#ff0077", "by chance", Strategy::bsdf);
-    m.refuse = {refuse_delta_lights};
-    return m;
-}
-
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("12", "12 glossy, by aiming alone", "#9467bd", "by aim", Strategy::light)),
-    add_method(bsdf_alone()),
+    add("12", "12 RIS, M = 16", "#ff7f0e", 16),
+    add("12-m2", "12 RIS, M = 2", "#fdae6b", 2),
+    add("12-m32", "12 RIS, M = 32", "#a63603", 32),
 };

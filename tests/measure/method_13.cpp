@@ -1,21 +1,29 @@
-#include "chapters/13_mis/estimator.h"
+#include "chapters/13_glossy/estimator.h"
 #include "tests/measure/methods.h"
 
+using ch13::Strategy;
+
 static Method method(const char* name, const char* label, const char* color,
-                     ch13::Settings settings) {
+                     const char* finds_light, Strategy strategy) {
     return {.name = name,
             .label = label,
             .color = color,
-            .finds_light = "both ways",
-            .scenes = {"veach-mis", "near-disk", "cornell"},
+            .finds_light = finds_light,
+            .scenes = {"veach-mis"},
             .render = by_trace([=](const Scene& scene) {
-                return trace_with<ch13::trace>(ch13::prepare(scene), settings);
+                return trace_with<ch13::trace>(ch13::prepare(scene), strategy);
             })};
 }
 
+/// Directions of the BSDF alone never meet a point light.
+static Method bsdf_alone() {
+    Method m =
+        method("13-bsdf", "13 glossy, by the BSDF alone", "#ff0077", "by chance", Strategy::bsdf);
+    m.refuse = {refuse_delta_lights};
+    return m;
+}
+
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("13", "13 MIS", "#bcbd22", {})),
-    add_method(method("13-balance", "13 MIS, balance heuristic", "#e7cb94",
-                      {.heuristic = ch13::balance_heuristic})),
-    add_method(method("13-one-sample", "13 MIS, one sample", "#8c6d31", {.one_sample = true})),
+    add_method(method("13", "13 glossy, by aiming alone", "#9467bd", "by aim", Strategy::light)),
+    add_method(bsdf_alone()),
 };

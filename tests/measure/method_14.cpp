@@ -1,60 +1,21 @@
-#include "chapters/14_mis_ris/estimator.h"
+#include "chapters/14_mis/estimator.h"
 #include "tests/measure/methods.h"
 
-static Trace with_candidates(const Scene& scene, int M) {
-    return trace_with<ch14::trace>(ch14::prepare(scene, M));
-}
-
-static Method method(const char* name, const char* label, const char* color, int M = 64) {
+static Method method(const char* name, const char* label, const char* color,
+                     ch14::Settings settings) {
     return {.name = name,
             .label = label,
             .color = color,
             .finds_light = "both ways",
-            .scenes = {"thousand-lights", "hidden-light", "veach-mis"},
-            .render = by_trace([=](const Scene& scene) { return with_candidates(scene, M); })};
-}
-
-static Method with_sobol() {
-    Method m = method("14-sobol", "14 MIS with RIS, Sobol", "#393b79");
-    m.render = [render = m.render](const Scene& scene, RenderOptions options) {
-        options.sampler = SamplerType::sobol;
-        return render(scene, options);
-    };
-    return m;
-}
-
-// Wrong on purpose, so that charts show what no number of samples cures.
-
-static Trace clamped(const Scene& scene) {
-    return [trace = with_candidates(scene, 64)](const Scene& s, Ray ray, Sampler& sampler,
-                                                PathLog& log) {
-        Rgb L = trace(s, ray, sampler, log);
-        return max_component(L) > 1 ? L / max_component(L) : L;
-    };
-}
-
-static Method clamp() {
-    Method m = method("clamp", "14, samples clamped to 1", "#7b4173");
-    m.render = by_trace(clamped);
-    m.biased = true;
-    return m;
-}
-
-static Method depth_cap() {
-    Method m = method("depth-cap", "14, paths cut after 2", "#eebb88");
-    m.render = [render = m.render](const Scene& scene, const RenderOptions& options) {
-        Scene cut = scene;
-        cut.max_depth = std::min(2, scene.max_depth);
-        return render(cut, options);
-    };
-    m.biased = true;
-    return m;
+            .scenes = {"veach-mis", "near-disk", "cornell"},
+            .render = by_trace([=](const Scene& scene) {
+                return trace_with<ch14::trace>(ch14::prepare(scene), settings);
+            })};
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("14", "14 MIS with RIS", "#d62728")),
-    add_method(method("14-m16", "14 MIS with RIS, M = 16", "#7f0000", 16)),
-    add_method(with_sobol()),
-    add_method(clamp()),
-    add_method(depth_cap()),
+    add_method(method("14", "14 MIS", "#bcbd22", {})),
+    add_method(method("14-balance", "14 MIS, balance heuristic", "#e7cb94",
+                      {.heuristic = ch14::balance_heuristic})),
+    add_method(method("14-one-sample", "14 MIS, one sample", "#8c6d31", {.one_sample = true})),
 };

@@ -1,40 +1,60 @@
-#include "chapters/15_distribution/estimator.h"
-#include "tests/measure/chance_15.h"
+#include "chapters/15_mis_ris/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
-    auto render =
-        by_trace([](const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); });
+static Trace with_candidates(const Scene& scene, int M) {
+    return trace_with<ch15::trace>(ch15::prepare(scene, M));
+}
+
+static Method method(const char* name, const char* label, const char* color, int M = 64) {
     return {.name = name,
             .label = label,
             .color = color,
             .finds_light = "both ways",
-            .scenes = {"sky", "bokeh", "moving-ball"},
-            .render =
-                [=](const Scene& scene, RenderOptions options) {
-                    if (sampler != SamplerType::independent) options.sampler = sampler;
-                    return render(scene, options);
-                },
-            .has_distribution = true};
+            .scenes = {"thousand-lights", "hidden-light", "veach-mis"},
+            .render = by_trace([=](const Scene& scene) { return with_candidates(scene, M); })};
 }
 
-static Method by_chance() {
-    return {.name = "15-chance",
-            .label = "15, light by chance",
-            .color = "#0077ff",
-            .finds_light = "by chance",
-            .refuse = {refuse_delta_lights},
-            .render = by_trace([](const Scene&) -> Trace {
-                return [white = shares_of_white()](const Scene& scene, Ray ray, Sampler& sampler,
-                                                   PathLog& log) {
-                    return trace_by_chance(scene, white, ray, sampler, log);
-                };
-            }),
-            .has_distribution = true};
+static Method with_sobol() {
+    Method m = method("15-sobol", "15 MIS with RIS, Sobol", "#393b79");
+    m.render = [render = m.render](const Scene& scene, RenderOptions options) {
+        options.sampler = SamplerType::sobol;
+        return render(scene, options);
+    };
+    return m;
+}
+
+// Wrong on purpose, so that charts show what no number of samples cures.
+
+static Trace clamped(const Scene& scene) {
+    return [trace = with_candidates(scene, 64)](const Scene& s, Ray ray, Sampler& sampler,
+                                                PathLog& log) {
+        Rgb L = trace(s, ray, sampler, log);
+        return max_component(L) > 1 ? L / max_component(L) : L;
+    };
+}
+
+static Method clamp() {
+    Method m = method("clamp", "15, samples clamped to 1", "#7b4173");
+    m.render = by_trace(clamped);
+    m.biased = true;
+    return m;
+}
+
+static Method depth_cap() {
+    Method m = method("depth-cap", "15, paths cut after 2", "#eebb88");
+    m.render = [render = m.render](const Scene& scene, const RenderOptions& options) {
+        Scene cut = scene;
+        cut.max_depth = std::min(2, scene.max_depth);
+        return render(cut, options);
+    };
+    m.biased = true;
+    return m;
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("15", "15 lens, time, color, sky", "#0000ff", SamplerType::independent)),
-    add_method(by_chance()),
-    add_method(method("15-sobol", "15, Sobol", "#9edae5", SamplerType::sobol)),
+    add_method(method("15", "15 MIS with RIS", "#d62728")),
+    add_method(method("15-m16", "15 MIS with RIS, M = 16", "#7f0000", 16)),
+    add_method(with_sobol()),
+    add_method(clamp()),
+    add_method(depth_cap()),
 };

@@ -1,34 +1,29 @@
-#include "chapters/19_photon_mapping/estimator.h"
+#include "chapters/19_adaptive/estimator.h"
 #include "tests/measure/methods.h"
 
-static auto by_photons(ch19::Gather gather, int photons = ch19::Settings().photons) {
-    return [=](const Scene& scene, RenderOptions options) {
-        options.search = LightSearch::photons;
-        ch19::Settings settings;
-        settings.sampler = options.sampler, settings.seed = options.seed;
-        settings.gather = gather, settings.photons = photons;
-        return render_film(scene, options, ch19::photon_passes(scene, settings));
-    };
+static Method method(const char* name, const char* label, const char* color, SamplerType sampler,
+                     ch19::Judge judge = ch19::Judge::other) {
+    return {.name = name,
+            .label = label,
+            .color = color,
+            .finds_light = "both ways",
+            .scenes = {"high-contrast", "cornell-spheres", "cornell"},
+            .render =
+                [=](const Scene& scene, RenderOptions options) {
+                    if (sampler != SamplerType::independent) options.sampler = sampler;
+                    ch19::Shares shares;
+                    shares.judge = judge;
+                    return render_film(scene, options,
+                                       trace_with<ch19::trace>(ch19::prepare(scene)),
+                                       ch19::allocation(shares));
+                },
+            .biased = judge == ch19::Judge::own,
+            .has_distribution = true};
 }
 
-[[maybe_unused]] static const bool added = [] {
-    add_method({.name = "19-direct",
-                .label = "19, photons where the eye looks",
-                .color = "#006655",
-                .finds_light = "by photons",
-                .render = by_photons(ch19::Gather::direct),
-                .biased = true});
-    add_method({.name = "19-few",
-                .label = "19 with few photons",
-                .color = "#66dfc0",
-                .finds_light = "by photons",
-                .render = by_photons(ch19::Gather::final, 200),
-                .biased = true});
-    return add_method({.name = "19",
-                       .label = "19 photon mapping",
-                       .color = "#00c896",
-                       .finds_light = "by photons",
-                       .scenes = {"pool", "sds", "cornell-spheres"},
-                       .render = by_photons(ch19::Gather::final),
-                       .biased = true});
-}();
+[[maybe_unused]] static const bool added[] = {
+    add_method(method("19", "19 adaptive", "#e000e0", SamplerType::independent)),
+    add_method(method("19-own", "19, own judge (biased)", "#dbdb8d", SamplerType::independent,
+                      ch19::Judge::own)),
+    add_method(method("19-sobol", "19, Sobol", "#aa0099", SamplerType::sobol)),
+};

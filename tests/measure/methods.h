@@ -15,7 +15,7 @@
 #include "common/program/render.h"
 
 struct Method {
-    std::string name;                      // "08"; with an option of the chapter, "08-area"
+    std::string name;                      // "09"; with an option of the chapter, "09-area"
     std::string label = {};                // in legends
     std::string color = {};                // "#rrggbb"
     std::string finds_light = {};          // how, in two words: those that do it alike err alike
@@ -40,7 +40,7 @@ std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
 /// All methods, sorted by name.
 const std::vector<Method>& all_methods();
 
-/// The methods of these names, or UsageError. "all": every chapter; "08+": chapter 08 and its
+/// The methods of these names, or UsageError. "all": every chapter; "09+": chapter 09 and its
 /// variants.
 std::vector<Method> methods_named(const std::vector<std::string>& names);
 

@@ -4,7 +4,7 @@
 
 #include "chapters/01_monte_carlo_pi/estimator.h"
 #include "chapters/02_stratification/figure.h"
-#include "chapters/03_importance/figure.h"
+#include "chapters/04_importance/figure.h"
 #include "tests/measure/measure.h"
 
 namespace {
@@ -80,12 +80,12 @@ std::vector<LinePanel> point_sets(uint32_t largest, uint32_t runs) {
     return panels;
 }
 
-/// Chapter 03: x^2 by every density. One that is zero where x^2 is not stays at its bias.
+/// Chapter 04: x^2 by every density. One that is zero where x^2 is not stays at its bias.
 std::vector<LinePanel> densities(uint32_t largest, uint32_t runs) {
     LinePanel over_n{"error over samples", samples, error, {}},
         over_t{"over time", seconds, error, {}};
     size_t color = 0;
-    for (const ch03::Experiment& e : ch03::integrals()) {
+    for (const ch04::Experiment& e : ch04::integrals()) {
         if (e.what != "x^2" && e.what != "x^2, not divided") continue;
         bool biased = e.mean != e.truth, exact = e.variance == 0;
         std::string note = biased                   ? ", biased"
@@ -102,7 +102,7 @@ std::vector<LinePanel> densities(uint32_t largest, uint32_t runs) {
             RunningStats squares;
             Stopwatch watch;
             for (uint32_t run = 0; run < runs; run++) {
-                double mean = ch03::run(e, n, hash32(n, run)).stats.mean();
+                double mean = ch04::run(e, n, hash32(n, run)).stats.mean();
                 squares.add((mean - e.truth) * (mean - e.truth));
             }
             by_n.x.push_back(n);
@@ -128,7 +128,7 @@ void chart_points(const std::string& folder, uint32_t largest, uint32_t runs) {
     panels.resize(3);
     std::printf("chapter 02\n%s\n", markdown(slopes_table(panels)).c_str());
     panels = densities(largest, runs);
-    write(folder, "03-densities",
+    write(folder, "04-densities",
           "A density like x^2 errs least; one that leaves part of it out stays wrong", panels, 2);
-    std::printf("chapter 03\n%s\n", markdown(slopes_table({panels[0]})).c_str());
+    std::printf("chapter 04\n%s\n", markdown(slopes_table({panels[0]})).c_str());
 }

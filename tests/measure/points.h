@@ -1,4 +1,4 @@
-// The charts of chapters 01 to 03: error against the number of samples and against time.
+// The charts of chapters 01 to 04: error against the number of samples and against time.
 #pragma once
 #include "tests/measure/lines.h"
 

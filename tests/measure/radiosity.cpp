@@ -1,7 +1,7 @@
 // Error against time of radiosity with ever more patches, beside path tracing with ever more paths.
 #include <cstdio>
 
-#include "chapters/20_radiosity/run.h"
+#include "chapters/26_radiosity/run.h"
 #include "common/picture/comparison.h"
 #include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
@@ -22,16 +22,16 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
     int threads = o.threads;
     auto patches = std::make_shared<Patches>(make_patches(scene, wanted, threads));
     const std::vector<Patch>& patch = patches->patch;
-    Rows rows = ch20::form_factors(scene, *patches, ch20::FormFactors::contour, 0, threads);
+    Rows rows = ch26::form_factors(scene, *patches, ch26::FormFactors::contour, 0, threads);
     Matrix G = rows.take_all();
-    ch20::repair(G, patch, patches->closed);
+    ch26::repair(G, patch, patches->closed);
     Solution s;
-    ch20::solve(G, patch, ch20::Sweep::gauss_seidel, 1e-6, s);
+    ch26::solve(G, patch, ch26::Sweep::gauss_seidel, 1e-6, s);
     Solved result{patch.size(), watch.seconds() / threads, 0, 0};
     auto error = [&](Show how) {
-        Shown shown = ch20::show(scene, patches, s, how, threads);
-        Method method{.name = "20", .render = by_trace([&](const Scene&) {
-                                        return trace_with<ch20::trace>(shown);
+        Shown shown = ch26::show(scene, patches, s, how, threads);
+        Method method{.name = "26", .render = by_trace([&](const Scene&) {
+                                        return trace_with<ch26::trace>(shown);
                                     })};
         return compare(render_once(method, scene, o, o.spp, 0).film.image(), reference).rel_mse;
     };
@@ -42,18 +42,18 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
 void report(const std::vector<Solved>& solved, const std::vector<std::array<double, 3>>& paths,
             const MeasureOptions& o, const std::string& name) {
     Table table{{name, "seconds", "relMSE, constant", "relMSE, smooth"}, {}};
-    Line constant{"20, constant", "#8c564b", "", {}, {}},
-        smooth{"20, smooth", "#17becf", "", {}, {}};
-    Line traced{"14", "#d62728", "-1", {}, {}};
+    Line constant{"26, constant", "#8c564b", "", {}, {}},
+        smooth{"26, smooth", "#17becf", "", {}, {}};
+    Line traced{"15", "#d62728", "-1", {}, {}};
     for (const Solved& s : solved) {
-        table.rows.push_back({"20, " + std::to_string(s.patches) + " patches",
+        table.rows.push_back({"26, " + std::to_string(s.patches) + " patches",
                               short_number(s.seconds), short_number(s.constant),
                               short_number(s.smooth)});
         constant.x.push_back(s.seconds), constant.y.push_back(s.constant);
         smooth.x.push_back(s.seconds), smooth.y.push_back(s.smooth);
     }
     for (auto [spp, seconds, error] : paths) {
-        table.rows.push_back({"14, " + short_number(spp) + " paths a pixel", short_number(seconds),
+        table.rows.push_back({"15, " + short_number(spp) + " paths a pixel", short_number(seconds),
                               short_number(error), ""});
         traced.x.push_back(seconds), traced.y.push_back(error);
     }
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         MeasureOptions o = parse_measure_options(
             argc, argv, "[SCENE]",
-            "relMSE against time: patches of chapter 20, paths of chapter 14. Writes "
+            "relMSE against time: patches of chapter 26, paths of chapter 15. Writes "
             "chart-radiosity.svg, .png and .tsv.",
             {.spp = 1024, .width = 64, .height = 64, .max_depth = 60});
         std::string path = find_scene(o.words.empty() ? "cornell" : o.words[0]);
@@ -77,10 +77,10 @@ int main(int argc, char** argv) {
         Scene scene = load_scene_for(path, o);
         refuse(scene);
         tessellate(scene, o.threads);
-        Method fourteen = methods_named({"14"})[0];
-        Work work("radiosity: patches of chapter 20 beside paths of 14, " + name, 10);
+        Method fifteen = methods_named({"15"})[0];
+        Work work("radiosity: patches of chapter 26 beside paths of 15, " + name, 10);
         work.next("reference");
-        Image reference = render_once(fourteen, scene, o, o.spp, 0).film.image();
+        Image reference = render_once(fifteen, scene, o, o.spp, 0).film.image();
         std::vector<Solved> solved;
         for (size_t patches : {size_t{80}, size_t{320}, size_t{1280}, size_t{5120}}) {
             work.next(std::to_string(patches) + " patches");
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
         std::vector<std::array<double, 3>> paths;
         for (int spp : {1, 4, 16, 64, 256}) {
             work.next(std::to_string(spp) + " paths a pixel");
-            Rendering r = render_once(fourteen, scene, o, spp, 1);
+            Rendering r = render_once(fifteen, scene, o, spp, 1);
             paths.push_back(
                 {double(spp), r.stats.seconds, compare(r.film.image(), reference).rel_mse});
         }

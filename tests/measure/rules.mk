@@ -28,35 +28,35 @@ stability: $(BUILD)/stability $(made)
 #: make agree        z values of every chapter against the others, on every scene
 agree: $(BUILD)/agree $(BUILD)/gnuplot $(made)
 	$< $(SCENE)
-#: make efficiency CH=13   a chapter's error, time and efficiency beside the one before
+#: make efficiency CH=14   a chapter's error, time and efficiency beside the one before
 efficiency: $(BUILD)/efficiency $(made)
 	@$< $(or $(CH),$(SCENE),cornell) $(chosen)
-#: make compare A=08 B=09 SCENE=cornell   two chapters with equal samples, and with equal time
+#: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time
 compare: $(BUILD)/efficiency $(made)
 	@$< $(or $(SCENE),cornell) $(chosen) --equal-time
-#: make radiosity    error against time: patches of chapter 20 beside paths of 14 (1 minute)
+#: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
 radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
 	@$< $(SCENE)
 #: make references   render what the charts compare with
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
-#: make bench        rays per second of each step of chapter 05, beside Embree (2 minutes)
+#: make bench        rays per second of each step of chapter 06, beside Embree (2 minutes)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
 harness := $(common) $(BUILD)/obj/tests/support/main.o
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
-#: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=08: a page's)
+#: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's)
 teeth: $(harness) $(made)
 	@$(teeth)
-#: make break CH=08 N=2   plant the second mistake of that page's "Break it", and show its test red
+#: make break CH=09 N=2   plant the second mistake of that page's "Break it", and show its test red
 break: $(harness) $(made)
-	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=08 N=2' >&2; exit 1)
+	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
 #: make kills        end renders by 300 signals at random moments: no film or picture is lost (8 minutes)
-kills: $(BUILD)/14_mis_ris $(BUILD)/06_path_tracing
+kills: $(BUILD)/15_mis_ris $(BUILD)/07_path_tracing
 	tests/kills $(BUILD)
 #: make parts        render parts by GNU parallel and Slurm: the same bytes as one run
-parts: $(BUILD)/14_mis_ris $(BUILD)/merge
+parts: $(BUILD)/15_mis_ris $(BUILD)/merge
 	tests/parts $(BUILD)
 .PHONY: kills parts

@@ -120,7 +120,7 @@ inline Outcomes resampled(Choice a, Choice b, int M, double share_a = 1, double 
     return all;
 }
 
-/// That plus one light out of two evenly, by the power heuristic (chapter 14).
+/// That plus one light out of two evenly, by the power heuristic (chapter 15).
 inline Outcomes two_opinions(Choice a, Choice b, int M) {
     auto share = [&](const Choice& light) {  // of RIS
         double d = std::min(1.0, M * light.pmf);

@@ -11,18 +11,18 @@ def all_runs():
     def add(command):
         runs.append(command)
 
-    for chapter in ("01_monte_carlo_pi", "02_stratification", "03_importance"):
+    for chapter in ("01_monte_carlo_pi", "02_stratification", "04_importance"):
         add(f"$B/{chapter} --n 1000 --out a.pfm --out a.tsv")
         add(f"$B/{chapter} --n 36 --seed 2 --out a.png --quiet")
     for scene in ("cornell-spheres", "two-lights", "corner", "furnace"):
-        add(f"$B/04_ray_casting $S/{scene}.pbrt --size 32x24 --spp 4 --threads 1 --out a.pfm --stats a.json")
+        add(f"$B/05_ray_casting $S/{scene}.pbrt --size 32x24 --spp 4 --threads 1 --out a.pfm --stats a.json")
     for scene in ("cornell-spheres", "near-light"):
-        add(f"$B/05_bvh $S/{scene}.pbrt --size 32x24 --threads 1 --out a.pfm")
+        add(f"$B/06_bvh $S/{scene}.pbrt --size 32x24 --threads 1 --out a.pfm")
 
     # Every chapter on the scenes that it can render; those that it refuses say so.
-    walks = ["06_path_tracing", "07_russian_roulette", "08_light_sampling", "09_cosine_sampling",
-             "10_light_importance", "11_ris", "12_glossy", "13_mis", "14_mis_ris", "15_distribution",
-             "16_adaptive", "17_light_tracing", "18_bidirectional"]
+    walks = ["07_path_tracing", "08_russian_roulette", "09_light_sampling", "10_cosine_sampling",
+             "11_light_importance", "12_ris", "13_glossy", "14_mis", "15_mis_ris", "16_distribution",
+             "19_adaptive", "20_light_tracing", "21_bidirectional"]
     scenes = ["cornell-spheres", "two-lights", "veach-mis", "near-light", "corner", "sky", "prism",
               "moving-ball", "bokeh", "light-in-glass", "near-disk", "furnace", "hidden-light"]
     for number, chapter in enumerate(walks):
@@ -31,49 +31,49 @@ def all_runs():
             add(f"$B/{chapter} $S/{scene}.pbrt --size 20x16 --spp 8 --threads 1 --sampler {sampler}"
                 " --out a.pfm --stats a.json")
     for scene in ("pool", "caustic", "cornell-spheres", "near-light"):
-        add(f"$B/19_photon_mapping $S/{scene}.pbrt --size 20x16 --spp 2 --photons 3000 --threads 1 --out a.pfm"
+        add(f"$B/23_photon_mapping $S/{scene}.pbrt --size 20x16 --spp 2 --photons 3000 --threads 1 --out a.pfm"
             " --stats a.json")
     for words in ("--gather direct --kernel cone", "--gather final --kernel box --nearest 20"):
-        add(f"$B/19_photon_mapping $S/cornell-spheres.pbrt --size 16x12 --spp 2 --photons 2000 {words} --out a.pfm")
+        add(f"$B/23_photon_mapping $S/cornell-spheres.pbrt --size 16x12 --spp 2 --photons 2000 {words} --out a.pfm")
     for words in ("", "--form-factors point --solver jacobi --show constant",
                   "--form-factors chance --solver gauss-seidel --show gather --spp 2",
                   "--shots 40 --every 20 --mesh a.ply"):
-        add(f"$B/20_radiosity $S/cornell.pbrt --patches 200 --size 24x24 --threads 1 --out a.pfm"
+        add(f"$B/26_radiosity $S/cornell.pbrt --patches 200 --size 24x24 --threads 1 --out a.pfm"
             f" --stats a.json {words}")
-    add("$B/20_radiosity $S/near-light.pbrt --patches 150 --size 24x24 --threads 1 --out a.png")
+    add("$B/26_radiosity $S/near-light.pbrt --patches 150 --size 24x24 --threads 1 --out a.png")
 
     # Ways of a chapter, and what programs can do besides a picture.
-    for words in ("08_light_sampling $S/near-light.pbrt --light-by area", "12_glossy $S/veach-mis.pbrt --strategy bsdf",
-                  "13_mis $S/veach-mis.pbrt --heuristic balance", "13_mis $S/veach-mis.pbrt --ways one-sample",
-                  "14_mis_ris $S/two-lights.pbrt --m 2", "15_distribution $S/bokeh.pbrt --pixel centre",
-                  "16_adaptive $S/cornell.pbrt --judge own --map b.pfm", "18_bidirectional $S/cornell-spheres.pbrt --form plain",
-                  "18_bidirectional $S/cornell-spheres.pbrt --strategy 2,2",
-                  "15_distribution $M/everything.pbrt", "15_distribution $S/cornell-spheres.pbrt --threads 3",
-                  "14_mis_ris $S/cornell.pbrt --max-depth 1", "06_path_tracing $S/cornell.pbrt --max-depth 0",
-                  "18_bidirectional $S/cornell.pbrt --max-depth 3", "17_light_tracing $S/caustic.pbrt"):
+    for words in ("09_light_sampling $S/near-light.pbrt --light-by area", "13_glossy $S/veach-mis.pbrt --strategy bsdf",
+                  "14_mis $S/veach-mis.pbrt --heuristic balance", "14_mis $S/veach-mis.pbrt --ways one-sample",
+                  "15_mis_ris $S/two-lights.pbrt --m 2", "16_distribution $S/bokeh.pbrt --pixel centre",
+                  "19_adaptive $S/cornell.pbrt --judge own --map b.pfm", "21_bidirectional $S/cornell-spheres.pbrt --form plain",
+                  "21_bidirectional $S/cornell-spheres.pbrt --strategy 2,2",
+                  "16_distribution $M/everything.pbrt", "16_distribution $S/cornell-spheres.pbrt --threads 3",
+                  "15_mis_ris $S/cornell.pbrt --max-depth 1", "07_path_tracing $S/cornell.pbrt --max-depth 0",
+                  "21_bidirectional $S/cornell.pbrt --max-depth 3", "20_light_tracing $S/caustic.pbrt"):
         add(f"$B/{words} --size 24x16 --spp 6 --out a.pfm --out a.png --out a.ppm --stats a.json")
-    add("$B/14_mis_ris $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm --stats a.json")
-    add("$B/10_light_importance $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm")
-    add("$B/11_ris $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm")
-    add("$B/09_cosine_sampling $S/knot.pbrt --size 24x16 --spp 2 --threads 2 --out a.pfm")
-    add("$B/16_adaptive $S/high-contrast.pbrt --size 40x32 --spp 32 --threads 1 --out a.pfm --stats a.json")
-    for chapter in ("08_light_sampling", "14_mis_ris", "18_bidirectional"):
+    add("$B/15_mis_ris $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm --stats a.json")
+    add("$B/11_light_importance $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm")
+    add("$B/12_ris $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm")
+    add("$B/10_cosine_sampling $S/knot.pbrt --size 24x16 --spp 2 --threads 2 --out a.pfm")
+    add("$B/19_adaptive $S/high-contrast.pbrt --size 40x32 --spp 32 --threads 1 --out a.pfm --stats a.json")
+    for chapter in ("09_light_sampling", "15_mis_ris", "21_bidirectional"):
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --explain 12,9,1 --out a.pfm")
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --explain-brightest --out a.pfm")
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --split d --out a.pfm")
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --paths 'L(S|D)?D*E' --out a.pfm")
 
-    add("$B/18_bidirectional $S/cornell-spheres.pbrt --size 8x8 --spp 1 --pyramid b.png --out a.pfm --quiet")
+    add("$B/21_bidirectional $S/cornell-spheres.pbrt --size 8x8 --spp 1 --pyramid b.png --out a.pfm --quiet")
 
     # Films, parts, and their sum.
-    part = "$B/14_mis_ris $S/cornell-spheres.pbrt --size 24x16 --spp 10 --threads 1 --quiet"
+    part = "$B/15_mis_ris $S/cornell-spheres.pbrt --size 24x16 --spp 10 --threads 1 --quiet"
     add(f"for k in 1 2 3; do {part} --part $k/3 --film $k.film --out $k.pfm; done;"
         " $B/merge a.film 3.film 1.film 2.film; $B/merge a.pfm 1.film 2.film --stats a.json; $B/merge b.pfm 1.film 1.film")
     add(f"{part} --film a.film --out a.pfm; {part} --film a.film --out b.pfm --spp 20; {part} --film a.film --seed 3;"
         " truncate -s 3000 a.film; $B/merge c.pfm a.film; rm -f *.film")
 
     # compare: noise, another mean, another place, pictures that do not fit.
-    a = "$B/14_mis_ris $S/cornell.pbrt --size 32x32 --quiet --threads 1 --max-depth 5"
+    a = "$B/15_mis_ris $S/cornell.pbrt --size 32x32 --quiet --threads 1 --max-depth 5"
     add(f"{a} --spp 8 --out a.pfm --stats a.json; {a} --spp 8 --seed 1 --out b.pfm --stats b.json;"
         f" {a} --spp 8 --max-depth 1 --out c.pfm --stats c.json; {a} --spp 2 --size 16x16 --out d.pfm;"
         " $B/compare a.pfm b.pfm --out e.png; $B/compare c.pfm a.pfm --out f.pfm --range 0.5;"
@@ -82,16 +82,16 @@ def all_runs():
     # Bad usage, bad input.
     for words in ("--help", "--spp 0", "--spp x", "--size 20", "--sise 2x2", "$S/none.pbrt", "--paths 'L('", "--part 4/3",
                   "--explain 900,1", "--out a.gif", "--seed -1", "--out /dev/full --size 8x8 --spp 1"):
-        add(f"$B/09_cosine_sampling {words}")
+        add(f"$B/10_cosine_sampling {words}")
     for words in ("--help", "", "a.ppm"):
-        add(f"$B/compare {words}; $B/merge {words}; $B/20_radiosity {words or '--patches x'}")
+        add(f"$B/compare {words}; $B/merge {words}; $B/26_radiosity {words or '--patches x'}")
     still = ("sed -e '/ActiveTransform/d; s/.spectrum eta. .glass.*/\"float eta\" 1.7/; s/.float shutter.*//;"
              " s/.float lensradius. [0-9.]*//; s/.float focaldistance. [0-9.]*//%s' $M/everything.pbrt >still.pbrt; ")
-    add("for f in $T/*.pbrt; do $B/06_path_tracing $f --size 8x8 --spp 2 --threads 1 --out a.pfm; done")
+    add("for f in $T/*.pbrt; do $B/07_path_tracing $f --size 8x8 --spp 2 --threads 1 --out a.pfm; done")
     for chapter in walks:
-        smooth = "; s/.float roughness. [0-9.]*//" if chapter < "12" else ""
-        no_points = "; /Source .point/d; /Source .distant/d" if chapter < "08" else ""
-        scene = "$M/everything.pbrt" if chapter[:2] in ("15", "16") else "still.pbrt"
+        smooth = "; s/.float roughness. [0-9.]*//" if chapter < "13" else ""
+        no_points = "; /Source .point/d; /Source .distant/d" if chapter < "09" else ""
+        scene = "$M/everything.pbrt" if chapter[:2] in ("16", "19") else "still.pbrt"
         add(still % (smooth + no_points) + f"$B/{chapter} {scene} --threads 1 --out a.pfm --stats a.json")
     return runs
 

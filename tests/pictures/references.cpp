@@ -1,14 +1,14 @@
 // Pictures by another renderer: what our chapters must agree with.
 #include <doctest/doctest.h>
 
-#include "chapters/06_path_tracing/estimator.h"
-#include "chapters/07_russian_roulette/estimator.h"
-#include "chapters/12_glossy/estimator.h"
-#include "chapters/13_mis/estimator.h"
-#include "chapters/14_mis_ris/estimator.h"
-#include "chapters/17_light_tracing/estimator.h"
-#include "chapters/18_bidirectional/estimator.h"
-#include "chapters/19_photon_mapping/estimator.h"
+#include "chapters/07_path_tracing/estimator.h"
+#include "chapters/08_russian_roulette/estimator.h"
+#include "chapters/13_glossy/estimator.h"
+#include "chapters/14_mis/estimator.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/20_light_tracing/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
 #include "common/path/bidirectional.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
@@ -57,41 +57,41 @@ Agreement hold_against_reference(const std::string& name, const MakeTrace& make_
 }
 
 // Each chapter's trace, from the scene.
-Trace six(const Scene&) { return trace_with<ch06::trace>(); }
 Trace seven(const Scene&) { return trace_with<ch07::trace>(); }
-Trace twelve(const Scene& scene) {
-    return trace_with<ch12::trace>(ch12::prepare(scene), ch12::Strategy::light);
-}
+Trace eight(const Scene&) { return trace_with<ch08::trace>(); }
 Trace thirteen(const Scene& scene) {
-    return trace_with<ch13::trace>(ch13::prepare(scene), ch13::Settings{});
+    return trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
 }
-Trace fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
+Trace fourteen(const Scene& scene) {
+    return trace_with<ch14::trace>(ch14::prepare(scene), ch14::Settings{});
+}
+Trace fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
 
 }  // namespace
 
 TEST_SUITE("references") {
-    TEST_CASE("agreement: the furnaces, with chapters 06 and 07") {
-        for (auto chapter : {six, seven}) {
+    TEST_CASE("agreement: the furnaces, with chapters 07 and 08") {
+        for (auto chapter : {seven, eight}) {
             check_agreement(hold_against_reference("furnace", chapter, 16, 64), 0.001);
             check_agreement(hold_against_reference("furnace-glass", chapter, 4, 64), 0.001);
         }
     }
 
-    TEST_CASE("agreement: the grey Cornell box, with chapter 07") {
-        check_agreement(hold_against_reference("cornell-grey", seven, 32, 32), 0.01);
+    TEST_CASE("agreement: the grey Cornell box, with chapter 08") {
+        check_agreement(hold_against_reference("cornell-grey", eight, 32, 32), 0.01);
     }
 }
 
 TEST_SUITE("references slow") {
-    TEST_CASE("agreement: the grey Cornell box, with chapters 06 and 07") {
-        for (auto chapter : {six, seven}) {
+    TEST_CASE("agreement: the grey Cornell box, with chapters 07 and 08") {
+        for (auto chapter : {seven, eight}) {
             Agreement a = hold_against_reference("cornell-grey", chapter, 1024, 8);
             check_agreement(a, 0.002);
             CHECK(a.relative < 0.01);
         }
     }
 
-    TEST_CASE("agreement: plates, many lights, hidden and close lights, with chapter 14") {
+    TEST_CASE("agreement: plates, many lights, hidden and close lights, with chapter 15") {
         struct {
             std::string name;
             int spp;
@@ -103,33 +103,33 @@ TEST_SUITE("references slow") {
                      {"cornell-grey", 1024, 0.001}};
         for (const auto& c : cases) {
             CAPTURE(c.name);
-            Agreement a = hold_against_reference(c.name, fourteen, c.spp, 8);
+            Agreement a = hold_against_reference(c.name, fifteen, c.spp, 8);
             check_agreement(a, c.relative_se);
             CHECK(a.relative < 0.005);
         }
     }
 
-    TEST_CASE("agreement: a furnished hall made by others, with chapter 14") {
+    TEST_CASE("agreement: a furnished hall made by others, with chapter 15") {
         const std::string folder = "real-scenes/modern-hall";
         Scene scene = load_scene("tests/pictures/" + folder + "/scene-v4.pbrt", nullptr);
         scene.width = scene.height = 128;
         scene.max_depth = 16;
         prepare(scene, 2);
         Reference reference(folder + "/reference");
-        check_agreement(hold_against_reference(scene, reference, fourteen, 64, 8), 0.002);
+        check_agreement(hold_against_reference(scene, reference, fifteen, 64, 8), 0.002);
     }
 
-    TEST_CASE("agreement: plates, close lights and a box, with chapters 12 and 13") {
+    TEST_CASE("agreement: plates, close lights and a box, with chapters 13 and 14") {
         struct {
             std::string name;
             Trace (*chapter)(const Scene&);
             int spp, block_side;
             double relative_se;
-        } cases[] = {{"veach-mis", thirteen, 1024, 8, 0.004},
-                     {"tiny-close-light", thirteen, 1024, 8, 0.004},
-                     {"cornell-grey", thirteen, 512, 8, 0.002},
-                     {"veach-mis", twelve, 1024, 32, 0.02},
-                     {"cornell-grey", twelve, 512, 8, 0.002}};
+        } cases[] = {{"veach-mis", fourteen, 1024, 8, 0.004},
+                     {"tiny-close-light", fourteen, 1024, 8, 0.004},
+                     {"cornell-grey", fourteen, 512, 8, 0.002},
+                     {"veach-mis", thirteen, 1024, 32, 0.02},
+                     {"cornell-grey", thirteen, 512, 8, 0.002}};
         for (const auto& c : cases) {
             CAPTURE(c.name);
             Agreement a = hold_against_reference(c.name, c.chapter, c.spp, c.block_side);
@@ -138,15 +138,15 @@ TEST_SUITE("references slow") {
     }
 
     TEST_CASE("agreement: a caustic, found by chance") {
-        check_agreement(hold_against_reference("glass-caustic", six, 4096, 32), 0.015);
+        check_agreement(hold_against_reference("glass-caustic", seven, 4096, 32), 0.015);
     }
 
-    TEST_CASE("agreement: a caustic and plates, with chapter 18") {
+    TEST_CASE("agreement: a caustic and plates, with chapter 21") {
         for (std::string name : {"glass-caustic", "veach-mis", "cornell-grey"}) {
             CAPTURE(name);
             Reference reference("references/" + name);
             Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
-            SplatTrace lesson = splat_trace_with<ch18::trace>(ch18::prepare(scene));
+            SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::prepare(scene));
             SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
             for (const SplatTrace& trace : {lesson, fast}) {
                 BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
@@ -159,19 +159,19 @@ TEST_SUITE("references slow") {
         }
     }
 
-    TEST_CASE("agreement: a caustic, with chapters 17 and 19") {
+    TEST_CASE("agreement: a caustic, with chapters 20 and 23") {
         Reference reference("references/glass-caustic");
         Scene scene = scene_from("tests/pictures/references/glass-caustic.pbrt", 128, 100);
         auto theirs = [&](int x, int y, int side) { return reference.block(x, y, side); };
         // From the light: the blocks that show no glass.
         BlockMeans by_light =
-            blocks_of(scene, trace_light_with<ch17::trace_light>(ch17::ends_of(scene)), 8, 32, 16);
+            blocks_of(scene, trace_light_with<ch20::trace_light>(ch20::ends_of(scene)), 8, 32, 16);
         BlockMeans by_photons{128, 16};
         for (uint32_t seed = 1; seed <= 12; seed++) {
-            ch19::Settings settings{.seed = seed, .photons = 20000};
+            ch23::Settings settings{.seed = seed, .photons = 20000};
             settings.r = 0.01f * scene.radius;
             by_photons.add(
-                film_of(scene, ch19::photon_passes(scene, settings), 16, seed).film.image());
+                film_of(scene, ch23::photon_passes(scene, settings), 16, seed).film.image());
         }
         int compared = 0;
         double worst = 0;
@@ -203,14 +203,14 @@ TEST_SUITE("references slow") {
     }
 
     TEST_CASE("agreement: lights that almost touch what they light") {
-        check_agreement(hold_against_reference("tiny-close-light", six, 1024, 32), 0.01);
+        check_agreement(hold_against_reference("tiny-close-light", seven, 1024, 32), 0.01);
     }
 
     TEST_CASE("agreement: a room with a far brighter one behind the wall") {
-        check_agreement(hold_against_reference("hidden-bright", seven, 512, 16), 0.01);
+        check_agreement(hold_against_reference("hidden-bright", eight, 512, 16), 0.01);
     }
 
     TEST_CASE("agreement: a thousand lights, found by chance") {
-        check_agreement(hold_against_reference("many-lights", six, 512, 32), 0.01);
+        check_agreement(hold_against_reference("many-lights", seven, 512, 32), 0.01);
     }
 }

@@ -1,4 +1,4 @@
-// Lights whose effect is known, for the chapters that look for light in several ways (12 to 14).
+// Lights whose effect is known, for the chapters that look for light in several ways (13 to 15).
 #pragma once
 #include "tests/support/estimators.h"
 

@@ -33,7 +33,7 @@ public:
     /// The next step begins. weight: its share of the time, beside the others'.
     void next(const std::string& name, double weight = 1);
 
-    /// "[ 25 %] cornell, 14: 30 s so far, about 90 s left", when this share is done.
+    /// "[ 25 %] cornell, 15: 30 s so far, about 90 s left", when this share is done.
     static std::string line(const std::string& name, double share, double seconds);
 
 private:

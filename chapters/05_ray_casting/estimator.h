@@ -1,0 +1,352 @@
+// Chapter 05: ray casting, and Whitted's ray tracing: what one ray from the eye can find out.
+//
+//   L = Le + sum over lamps of  f I cos / r^2 V     (diffuse: one shadow ray for each lamp)
+//   L = Le + R L(reflected) + (1 - R) L(refracted)  (mirror and glass: follow every branch)
+#pragma once
+#include <optional>
+
+#include "common/material/metal.h"
+#include "common/path/path_log.h"
+#include "common/path/sampler.h"
+
+namespace ch05 {
+
+/// The camera made ready for one picture size: film point (px, py), in pixels from the top left,
+/// is seen along corner + px dx + py dy.
+struct CameraView {
+    Vec3 o, corner, dx, dy;
+};
+
+/// Lays the film at distance 1 in front of the camera.
+///
+///   half the shorter side = tan(fov / 2);  the longer side is as much longer as the picture's
+///
+/// source  pbrt-v4's "perspective" camera: left-handed, x right, y up, z forward
+inline CameraView camera_view(const Camera& camera, int width, int height) {
+    float aspect =
+        camera.frame_aspect.value_or(static_cast<float>(width) / static_cast<float>(height));
+    std::array<float, 4> window = {-1, 1, -1, 1};
+    if (aspect > 1) window = {-aspect, aspect, -1, 1};
+    if (aspect < 1) window = {-1, 1, -1 / aspect, 1 / aspect};
+    auto [x0, x1, y0, y1] = camera.screen_window.value_or(window);
+
+    float half = static_cast<float>(std::tan(double{camera.fov * pi / 360}));
+    Vec3 right = half * camera.right, up = half * camera.up;
+    return {camera.o, camera.forward + x0 * right + y1 * up,
+            (x1 - x0) / static_cast<float>(width) * right,
+            (y0 - y1) / static_cast<float>(height) * up};
+}
+
+/// The ray from the pinhole through the film point, in pixels.
+inline Ray camera_ray(const CameraView& view, Vec2 film) {
+    return {view.o, normalize(view.corner + film.x * view.dx + film.y * view.dy)};
+}
+
+/// What a triangle test returns: the distance, and the weights of the second and third vertex.
+struct TriangleHit {
+    float t, b1, b2;
+};
+
+/// The shear that turns a ray into the z axis, worked out once for a ray and used on every
+/// triangle.
+struct Shear {
+    int kx, ky, kz;  // kz: the axis along which d is longest
+    float sx, sy, sz;
+};
+
+inline Shear shear_to_ray(const Vec3& d) {
+    Vec3 size = abs(d);
+    int kz = 0;
+    if (size.y >= size.x) kz = 1;
+    if (size.z >= std::max(size.x, size.y)) kz = 2;
+    int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    return {kx, ky, kz, d[kx] / d[kz], d[ky] / d[kz], 1 / d[kz]};
+}
+
+/// Where the line of the ray meets the plane of the triangle p0 p1 p2: t and the weights.
+///
+///   o + t d = p0 + b1 (p1 - p0) + b2 (p2 - p0), by Cramer's rule, with n = (p1 - p0) x (p2 - p0):
+///   t = n.(p0 - o) / n.d
+///
+/// In double precision: in float, t is off by as much as 1e-6 (longest side)^2 / height, so that a
+/// ray would meet the long thin triangle that it leaves. Seen edge-on n.d is 0: infinity or NaN.
+/// source  Moeller, Trumbore 1997      tested by  "truth: every hit as in double precision"
+inline TriangleHit meet_plane(const Ray& ray, Vec3 p0, Vec3 p1, Vec3 p2) {
+    Vec3d d(ray.d), corner(p0);
+    Vec3d side1 = Vec3d(p1) - corner, side2 = Vec3d(p2) - corner, from = Vec3d(ray.o) - corner;
+    Vec3d across = cross(d, side2), up = cross(from, side1);
+    double inverse = 1 / dot(side1, across);
+    return {static_cast<float>(dot(side2, up) * inverse),
+            static_cast<float>(dot(from, across) * inverse),
+            static_cast<float>(dot(d, up) * inverse)};
+}
+
+/// Whether the weights are those of a point of the triangle, or of one very near to it.
+inline bool is_within(const TriangleHit& hit) {
+    constexpr float slack = -1e-3f;
+    return hit.b1 >= slack && hit.b2 >= slack && 1 - hit.b1 - hit.b2 >= slack;
+}
+
+/// Where the ray meets the triangle p0 p1 p2, from either side, edges and corners included.
+///
+///   shear space so that the ray is the z axis; e_i = signed area of the origin with edge i;
+///   hit when no two e_i differ in sign; t from the plane
+///
+/// Watertight: each corner is sheared once, and the sign of a difference of two rounded products
+/// is either right or 0, so that two triangles cannot both lose a ray on the edge they share.
+/// A triangle of which the ray sees next to nothing may have its e_i by rounding alone, wherever it
+/// is: so it is met only if the ray passes within its box, and t is that of one of its points.
+/// NaN or a triangle seen exactly edge-on: no hit.
+/// source  Woop, Benthin, Wald 2013      tested by  "brute: no ray leaks through a closed mesh"
+inline std::optional<TriangleHit> intersect_triangle(const Ray& ray, const Shear& shear, Vec3 p0,
+                                                     Vec3 p1, Vec3 p2) {
+    auto [kx, ky, kz, sx, sy, sz] = shear;
+    Vec3 a = p0 - ray.o, b = p1 - ray.o, c = p2 - ray.o;
+    float ax = a[kx] - sx * a[kz], ay = a[ky] - sy * a[kz];
+    float bx = b[kx] - sx * b[kz], by = b[ky] - sy * b[kz];
+    float cx = c[kx] - sx * c[kz], cy = c[ky] - sy * c[kz];
+    float e0 = cx * by - cy * bx, e1 = ax * cy - ay * cx, e2 = bx * ay - by * ax;
+    if ((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0)) return {};
+    TriangleHit hit = meet_plane(ray, p0, p1, p2);
+    if (!is_within(hit)) {
+        auto [x_low, x_high] = std::minmax({ax, bx, cx});
+        auto [y_low, y_high] = std::minmax({ay, by, cy});
+        auto [t_low, t_high] = std::minmax({a[kz] * sz, b[kz] * sz, c[kz] * sz});
+        bool in_box = x_low <= 0 && x_high >= 0 && y_low <= 0 && y_high >= 0;
+        if (!(in_box && hit.t > 0 && hit.t < infinity)) return {};
+        float det = e0 + e1 + e2;
+        hit = {std::clamp(hit.t, t_low, t_high), e1 / det, e2 / det};
+    }
+    if (!(hit.t > 0 && hit.t < ray.t_max && hit.b1 >= -1)) return {};  // NaN: no hit
+    return hit;
+}
+
+/// The nearest t at which the ray meets the sphere from outside or from inside.
+///
+///   |o + t d - c|^2 = r^2, with the discriminant taken from the point of the line that is nearest
+///   to the centre, and in double precision: a ball of a millionth of its distance is still met.
+///
+/// source  Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection"
+inline std::optional<float> intersect_sphere(const Ray& ray, Vec3 c, float r) {
+    Vec3d d(ray.d), f = Vec3d(ray.o) - Vec3d(c);
+    double a = dot(d, d), b = -dot(f, d), r2 = double{r} * double{r};
+    Vec3d nearest = f + (b / a) * d;
+    double discriminant = r2 - dot(nearest, nearest);
+    if (!(discriminant >= 0)) return {};
+    double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    double t0 = (dot(f, f) - r2) / q, t1 = q / a;
+    if (t0 > t1) std::swap(t0, t1);
+    auto t = static_cast<float>(t0 > 0 ? t0 : t1);
+    if (!(t > 0 && t < ray.t_max)) return {};
+    return t;
+}
+
+/// Where the ray crosses the disk of radius r around c with normal n.
+inline std::optional<float> intersect_disk(const Ray& ray, Vec3 c, Vec3 n, float r) {
+    float t = dot(n, c - ray.o) / dot(n, ray.d);
+    if (!(t > 0 && t < ray.t_max)) return {};
+    if (!(length_squared(ray.o + t * ray.d - c) <= r * r)) return {};
+    return t;
+}
+
+/// Tests every primitive in turn: the slow and certain way, which every hierarchy must agree with.
+/// Of two hits at the same t the lower number wins.
+inline PrimHit linear_scan(const Geometry& g, Ray ray) {
+    PrimHit best;
+    Shear shear = shear_to_ray(ray.d);
+    uint32_t prim = 0;
+    for (const Triangle& tri : g.triangles) {
+        if (auto hit = intersect_triangle(ray, shear, g.positions[tri.v[0]], g.positions[tri.v[1]],
+                                          g.positions[tri.v[2]])) {
+            best = {prim, hit->t, hit->b1, hit->b2};
+            ray.t_max = hit->t;
+        }
+        prim++;
+    }
+    for (const Sphere& s : g.spheres) {
+        if (auto t = intersect_sphere(ray, s.c, s.r)) {
+            best = {prim, *t};
+            ray.t_max = *t;
+        }
+        prim++;
+    }
+    for (const Disk& disk : g.disks) {
+        if (auto t = intersect_disk(ray, disk.c, disk.n, disk.r)) {
+            best = {prim, *t};
+            ray.t_max = *t;
+        }
+        prim++;
+    }
+    return best;
+}
+
+/// The mirror direction of wo about n.      wi = 2 (n.wo) n - wo
+inline Vec3 reflect(Vec3 wo, Vec3 n) { return 2 * dot(wo, n) * n - wo; }
+
+/// The direction into which light from wo is bent where it enters a medium eta times as dense.
+///
+///   sin_t = sin_i / eta  (Snell);  wi = -wo / eta + (cos_i / eta - cos_t) n
+///
+/// n is on wo's side. Nothing where all light is reflected (sin_t > 1).
+inline std::optional<Vec3> refract(Vec3 wo, Vec3 n, float eta) {
+    float cos_i = dot(wo, n);
+    float sin2_t = std::max(0.0f, 1 - cos_i * cos_i) / (eta * eta);
+    if (sin2_t >= 1) return {};
+    float cos_t = std::sqrt(1 - sin2_t);
+    return normalize((-1 / eta) * wo + (cos_i / eta - cos_t) * n);
+}
+
+/// The share of unpolarised light that glass reflects; the rest, 1 - R, goes through.
+///
+///   r_s = (cos_i - eta cos_t) / (cos_i + eta cos_t)
+///   r_p = (eta cos_i - cos_t) / (eta cos_i + cos_t)
+///   R = (r_s^2 + r_p^2) / 2
+///
+/// cos_i in [0,1]; eta: index beyond the surface over index here. 1 under total reflection.
+/// source  Fresnel 1823      tested by  "truth: Fresnel's equations for glass"
+inline float fresnel_dielectric(float cos_i, float eta) {
+    float sin2_t = std::max(0.0f, 1 - cos_i * cos_i) / (eta * eta);
+    if (sin2_t >= 1) return 1;
+    float cos_t = std::sqrt(1 - sin2_t);
+    float r_s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    float r_p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    return (r_s * r_s + r_p * r_p) / 2;
+}
+
+/// A lamp as Whitted's method sees it: everything that shines, gathered in one point.
+struct Lamp {
+    Vec3 p = {};         // m, the centre of the primitive that shines
+    Vec3 n = {};         // its normal; 0: shines the same to all sides (a sphere, a point light)
+    Rgb intensity = {};  // along n, W sr^-1: radiance times the area that is seen
+    float radius = 0;    // m, of a sphere
+    bool two_sided = false;
+};
+
+/// The primitive of an area light as a lamp: a point in its middle.
+inline Lamp lamp_of(const Geometry& g, const Light& light, uint32_t prim) {
+    Lamp lamp{.two_sided = light.two_sided};
+    float area = 0;  // that is seen along n
+    visit(
+        g, prim,
+        [&](const Triangle& triangle) {
+            auto [v0, v1, v2] = triangle.v;
+            Vec3 p0 = g.positions[v0], p1 = g.positions[v1], p2 = g.positions[v2];
+            Vec3 n = cross(p1 - p0, p2 - p0);  // twice the area long
+            lamp.p = (p0 + p1 + p2) / 3;
+            lamp.n = normalize(n);
+            area = length(n) / 2;
+        },
+        [&](const Sphere& sphere) {
+            lamp.p = sphere.c;
+            lamp.radius = sphere.r;
+            lamp.two_sided = true;
+            area = pi * sphere.r * sphere.r;
+        },
+        [&](const Disk& disk) {
+            lamp.p = disk.c;
+            lamp.n = disk.n;
+            area = pi * disk.r * disk.r;
+        });
+    lamp.intensity = light.L * area;
+    return lamp;
+}
+
+/// What one lamp sends from the diffuse point x to the eye: f I cos cos_lamp / r^2 V.
+inline Rgb shade(const Scene& scene, const Hit& x, const Lamp& lamp) {
+    Vec3 to_lamp = lamp.p - x.p;
+    float r = length(to_lamp);
+    Vec3 wi = to_lamp / r;
+    float cos_x = dot(wi, x.n), cos_lamp = lamp.n == Vec3{} ? 1 : -dot(wi, lamp.n);
+    if (lamp.two_sided) cos_lamp = std::abs(cos_lamp);
+    if (cos_x <= 0 || cos_lamp <= 0 || dot(wi, x.ng) <= 0) return {};
+
+    // Stop the shadow ray short of the lamp itself.
+    float eps = x.eps + rounding_error(max_component(abs(lamp.p)) + lamp.radius);
+    rays_traced++;
+    Ray shadow = spawn_ray(x, wi, r - lamp.radius - 2 * eps / cos_lamp);
+    if (linear_scan(scene.geometry, shadow).prim != PrimHit::none) return {};
+    Rgb f = x.material->reflectance / pi;
+    return f * lamp.intensity * (cos_x * cos_lamp / (r * r));
+}
+
+/// Direct light at x from all lamps, each as a point.
+inline Rgb shade_all(const Scene& scene, const Hit& x, Rgb beta, PathLog& log) {
+    Rgb L;
+    auto add = [&](const Lamp& lamp) {
+        L += log.direct(beta * shade(scene, x, lamp), normalize(lamp.p - x.p), 0, 0);
+    };
+    for (const Light& light : scene.lights) {
+        switch (light.type) {
+            case LightType::area:
+                for (uint32_t i = 0; i < light.prims; i++) {
+                    add(lamp_of(scene.geometry, light, light.first_prim + i));
+                }
+                break;
+            case LightType::point:
+                add({.p = light.p, .intensity = light.L, .two_sided = true});
+                break;
+            case LightType::distant: {  // a lamp so far away that its rays are parallel
+                constexpr float far = 1e12f;
+                add({.p = x.p + far * light.p,
+                     .intensity = light.L * (far * far),
+                     .two_sided = true});
+                break;
+            }
+            case LightType::infinite: break;  // no point to aim at: only seen, never lighting
+        }
+    }
+    return L;
+}
+
+inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, PathLog& log);
+
+/// Follows mirror and glass into every branch; beta is what the eye keeps of what they bring.
+inline Rgb follow_specular(const Scene& scene, const Hit& x, Vec3 wo, Rgb beta, int depth,
+                           PathLog& log) {
+    auto branch = [&](Vec3 wi, Rgb share) {
+        if (max_component(beta * share) < 1e-3f) return Rgb{};  // too faint to see
+        log.scatter(wi, share / std::abs(dot(wi, x.n)), 1, true, beta * share);
+        Rgb L = follow(scene, spawn_ray(x, wi), beta * share, depth + 1, log);
+        log.step_back();
+        return L;
+    };
+    float cos_o = dot(wo, x.n);
+    if (x.material->type == MaterialType::conductor) {
+        return branch(reflect(wo, x.n), fresnel_conductor(cos_o, x.material->eta, x.material->k));
+    }
+    float eta = x.front ? x.material->ior : 1 / x.material->ior;
+    float R = fresnel_dielectric(cos_o, eta), T = (1 - R) / (eta * eta);
+    Rgb L = branch(reflect(wo, x.n), {R, R, R});
+    if (std::optional<Vec3> wi = refract(wo, x.n, eta)) L += branch(*wi, {T, T, T});
+    return L;
+}
+
+/// Radiance along the ray, times beta, by Whitted's rules.
+inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, PathLog& log) {
+    rays_traced++;
+    PrimHit found = linear_scan(scene.geometry, ray);
+    if (found.prim == PrimHit::none) return log.emitted(beta * scene.sky);
+    Hit x;
+    make_hit(scene, ray, found, x);
+    log.vertex(x);
+
+    Rgb L = log.emitted(beta * emission(scene, x));
+    if (depth == scene.max_depth) {
+        log.cut();
+        return L;
+    }
+    if (x.material->type == MaterialType::diffuse) return L + shade_all(scene, x, beta, log);
+    return L + follow_specular(scene, x, -ray.d, beta, depth, log);
+}
+
+/// Estimates Li along the ray as Whitted did: without chance, and without the paths it cannot see.
+///
+///   classes found:  LE, LDE, LS+E, LDS+E      missed:  any with two D, and LS+D...
+///
+/// Biased: lamps are points (no soft shadows), and no light comes by way of other surfaces.
+/// source  Whitted 1980      tested by  "ch05 classes of paths"
+inline Rgb trace(const Scene& scene, Ray ray, Sampler&, PathLog& log) {
+    return follow(scene, ray, {1, 1, 1}, 0, log);
+}
+
+}  // namespace ch05

@@ -1,0 +1,30 @@
+// Chapter 06 as a program: measures its steps in a table, and draws the work of one as a heat map.
+#include "chapters/06_bvh/figure.h"
+#include "common/picture/notes.h"
+#include "common/program/film_keeping.h"
+#include "common/program/outputs.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        ch06::Step step = ch06::Step::ordered;
+        Option which{"step", "STEP", "drawn: linear, median, sah, ordered (default), four or wide",
+                     [&](const std::string& text) {
+                         step =
+                             static_cast<ch06::Step>(parse_choice("step", text, ch06::step_names));
+                     },
+                     "ordered"};
+        RenderOptions options = parse_render_options(argc, argv, "06_bvh", "scenes/knot.pbrt",
+                                                     {which}, {"size", "threads", "out", "quiet"});
+        Scene scene = load(options);
+        check_outputs(scene, options);
+        Table table;
+        if (!options.quiet) table = ch06::steps_table(scene);
+        FilmLabel label = label_of(scene, options);
+        label.samples.clear();  // it has none
+        write_results(
+            {options.name, comment_of(notes_of(label, 0)), 0, 0, options.out, options.quiet}, table,
+            "white: 200 boxes and primitives for one ray\n", ch06::work_picture(scene, step));
+        return 0;
+    });
+}

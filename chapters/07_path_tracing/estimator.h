@@ -1,0 +1,128 @@
+// Chapter 07: path tracing. The rendering equation, solved by a random walk from the eye.
+//
+//   Lo(x, wo) = Le(x, wo) + integral f(x, wo, wi) Li(x, wi) cos(wi) dwi
+//             ~ Le(x, wo) + f(x, wo, wi) Li(x, wi) cos(wi) / pdf_w(wi)      one wi, drawn by pdf_w
+#pragma once
+#include "common/material/metal.h"
+#include "common/material/optics.h"
+#include "common/path/path_log.h"
+#include "common/path/sampler.h"
+
+namespace ch07 {
+
+/// A direction drawn from a BSDF. pdf_w == 0: no sample, the path ends.
+///
+/// specular: wi is the only direction there is. f and pdf_w are then both infinite, and hold only
+/// the factors in front, which are all that f cos / pdf_w needs.
+struct BsdfSample {
+    Vec3 wi;          // unit
+    Rgb f;            // sr^-1, without the cosine
+    float pdf_w = 0;  // sr^-1
+    bool specular = false;
+};
+
+/// A direction of the hemisphere around +z, all equally likely.
+///
+///   z = 1 - u1,  phi = 2 pi u2;      pdf_w = 1 / (2 pi)
+///
+/// u in [0,1)^2; z in (0,1]      tested by  "density: uniform hemisphere"
+inline Vec3 sample_uniform_hemisphere(Vec2 u) {
+    float z = 1 - u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+    return from_cylindrical(r, u.y, z);
+}
+inline float pdf_uniform_hemisphere() { return 1 / (2 * pi); }
+inline Vec2 invert_uniform_hemisphere(Vec3 w) {
+    float phi = std::atan2(w.y, w.x);
+    return {1 - w.z, (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
+}
+
+/// A mirror has one direction to go on in.      f cos = F, the share that the metal reflects
+inline BsdfSample sample_mirror(const Hit& x, Vec3 wo) {
+    float cos_o = dot(wo, x.n);
+    Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
+    return {reflect(wo, x.n), F / cos_o, 1, true};
+}
+
+/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
+///
+///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
+///
+/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
+/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
+inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
+    float eta = x.front ? x.material->ior : 1 / x.material->ior;
+    float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
+    if (u < R) {
+        float f = R / cos_o;
+        return {reflect(wo, x.n), {f, f, f}, R, true};
+    }
+    std::optional<Vec3> wi = refract(wo, x.n, eta);
+    if (!wi) return {};
+    float f = (1 - R) / (eta * eta) / std::abs(dot(*wi, x.n));
+    return {*wi, {f, f, f}, 1 - R, true};
+}
+
+/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+///
+///   diffuse:  f = reflectance / pi  on wo's side of the surface
+inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    return x.material->reflectance / pi;
+}
+
+/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return 0;
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
+    return pdf_uniform_hemisphere();
+}
+
+/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
+    switch (x.material->type) {
+        case MaterialType::diffuse: {
+            Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u2));
+            return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
+        }
+        case MaterialType::conductor: return sample_mirror(x, wo);
+        case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
+    }
+    return {};
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = sum over the path's vertices x_k of  beta_k Le(x_k),   beta_k = product of f cos / pdf_w
+///
+/// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
+/// only when it happens to hit some.
+/// source  Kajiya 1986      tested by  "ch07 path tracing"
+inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    for (int depth = 0;; depth++) {
+        // Find the next vertex. A path that leaves the scene ends in the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return L + log.emitted(beta * scene.sky);
+        log.vertex(*x);
+
+        // Add what shines there.
+        L += log.emitted(beta * emission(scene, *x));
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Go on in one direction, and count it for all those that were not taken.
+        Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch07

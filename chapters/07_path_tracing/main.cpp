@@ -1,0 +1,15 @@
+// Chapter 07 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/07_path_tracing/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "07_path_tracing", "scenes/cornell.pbrt");
+        options.search = LightSearch::by_chance;
+        Scene scene = load(options);
+        refuse_glossy(scene);
+        refuse_delta_lights(scene);
+        return render(scene, options, trace_with<ch07::trace>());
+    });
+}

@@ -1,0 +1,15 @@
+// Chapter 08 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/08_russian_roulette/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "08_russian_roulette", "scenes/cornell.pbrt");
+        options.search = LightSearch::by_chance;
+        Scene scene = load(options);
+        refuse_glossy(scene);
+        refuse_delta_lights(scene);
+        return render(scene, options, trace_with<ch08::trace>());
+    });
+}

@@ -1,0 +1,171 @@
+// Chapter 09: explicit light sampling. Aim at a light instead of waiting to meet one.
+//
+//   Ld = f Le V cos_x cos_y / d^2 / (pmf pdf_A)      one light out of N, and a point y on it
+//      = f Le V cos_x / pdf_w,    pdf_w = pmf pdf_A d^2 / cos_y
+#pragma once
+#include "common/light/light_shapes.h"
+#include "common/material/bsdf.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+
+namespace ch09 {
+
+/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+///
+///   diffuse:  f = reflectance / pi  on wo's side of the surface
+inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    return x.material->reflectance / pi;
+}
+
+/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
+    if (x.material->type != MaterialType::diffuse) return 0;
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
+    return pdf_uniform_hemisphere();
+}
+
+/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
+    switch (x.material->type) {
+        case MaterialType::diffuse: {
+            Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u2));
+            return {wi, eval_bsdf(x, wo, wi), pdf_bsdf(x, wo, wi)};
+        }
+        case MaterialType::conductor: return sample_mirror(x, wo);
+        case MaterialType::dielectric: return sample_dielectric(x, wo, u1);
+    }
+    return {};
+}
+
+/// Light that was aimed at. pdf_w == 0: no sample, it contributes nothing.
+struct LightSample {
+    Vec3 wi;             // unit, from x to the light
+    Rgb Le;              // W m^-2 sr^-1: without f, cosine and visibility
+    float dist = 0;      // m: how far the shadow ray goes, just short of the light
+    float pdf_w = 0;     // sr^-1; for a point or distant light the probability of choosing it
+    bool delta = false;  // a point or distant light: no path meets it by chance
+};
+
+/// How a point on an area light is drawn: by area, or by the solid angle that x sees it under.
+enum class LightMeasure : uint8_t { area, solid_angle };
+
+/// A point y of an area light, and the density of its direction at x.
+///
+///   by area:  pdf_w = pdf_A d^2 / cos_y: 1/cos_y and d^2 make a spike where y is near x
+///
+/// zero    where y faces away, is edge-on, or is x itself (cos_y is then not a number)
+/// error   unbiased; near a light Var -> infinity by area, and is below E^2 / 3 by solid angle
+/// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
+inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u,
+                                     LightMeasure measure) {
+    bool by_area = measure == LightMeasure::area;
+    auto y = by_area ? sample_area(scene, light, u) : sample_solid_angle(scene, light, x.p, u);
+    Vec3 to_y = y.p - x.p;
+    float d2 = dot(to_y, to_y), d = std::sqrt(d2);
+    Vec3 wi = to_y / d;
+    float cos_y = -dot(wi, y.n);
+    if (scene.lights[light].two_sided) cos_y = std::abs(cos_y);
+    if (!(cos_y > 0)) return {};
+    float pdf_w = by_area ? y.pdf * d2 / cos_y : y.pdf;
+    return {wi, scene.lights[light].L, d - (x.eps + y.eps) / cos_y, pdf_w};
+}
+
+/// One light: its point or direction as seen from x. The sky is drawn from the hemisphere around n.
+inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, Vec2 u,
+                                    LightMeasure measure) {
+    const Light& light = scene.lights[i];
+    switch (light.type) {
+        case LightType::area: return sample_area_light(scene, i, x, u, measure);
+        case LightType::point: {
+            Vec3 to_y = light.p - x.p;
+            float d2 = dot(to_y, to_y);
+            if (d2 == 0) return {};
+            return {to_y / std::sqrt(d2), light.L / d2, std::sqrt(d2), 1, true};
+        }
+        case LightType::distant: return {light.p, light.L, infinity, 1, true};
+        case LightType::infinite: {
+            Vec3 wi = Frame(x.n).to_world(sample_uniform_hemisphere(u));
+            return {wi, light.L, infinity, pdf_uniform_hemisphere()};
+        }
+    }
+    return {};
+}
+
+/// Chooses one of the N lights, all alike, and a point on it.      pdf_w = pdf_one / N
+inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2,
+                                LightMeasure measure) {
+    size_t N = scene.lights.size();
+    if (N == 0) return {};
+    size_t i = std::min(static_cast<size_t>(u1 * static_cast<float>(N)), N - 1);
+    LightSample y = sample_one_light(scene, i, x, u2, measure);
+    y.pdf_w /= static_cast<float>(N);
+    return y;
+}
+
+/// Estimates what all lights send by way of x to wo, from one point of one light.
+///
+///   Ld = f Le V cos / pdf_w
+///
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec2 u2,
+                        LightMeasure measure, Rgb beta, PathLog& log) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    LightSample y = sample_light(scene, x, u1, u2, measure);
+    if (y.pdf_w == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///
+/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
+/// glass. Anywhere else it was Ld of the vertex before.
+/// Unbiased up to scene.max_depth scattering events.
+/// source  Cook et al. 1984; Shirley et al. 1996      tested by  "ch09 light sampling"
+inline Rgb trace(const Scene& scene, LightMeasure measure, Ray ray, Sampler& sampler,
+                 PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    bool count_emission = true;
+    for (int depth = 0;; depth++) {
+        // Find the next vertex. A path that leaves the scene ends in the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
+        log.vertex(*x);
+
+        // Add what shines there, unless the vertex before has aimed at it.
+        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at a light.
+        Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        L += direct_light(scene, *x, wo, u1, sampler.u2(), measure, beta, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        count_emission = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch09

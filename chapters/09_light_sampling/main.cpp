@@ -1,0 +1,20 @@
+// Chapter 09 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/09_light_sampling/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        auto measure = ch09::LightMeasure::solid_angle;
+        Option light_by = {"light-by", "MEASURE", "draw points of lights by area or by solid-angle",
+                           [&](const std::string& text) {
+                               measure = static_cast<ch09::LightMeasure>(
+                                   parse_choice("light-by", text, {"area", "solid-angle"}));
+                           },
+                           "solid-angle"};
+        RenderOptions options = parse_render_options(argc, argv, "09_light_sampling",
+                                                     "scenes/cornell.pbrt", {light_by});
+        Scene scene = load(options);
+        refuse_glossy(scene);
+        return render(scene, options, trace_with<ch09::trace>(measure));
+    });
+}

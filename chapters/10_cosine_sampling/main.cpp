@@ -1,0 +1,13 @@
+// Chapter 10 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/10_cosine_sampling/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "10_cosine_sampling", "scenes/cornell.pbrt");
+        Scene scene = load(options);
+        refuse_glossy(scene);
+        return render(scene, options, trace_with<ch10::trace>());
+    });
+}

@@ -1,0 +1,169 @@
+// Chapter 11: light importance. Choose lights by what they can give, in a time that does not depend
+// on how many there are.
+//
+//   pmf_i = (1 - d) power_i / sum power + d / N      a share d for all alike: no light has pmf 0
+#pragma once
+#include "common/light/lights.h"
+#include "common/material/basic_bsdf.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+
+namespace ch11 {
+
+using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
+
+/// The power of a light, in W: radiance times area times pi, and what corresponds to it.
+///
+///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  R: radius of the scene
+inline float light_power(const Scene& scene, size_t i) {
+    const Light& light = scene.lights[i];
+    float L = average(light.L), R = scene.radius;
+    switch (light.type) {
+        case LightType::area:
+            return pi * scene.light_shapes[i].area * L * (light.two_sided ? 2 : 1);
+        case LightType::point: return 4 * pi * L;
+        case LightType::distant: return pi * R * R * L;
+        case LightType::infinite: return 4 * pi * pi * R * R * L;
+    }
+    return 0;
+}
+
+/// The probability of each light: in proportion to its power, but for the share d.
+inline std::vector<double> light_pmf(const Scene& scene, double d) {
+    std::vector<double> pmf;
+    double sum = 0, N = static_cast<double>(scene.lights.size());
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        pmf.push_back(static_cast<double>(light_power(scene, i)));
+        sum += pmf.back();
+    }
+    for (double& p : pmf) p = sum > 0 ? (1 - d) * p / sum + d / N : 1 / N;
+    return pmf;
+}
+
+/// One column of the alias table that lights are chosen from.
+struct AliasColumn {
+    float own;       // share of the column that is the light of the same number
+    uint32_t other;  // the light that the rest of the column is
+    float pmf;       // of the light of the same number, over the whole table
+};
+using LightTable = std::vector<AliasColumn>;
+
+/// Cuts N probabilities into N columns of equal width, with at most two lights in each.
+///
+///   a column that is too low is filled up from one that is too high, which so gets lower
+///
+/// source  Walker 1974; Vose 1991      tested by  "identity: the alias table keeps every pmf"
+inline LightTable build_light_table(const std::vector<double>& pmf) {
+    size_t N = pmf.size();
+    LightTable table(N);
+    std::vector<double> height(N);
+    std::vector<uint32_t> low, high;
+    for (uint32_t i = 0; i < N; i++) {
+        height[i] = pmf[i] * static_cast<double>(N);
+        table[i] = {1, i, static_cast<float>(pmf[i])};
+        (height[i] < 1 ? low : high).push_back(i);
+    }
+    while (!low.empty() && !high.empty()) {
+        uint32_t l = low.back(), h = high.back();
+        low.pop_back();
+        table[l].own = static_cast<float>(height[l]);
+        table[l].other = h;
+        height[h] -= 1 - height[l];
+        if (height[h] < 1) {
+            high.pop_back();
+            low.push_back(h);
+        }
+    }
+    return table;
+}
+
+/// Chooses a light in O(1): a column, and one of the two lights in it.
+///
+/// u is a double, of 48 random bits: the 24 of a float are 17 numbers for each of a million
+/// columns.
+inline size_t pick_light(const LightTable& lights, double u) {
+    double at = u * static_cast<double>(lights.size());
+    size_t column = std::min(static_cast<size_t>(at), lights.size() - 1);
+    bool is_own = at - static_cast<double>(column) < double{lights[column].own};
+    return is_own ? column : lights[column].other;
+}
+inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
+
+/// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
+inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
+                                double u, Vec2 u2) {
+    if (lights.empty()) return {};
+    size_t light = pick_light(lights, u);
+    LightSample y = sample_one_light(scene, light, x, u2);
+    y.pdf_w *= pmf_light(lights, light);
+    return y;
+}
+
+/// The table that trace() chooses lights from; a quarter of all choices is even, d = 1/4.
+inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
+
+/// Estimates what all lights send by way of x to wo, from one point of one light.
+///
+///   Ld = f Le V cos / pdf_w
+///
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
+                        double u, Vec2 u2, Rgb beta, PathLog& log) {
+    if (x.material->type != MaterialType::diffuse) return {};
+    LightSample y = sample_light(scene, lights, x, u, u2);
+    if (y.pdf_w == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///
+/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
+/// glass. Anywhere else it was Ld of the vertex before.
+/// Unbiased up to scene.max_depth scattering events.
+/// source  Shirley et al. 1996      tested by  "ch11 light importance"
+inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler& sampler,
+                 PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    bool count_emission = true;
+    for (int depth = 0;; depth++) {
+        // Find the next vertex. A path that leaves the scene ends in the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
+        log.vertex(*x);
+
+        // Add what shines there, unless the vertex before has aimed at it.
+        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at a light.
+        Vec3 wo = -ray.d;
+        double u = join(sampler.u2());
+        L += direct_light(scene, lights, *x, wo, u, sampler.u2(), beta, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        count_emission = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch11

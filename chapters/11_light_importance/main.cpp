@@ -1,0 +1,13 @@
+// Chapter 11 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/11_light_importance/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "11_light_importance", "scenes/thousand-lights.pbrt");
+        Scene scene = load(options);
+        refuse_glossy(scene);
+        return render(scene, options, trace_with<ch11::trace>(ch11::prepare(scene)));
+    });
+}

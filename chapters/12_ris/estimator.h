@@ -1,0 +1,149 @@
+// Chapter 12: resampled importance sampling. Draw M cheap candidates and keep one by chance: the
+// more it gives, the likelier.
+//
+//   w_i = p_hat(y_i) / p(y_i);   keep y = y_i with probability w_i / weight_sum;
+//   Ld = f Le V cos W,   W = weight_sum / (M p_hat(y))
+#pragma once
+#include "common/light/light_table.h"
+#include "common/material/basic_bsdf.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+
+namespace ch12 {
+
+using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
+
+/// p_hat: what light i could send by way of x if nothing were in between, from its centre alone.
+///
+///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
+///
+/// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
+/// count as radius / d at least, and d as its radius, unless all of it lies behind the surface or
+/// turns its back. So p_hat is 0 only where the light gives nothing, and no point gives much more.
+inline float potential(const Scene& scene, size_t i, const Hit& x) {
+    const Light& light = scene.lights[i];
+    const LightShape& shape = scene.light_shapes[i];
+    float L = average(light.L);
+    if (light.type == LightType::infinite) return pi * L;
+    if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
+    Vec3 to_y = (light.type == LightType::area ? shape.centre : light.p) - x.p;
+    float d = std::max({length(to_y), shape.radius, 1e-15f});  // not 0, even in a point light
+    float cos_x = dot(to_y, x.n) / d, cos_y = 1, least = shape.radius / d;
+    if (light.type == LightType::point) return L * std::max(0.0f, cos_x) / (d * d);
+    if (shape.flat) cos_y = -dot(to_y, shape.first.n) / d;
+    if (light.two_sided) cos_y = std::abs(cos_y);
+    if (cos_x < -least || cos_y < -least) return 0;
+    return L * shape.area * std::max(least, cos_x) * std::max(least, cos_y) / (d * d);
+}
+
+/// The light kept among the candidates so far.
+struct Reservoir {
+    size_t light = 0;
+    float p_hat = 0;       // of that light
+    float weight_sum = 0;  // of all candidates
+
+    /// Takes the candidate with probability weight / weight_sum.
+    ///
+    /// u in [0,1) decides, and is made uniform again for the next candidate.
+    void offer(size_t candidate, float p_hat_candidate, float weight, float& u) {
+        if (!(weight > 0)) return;
+        weight_sum += weight;
+        float share = weight / weight_sum;
+        if (u < share) {
+            light = candidate, p_hat = p_hat_candidate;
+            u = u / share;
+        } else {
+            u = (u - share) / (1 - share);
+        }
+    }
+    /// W: what the kept light counts for all others, in place of 1 / probability.
+    float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
+};
+
+/// Draws M lights by power, and keeps one in proportion to its potential at x.
+///
+/// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
+inline Reservoir resample_lights(const Scene& scene, const LightTable& lights, const Hit& x, int M,
+                                 double u, float u1) {
+    Reservoir kept;
+    for (int i = 0; i < M; i++) {
+        size_t light = pick_light(lights, (i + u) / M);
+        float p_hat = potential(scene, light, x);
+        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u1);
+    }
+    return kept;
+}
+
+/// The table that candidates are drawn from.
+inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
+
+/// Estimates what all lights send by way of x to wo, by one of M candidates.
+///
+///   Ld = f Le V cos / pdf_one W      one point on the light that was kept
+///
+/// Unbiased where p_hat > 0 wherever the light counts.
+/// Var = Var_p / M + (1 - 1/M) Var_q: what the shadows leave, Var_q, no M takes away.
+/// source  Talbot, Cline, Egbert 2005      tested by  "truth: RIS on four lights, all tuples"
+inline Rgb direct_light(const Scene& scene, const LightTable& lights, int M, const Hit& x, Vec3 wo,
+                        double u, float u1, Vec2 u2, Rgb beta, PathLog& log) {
+    if (x.material->type != MaterialType::diffuse || lights.empty()) return {};
+    Reservoir kept = resample_lights(scene, lights, x, M, u, u1);
+    LightSample y = sample_one_light(scene, kept.light, x, u2);
+    float W = kept.W(M);
+    if (y.pdf_w == 0 || W == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w * W);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w / W, pdf_bsdf(x, wo, y.wi));
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///
+/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
+/// glass. Anywhere else it was Ld of the vertex before.
+/// Unbiased up to scene.max_depth scattering events.
+/// source  Talbot et al. 2005      tested by  "ch12 ris"
+inline Rgb trace(const Scene& scene, const LightTable& lights, int M, Ray ray, Sampler& sampler,
+                 PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    bool count_emission = true;
+    for (int depth = 0;; depth++) {
+        // Find the next vertex. A path that leaves the scene ends in the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
+        log.vertex(*x);
+
+        // Add what shines there, unless the vertex before has aimed at it.
+        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at one of M lights.
+        Vec3 wo = -ray.d;
+        double u = join(sampler.u2());
+        float u1 = sampler.u1();
+        L += direct_light(scene, lights, M, *x, wo, u, u1, sampler.u2(), beta, log);
+
+        // Go on in one direction, and count it for all those that were not taken.
+        u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        count_emission = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch12

@@ -1,0 +1,161 @@
+// Chapter 13: glossy metal. Rough metal is many small mirrors: draw the one that turns the light.
+//
+//   f = D(h) F(wo.h) G(wo, wi) / (4 cos_o cos_i),    pdf_w(wi) = pdf(h) / (4 wo.h)
+#pragma once
+#include "common/light/light_table.h"
+#include "common/material/basic_bsdf.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+
+namespace ch13 {
+
+/// How normals of microfacets spread, in the frame where z is the normal (GGX):
+/// D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2)
+/// source  Walter et al. 2007      tested by  "density: GGX normals"
+inline float ggx_D(Vec3 h, float alpha) {
+    float a2 = alpha * alpha, d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
+    return a2 / (pi * d * d);
+}
+/// By which facets hide each other: G1(w) = 1 / (1 + Lambda(w)).     source  Smith 1967; Heitz 2014
+inline float ggx_lambda(Vec3 w, float alpha) {
+    float tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
+    return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
+}
+/// A microfacet normal among those that wo sees: pdf(h) = G1(wo) D(h) wo.h / cos_o. Stretched to
+/// alpha = 1, it is drawn from a cap of the sphere.
+/// source  Heitz 2018; Dupuy, Benyoub 2023
+inline Vec3 sample_ggx_normal(Vec3 wo, float alpha, Vec2 u) {
+    Vec3 w = normalize({alpha * wo.x, alpha * wo.y, wo.z});
+    float z = (1 - u.x) * (1 + w.z) - w.z;
+    float r = std::sqrt(std::max(0.0f, 1 - z * z));
+    Vec3 h = from_cylindrical(r, u.y, z) + w;
+    return normalize({alpha * h.x, alpha * h.y, h.z});
+}
+inline float pdf_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
+    return ggx_D(h, alpha) * std::max(0.0f, dot(wo, h)) / ((1 + ggx_lambda(wo, alpha)) * wo.z);
+}
+inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
+    Vec3 w = normalize({alpha * wo.x, alpha * wo.y, wo.z});
+    Vec3 n = normalize({h.x / alpha, h.y / alpha, h.z}), c = 2 * dot(n, w) * n - w;
+    float phi = std::atan2(c.y, c.x);
+    return {1 - (c.z + w.z) / (1 + w.z), (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
+}
+
+/// f of a rough conductor on wo's side, in sr^-1, and the density of its samples; h = wo + wi.
+inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
+    Frame frame(x.n);
+    Vec3 o = frame.to_local(wo), i = frame.to_local(wi), h = normalize(o + i);
+    if (o.z <= 0) return {};  // wo along the surface or below it
+    float alpha = x.material->alpha;
+    float G = 1 / (1 + ggx_lambda(o, alpha) + ggx_lambda(i, alpha));
+    Rgb F = fresnel_conductor(dot(o, h), x.material->eta, x.material->k);
+    return F * (ggx_D(h, alpha) * G / (4 * o.z * i.z));
+}
+inline float pdf_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
+    Frame frame(x.n);
+    Vec3 o = frame.to_local(wo), h = normalize(o + frame.to_local(wi));
+    float cos_oh = dot(o, h);
+    return o.z > 0 && cos_oh > 0 ? pdf_ggx_normal(o, x.material->alpha, h) / (4 * cos_oh) : 0;
+}
+inline BsdfSample sample_rough_conductor(const Hit& x, Vec3 wo, Vec2 u) {
+    Frame frame(x.n);
+    Vec3 h = sample_ggx_normal(frame.to_local(wo), x.material->alpha, u);
+    Vec3 wi = reflect(wo, frame.to_world(h));
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    return {wi, eval_rough_conductor(x, wo, wi), pdf_rough_conductor(x, wo, wi)};
+}
+
+/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+inline Rgb eval_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
+    if (!is_rough(*x.material)) return basic_bsdf::eval_bsdf(x, wo, wi);
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
+    return eval_rough_conductor(x, wo, wi);
+}
+
+/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+inline float pdf_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
+    if (!is_rough(*x.material)) return basic_bsdf::pdf_bsdf(x, wo, wi);
+    if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
+    return pdf_rough_conductor(x, wo, wi);
+}
+
+/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
+    if (!is_rough(*x.material)) return basic_bsdf::sample_bsdf(x, wo, u1, u2);
+    return sample_rough_conductor(x, wo, u2);
+}
+
+/// The table that lights are chosen from.
+inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
+
+/// Estimates what all lights send by way of x to wo, from one point of one light.
+///
+///   Ld = f Le V cos / pdf_w
+///
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
+                        double u, Vec2 u2, Rgb beta, PathLog& log) {
+    if (is_specular(*x.material)) return {};
+    LightSample y = sample_light(scene, lights, x, u, u2);
+    if (y.pdf_w == 0) return {};
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+}
+
+/// How paths find light: by following the BSDF alone, or by aiming alone.
+enum class Strategy : uint8_t { bsdf, light };
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///
+/// By the BSDF alone, all emission counts that the path meets, and nothing is aimed at. By aiming
+/// alone, it counts only where nothing was aimed at: after the camera, mirror and glass.
+/// Unbiased; each way has lights that it hardly finds.      source  Veach, Guibas 1995, fig. 2
+/// tested by  "ch13 glossy"
+inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy, Ray ray,
+                 Sampler& sampler, PathLog& log) {
+    Rgb L, beta = {1, 1, 1};
+    bool count_emission = true;
+    for (int depth = 0;; depth++) {
+        // Find the next vertex. A path that leaves the scene ends in the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
+        log.vertex(*x);
+
+        // Add what shines there, unless the vertex before has aimed at it.
+        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (depth == scene.max_depth) {
+            log.cut();
+            return L;
+        }
+
+        // Aim at a light, if that is the way.
+        Vec3 wo = -ray.d;
+        double u = join(sampler.u2());
+        Vec2 u2 = sampler.u2();
+        if (strategy == Strategy::light) {
+            L += direct_light(scene, lights, *x, wo, u, u2, beta, log);
+        }
+
+        // Go on in one direction, and count it for all those that were not taken.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        count_emission = s.specular || strategy == Strategy::bsdf;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth);
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch13

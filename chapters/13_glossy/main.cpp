@@ -1,0 +1,24 @@
+// Chapter 13 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/13_glossy/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        auto strategy = ch13::Strategy::light;
+        Option ways = {
+            "strategy", "KIND", "how to find light: by aiming at light (default) or by bsdf",
+            [&](const std::string& text) {
+                strategy =
+                    static_cast<ch13::Strategy>(parse_choice("strategy", text, {"bsdf", "light"}));
+            },
+            "light"};
+        RenderOptions options =
+            parse_render_options(argc, argv, "13_glossy", "scenes/veach-mis.pbrt", {ways});
+        Scene scene = load(options);
+        if (strategy == ch13::Strategy::bsdf) {
+            refuse_delta_lights(scene);
+            options.search = LightSearch::by_chance;
+        }
+        return render(scene, options, trace_with<ch13::trace>(ch13::prepare(scene), strategy));
+    });
+}

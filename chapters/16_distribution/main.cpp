@@ -1,0 +1,27 @@
+// Chapter 16 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/16_distribution/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        int M = 64;
+        bool centre = false;
+        Option candidates = {
+            "m", "M", "light candidates, at most one per light (default 64)",
+            [&](const std::string& text) {
+                M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
+            },
+            "64"};
+        Option pixel = {"pixel", "area|centre",
+                        "mean over each pixel (default), or its middle alone",
+                        [&](const std::string& text) {
+                            centre = parse_choice("pixel", text, {"area", "centre"}) == 1;
+                        },
+                        "area"};
+        RenderOptions options = parse_render_options(argc, argv, "16_distribution",
+                                                     "scenes/bokeh.pbrt", {candidates, pixel});
+        options.pixel_centre = centre;
+        Scene scene = load(options, true);
+        return render(scene, options, trace_with<ch16::trace>(ch16::prepare(scene, M)));
+    });
+}

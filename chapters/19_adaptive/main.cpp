@@ -1,0 +1,32 @@
+// Chapter 19 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/19_adaptive/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        ch19::Shares shares;
+        std::string map;
+        Option pilot = {"pilot", "N", "samples of each pixel before any is shared out (default 16)",
+                        [&](const std::string& text) {
+                            auto n = parse_integer("pilot", text, 4, 1 << 16);
+                            shares.pilot = static_cast<uint32_t>(n);
+                        },
+                        "16"};
+        Option judge = {"judge", "other|own",
+                        "which half of the pilot decides for a half; own is biased",
+                        [&](const std::string& text) {
+                            auto i = parse_choice("judge", text, {"other", "own"});
+                            shares.judge = static_cast<ch19::Judge>(i);
+                        },
+                        "other"};
+        Option counts = {"map", "FILE",
+                         "picture of how many samples each pixel has (.pfm: numbers)",
+                         [&](const std::string& text) { map = parse_picture("map", text); }};
+        RenderOptions options = parse_render_options(
+            argc, argv, "19_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});
+        options.map = map;
+        Scene scene = load(options, true);
+        return render(scene, options, trace_with<ch19::trace>(ch19::prepare(scene)),
+                      ch19::allocation(shares));
+    });
+}

@@ -1,0 +1,242 @@
+// Chapter 20: light tracing. Paths begin at the lights, and each of their points is shown to the
+// camera:
+//
+//   pixel = mean over paths of  sum over their points of  flux f cos We V / d^2
+#pragma once
+#include "common/light/light_table.h"
+#include "common/material/ggx.h"
+#include "common/path/path_log.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+#include "common/path/splats.h"
+#include "common/scene/camera.h"
+#include "common/scene/smooth_normal.h"
+
+namespace ch20 {
+
+using glossy_bsdf::eval_bsdf, glossy_bsdf::sample_bsdf;
+
+/// The camera as light sees it.
+struct Pinhole {
+    CameraView view;
+    Vec3 n, axis;       // dx x dy, the area of a pixel; unit, the way the camera looks
+    float depth, area;  // of the film from the pinhole; the film's at distance 1
+    int width, height;
+};
+inline Pinhole pinhole_of(const Scene& scene) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    Vec3 n = cross(view.dx, view.dy), axis = normalize(n);
+    if (dot(axis, view.corner) < 0) axis = -axis;
+    float depth = dot(axis, view.corner);
+    float pixels = static_cast<float>(scene.width) * static_cast<float>(scene.height);
+    return {view, n, axis, depth, pixels * length(n) / (depth * depth), scene.width, scene.height};
+}
+
+/// What the camera makes of light that comes from where `away` points to, in sr^-1.
+///
+///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos over A: 1
+///
+/// A patch dA of the film is seen under dw = dA cos^3 / d^2, at distance d in front. A picture
+/// weighs all of its film alike, so a direction weighs dA / dw / A = 1 / (A cos^3) = We cos.
+/// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright as it should be"
+inline float importance_cos(const Pinhole& camera, Vec3 away) {
+    float cos_c = dot(away, camera.axis) / length(away);
+    return 1 / (camera.area * cos_c * cos_c * cos_c);
+}
+
+/// Where the camera sees a point, and what it makes of it.
+struct Sight {
+    size_t pixel;
+    float We_cos;  // sr^-1
+};
+
+/// The pixel in which the camera sees a point, `away` from the pinhole; none beyond the picture.
+///
+/// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
+inline std::optional<Sight> sight_of(const Pinhole& camera, Vec3 away) {
+    float depth = dot(away, camera.axis);
+    if (!(depth > 0)) return {};
+    Vec3 q = camera.depth / depth * away - camera.view.corner;  // on the film, from its corner
+    float n2 = dot(camera.n, camera.n);
+    float x = dot(cross(q, camera.view.dy), camera.n) / n2;
+    float y = dot(cross(camera.view.dx, q), camera.n) / n2;
+    float width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
+    if (!(x >= 0 && y >= 0 && x < width && y < height)) return {};
+    size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width);
+    return Sight{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
+}
+
+/// Where paths begin: the lights, three in four by power, with the scene's middle; and the camera.
+struct Ends {
+    LightTable lights;
+    Vec3 centre;
+    Pinhole camera;
+};
+inline Ends ends_of(const Scene& scene) {
+    Box box = bounds_of(scene.geometry);
+    LightTable lights = build_light_table(light_pmf(scene, 0.25));  // as in chapter 11
+    return {lights, (box.low + box.high) / 2, pinhole_of(scene)};
+}
+
+/// A ray that leaves a light: where from, where to, and how likely.
+struct Emission {
+    LightType type;
+    LightPoint y;  // its normal on the side that shines here; pdf per area
+    Vec3 d;
+    float pmf = 0, pdf_w = 0;  // of the light; sr^-1
+    Rgb Le;                    // W m^-2 sr^-1, or what the light has in its place
+};
+
+/// A direction of the sphere, all equally likely.      pdf_w = 1 / (4 pi)
+inline Vec3 sample_sphere(Vec2 u) {
+    float z = 1 - 2 * u.x;
+    return from_cylindrical(std::sqrt(std::max(0.0f, 1 - z * z)), u.y, z);
+}
+
+/// Chooses a light by power, and draws a ray from it.
+///
+///   area     any point, cosine direction:   pdf = 1 / A, cos / pi       (both sides: 1 / 2A)
+///   point    any direction:                 pdf = 1, 1 / (4 pi)
+///   distant  a point of the scene's disk:   pdf = 1 / (pi R^2), 1
+///   sky      the same, from any direction:  pdf = 1 / (pi R^2), 1 / (4 pi)
+///
+/// tested by  "identity: each light sends out its power"
+inline Emission sample_emission(const Scene& scene, const Ends& ends, double u, Vec2 u_y,
+                                Vec2 u_d) {
+    size_t i = pick_light(ends.lights, u);
+    const Light& light = scene.lights[i];
+    float pmf = pmf_light(ends.lights, i), R = scene.radius;
+    if (light.type == LightType::point)
+        return {light.type, {light.p, {}, 0, 1}, sample_sphere(u_d), pmf, 1 / (4 * pi), light.L};
+    if (light.type == LightType::area) {
+        bool back = light.two_sided && u_d.x < 0.5f;
+        if (light.two_sided) u_d.x = 2 * u_d.x - (back ? 0 : 1);
+        LightPoint y = sample_area(scene, i, u_y);
+        if (light.two_sided) y.pdf /= 2;
+        if (back) y.n = -y.n;
+        Vec3 d = sample_cosine_hemisphere(u_d);
+        float pdf_w = pdf_cosine_hemisphere(d.z);
+        return {light.type, y, Frame(y.n).to_world(d), pmf, pdf_w, light.L};
+    }
+    bool sky = light.type == LightType::infinite;
+    Vec3 d = sky ? sample_sphere(u_d) : -light.p;
+    Vec3 disk = from_cylindrical(R * std::sqrt(u_y.x), u_y.y, -R);
+    Vec3 p = ends.centre + Frame(d).to_world(disk);
+    return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
+}
+
+/// Shows the light itself to the camera, where it has a size.
+///
+///   area: Le / (pmf pdf_A) cos_y We cos_c V / d^2;    sky: Le / (pmf pdf_w) We cos_c V
+inline void show_light(const Scene& scene, const Pinhole& camera, const Emission& e, Splats& splats,
+                       PathLog& log) {
+    bool sky = e.type == LightType::infinite;
+    if (!sky && e.type != LightType::area) return;
+    Vec3 away = sky ? -e.d : e.y.p - camera.view.o;
+    std::optional<Sight> sight = sight_of(camera, away);
+    float d = length(away), cos_y = -dot(away, e.y.n) / d;
+    if (!sight || cos_y <= 0) return;
+    Rgb L = e.Le * (sight->We_cos / (sky ? e.pmf * e.pdf_w : e.pmf * e.y.pdf / cos_y * d * d));
+    float t_max = sky ? infinity : d - e.y.eps / cos_y;
+    if (occluded(scene, {camera.view.o, away / d, t_max})) return;
+    splats.push_back({sight->pixel, log.joined(L, 1, 1, 1, sight->pixel)});
+}
+
+/// x as the ray finds it that comes along w: with its normals on that side.
+inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
+    x.n = smooth_normal(scene, x);
+    if (dot(w, x.ng) < 0) x.n = -x.n, x.ng = -x.ng, x.front = !x.front;
+    if (dot(w, x.n) <= 0) x.n = x.ng;  // one that looks away cannot be used
+    return x;
+}
+
+/// f cos, of light that arrives at x from wi and leaves to wo, as a factor of its flux.
+///
+///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, if wo sees its front
+///
+/// For a path from the eye the cosine is that of wi and n. Flux arrives in proportion to |wi.ng|
+/// and leaves to |wo.ng|: where n is ng, the cosine is that of wo.
+/// source  Veach 1997, sec. 5.3      tested by  "agreement: smoothed normals"
+inline Rgb carry(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
+    Hit seen = seen_from(scene, x, wo);
+    return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
+}
+
+/// Shows what arrives at x from wi to the camera.      flux f cos We V / d^2
+///
+/// Mirrors and glass: nothing, since the pinhole lies not in the one direction that counts.
+inline void show(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb flux, int s,
+                 Splats& splats, PathLog& log) {
+    Vec3 away = x.p - camera.view.o;
+    std::optional<Sight> sight = sight_of(camera, away);
+    if (!sight || is_specular(*x.material)) return;
+    float d = length(away);
+    Vec3 wo = -1 / d * away;
+    Rgb L = flux * carry(scene, x, wi, wo) * (sight->We_cos / (d * d));
+    if (is_black(L) || occluded(scene, spawn_ray(x, wo, d))) return;
+    splats.push_back({sight->pixel, log.joined(L, s, 1, 1, sight->pixel)});
+}
+
+/// Draws where light goes on that arrives at x from wi, and f cos of it; s.f is that.
+///
+/// Refracted radiance is squeezed by 1 / eta^2, flux is not: its factor is taken out again.
+/// source  Veach 1997, sec. 5.2      tested by  "agreement: a light in glass"
+inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, float u1, Vec2 u2) {
+    Hit y = x;
+    if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // so that all of wo is drawn
+    BsdfSample s = sample_bsdf(y, wi, u1, u2);
+    if (s.pdf_w == 0) return s;
+    if (!s.specular) {
+        s.f = carry(scene, x, wi, s.wi);
+        return s;
+    }
+    bool through = dot(s.wi, x.ng) < 0;
+    float eta = x.front ? x.material->ior : 1 / x.material->ior;
+    s.f *= std::abs(dot(wi, x.n) / dot(wi, x.ng) * dot(s.wi, x.ng)) * (through ? eta * eta : 1);
+    return s;
+}
+
+/// One path from a light: adds to the splats what it brings to each pixel that sees a part of it.
+///
+/// Unbiased up to scene.max_depth scattering events, but for what it cannot see: where mirror or
+/// glass is all that lies before the pinhole. Var ~ 1 / d^2 of what is near to it.
+/// source  Arvo 1986; Dutre, Willems 1995      tested by  "ch20 light tracing"
+inline void trace_light(const Scene& scene, const Ends& ends, Splats& splats, Sampler& sampler,
+                        PathLog& log) {
+    // Choose a light, a point on it and a direction; show the light itself.
+    if (scene.lights.empty()) return;
+    double u = join(sampler.u2());
+    Vec2 u_y = sampler.u2();
+    Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
+    log.start_at_light(e.y.p);
+    show_light(scene, ends.camera, e, splats, log);
+    float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
+    Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w)), beta = {1, 1, 1};
+    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
+    for (int depth = 1; depth <= scene.max_depth; depth++) {
+        // Find the next point, and show it.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return;
+        log.vertex(*x);
+        Vec3 wi = -ray.d;
+        show(scene, ends.camera, *x, wi, flux * beta, depth + 1, splats, log);
+        if (depth == scene.max_depth) log.cut();
+
+        // Go on, with what does not depend on the light but on the path alone.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_light_bsdf(scene, *x, wi, u1, sampler.u2());
+        if (s.pdf_w == 0) return;
+        beta *= s.f / s.pdf_w;
+        if (is_black(beta)) return;
+        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(beta, depth - 1);
+        if (sampler.u1() >= q) return;
+        beta /= q;
+        log.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch20

@@ -1,0 +1,13 @@
+// Chapter 20 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/20_light_tracing/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        RenderOptions options =
+            parse_render_options(argc, argv, "20_light_tracing", "scenes/caustic.pbrt");
+        options.search = LightSearch::from_lights;
+        Scene scene = load(options);
+        return render(scene, options, trace_light_with<ch20::trace_light>(ch20::ends_of(scene)));
+    });
+}

@@ -1,0 +1,250 @@
+// Chapter 26: radiosity. No rays for the light at all: the surfaces are cut into patches, and what
+// each sends to each is worked out once. The solution belongs to the room; the camera comes last.
+//
+//   B_i = E_i + rho_i sum over j of F_ij B_j
+//
+// F_ij is the form factor: which share of what leaves patch i arrives at j.
+//
+//   F_ij = 1 / A_i  integral over i, j of  V cos_i cos_j / (pi r^2)
+//
+// Kept is  G_ij = A_i F_ij = A_j F_ji,  m^2, which is the same from both ends.
+#pragma once
+#include "common/geometry/transform.h"
+#include "common/path/path_log.h"
+#include "common/radiosity/display.h"
+#include "common/radiosity/rows.h"
+#include "common/radiosity/solution.h"
+
+namespace ch26 {
+
+enum class FormFactors : uint8_t { point, chance, contour };
+
+/// The form factor from a point x with normal n to a polygon that nothing hides.
+///
+///   F = 1 / (2 pi)  sum over edges of  gamma n . (b x a) / |b x a|,   a, b: x to the edge's ends,
+///   gamma: the angle between them
+///
+/// What lies below the horizon of x is cut off; 0 for a polygon seen from behind. In double: the
+/// terms of a far polygon nearly cancel.
+/// source  Lambert 1760; Hottel, Sarofim 1967      tested by  "truth: form factors by contour ..."
+inline double point_to_polygon(Vec3 x, Vec3 n, std::span<const Vec3> polygon) {
+    Double3 normal = to_double3(n), o = to_double3(x), above[8];
+    size_t count = 0;
+    for (size_t i = 0; i < polygon.size(); i++) {
+        Double3 a = to_double3(polygon[i]) - o;
+        Double3 b = to_double3(polygon[(i + 1) % polygon.size()]) - o;
+        double da = dot(a, normal), db = dot(b, normal);
+        if (da >= 0) above[count++] = a;
+        if (da * db < 0) above[count++] = a + da / (da - db) * (b - a);
+    }
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        Double3 a = above[i], b = above[(i + 1) % count], c = cross(b, a);
+        double size = std::sqrt(dot(c, c));
+        if (size > 0) sum += std::atan2(size, dot(a, b)) * dot(normal, c) / size;
+    }
+    return std::max(0.0, sum / (2 * std::numbers::pi));
+}
+
+/// (a) As often shown: the whole integral by its value between two points, the centres. Wrong where
+/// patches are near each other for their size: of unit squares at distance 1 by 59 %.
+inline double by_centres(const Patch& p, const Patch& q, Vec3 x, Vec3 y) {
+    Vec3 d = y - x;
+    double r2 = double{dot(d, d)}, cos = double{dot(d, p.n)} * double{-dot(d, q.n)};
+    return double{p.area} * double{q.area} * cos / (std::numbers::pi * r2 * r2);
+}
+
+/// (c) The mean over triangle t, with normal n, of the form factor from its points to q.
+///
+/// Far for both sizes: from the centre. Nearer: from three points, which makes the mean of any
+/// square polynomial right. Nearer still: from its quarters, and so on.
+inline double mean_to_polygon(const std::array<Vec3, 3>& t, Vec3 n, const Patch& q, int depth) {
+    Vec3 centre = (t[0] + t[1] + t[2]) / 3;
+    float size2 = longest_edge2(t) + longest_edge2(q.p), d2 = length_squared(centre - q.centre);
+    if (d2 > 36 * size2) return point_to_polygon(centre, n, q.p);
+    double sum = 0;
+    if (depth == 0 || d2 > 2 * size2) {
+        for (Vec3 p : t) sum += point_to_polygon((centre + p) / 2, n, q.p);
+        return sum / 3;
+    }
+    for (const auto& part : quarters(t)) sum += mean_to_polygon(part, n, q, depth - 1);
+    return sum / 4;
+}
+
+/// How much two patches exchange: G, m^2; (b) by chance: the mean over four pairs of points. Rays
+/// between these say what is visible, in (c) too: found from the smaller patch, since seen from the
+/// larger one it may be a spike between few points. key: of the random numbers.
+inline double exchange(const Scene& scene, const Patch& p, const Patch& q, FormFactors way,
+                       uint32_t key) {
+    if (!faces(p, q) || !faces(q, p)) return 0;
+    if (way == FormFactors::point) {
+        if (!sees(scene, p.centre + p.eps * p.n, q.centre + q.eps * q.n)) return 0;
+        return std::max(0.0, by_centres(p, q, p.centre, q.centre));
+    }
+    auto x = points_on(p, key), y = points_on(q, hash32(key) + 4);
+    size_t shift = hash32(key + 9) % 4;  // pairs each quarter of p with any of q
+    double visible = 0, sum = 0;
+    for (size_t i = 0; i < 4; i++) {
+        Vec3 z = y[(i + shift) % 4];
+        if (!sees(scene, x[i], z)) continue;
+        visible += 0.25;
+        sum += std::max(0.0, by_centres(p, q, x[i], z)) / 4;
+    }
+    if (way == FormFactors::chance) return sum;
+    if (visible == 0) return 0;
+    constexpr int deepest = 4;
+    const Patch &small = p.area <= q.area ? p : q, &large = p.area <= q.area ? q : p;
+    return visible * double{small.area} * mean_to_polygon(small.p, small.n, large, deepest);
+}
+
+/// Makes the rows' sums right, and keeps G_ij = G_ji: each row and column is multiplied by d_i.
+///
+///   sum over j of d_i G_ij d_j = A_i        in a closed room; in an open one only where it is more
+///
+/// tested by  "identity: repaired rows sum to 1, and both ends agree"
+inline void repair(Matrix& G, const std::vector<Patch>& patch, bool closed) {
+    std::vector<double> d(G.size(), 1), sum(G.size());
+    for (int round = 0; round < 1000; round++) {
+        double off = 0;
+        for (size_t i = 0; i < G.size(); i++) {
+            sum[i] = 0;
+            for (size_t j = 0; j < G.size(); j++) sum[i] += double{G[i][j]} * d[j];
+            sum[i] *= d[i] / double{patch[i].area};
+            if (sum[i] == 0 || (!closed && sum[i] < 1)) sum[i] = 1;  // right, for all we know
+            off = std::max(off, std::abs(sum[i] - 1));
+        }
+        if (off < 1e-7) break;
+        for (size_t i = 0; i < G.size(); i++) d[i] /= std::sqrt(sum[i]);
+    }
+    for (size_t i = 0; i < G.size(); i++) {
+        for (size_t j = 0; j < G.size(); j++)
+            G[i][j] = static_cast<float>(double{G[i][j]} * (d[i] * d[j]));
+    }
+}
+
+/// The equation.      B_i = E_i + rho_i H_i,      H_i = sum over j of F_ij B_j,  both W m^-2
+inline Radiosity radiosity_of(const Patch& p, Radiosity H) { return p.E + p.rho * H; }
+
+/// Gathers H_i from what all others send. F_ij, not F_ji: what i receives is counted from i.
+inline Radiosity gather(const Matrix& G, const std::vector<Patch>& patch,
+                        const std::vector<Radiosity>& H, size_t i) {
+    Radiosity sum;
+    for (size_t j = 0; j < G.size(); j++) sum += double{G[i][j]} * radiosity_of(patch[j], H[j]);
+    return 1 / double{patch[i].area} * sum;  // F_ij = G_ij / A_i
+}
+
+/// One sweep: each patch gathers. Jacobi: what the others had before the sweep, which is one bounce
+/// of light. Gauss-Seidel: what they have by now. Returns the largest change.
+enum class Sweep : uint8_t { jacobi, gauss_seidel };
+inline double sweep(const Matrix& G, const std::vector<Patch>& patch, Sweep kind, Solution& s) {
+    std::vector<Radiosity> before = s.H;
+    double change = 0;
+    for (size_t i = 0; i < G.size(); i++) {
+        s.H[i] = gather(G, patch, kind == Sweep::jacobi ? before : s.H, i);
+        change = std::max(change, largest_of(s.H[i] - before[i]));
+    }
+    s.steps++;
+    return change;
+}
+
+/// Sweeps until what is still to come is below `wanted`, a share of the largest H.
+///
+///   still to come <= q / (1 - q) change,    q = this change / the one before
+///
+/// The change alone would lie: where each bounce keeps 99 %, a hundred more like it follow.
+inline void solve(const Matrix& G, const std::vector<Patch>& patch, Sweep kind, double wanted,
+                  Solution& s, const Stopped& stopped = {}) {
+    s.H.resize(G.size());
+    double before = 0;
+    for (int i = 0; i < 100000; i++) {
+        double change = sweep(G, patch, kind, s), q = before > 0 ? change / before : 1, largest = 0;
+        before = change;
+        for (Radiosity H : s.H) largest = std::max(largest, largest_of(H));
+        double to_come = q < 1 ? q / (1 - q) * change : infinity;
+        if (change == 0 || to_come <= wanted * largest || (stopped && stopped())) return;
+    }
+}
+
+/// Begins progressive refinement (Southwell): all that lamps emit is unshot.
+inline void start(const std::vector<Patch>& patch, Solution& s) {
+    s.H.assign(patch.size(), {});
+    s.unshot.clear();
+    for (const Patch& p : patch) s.unshot.push_back(p.E);
+}
+
+/// Finds who shoots: the patch with most unshot power; nothing when all is shot.
+inline std::optional<size_t> brightest(const std::vector<Patch>& patch, const Solution& s) {
+    std::optional<size_t> found;
+    double most = 0;
+    for (size_t i = 0; i < patch.size(); i++) {
+        double power = double{patch[i].area} * sum_of(s.unshot[i]);
+        if (power > most) most = power, found = i;
+    }
+    return found;
+}
+
+/// Shoots what is unshot of patch i at all others.
+///
+///   H_j += F_ji dB_i = G_ij dB_i / A_j;      dB_j += rho_j H_j's change;      dB_i = 0
+///
+/// Needs one row of G, which alone is repaired: what does not leave the room arrives.
+/// source  Cohen, Chen, Wallace, Greenberg 1988      tested by  "agreement: Jacobi, ..."
+inline void shoot(const Patches& patches, size_t i, std::span<const float> G_i, Solution& s) {
+    const std::vector<Patch>& patch = patches.patch;
+    double sum = 0, area = double{patch[i].area};
+    for (float G_ij : G_i) sum += double{G_ij};
+    double scale = sum > area || (patches.closed && sum > 0) ? area / sum : 1;
+    Radiosity dB = s.unshot[i];
+    s.unshot[i] = {};
+    s.escaped += (area - scale * sum) * dB;
+    for (size_t j = 0; j < patch.size(); j++) {
+        if (G_i[j] == 0) continue;
+        Radiosity dH = scale * double{G_i[j]} / double{patch[j].area} * dB;
+        s.H[j] += dH;
+        s.unshot[j] += patch[j].rho * dH;
+    }
+    s.steps++;
+}
+
+/// What is unshot will light the room about evenly: its irradiance, for display, while it lasts.
+///
+///   H = keep dB / (1 - keep rho),    dB, rho: means over all areas; keep: what stays in the room
+///
+/// most: a bounce keeps no more of the light, so that the sum of all bounces is finite
+inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s,
+                         double most = 1 - 1e-6) {
+    Radiosity unshot, rho, shot, all;
+    for (size_t i = 0; i < s.unshot.size(); i++) {
+        double A = double{patch[i].area};
+        all += Radiosity(A, A, A);
+        unshot += A * s.unshot[i];
+        rho += A * Radiosity(patch[i].rho);
+        shot += A * (radiosity_of(patch[i], s.H[i]) - s.unshot[i]);
+    }
+    Radiosity keep = Radiosity(1, 1, 1) - ratio(s.escaped, shot);
+    return ratio(keep * unshot, all - min(keep * rho, most * all));
+}
+
+/// What is shown of a solution: B of each patch, with that estimate for what is to come.
+inline Shown show(const Scene& scene, std::shared_ptr<const Patches> patches, const Solution& s,
+                  Show how, int threads) {
+    const std::vector<Patch>& patch = patches->patch;
+    Radiosity more = ambient(patch, s);
+    std::vector<Rgb> B;
+    for (size_t i = 0; i < patch.size(); i++)
+        B.push_back(to_rgb(radiosity_of(patch[i], s.H[i] + more)));
+    return make_shown(scene, patches, B, how, threads);
+}
+
+/// The radiance that arrives along the ray: that of the patch it meets.      L = B / pi
+///
+/// Biased: as if each patch had one radiosity, or those between its corners were in between.
+/// source  Goral, Torrance, Greenberg, Battaile 1984      tested by  "ch26 radiosity"
+inline Rgb trace(const Scene& scene, const Shown& shown, Ray ray, Sampler& sampler, PathLog&) {
+    std::optional<Hit> x = intersect(scene, ray);
+    if (!x) return {};
+    if (shown.show != Show::gather) return radiosity_at(shown, *x) / pi;
+    return emission(scene, *x) + final_gather(scene, shown, *x, -ray.d, sampler);
+}
+
+}  // namespace ch26

@@ -1,0 +1,528 @@
+// Chapter 21: every strategy, its weight, and all of them together.
+#include <doctest/doctest.h>
+
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/20_light_tracing/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
+#include "common/base/json.h"
+#include "common/path/bidirectional.h"
+#include "tests/support/ggx_truth.h"
+#include "tests/support/known_lights.h"
+#include "tests/support/light_paths.h"
+
+namespace {
+
+Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
+
+/// The lesson, and its fast form in common/.
+SplatTrace by_lesson(const Scene& scene, int s = -1, int t = -1) {
+    return splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene), s, t});
+}
+SplatTrace by_fast(const Scene& scene, int s = -1, int t = -1) {
+    return splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene, s, t));
+}
+struct Form {
+    std::string name;
+    SplatTrace (*of)(const Scene&, int, int);
+    int share;  // of the paths: 1 / share
+    SplatTrace operator()(const Scene& scene, int s = -1, int t = -1) const {
+        return of(scene, s, t);
+    }
+};
+const std::vector<Form> forms = {{"the lesson", by_lesson, 4}, {"its fast form", by_fast, 1}};
+
+/// All that is seen of a whole path, from the light x[0] on to the eye: x[k] is the last surface.
+struct WholePath {
+    std::vector<bidirectional::Vertex> from_light;  // as the walk from the light left them
+    std::vector<bidirectional::Vertex> from_eye;    // [i]: the vertex i + 1 steps from the eye
+    size_t light = 0;
+};
+
+/// The same points as a path from the eye meets them; nothing where it does not.
+bool add_eye_vertices(const Scene& scene, const Pinhole& camera, WholePath& path) {
+    bidirectional::Vertex before, z;
+    z.x.p = camera.view.o;
+    Vec3 d = normalize(path.from_light.back().x.p - z.x.p);
+    float pdf_w = importance_cos(camera, d), back_w = 0;
+    for (size_t i = path.from_light.size(); i-- > 0;) {
+        Vec3 target = path.from_light[i].x.p;
+        Ray ray = path.from_eye.empty() ? Ray{z.x.p, d} : spawn_ray(z.x, normalize(target - z.x.p));
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x || length(x->p - target) > 2e-5f * scene.radius) return false;
+        bidirectional::Vertex next =
+            bidirectional::next_vertex(before, z, *x, ray.d, pdf_w, back_w, {1, 1, 1});
+        if (path.from_eye.empty()) next.before = next.to_area = 0;
+        before = z, z = next;
+        path.from_eye.push_back(z);
+        if (i == 0) break;
+        Vec3 wi = normalize(path.from_light[i - 1].x.p - x->p);
+        pdf_w = bidirectional::pdf_eye(scene, *x, z.back, wi);
+        back_w = bidirectional::pdf_light(scene, *x, wi, z.back);
+        if (pdf_w == 0 || back_w == 0) return false;
+    }
+    return true;
+}
+
+/// A vector once more, in double.
+struct Exact {
+    double x, y, z;
+    explicit Exact(Vec3 v) : x(double{v.x}), y(double{v.y}), z(double{v.z}) {}
+    Exact(double a, double b, double c) : x(a), y(b), z(c) {}
+    Exact to(Exact b) const { return {b.x - x, b.y - y, b.z - z}; }
+    double dot(Exact b) const { return x * b.x + y * b.y + z * b.z; }
+    double length() const { return std::sqrt(dot(*this)); }
+    double cos(Exact b) const { return dot(b) / length() / b.length(); }
+};
+
+/// Makes all lights shine to both sides, or makes every surface metal, or lets all normals lean.
+void change(Scene& scene, const std::string& how) {
+    if (how == "two-sided") {
+        for (Light& light : scene.lights) light.two_sided = true;
+    }
+    if (how == "metal") {
+        for (Material& m : scene.materials) {
+            m.type = MaterialType::conductor, m.alpha = 0.3f;
+            m.eta = {0.2f, 0.2f, 0.2f}, m.k = {3.9f, 3.9f, 3.9f};
+        }
+    }
+    if (how == "leaning normals") {
+        Geometry& g = scene.geometry;
+        Sampler random = random_numbers(3);
+        g.normals.resize(g.positions.size());
+        for (size_t i = 0; i < g.triangles.size(); i++) {
+            for (uint32_t v : g.triangles[i].v) {
+                g.normals[v] =
+                    normalize(g.facet_normals[i] + 0.4f * uniform_direction(random.u2()));
+            }
+        }
+    }
+}
+
+/// The density, in sr^-1, with which a path goes on at x, where its normals are the surface's; the
+/// same from both sides. In double, and by formulas of its own.
+double density_onwards(const Hit& x, Exact from, Exact to) {
+    if (is_specular(*x.material)) return 1;
+    Exact n(x.ng);
+    double cos_o = from.cos(n), cos_i = to.cos(n);
+    if (cos_o * cos_i <= 0) return 0;
+    if (x.material->type == MaterialType::diffuse) return std::abs(cos_i) / pi_exact;
+    double a = from.length(), b = to.length(), alpha = double{x.material->alpha};
+    double cos_h =
+        Exact(from.x / a + to.x / b, from.y / a + to.y / b, from.z / a + to.z / b).cos(n);
+    double D = alpha * alpha / pi_exact / std::pow(1 + cos_h * cos_h * (alpha * alpha - 1), 2);
+    return D / (1 + RoughMetal{alpha, 0, 0}.lambda(cos_o)) / (4 * std::abs(cos_o));
+}
+
+/// The balance heuristic as it is written: densities of the whole path by each strategy, in double
+/// and without a line of the lesson or of its fast form.
+std::vector<double> densities_of(const Scene& scene, const Ends& ends, const WholePath& path) {
+    const auto& y = path.from_light;
+    size_t n = y.size();  // vertices but the eye
+    auto p = [&](size_t i) { return Exact(i < n ? y[i].x.p : ends.camera.view.o); };
+    auto hit = [&](size_t i) { return path.from_eye[n - 1 - i].x; };
+    auto specular = [&](size_t i) { return i > 0 && i < n && is_specular(*y[i].x.material); };
+    auto to = [&](size_t a, size_t b) { return p(a).to(p(b)); };
+    auto area = [&](size_t from, size_t at) {  // of one sr at `from`, in m^-2 at `at`
+        Exact d = to(from, at);
+        return std::abs(d.cos(Exact(hit(at).ng))) / d.dot(d);
+    };
+    // Of each vertex, when it comes from the light, and from the eye.
+    std::vector<double> light(n), eye(n);
+    for (size_t i = 0; i < n; i++) {
+        if (i == 0) {
+            double sides = scene.lights[path.light].two_sided ? 2 : 1;
+            light[i] = static_cast<double>(pmf_light(ends.lights, path.light) *
+                                           pdf_area(scene, path.light)) /
+                       sides;
+        } else {
+            double pdf_w = i == 1 ? std::abs(to(0, 1).cos(Exact(hit(0).ng))) / pi_exact
+                                  : density_onwards(hit(i - 1), to(i - 1, i - 2), to(i - 1, i));
+            light[i] = pdf_w * area(i - 1, i);
+        }
+        double cos_c = to(n, i).cos(Exact(ends.camera.axis));
+        double pdf_w = i == n - 1 ? 1 / (double{ends.camera.area} * cos_c * cos_c * cos_c)
+                                  : density_onwards(hit(i + 1), to(i + 1, i + 2), to(i + 1, i));
+        eye[i] = pdf_w * area(i + 1, i);
+    }
+    std::vector<double> of_strategy(n + 1);  // by s; the eye alone comes from no light
+    for (size_t s = 0; s <= n; s++) {
+        bool joined = s == 0 || (!specular(s - 1) && !specular(s));
+        double density = joined && !(s == 1 && n == 1) ? 1 : 0;
+        for (size_t i = 0; i < n; i++) density *= i < s ? light[i] : eye[i];
+        of_strategy[s] = density;
+    }
+    return of_strategy;
+}
+
+/// The same weight by the lesson.
+double lesson_weight(const Scene& scene, const Ends& ends, const WholePath& path, size_t s) {
+    ch21::Path whole;
+    for (const auto& y : path.from_light) {
+        ch21::Vertex v;
+        v.x = y.x, v.joins = !y.specular, v.pdf = y.pdf;  // of the light's point
+        whole.push_back(v);
+    }
+    ch21::Vertex pinhole;
+    pinhole.x.p = ends.camera.view.o;
+    whole.push_back(pinhole);
+    return static_cast<double>(ch21::mis_weight(scene, ends, whole, s));
+}
+
+/// The same by what the vertices of the fast form remember.
+double fast_weight(const Scene& scene, const bidirectional::Prepared& prepared,
+                   const WholePath& path, size_t s) {
+    const auto& y = path.from_light;
+    const auto& z = path.from_eye;
+    size_t n = y.size(), t = n + 1 - s;  // t counts the eye
+    bidirectional::Vertex eye;
+    auto z_at = [&](size_t i) { return i == 0 ? eye : z[i - 1]; };
+    if (s == 0) {
+        return static_cast<double>(bidirectional::mis_emission(
+            scene, prepared, z_at(t - 2), z_at(t - 1), static_cast<int>(t), path.light, false));
+    }
+    if (t == 1) {
+        Vec3 away = y[s - 1].x.p - prepared.ends.camera.view.o;
+        float We_cos = importance_cos(prepared.ends.camera, away);
+        return static_cast<double>(bidirectional::mis_shown(
+            scene, prepared, y[s - 2], y[s - 1], -1 * normalize(away), We_cos / dot(away, away)));
+    }
+    bidirectional::Vertex to = z_at(t - 1);
+    if (s == 1) {
+        float sides = scene.lights[path.light].two_sided ? 2 : 1;
+        Emission e{LightType::area,
+                   {y[0].x.p, y[0].x.ng, 0, pdf_area(scene, path.light) / sides},
+                   {},
+                   pmf_light(prepared.ends.lights, path.light),
+                   1,
+                   {1, 1, 1}};
+        return static_cast<double>(bidirectional::mis_lit(
+            scene, prepared, bidirectional::light_end(e, to.x), z_at(t - 2), to));
+    }
+    Vec3 w = to.x.p - y[s - 1].x.p;
+    return static_cast<double>(bidirectional::mis_joined(scene, prepared, y[s - 2], y[s - 1],
+                                                         z_at(t - 2), to, normalize(w), dot(w, w)));
+}
+
+}  // namespace
+
+TEST_SUITE("ch21 weights") {
+    TEST_CASE("identity: weights are p_s / sum p_i over the densities of whole paths") {
+        struct {
+            std::string name, how;
+        } cases[] = {{"cornell", ""},
+                     {"cornell-spheres", ""},
+                     {"two-lights", ""},
+                     {"cornell", "metal"},
+                     {"two-lights", "two-sided"},
+                     {"cornell", "two-sided"},
+                     {"cornell", "leaning normals"}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            CAPTURE(c.how);
+            Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 7);
+            change(scene, c.how);
+            bool leans = c.how == "leaning normals";
+            bidirectional::Prepared prepared = bidirectional::prepare(scene);
+            Sampler sampler(SamplerType::independent, 1, 1);
+            PathLog log;
+            std::vector<int> compared(9);
+            for (uint32_t i = 0; i < 100000; i++) {
+                sampler.start(i, 0);
+                std::vector<bidirectional::Vertex> walk;
+                bidirectional::walk_from_light(scene, prepared, sampler, walk, log);
+                size_t n = 2 + i % 7;  // vertices of the path, but the eye
+                if (walk.size() < n) continue;
+                walk.resize(n);
+                WholePath path{walk, {}, 0};
+                if (walk.back().specular) continue;
+                if (!add_eye_vertices(scene, prepared.ends.camera, path)) continue;
+                path.light = static_cast<size_t>(path.from_eye.back().x.light);
+                if (path.from_eye.back().x.light < 0) continue;
+                std::vector<double> p = densities_of(scene, prepared.ends, path);
+                double all = 0, sum = 0, fast_sum = 0;
+                for (double density : p) all += density;
+                for (size_t s = 0; s <= n; s++) {
+                    if (p[s] == 0) continue;
+                    double mis = lesson_weight(scene, prepared.ends, path, s);
+                    double fast = fast_weight(scene, prepared, path, s);
+                    sum += mis, fast_sum += fast;
+                    CAPTURE(n);
+                    CAPTURE(s);
+                    if (!leans) CHECK(std::abs(mis - p[s] / all) < 1e-3);
+                    CHECK(std::abs(fast - mis) < 5e-3);
+                }
+                CHECK(std::abs(sum - 1) < 1e-5);
+                CHECK(std::abs(fast_sum - 1) < 5e-3);
+                compared[n]++;
+            }
+            for (size_t n = 2; n < 6; n++) CHECK(compared[n] > 20);
+        }
+    }
+
+    TEST_CASE("truth: vertices that touch have a weight, of 0, and not one that is no number") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 7);
+        Ends ends = ends_of(scene);
+        std::optional<Hit> floor = intersect(scene, {{278, 273, 250}, {0, -1, 0}});
+        REQUIRE(floor);
+        ch21::Path path(4);
+        path[0].x.p = {278, 548, 280}, path[0].x.ng = {0, -1, 0}, path[0].pdf = 1e-4f;
+        path[1].x = path[2].x = *floor;
+        path[3].x.p = ends.camera.view.o;
+        for (size_t s = 0; s < 4; s++) CHECK(ch21::mis_weight(scene, ends, path, s) == 0);
+    }
+
+    TEST_CASE("truth: densities and weights of a path of three edges") {
+        // The pinhole at (0, -1, 0.5) looks at the origin, with a film of area 1 at distance 1;
+        // x = (0.2, 0.1, 0) on the floor, y = (0.1, -0.2, 1) on a unit light that faces it.
+        Vec3 x = {0.2f, 0.1f, 0}, y = {0.1f, -0.2f, 1}, c = {0, -1, 0.5f};
+        Pinhole camera{};
+        camera.axis = normalize(-1 * c), camera.area = 1;
+        Vec3 away = x - c;
+        float d2 = dot(away, away);
+        double from_eye = static_cast<double>(importance_cos(camera, away) / d2 * std::abs(away.z) /
+                                              std::sqrt(d2));
+        CHECK(from_eye == doctest::Approx(0.2840100565843).epsilon(1e-5).scale(0));
+        Vec3 to_y = y - x;
+        double r2 = static_cast<double>(dot(to_y, to_y));
+        double cos2 = static_cast<double>(to_y.z) * static_cast<double>(to_y.z) / r2;
+        double s0 = from_eye * cos2 / pi_exact / r2, s1 = from_eye, s2 = cos2 / pi_exact / r2;
+        CHECK(s0 == doctest::Approx(0.07471339569125).epsilon(1e-5).scale(0));
+        CHECK(s2 == doctest::Approx(0.2630660216395).epsilon(1e-5).scale(0));
+        CHECK(s0 / (s0 + s1 + s2) == doctest::Approx(0.1201586691727).epsilon(1e-5).scale(0));
+    }
+}
+
+TEST_SUITE("ch21 bidirectional") {
+    TEST_CASE("truth: each strategy alone has the mean of its paths") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 3);
+        for (int edges : {2, 3, 4}) {
+            std::string classes = "L";
+            classes.append(static_cast<size_t>(edges - 1), 'D');
+            classes += "E";
+            constexpr int paths = 100000;
+            Measured truth =
+                census_of(scene, by_fifteen(scene), paths, 1, classes).all.measured(paths);
+            for (const Form& form : forms) {
+                for (int s = 0; s <= edges; s++) {
+                    CAPTURE(form.name);
+                    CAPTURE(edges);
+                    CAPTURE(s);
+                    Measured m = census_of(scene, form(scene, s, edges + 1 - s), paths, 2, classes)
+                                     .all.measured(paths);
+                    CHECK(z_between(truth, m) < 5);
+                    CHECK(m.se < 0.3 * m.mean);
+                }
+            }
+        }
+    }
+
+    TEST_CASE("truth: irradiance of all lights by both ends") {
+        auto all = lights_of_known_irradiance;
+        all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
+        for (const auto& [light_here, E] : all) {
+            const auto& light = light_here;
+            CAPTURE(light);
+            Scene scene = floor_under(light);
+            scene.camera.o = {0, 0.01f, 0};
+            scene.camera.right = {1, 0, 0}, scene.camera.up = {0, 0, 1};
+            scene.camera.forward = {0, -1, 0};
+            for (const Form& form : forms) {
+                CAPTURE(form.name);
+                int paths = 200000 / form.share;
+                Measured m = census_of(scene, form(scene), paths, 1).all.measured(paths);
+                CHECK(std::abs(m.mean - E / pi_exact) < 5 * m.se + 1e-3 * E);
+                CHECK(m.se < 0.03 * m.mean);
+            }
+        }
+    }
+
+    TEST_CASE("furnace: inside a sphere that emits 1 and reflects the albedo, by both ends") {
+        Scene scene = scene_of(
+            "LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 60\n"
+            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
+            "ReverseOrientation AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+            "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Shape \"sphere\"\n");
+        scene.max_depth = 60;
+        for (const Form& form : forms) {
+            CAPTURE(form.name);
+            int paths = 200000 / form.share;
+            Measured m = census_of(scene, form(scene), paths, 1).all.measured(paths);
+            CHECK(std::abs(m.mean - 2) < 5 * m.se);
+            CHECK(m.se < 0.01);
+        }
+    }
+
+    TEST_CASE("truth: a disk fills its share of the picture at any field of view and in any unit") {
+        // A disk of half the picture's width: pi / 16 of the film. The camera's unit is no length.
+        for (double fov : {0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 170.0})
+            for (const char* unit : {"1e-5", "1", "1e5"}) {
+                CAPTURE(fov);
+                CAPTURE(unit);
+                double radius = 10 * std::tan(fov * pi_exact / 360) / 2;
+                std::string u = std::string(unit) + " ";
+                Scene scene = scene_of(
+                    "Scale " + u + u + u + "Rotate 30 1 0 0 Rotate 50 0 1 0\n" +
+                    "Camera \"perspective\" \"float fov\" " + json_number(fov) + " WorldBegin\n" +
+                    shining +
+                    "Rotate -50 0 1 0 Rotate -30 1 0 0 Translate 0 0 10 Rotate 180 1 0 0 Shape "
+                    "\"disk\" \"float radius\" " +
+                    json_number(radius) + "\n");
+                scene.width = scene.height = 24, scene.max_depth = 1;
+                auto check = [&](const Film& film) {
+                    double truth = pi_exact / 16;
+                    CAPTURE(film.mean());
+                    CAPTURE(film.standard_error());
+                    CHECK(std::abs(film.mean() - truth) <=
+                          5 * film.standard_error() + 1e-3 * truth);
+                    CHECK(film.standard_error() < 0.01 * truth);
+                };
+                check(film_of(scene, by_fifteen(scene), 16).film);
+                SplatTrace by_light = trace_light_with<ch20::trace_light>(ch20::ends_of(scene));
+                check(film_of(scene, by_light, 16).film);
+                for (const Form& form : forms) check(film_of(scene, form(scene), 16).film);
+            }
+    }
+
+    TEST_CASE("truth: a light in a mirror and straight on, without noise, by both ends") {
+        Scene mirror = light_before_mirror(), none = floor_without_lights();
+        for (const Form& form : forms) {
+            CAPTURE(form.name);
+            SplatTrace trace = form(mirror);
+            check_light_before_mirror(mirror,
+                                      [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+                                          Splats splats;
+                                          return trace(s, ray, splats, sampler, log);
+                                      });
+            CHECK(film_of(none, form(none), 4).film.mean() == 0);
+        }
+    }
+
+    TEST_CASE("agreement: caustics with chapter 20, which finds them at once") {
+        for (std::string name : {"caustic", "cornell-spheres", "light-in-glass"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
+            SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::ends_of(scene));
+            for (const Form& form : forms) {
+                CAPTURE(form.name);
+                CHECK(check_classes(scene, walk, scene, form(scene), 400000 / form.share, 1,
+                                    shown_by_light) >= 6);
+            }
+        }
+    }
+
+    TEST_CASE("agreement: the lesson and its fast form, by length, by class and by block") {
+        for (std::string name : {"cornell-spheres", "veach-mis", "light-in-glass"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
+            CHECK(check_classes(scene, by_lesson(scene), scene, by_fast(scene), 100000) >= 8);
+        }
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
+        check_agreement(hold_against(blocks_of(scene, by_lesson(scene), 8, 32, 8),
+                                     blocks_of(scene, by_fast(scene), 8, 32, 8)),
+                        0.02);
+    }
+
+    TEST_CASE("agreement: each block of the picture with chapter 15, by both ends") {
+        for (std::string name : {"cornell", "two-lights"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 5);
+            BlockMeans a = blocks_of(scene, by_fifteen(scene), 16, 32, 8);
+            for (const Form& form : forms) {
+                CAPTURE(form.name);
+                check_agreement(hold_against(a, blocks_of(scene, form(scene), 16, 32, 8)), 0.02);
+            }
+        }
+    }
+
+    TEST_CASE("agreement: samplers, by both ends") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
+        Film a = film_of(scene, by_fast(scene), 128).film;
+        for (SamplerType type : {SamplerType::stratified, SamplerType::sobol}) {
+            for (const Form& form : forms) {
+                CAPTURE(form.name);
+                Film b = film_of(scene, form(scene), 64, 2, type).film;
+                CHECK(z_between({a.mean(), a.standard_error()}, {b.mean(), b.standard_error()}) <
+                      5);
+            }
+        }
+    }
+
+    TEST_CASE("agreement: sizes of samples and units leave the mean alone, by both ends") {
+        auto over_seeds = [](const Scene& scene, const Form& form, int spp, uint32_t first) {
+            RunningStats means;
+            for (uint32_t seed = first; seed < first + 32; seed++)
+                means.add(film_of(scene, form(scene), spp, seed).film.mean());
+            return Measured{means.mean(), means.standard_error()};
+        };
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 5);
+        Measured a = over_seeds(scene, forms[0], 16, 1);
+        CHECK(a.se < 0.005 * a.mean);
+        for (const Form& form : forms) {
+            CAPTURE(form.name);
+            for (int spp : {1, 2, 3, 7}) {
+                CAPTURE(spp);
+                CHECK(z_between(a, over_seeds(scene, form, spp, 100)) < 5);
+            }
+            for (float unit : {0.001f, 1000.0f}) {
+                CAPTURE(unit);
+                Scene other = in_units("scenes/cornell-spheres.pbrt", unit, 32, 5);
+                CHECK(z_between(a, over_seeds(other, form, 4, 200)) < 5);
+            }
+        }
+    }
+
+    TEST_CASE("variance: a lamp in a shade: a tenth of the error of chapter 15") {
+        Scene scene = scene_from("scenes/lamp.pbrt", 32, 8);
+        auto error_of = [&](const auto& trace) {
+            BlockMeans m = blocks_of(scene, trace, 16, 16, 4);
+            double sum = 0;
+            for (const RunningStats& s : m.blocks) sum += s.variance() / (s.mean() * s.mean());
+            return sum;
+        };
+        double tenth = error_of(by_fifteen(scene)) / 10;
+        for (const Form& form : forms) {
+            CAPTURE(form.name);
+            CHECK(error_of(form(scene)) < tenth);
+        }
+    }
+
+    TEST_CASE("failure: a point light seen by way of glass, lit by way of glass: no strategy") {
+        // LS+DS+E has one strategy, by chance; of a point light, none.
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 8);
+        Measured lamp = census_of(scene, by_fast(scene), 400000, 1, "LS+DS+E").all.measured(400000);
+        CHECK(lamp.mean > 5 * lamp.se);
+        Scene point = world_of(
+            "LightSource \"point\" \"point3 from\" [0 2 0]\nAttributeBegin Translate 0 -1 0 Scale "
+            "9 1 9 " +
+            square(0, true) + "AttributeEnd Material \"dielectric\" Shape \"sphere\"\n");
+        point.max_depth = 8;
+        for (const Form& form : forms) {
+            CAPTURE(form.name);
+            CHECK(census_of(point, form(point), 100000, 1, "LS+DS+E").all.sum == 0);
+            CHECK(census_of(point, form(point), 100000, 1, "LS+DE").all.sum > 0);
+        }
+    }
+}
+
+TEST_SUITE("ch21 slow") {
+    TEST_CASE("agreement: all lengths and classes of paths with chapter 15") {
+        struct {
+            std::string name;
+            int paths, least;
+        } cases[] = {{"cornell", 200000, 12},       {"cornell-spheres", 400000, 20},
+                     {"two-lights", 200000, 8},     {"far-and-near", 200000, 2},
+                     {"color-bleeding", 200000, 8}, {"horizon-sky", 200000, 2},
+                     {"veach-mis", 200000, 8},      {"light-in-glass", 400000, 8},
+                     {"furnace-glass", 100000, 4},  {"hidden-light", 400000, 4},
+                     {"near-light", 200000, 4},     {"lamp", 400000, 6}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
+            for (const Form& form : forms) {
+                CAPTURE(form.name);
+                CHECK(check_classes(scene, by_fifteen(scene), scene, form(scene), c.paths) >=
+                      c.least);
+            }
+        }
+    }
+}
