@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "common/material/metal.h"
-#include "common/path/path_log.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 namespace ch05 {
 
@@ -269,11 +269,13 @@ inline Rgb shade(const Scene& scene, const Hit& x, const Lamp& lamp) {
     return f * lamp.intensity * (cos_x * cos_lamp / (r * r));
 }
 
-/// Direct light at x from all lamps, each as a point.
-inline Rgb shade_all(const Scene& scene, const Hit& x, Rgb beta, PathLog& log) {
+/// Direct light at x from all lamps, each as a point, times beta.
+inline Rgb shade_all(const Scene& scene, const Hit& x, Rgb beta, Recorder& recorder) {
     Rgb L;
     auto add = [&](const Lamp& lamp) {
-        L += log.direct(beta * shade(scene, x, lamp), normalize(lamp.p - x.p), 0, 0);
+        Rgb Ld = shade(scene, x, lamp);
+        L += beta * Ld;
+        recorder.direct(Ld, normalize(lamp.p - x.p), 0, 0);
     };
     for (const Light& light : scene.lights) {
         switch (light.type) {
@@ -298,16 +300,16 @@ inline Rgb shade_all(const Scene& scene, const Hit& x, Rgb beta, PathLog& log) {
     return L;
 }
 
-inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, PathLog& log);
+inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, Recorder& recorder);
 
 /// Follows mirror and glass into every branch; beta is what the eye keeps of what they bring.
 inline Rgb follow_specular(const Scene& scene, const Hit& x, Vec3 wo, Rgb beta, int depth,
-                           PathLog& log) {
+                           Recorder& recorder) {
     auto branch = [&](Vec3 wi, Rgb share) {
         if (max_component(beta * share) < 1e-3f) return Rgb{};  // too faint to see
-        log.scatter(wi, share / std::abs(dot(wi, x.n)), 1, true, beta * share);
-        Rgb L = follow(scene, spawn_ray(x, wi), beta * share, depth + 1, log);
-        log.step_back();
+        recorder.scatter(wi, share / std::abs(dot(wi, x.n)), 1, true, beta * share);
+        Rgb L = follow(scene, spawn_ray(x, wi), beta * share, depth + 1, recorder);
+        recorder.step_back();
         return L;
     };
     float cos_o = dot(wo, x.n);
@@ -322,21 +324,25 @@ inline Rgb follow_specular(const Scene& scene, const Hit& x, Vec3 wo, Rgb beta, 
 }
 
 /// Radiance along the ray, times beta, by Whitted's rules.
-inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, PathLog& log) {
+inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, Recorder& recorder) {
     rays_traced++;
     PrimHit found = linear_scan(scene.geometry, ray);
-    if (found.prim == PrimHit::none) return log.emitted(beta * scene.sky);
+    if (found.prim == PrimHit::none) {
+        recorder.emitted(scene.sky);
+        return beta * scene.sky;
+    }
     Hit x;
     make_hit(scene, ray, found, x);
-    log.vertex(x);
+    recorder.vertex(x);
 
-    Rgb L = log.emitted(beta * emission(scene, x));
+    Rgb Le = emission(scene, x), L = beta * Le;
+    recorder.emitted(Le);
     if (depth == scene.max_depth) {
-        log.cut();
+        recorder.cut();
         return L;
     }
-    if (x.material->type == MaterialType::diffuse) return L + shade_all(scene, x, beta, log);
-    return L + follow_specular(scene, x, -ray.d, beta, depth, log);
+    if (x.material->type == MaterialType::diffuse) return L + shade_all(scene, x, beta, recorder);
+    return L + follow_specular(scene, x, -ray.d, beta, depth, recorder);
 }
 
 /// Estimates Li along the ray as Whitted did: without chance, and without the paths it cannot see.
@@ -345,8 +351,8 @@ inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, PathL
 ///
 /// Biased: lamps are points (no soft shadows), and no light comes by way of other surfaces.
 /// source  Whitted 1980      tested by  "ch05 classes of paths"
-inline Rgb trace(const Scene& scene, Ray ray, Sampler&, PathLog& log) {
-    return follow(scene, ray, {1, 1, 1}, 0, log);
+inline Rgb trace(const Scene& scene, Ray ray, Sampler&, Recorder& recorder) {
+    return follow(scene, ray, {1, 1, 1}, 0, recorder);
 }
 
 }  // namespace ch05

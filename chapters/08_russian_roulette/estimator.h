@@ -4,8 +4,8 @@
 //   its variance:  Var[X] / q + E[X]^2 (1 - q) / q
 #pragma once
 #include "common/material/bsdf.h"
-#include "common/path/path_log.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 namespace ch08 {
 
@@ -57,18 +57,20 @@ inline float survival_probability(Rgb beta, int depth) {
 /// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
 /// only when it happens to hit some.
 /// source  Kajiya 1986; roulette: Arvo, Kirk 1990      tested by  "ch08 russian roulette"
-inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
-        // Find the next vertex. A path that leaves the scene ends in the sky.
+        // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return L + log.emitted(beta * scene.sky);
-        log.vertex(*x);
+        recorder.vertex(x);
 
         // Add what shines there.
-        L += log.emitted(beta * emission(scene, *x));
+        Rgb Le = x ? emission(scene, *x) : scene.sky;
+        L += beta * Le;
+        recorder.emitted(Le);
+        if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
@@ -79,13 +81,13 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

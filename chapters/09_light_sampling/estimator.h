@@ -5,9 +5,9 @@
 #pragma once
 #include "common/light/light_shapes.h"
 #include "common/material/bsdf.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 namespace ch09 {
 
@@ -110,14 +110,15 @@ inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2
 ///   Ld = f Le V cos / pdf_w
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
-inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec2 u2,
-                        LightMeasure measure, Rgb beta, PathLog& log) {
+inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, LightNumbers u,
+                        LightMeasure measure, Recorder& recorder) {
     if (x.material->type != MaterialType::diffuse) return {};
-    LightSample y = sample_light(scene, x, u1, u2, measure);
+    LightSample y = sample_light(scene, x, static_cast<float>(u.light), u.point, measure);
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+    recorder.direct(Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+    return Ld;
 }
 
 /// Estimates Li along the ray from one path.
@@ -129,41 +130,45 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, float u1, Vec
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Cook et al. 1984; Shirley et al. 1996      tested by  "ch09 light sampling"
 inline Rgb trace(const Scene& scene, LightMeasure measure, Ray ray, Sampler& sampler,
-                 PathLog& log) {
+                 Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
-        // Find the next vertex. A path that leaves the scene ends in the sky.
+        // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
-        log.vertex(*x);
+        recorder.vertex(x);
 
         // Add what shines there, unless the vertex before has aimed at it.
-        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (count_emission) {
+            Rgb Le = x ? emission(scene, *x) : scene.sky;
+            L += beta * Le;
+            recorder.emitted(Le);
+        }
+        if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
         // Aim at a light.
         Vec3 wo = -ray.d;
-        float u1 = sampler.u1();
-        L += direct_light(scene, *x, wo, u1, sampler.u2(), measure, beta, log);
+        LightNumbers u = {sampler.u1(), sampler.u2()};
+        L += beta * direct_light(scene, *x, wo, u, measure, recorder);
 
         // Go on in one direction, and count it for all those that were not taken.
-        u1 = sampler.u1();
+        float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

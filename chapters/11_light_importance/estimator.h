@@ -5,9 +5,9 @@
 #pragma once
 #include "common/light/lights.h"
 #include "common/material/basic_bsdf.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 namespace ch11 {
 
@@ -109,13 +109,14 @@ inline LightTable prepare(const Scene& scene) { return build_light_table(light_p
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
-                        double u, Vec2 u2, Rgb beta, PathLog& log) {
+                        LightNumbers u, Recorder& recorder) {
     if (x.material->type != MaterialType::diffuse) return {};
-    LightSample y = sample_light(scene, lights, x, u, u2);
+    LightSample y = sample_light(scene, lights, x, u.light, u.point);
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+    recorder.direct(Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+    return Ld;
 }
 
 /// Estimates Li along the ray from one path.
@@ -127,26 +128,30 @@ inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit&
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Shirley et al. 1996      tested by  "ch11 light importance"
 inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler& sampler,
-                 PathLog& log) {
+                 Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
-        // Find the next vertex. A path that leaves the scene ends in the sky.
+        // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
-        log.vertex(*x);
+        recorder.vertex(x);
 
         // Add what shines there, unless the vertex before has aimed at it.
-        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (count_emission) {
+            Rgb Le = x ? emission(scene, *x) : scene.sky;
+            L += beta * Le;
+            recorder.emitted(Le);
+        }
+        if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
         // Aim at a light.
         Vec3 wo = -ray.d;
-        double u = join(sampler.u2());
-        L += direct_light(scene, lights, *x, wo, u, sampler.u2(), beta, log);
+        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        L += beta * direct_light(scene, lights, *x, wo, u, recorder);
 
         // Go on in one direction, and count it for all those that were not taken.
         float u1 = sampler.u1();
@@ -155,13 +160,13 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler&
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

@@ -6,9 +6,9 @@
 #pragma once
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 namespace ch12 {
 
@@ -61,22 +61,30 @@ struct Reservoir {
     float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
 };
 
+/// Where candidates come from: the table that they are drawn from, and how many for one sample.
+struct Proposal {
+    LightTable lights;
+    int M;
+};
+
 /// Draws M lights by power, and keeps one in proportion to its potential at x.
 ///
 /// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
-inline Reservoir resample_lights(const Scene& scene, const LightTable& lights, const Hit& x, int M,
-                                 double u, float u1) {
+inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hit& x, double u,
+                                 float u1) {
     Reservoir kept;
-    for (int i = 0; i < M; i++) {
-        size_t light = pick_light(lights, (i + u) / M);
+    for (int i = 0; i < p.M; i++) {
+        size_t light = pick_light(p.lights, (i + u) / p.M);
         float p_hat = potential(scene, light, x);
-        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u1);
+        kept.offer(light, p_hat, p_hat / pmf_light(p.lights, light), u1);
     }
     return kept;
 }
 
-/// The table that candidates are drawn from.
-inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
+/// M candidates from the lights by power.
+inline Proposal prepare(const Scene& scene, int M) {
+    return {build_light_table(light_pmf(scene, 0.25)), M};
+}
 
 /// Estimates what all lights send by way of x to wo, by one of M candidates.
 ///
@@ -85,16 +93,17 @@ inline LightTable prepare(const Scene& scene) { return build_light_table(light_p
 /// Unbiased where p_hat > 0 wherever the light counts.
 /// Var = Var_p / M + (1 - 1/M) Var_q: what the shadows leave, Var_q, no M takes away.
 /// source  Talbot, Cline, Egbert 2005      tested by  "truth: RIS on four lights, all tuples"
-inline Rgb direct_light(const Scene& scene, const LightTable& lights, int M, const Hit& x, Vec3 wo,
-                        double u, float u1, Vec2 u2, Rgb beta, PathLog& log) {
-    if (x.material->type != MaterialType::diffuse || lights.empty()) return {};
-    Reservoir kept = resample_lights(scene, lights, x, M, u, u1);
-    LightSample y = sample_one_light(scene, kept.light, x, u2);
-    float W = kept.W(M);
+inline Rgb direct_light(const Scene& scene, const Proposal& p, const Hit& x, Vec3 wo,
+                        ResamplingNumbers u, Recorder& recorder) {
+    if (x.material->type != MaterialType::diffuse || p.lights.empty()) return {};
+    Reservoir kept = resample_lights(scene, p, x, u.candidates, u.choice);
+    LightSample y = sample_one_light(scene, kept.light, x, u.point);
+    float W = kept.W(p.M);
     if (y.pdf_w == 0 || W == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w * W);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, y.pdf_w / W, pdf_bsdf(x, wo, y.wi));
+    recorder.direct(Ld, y.wi, y.pdf_w / W, pdf_bsdf(x, wo, y.wi));
+    return Ld;
 }
 
 /// Estimates Li along the ray from one path.
@@ -105,43 +114,46 @@ inline Rgb direct_light(const Scene& scene, const LightTable& lights, int M, con
 /// glass. Anywhere else it was Ld of the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Talbot et al. 2005      tested by  "ch12 ris"
-inline Rgb trace(const Scene& scene, const LightTable& lights, int M, Ray ray, Sampler& sampler,
-                 PathLog& log) {
+inline Rgb trace(const Scene& scene, const Proposal& p, Ray ray, Sampler& sampler,
+                 Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
-        // Find the next vertex. A path that leaves the scene ends in the sky.
+        // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
-        log.vertex(*x);
+        recorder.vertex(x);
 
         // Add what shines there, unless the vertex before has aimed at it.
-        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (count_emission) {
+            Rgb Le = x ? emission(scene, *x) : scene.sky;
+            L += beta * Le;
+            recorder.emitted(Le);
+        }
+        if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
         // Aim at one of M lights.
         Vec3 wo = -ray.d;
-        double u = join(sampler.u2());
-        float u1 = sampler.u1();
-        L += direct_light(scene, lights, M, *x, wo, u, u1, sampler.u2(), beta, log);
+        ResamplingNumbers u = {join(sampler.u2()), sampler.u1(), sampler.u2()};
+        L += beta * direct_light(scene, p, *x, wo, u, recorder);
 
         // Go on in one direction, and count it for all those that were not taken.
-        u1 = sampler.u1();
+        float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

@@ -4,9 +4,9 @@
 #pragma once
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 namespace ch13 {
 
@@ -95,13 +95,14 @@ inline LightTable prepare(const Scene& scene) { return build_light_table(light_p
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
-                        double u, Vec2 u2, Rgb beta, PathLog& log) {
+                        LightNumbers u, Recorder& recorder) {
     if (is_specular(*x.material)) return {};
-    LightSample y = sample_light(scene, lights, x, u, u2);
+    LightSample y = sample_light(scene, lights, x, u.light, u.point);
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+    recorder.direct(Ld, y.wi, y.pdf_w, pdf_bsdf(x, wo, y.wi));
+    return Ld;
 }
 
 /// How paths find light: by following the BSDF alone, or by aiming alone.
@@ -116,28 +117,31 @@ enum class Strategy : uint8_t { bsdf, light };
 /// Unbiased; each way has lights that it hardly finds.      source  Veach, Guibas 1995, fig. 2
 /// tested by  "ch13 glossy"
 inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy, Ray ray,
-                 Sampler& sampler, PathLog& log) {
+                 Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;
     for (int depth = 0;; depth++) {
-        // Find the next vertex. A path that leaves the scene ends in the sky.
+        // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return count_emission ? L + log.emitted(beta * scene.sky) : L;
-        log.vertex(*x);
+        recorder.vertex(x);
 
         // Add what shines there, unless the vertex before has aimed at it.
-        if (count_emission) L += log.emitted(beta * emission(scene, *x));
+        if (count_emission) {
+            Rgb Le = x ? emission(scene, *x) : scene.sky;
+            L += beta * Le;
+            recorder.emitted(Le);
+        }
+        if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
         // Aim at a light, if that is the way.
         Vec3 wo = -ray.d;
-        double u = join(sampler.u2());
-        Vec2 u2 = sampler.u2();
+        LightNumbers u = {join(sampler.u2()), sampler.u2()};
         if (strategy == Strategy::light) {
-            L += direct_light(scene, lights, *x, wo, u, u2, beta, log);
+            L += beta * direct_light(scene, lights, *x, wo, u, recorder);
         }
 
         // Go on in one direction, and count it for all those that were not taken.
@@ -147,13 +151,13 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

@@ -21,6 +21,6 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "14_mis", "scenes/veach-mis.pbrt", extra);
         Scene scene = load(options);
-        return render(scene, options, trace_with<ch14::trace>(ch14::prepare(scene), settings));
+        return render(scene, options, trace_with<ch14::trace>(ch14::prepare(scene, settings)));
     });
 }

@@ -7,9 +7,9 @@
 #include "common/light/pdf_one_light.h"
 #include "common/material/ggx.h"
 #include "common/path/mis.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 namespace ch15 {
 
@@ -46,18 +46,19 @@ inline float pdf_best(const ManyLights& lights, size_t light, float pdf_one) {
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                        double u, Vec2 u2, Rgb beta, PathLog& log) {
-    if (is_specular(*x.material) || is_black(beta) || scene.lights.empty()) return {};
+                        LightNumbers u, Recorder& recorder) {
+    if (is_specular(*x.material) || scene.lights.empty()) return {};
     size_t N = scene.lights.size();
-    size_t light = std::min(static_cast<size_t>(u * static_cast<double>(N)), N - 1);
-    LightSample y = sample_one_light(scene, light, x, u2);
+    size_t light = std::min(static_cast<size_t>(u.light * static_cast<double>(N)), N - 1);
+    LightSample y = sample_one_light(scene, light, x, u.point);
     if (y.pdf_w == 0) return {};
     float pdf_l = pdf_any(lights, y.pdf_w);
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = mis_weight(pdf_l, pdf_best(lights, light, y.pdf_w), pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
+    recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
+    return Ld;
 }
 
 /// How much of a light's potential rough metal turns to wo, and the BSDF does not find by itself:
@@ -91,18 +92,19 @@ inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const 
 
 /// The same from one point of the best light.      Ld = mis_l f Le V cos / pdf_one W
 /// source  Talbot et al. 2005      tested by  "truth: irradiance of all lights"
-inline Rgb best_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo, double u,
-                      float u1, Vec2 u2, Rgb beta, PathLog& log) {
+inline Rgb best_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
+                      ResamplingNumbers u, Recorder& recorder) {
     if (is_specular(*x.material)) return {};
-    Kept best = resample_lights(scene, lights, x, wo, u, u1);
-    LightSample y = sample_one_light(scene, best.light, x, u2);
+    Kept best = resample_lights(scene, lights, x, wo, u.candidates, u.choice);
+    LightSample y = sample_one_light(scene, best.light, x, u.point);
     if (y.pdf_w == 0 || best.W == 0) return {};
     float pdf_l = pdf_best(lights, best.light, y.pdf_w);
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = mis_weight(pdf_l, pdf_any(lights, y.pdf_w), pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * best.W);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
+    recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
+    return Ld;
 }
 
 /// The weight of emission that the BSDF's direction wi from x has met: at y, or else in the sky.
@@ -120,7 +122,7 @@ inline float mis_emission(const Scene& scene, const ManyLights& lights, const Hi
 /// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
 /// source  Veach, Guibas 1995      tested by  "ch15 mis ris"
 inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler& sampler,
-                 PathLog& log) {
+                 Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     Hit last;              // the vertex before
     float pdf_b = 0;       // of the direction that was drawn there
@@ -128,17 +130,18 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
-        if (x) log.vertex(*x);
+        recorder.vertex(x);
 
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
             float mis_b = only_way ? 1 : mis_emission(scene, lights, last, ray.d, pdf_b, x);
-            L += log.emitted(beta * Le * mis_b, mis_b);
+            L += beta * Le * mis_b;
+            recorder.emitted(Le, mis_b);
         }
         if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
@@ -149,13 +152,11 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
 
         // Aim at lights.
         bool choose = scene.lights.size() > 1;
-        double u = choose ? join(sampler.u2()) : 0;
-        Vec2 u2 = sampler.u2();
-        L += direct_light(scene, lights, *x, wo, u, u2, beta, log);
+        LightNumbers u = {choose ? join(sampler.u2()) : 0, sampler.u2()};
+        L += beta * direct_light(scene, lights, *x, wo, u, recorder);
         if (choose) {
-            double v = join(sampler.u2());
-            float v1 = sampler.u1();
-            L += best_light(scene, lights, *x, wo, v, v1, sampler.u2(), beta, log);
+            ResamplingNumbers v = {join(sampler.u2()), sampler.u1(), sampler.u2()};
+            L += beta * best_light(scene, lights, *x, wo, v, recorder);
         }
 
         // Go on in that direction, and count it for all those that were not taken.
@@ -163,13 +164,13 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 08
         if (sampler.u1() >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

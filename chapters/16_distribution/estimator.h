@@ -73,18 +73,19 @@ inline float pdf_sky_image(const SkyImage& sky, const std::vector<double>& cdf, 
 ///
 ///   Ld = mis_l f Le V cos / pdf_l      tested by  "truth: skies of known irradiance"
 inline Rgb sky_light(const Scene& scene, const std::vector<double>& cdf, const Hit& x, Vec3 wo,
-                     double u, Vec2 u2, Rgb beta, PathLog& log) {
-    if (is_specular(*x.material) || is_black(beta)) return {};
+                     LightNumbers u, Recorder& recorder) {
+    if (is_specular(*x.material)) return {};
     const SkyImage& sky = *scene.sky_image;
-    auto chosen = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u) - cdf.begin() - 1;
+    auto chosen = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u.light) - cdf.begin() - 1;
     size_t i = static_cast<size_t>(chosen);
-    Vec2 uv = sky.point_in(i, u2);
+    Vec2 uv = sky.point_in(i, u.point);
     Vec3 wi = direction_of(sky, uv);
     float pdf_l = pdf_sky_image(sky, cdf, i, uv), pdf_b = pdf_bsdf(x, wo, wi);
     float mis_l = power_heuristic(pdf_l, pdf_b);
     Rgb Ld = eval_bsdf(x, wo, wi) * sky.pixels[i] * (mis_l * dot(wi, x.n) / pdf_l);
     if (!(max_component(Ld) > 0) || occluded(scene, spawn_ray(x, wi))) return {};  // or 0 / 0
-    return log.direct(beta * Ld, wi, pdf_l, pdf_b, mis_l);
+    recorder.direct(Ld, wi, pdf_l, pdf_b, mis_l);
+    return Ld;
 }
 
 /// Estimates Li along the ray from one path.
@@ -94,7 +95,7 @@ inline Rgb sky_light(const Scene& scene, const std::vector<double>& cdf, const H
 /// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
 /// source  Veach, Guibas 1995      tested by  "ch16 distribution"
 inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler& sampler,
-                 PathLog& log) {
+                 Recorder& recorder) {
     const ManyLights& lights = prepared.lights;
     const Camera& camera = scene.camera;
     if (camera.lens_radius > 0) ray = through_lens(camera, ray, sampler.u2());
@@ -109,24 +110,26 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
-        if (x) log.vertex(*x);
+        recorder.vertex(x);
 
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
             float mis_b = only_way ? 1 : mis_emission(scene, lights, last, ray.d, pdf_b, x);
-            L += log.emitted(beta * Le * mis_b, mis_b);
+            L += beta * Le * mis_b;
+            recorder.emitted(Le, mis_b);
         }
         if (!x && scene.sky_image) {
             const SkyImage& sky = *scene.sky_image;
             Vec2 uv = point_of(sky, ray.d);
             float pdf_l = pdf_sky_image(sky, prepared.sky, sky.pixel_at(uv), uv);
             float mis_b = only_way ? 1 : power_heuristic(pdf_b, pdf_l);
-            L += log.emitted(beta * sky.at(uv) * mis_b, mis_b);
+            L += beta * sky.at(uv) * mis_b;
+            recorder.emitted(sky.at(uv), mis_b);
         }
         if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
@@ -148,17 +151,15 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
 
         // Aim at lights.
         bool choose = scene.lights.size() > 1;
-        double u = choose ? join(sampler.u2()) : 0;
-        Vec2 u2 = sampler.u2();
-        L += direct_light(scene, lights, *x, wo, u, u2, beta, log);
+        LightNumbers u = {choose ? join(sampler.u2()) : 0, sampler.u2()};
+        L += beta * direct_light(scene, lights, *x, wo, u, recorder);
         if (choose) {
-            double v = join(sampler.u2());
-            float v1 = sampler.u1();
-            L += best_light(scene, lights, *x, wo, v, v1, sampler.u2(), beta, log);
+            ResamplingNumbers v = {join(sampler.u2()), sampler.u1(), sampler.u2()};
+            L += beta * best_light(scene, lights, *x, wo, v, recorder);
         }
         if (scene.sky_image) {
-            double v = join(sampler.u2());
-            L += sky_light(scene, prepared.sky, *x, wo, v, sampler.u2(), beta, log);
+            LightNumbers v = {join(sampler.u2()), sampler.u2()};
+            L += beta * sky_light(scene, prepared.sky, *x, wo, v, recorder);
         }
 
         // Go on in that direction, and count it for all those that were not taken.
@@ -166,13 +167,13 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 08
         if (sampler.u1() >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

@@ -5,10 +5,10 @@
 #pragma once
 #include "common/light/light_table.h"
 #include "common/material/ggx.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 #include "common/path/splats.h"
+#include "common/recording/recorder.h"
 #include "common/scene/camera.h"
 #include "common/scene/smooth_normal.h"
 
@@ -125,21 +125,21 @@ inline Emission sample_emission(const Scene& scene, const Ends& ends, double u, 
     return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
 }
 
-/// Shows the light itself to the camera, where it has a size.
+/// Connects the light itself to the camera, where it has a size.
 ///
 ///   area: Le / (pmf pdf_A) cos_y We cos_c V / d^2;    sky: Le / (pmf pdf_w) We cos_c V
-inline void show_light(const Scene& scene, const Pinhole& camera, const Emission& e, Splats& splats,
-                       PathLog& log) {
+inline std::optional<Splat> show_light(const Scene& scene, const Pinhole& camera,
+                                       const Emission& e) {
     bool sky = e.type == LightType::infinite;
-    if (!sky && e.type != LightType::area) return;
+    if (!sky && e.type != LightType::area) return {};
     Vec3 away = sky ? -e.d : e.y.p - camera.view.o;
     std::optional<Sight> sight = sight_of(camera, away);
     float d = length(away), cos_y = -dot(away, e.y.n) / d;
-    if (!sight || cos_y <= 0) return;
+    if (!sight || cos_y <= 0) return {};
     Rgb L = e.Le * (sight->We_cos / (sky ? e.pmf * e.pdf_w : e.pmf * e.y.pdf / cos_y * d * d));
     float t_max = sky ? infinity : d - e.y.eps / cos_y;
-    if (occluded(scene, {camera.view.o, away / d, t_max})) return;
-    splats.push_back({sight->pixel, log.joined(L, 1, 1, 1, sight->pixel)});
+    if (occluded(scene, {camera.view.o, away / d, t_max})) return {};
+    return Splat{sight->pixel, L};
 }
 
 /// x as the ray finds it that comes along w: with its normals on that side.
@@ -162,19 +162,20 @@ inline Rgb carry(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
 }
 
-/// Shows what arrives at x from wi to the camera.      flux f cos We V / d^2
+/// What of the flux that arrives at x from wi the camera sees, and where.      flux f cos We V /
+/// d^2
 ///
 /// Mirrors and glass: nothing, since the pinhole lies not in the one direction that counts.
-inline void show(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb flux, int s,
-                 Splats& splats, PathLog& log) {
+inline std::optional<Splat> show(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi,
+                                 Rgb flux) {
     Vec3 away = x.p - camera.view.o;
     std::optional<Sight> sight = sight_of(camera, away);
-    if (!sight || is_specular(*x.material)) return;
+    if (!sight || is_specular(*x.material)) return {};
     float d = length(away);
     Vec3 wo = -1 / d * away;
     Rgb L = flux * carry(scene, x, wi, wo) * (sight->We_cos / (d * d));
-    if (is_black(L) || occluded(scene, spawn_ray(x, wo, d))) return;
-    splats.push_back({sight->pixel, log.joined(L, s, 1, 1, sight->pixel)});
+    if (is_black(L) || occluded(scene, spawn_ray(x, wo, d))) return {};
+    return Splat{sight->pixel, L};
 }
 
 /// Draws where light goes on that arrives at x from wi, and f cos of it; s.f is that.
@@ -202,14 +203,19 @@ inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, f
 /// glass is all that lies before the pinhole. Var ~ 1 / d^2 of what is near to it.
 /// source  Arvo 1986; Dutre, Willems 1995      tested by  "ch20 light tracing"
 inline void trace_light(const Scene& scene, const Ends& ends, Splats& splats, Sampler& sampler,
-                        PathLog& log) {
+                        Recorder& recorder) {
     // Choose a light, a point on it and a direction; show the light itself.
     if (scene.lights.empty()) return;
     double u = join(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
-    log.start_at_light(e.y.p);
-    show_light(scene, ends.camera, e, splats, log);
+    recorder.start_at_light(e.y.p);
+    auto add = [&](const std::optional<Splat>& seen) {
+        if (!seen) return;
+        splats.push_back(*seen);
+        recorder.splat(seen->L, seen->pixel);
+    };
+    add(show_light(scene, ends.camera, e));
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w)), beta = {1, 1, 1};
     Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
@@ -217,10 +223,13 @@ inline void trace_light(const Scene& scene, const Ends& ends, Splats& splats, Sa
         // Find the next point, and show it.
         std::optional<Hit> x = intersect(scene, ray);
         if (!x) return;
-        log.vertex(*x);
+        recorder.vertex(x);
         Vec3 wi = -ray.d;
-        show(scene, ends.camera, *x, wi, flux * beta, depth + 1, splats, log);
-        if (depth == scene.max_depth) log.cut();
+        add(show(scene, ends.camera, *x, wi, flux * beta));
+        if (depth == scene.max_depth) {
+            recorder.cut();
+            return;
+        }
 
         // Go on, with what does not depend on the light but on the path alone.
         float u1 = sampler.u1();
@@ -228,13 +237,13 @@ inline void trace_light(const Scene& scene, const Ends& ends, Splats& splats, Sa
         if (s.pdf_w == 0) return;
         beta *= s.f / s.pdf_w;
         if (is_black(beta)) return;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(beta, depth - 1);
         if (sampler.u1() >= q) return;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

@@ -4,10 +4,10 @@
 //   strategy (s, t): s vertices from the light, t from the eye;   mis_s = p_s / sum over i of p_i
 #pragma once
 #include "common/path/light_paths.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 #include "common/path/splats.h"
+#include "common/recording/recorder.h"
 
 namespace ch21 {
 
@@ -50,47 +50,50 @@ inline Vertex vertex_at(const Scene& scene, const Ends& ends, const std::optiona
 }
 
 /// Walks on along the ray: from a light as in chapter 20, from the eye as in chapter 13.
-inline void walk(const Scene& scene, const Ends& ends, bool from_light, Ray ray, Rgb flux,
-                 Path& path, Sampler& sampler, PathLog& log) {
+inline Path walk(const Scene& scene, const Ends& ends, bool from_light, Ray ray, Sampler& sampler,
+                 Recorder& recorder) {
+    Path path;
     Rgb beta = {1, 1, 1};
     int last = scene.max_depth + (from_light ? 0 : 1);
     for (int depth = 1; depth <= last; depth++) {
         // Find the next point.
         std::optional<Hit> x = intersect(scene, ray);
-        path.push_back(vertex_at(scene, ends, x, ray, flux * beta));
-        if (!x) return;
-        log.vertex(*x);
+        path.push_back(vertex_at(scene, ends, x, ray, beta));
+        if (!x) return path;
+        recorder.vertex(x);
         Vec3 wi = -ray.d;
-        if (depth == last && !from_light) log.cut();
-        if (depth == last) return;
+        if (depth == last && !from_light) recorder.cut();
+        if (depth == last) return path;
 
         // Go on, with what does not depend on the light but on the path alone.
         float u1 = sampler.u1();
         Vec2 u2 = sampler.u2();
         BsdfSample s =
             from_light ? sample_light_bsdf(scene, *x, wi, u1, u2) : sample_bsdf(*x, wi, u1, u2);
-        if (s.pdf_w == 0) return;
+        if (s.pdf_w == 0) return path;
         beta *= s.f * ((from_light ? 1 : std::abs(dot(s.wi, x->n))) / s.pdf_w);
-        if (is_black(beta)) return;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        if (is_black(beta)) return path;
+        recorder.scatter(s, beta);
 
         // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
         float q = survival_probability(beta, depth - 1);
-        if (sampler.u1() >= q) return;
+        if (sampler.u1() >= q) return path;
         beta /= q;
-        log.roulette(q, beta);
+        recorder.roulette(q, beta);
         ray = spawn_ray(*x, s.wi);
     }
+    return path;
 }
 
 /// One path from a light, vertex by vertex; the first is the point on the light.
-inline Path walk_from_light(const Scene& scene, const Ends& ends, Sampler& sampler, PathLog& log) {
+inline Path walk_from_light(const Scene& scene, const Ends& ends, Sampler& sampler,
+                            Recorder& recorder) {
     // Choose a light, a point on it and a direction.
     if (scene.lights.empty()) return {};
     double u = ::join(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
-    log.start_at_light(e.y.p);
+    recorder.start_at_light(e.y.p);
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w));
     Vertex light;
@@ -98,8 +101,9 @@ inline Path walk_from_light(const Scene& scene, const Ends& ends, Sampler& sampl
     float R = scene.radius;
     light.type = e.type, light.pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
     light.beta = e.Le / light.pdf;
-    Path path = {light};
-    walk(scene, ends, true, {e.y.p + e.y.eps * e.y.n, e.d}, flux, path, sampler, log);
+    Path path = walk(scene, ends, true, {e.y.p + e.y.eps * e.y.n, e.d}, sampler, recorder);
+    for (Vertex& v : path) v.beta = flux * v.beta;
+    path.insert(path.begin(), light);
     return path;
 }
 
@@ -209,15 +213,17 @@ inline Rgb join(const Scene& scene, const Vertex& y, const Vertex& z, int s) {
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Lafortune, Willems 1993; Veach, Guibas 1994      tested by  "ch21 bidirectional"
 inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& splats,
-                 Sampler& sampler, PathLog& log) {
+                 Sampler& sampler, Recorder& recorder) {
     // Walk from a light, with numbers that have their own dimensions, and from the eye.
     const Ends& ends = prepared.ends;
     sampler.jump(1 << 12);
-    Path light = walk_from_light(scene, ends, sampler, log), eye(1);
+    Path light = walk_from_light(scene, ends, sampler, recorder);
     sampler.jump(8);
-    log.start_at_eye();
-    eye[0].x.p = ray.o;
-    walk(scene, ends, false, ray, {1, 1, 1}, eye, sampler, log);
+    recorder.start_at_eye();
+    Path eye = walk(scene, ends, false, ray, sampler, recorder);
+    Vertex pinhole;
+    pinhole.x.p = ray.o;
+    eye.insert(eye.begin(), pinhole);
 
     // Take each number of vertices of the one with each of the other.
     Rgb sum;
@@ -235,7 +241,8 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& 
 
             // Weigh what it brings by how likely this strategy was to make the path.
             float mis = prepared.s < 0 ? mis_weight(scene, ends, path, i) : 1;
-            L = log.joined(L * mis, s, t, mis, pixel);
+            L *= mis;
+            recorder.connected(L, s, t, mis, pixel);
             if (t == 1) splats.push_back({pixel, L});
             if (t > 1) sum += L;
         }

@@ -3,7 +3,6 @@
 //
 //   Lo = rho / pi  sum over photons nearer than r of  K(d / r) flux / (pi r^2)
 #pragma once
-#include <map>
 #include <memory>
 
 #include "chapters/23_photon_mapping/photons.h"
@@ -26,7 +25,7 @@ inline Prepared prepare(const Scene& scene, const Settings& settings, int thread
     float& r = prepared.settings.r;
     if (r == 0) r = scene.radius / 20;
     for (Maps which : {all, caustics}) {
-        PhotonMap map = send_photons(scene, prepared, which, pilot, threads, stopped);
+        PhotonMap map = send_photons(scene, prepared, which, pilot, threads, stopped).photons;
         prepared.radii[which] = map.kth_distances(settings.k, r, threads);
         prepared.pilot[which] = std::move(map);
     }
@@ -53,7 +52,7 @@ inline float shrink_of(uint32_t pass) {
 /// the k-th, not k"
 inline float radius_at(const Prepared& prepared, const Pass& pass, Maps which, const Hit& x) {
     const Settings& s = prepared.settings;
-    if (s.gather == Gather::nearest) return pass.map[which].kth_distance(x.p, s.k, s.r);
+    if (s.gather == Gather::nearest) return pass.paths[which].photons.kth_distance(x.p, s.k, s.r);
     if (prepared.radii[which].empty()) return s.r * pass.shrink;
     return prepared.radii[which][prepared.pilot[which].leaf_at(x.p)] * pass.shrink;
 }
@@ -77,50 +76,46 @@ inline float kernel(Kernel type, float d2_over_r2) {
 /// Biased: what it finds is the mean over the disk. At the edge of a surface half of that is empty.
 /// source  Jensen 1996      tested by  "truth: light at an edge and in a corner"
 inline Rgb gather(const Prepared& prepared, const Pass& pass, Maps which, const Hit& x, int depth,
-                  Rgb beta, PathLog& log) {
+                  Recorder& recorder) {
     float r = radius_at(prepared, pass, which, x);
     if (!(r > 0)) return {};
     Rgb sum;
-    std::map<std::pair<uint8_t, uint8_t>, Rgb> classes;  // of paths, for the log
-    pass.map[which].for_each_near(x.p, r, [&](const Arrival& photon, Vec3 v) {
+    const LightPaths& paths = pass.paths[which];
+    paths.photons.for_each_near(x.p, r, [&](const Arrival& photon, Vec3 v) {
         Vec3 n = from_bits(photon.normal);
         float cosine = dot(n, x.ng);
         bool same_surface = cosine > 0 && cosine * cosine > 0.5f * dot(n, n);
         if (!same_surface || std::abs(dot(v, x.ng)) > r / 8) return;
         if (photon.depth > depth) return;
         Rgb counts = kernel(prepared.settings.kernel, dot(v, v) / (r * r)) * photon.flux;
-        if (log.listening()) classes[{photon.depth, photon.mirrors}] += counts;
         sum += counts;
+        recorder.photon(counts, paths.path_of(photon));
     });
-    Rgb f = x.material->reflectance / pi, scale = beta * f / (pi * r * r);
-    if (!log.listening()) return scale * sum;
-    sum = {};
-    for (const auto& [path, counts] : classes) {
-        sum += log.gathered(scale * counts, path.first, path.second);
-    }
-    return sum;
+    Rgb f = x.material->reflectance / pi, scale = f / (pi * r * r);
+    recorder.gathered(scale);
+    return scale * sum;
 }
 
 /// Estimates what lights send straight by way of x to wo. Where x is rough metal, its BSDF may find
 /// them as well.      Ld = mis_l f Le V cos / pdf_l
 inline Rgb direct_light(const Scene& scene, const Prepared& prepared, const Hit& x, Vec3 wo,
-                        double u, Vec2 u2, Rgb beta, PathLog& log) {
+                        LightNumbers u, Recorder& recorder) {
     if (is_specular(*x.material)) return {};
-    LightSample y = sample_light(scene, prepared.ends.lights, x, u, u2);
+    LightSample y = sample_light(scene, prepared.ends.lights, x, u.light, u.point);
     if (y.pdf_w == 0) return {};
-    float pdf_b = is_diffuse(x) || y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
+    float pdf_b = is_diffuse(*x.material) || y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = power_heuristic(y.pdf_w, pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, y.pdf_w, pdf_b, mis_l);
+    recorder.direct(Ld, y.wi, y.pdf_w, pdf_b, mis_l);
+    return Ld;
 }
 
 /// The weight of light that a direction from `last` has met, the last vertex that is no mirror.
 /// Where that is diffuse, its own light and caustics are found by other means: 0.
 inline float mis_emission(const Scene& scene, const Prepared& prepared, const Hit& last, Vec3 wi,
-                          float pdf_b, bool by_mirrors, const std::optional<Hit>& y) {
-    if (is_diffuse(last)) return 0;
-    if (by_mirrors) return 1;
+                          float pdf_b, const std::optional<Hit>& y) {
+    if (is_diffuse(*last.material)) return 0;
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
     float pdf_one = y ? pdf_one_light(scene, light, last, *y) : pdf_sky(last, wi);
     return power_heuristic(pdf_b, pmf_light(prepared.ends.lights, light) * pdf_one);
@@ -132,40 +127,40 @@ inline float mis_emission(const Scene& scene, const Prepared& prepared, const Hi
 /// Biased, as photons are counted near a point and not at it; without end of passes, right.
 /// source  Jensen 1996; Knaus, Zwicker 2011      tested by  "ch23 photon mapping"
 inline Rgb trace(const Scene& scene, const Prepared& prepared, const Pass& pass, Ray ray,
-                 Sampler& sampler, PathLog& log) {
+                 Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     std::optional<Hit> last;  // the last vertex that is no mirror
     float pdf_b = 0;          // of the direction that was drawn there
-    bool by_mirrors = false;  // since then
+    bool only_way = true;     // nothing but this path could find what shines next
     bool final = prepared.settings.gather == Gather::final, gathers = !final;
     for (int depth = 0;; depth++) {
         // Find the next vertex, and what shines there.
         std::optional<Hit> x = intersect(scene, ray);
-        if (x) log.vertex(*x);
+        recorder.vertex(x);
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b =
-                last ? mis_emission(scene, prepared, *last, ray.d, pdf_b, by_mirrors, x) : 1;
-            if (mis_b > 0) L += log.emitted(beta * Le * mis_b, mis_b);
+            float mis_b = only_way ? 1 : mis_emission(scene, prepared, *last, ray.d, pdf_b, x);
+            L += beta * Le * mis_b;
+            recorder.emitted(Le, mis_b);
         }
         if (!x) return L;
         if (depth == scene.max_depth) {
-            log.cut();
+            recorder.cut();
             return L;
         }
 
         // Count photons: of all light, and there the path ends; or only those of caustics.
-        if (is_diffuse(*x)) {
+        if (is_diffuse(*x->material)) {
             Maps which = gathers ? all : caustics;
-            L += gather(prepared, pass, which, *x, scene.max_depth - depth, beta, log);
+            L += beta * gather(prepared, pass, which, *x, scene.max_depth - depth, recorder);
             if (gathers) return L;
             gathers = true;
         }
 
         // Aim at a light.
         Vec3 wo = -ray.d;
-        double u = join(sampler.u2());
-        L += direct_light(scene, prepared, *x, wo, u, sampler.u2(), beta, log);
+        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        L += beta * direct_light(scene, prepared, *x, wo, u, recorder);
 
         // Go on.
         float u1 = sampler.u1();
@@ -174,13 +169,13 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, const Pass& pass,
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s, beta);
         float q = survival_probability(beta, depth);
         if (u_q >= q) return L;
         beta /= q;
-        log.roulette(q, beta);
-        by_mirrors = s.specular;
+        recorder.roulette(q, beta);
         if (!s.specular) last = *x, pdf_b = s.pdf_w;
+        only_way = s.specular && !(last && is_diffuse(*last->material));
         ray = spawn_ray(*x, s.wi);
     }
 }
@@ -197,15 +192,15 @@ inline PassTrace photon_passes(const Scene& scene, const Settings& settings) {
         if (state->number == number) return;
         if (state->number == ~0u) state->prepared = prepare(scene, settings, threads, stopped);
         for (Maps which : {all, caustics}) {
-            state->pass.map[which] =
+            state->pass.paths[which] =
                 send_photons(scene, state->prepared, which, number, threads, stopped);
         }
         state->pass.shrink = shrink_of(number);
         state->number = number;
     };
-    auto trace_pass = [=](const Scene& s, Ray ray, Sampler& sampler, PathLog& log)
+    auto trace_pass = [=](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder)
         __attribute__((flatten)) {
-        return trace(s, state->prepared, state->pass, ray, sampler, log);
+        return trace(s, state->prepared, state->pass, ray, sampler, recorder);
     };
     return {begin, trace_pass};
 }

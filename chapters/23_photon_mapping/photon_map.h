@@ -14,14 +14,14 @@ namespace ch23 {
 struct Arrival {
     Rgb flux;         // W
     uint16_t normal;  // of the surface, on the side where light arrived; see to_bits()
-    uint8_t depth;    // scattering events on its path, the one at p included; 255 or more
-    uint8_t mirrors;  // bit i: event number i was at a mirror or glass; of the first eight
+    uint16_t depth;   // scattering events on its path, the one at p included
 };
 struct Photon {
     Vec3 p;  // m
     Arrival light;
+    uint32_t vertex = 0;  // its number among the vertices of all paths
 };
-static_assert(sizeof(Photon) == 28);
+static_assert(sizeof(Photon) == 32);
 
 /// A normal in 16 bits, off by less than a degree: the octahedron |x| + |y| + |z| = 1 unfolded to a
 /// square of 256 x 256 cells. from_bits() gives a point of the octahedron, not of length 1.
@@ -59,18 +59,25 @@ public:
     PhotonMap(std::vector<Photon> photons, int threads)
         : size_(photons.size()), planes_((size_ + leaf - 1) / leaf), places_(planes_.size()) {
         build(photons, 0, planes_.size(), threads);
-        arrivals_.reserve(size_);
+        arrivals_.reserve(size_), vertices_.reserve(size_);
         for (size_t i = 0; i < size_; i++) {
             Places& to = places_[i / leaf];
             Vec3 p = photons[i].p;
             to.x[i % leaf] = p.x, to.y[i % leaf] = p.y, to.z[i % leaf] = p.z;
             arrivals_.push_back(photons[i].light);
+            vertices_.push_back(photons[i].vertex);
         }
     }
 
     size_t size() const { return size_; }
     size_t bytes() const {
-        return planes_.size() * (sizeof(Plane) + sizeof(Places)) + size_ * sizeof(Arrival);
+        return planes_.size() * (sizeof(Plane) + sizeof(Places)) +
+               size_ * (sizeof(Arrival) + sizeof(uint32_t));
+    }
+
+    /// The number of a photon of this map among the vertices of all paths.
+    size_t vertex_of(const Arrival& photon) const {
+        return vertices_[static_cast<size_t>(&photon - arrivals_.data())];
     }
 
     /// Calls work(arrival, v) for each photon nearer to p than r; v: from p to the photon.
@@ -180,6 +187,7 @@ private:
     std::vector<Plane> planes_;
     std::vector<Places> places_;
     std::vector<Arrival> arrivals_;
+    std::vector<uint32_t> vertices_;  // apart, as only those who ask for a photon's path need them
 };
 
 /// Searches a sphere that is to hold twice k photons, going by the half of the leaf around p that

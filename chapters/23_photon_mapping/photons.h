@@ -1,6 +1,7 @@
 // Chapter 23, pass one: light is sent out, and left where it falls.
 #pragma once
 #include <functional>
+#include <span>
 
 #include "chapters/23_photon_mapping/photon_map.h"
 #include "common/path/camera_sample.h"
@@ -40,20 +41,40 @@ struct Prepared {
     std::vector<float> radii[maps];
 };
 
+/// A vertex of a path from a light. Where the surface is diffuse it is a photon.
+struct LightVertex {
+    Vec3 p, ng;  // m; unit, on the side where light arrived
+    Rgb flux;    // W, of a photon
+    int depth;   // scattering events on the path, this one included
+    const Material* material;
+};
+
+/// The vertices of all paths from lights, path after path, and a map of the photons among them.
+struct LightPaths {
+    std::vector<LightVertex> vertices;
+    PhotonMap photons;
+
+    /// The path of a photon, from the first vertex behind the light to the photon itself.
+    std::span<const LightVertex> path_of(const Arrival& photon) const {
+        size_t events = photon.depth, end = photons.vertex_of(photon) + 1;
+        return {vertices.data() + (end - events), events};
+    }
+};
+
 /// What is prepared for one pass.
 struct Pass {
-    PhotonMap map[maps];
+    LightPaths paths[maps];
     float shrink = 1;  // radii are those of the first pass times this
 };
 
-inline bool is_diffuse(const Hit& x) { return x.material->type == MaterialType::diffuse; }
+inline bool is_diffuse(const Material& m) { return m.type == MaterialType::diffuse; }
 
 /// Follows one path from a light, and leaves its flux, over the number of all paths, at each
 /// diffuse surface that it meets; of caustics, only at the first one, behind mirrors and glass.
 ///
 /// Flux arrives by the cosine of wi and ng; radiance asks for that of wi and the smoothed normal.
 inline void send_photon(const Scene& scene, const Prepared& prepared, Maps which, Sampler& sampler,
-                        std::vector<Photon>& photons) {
+                        std::vector<LightVertex>& vertices) {
     if (scene.lights.empty()) return;
     double u = join(sampler.u2());
     Vec2 u_y = sampler.u2();
@@ -62,19 +83,20 @@ inline void send_photon(const Scene& scene, const Prepared& prepared, Maps which
     float paths = static_cast<float>(prepared.settings.photons);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w * paths)), beta = {1, 1, 1};
     Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
-    uint8_t mirrors = 0;
     for (int depth = 1; depth <= scene.max_depth; depth++) {
         // Find the next point, and leave a photon there.
         std::optional<Hit> x = intersect(scene, ray);
         if (!x) return;
         Vec3 wi = -ray.d;
-        if (is_diffuse(*x) && (which == all || depth > 1)) {
+        bool last = which == caustics && !is_specular(*x->material);
+        if (last && depth == 1) return;
+        Rgb arrives;
+        if (is_diffuse(*x->material)) {
             float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
-            Rgb arrives = flux * beta * cosines;
-            auto events = static_cast<uint8_t>(std::min(depth, 255));
-            photons.push_back({x->p, {arrives, to_bits(x->ng), events, mirrors}});
+            arrives = flux * beta * cosines;
         }
-        if (which == caustics && !is_specular(*x->material)) return;
+        vertices.push_back({x->p, x->ng, arrives, depth, x->material});
+        if (last) return;
 
         // Go on as in chapter 20.
         float u1 = sampler.u1();
@@ -85,7 +107,6 @@ inline void send_photon(const Scene& scene, const Prepared& prepared, Maps which
         float q = survival_probability(beta, depth - 1);
         if (is_black(beta) || u_q >= q) return;
         beta /= q;
-        if (s.specular && depth <= 8) mirrors |= static_cast<uint8_t>(1 << (depth - 1));
         ray = spawn_ray(*x, s.wi);
     }
 }
@@ -93,12 +114,23 @@ inline void send_photon(const Scene& scene, const Prepared& prepared, Maps which
 /// Whether the user wants the program to end.
 using Stopped = std::function<bool()>;
 
-/// The photons of one pass. The same for any number of threads: their order is that of the paths.
-inline PhotonMap send_photons(const Scene& scene, const Prepared& prepared, Maps which,
-                              uint32_t pass, int threads, const Stopped& stopped) {
+/// The photons among these vertices.
+inline std::vector<Photon> photons_of(const std::vector<LightVertex>& vertices) {
+    std::vector<Photon> photons;
+    for (uint32_t i = 0; i < vertices.size(); i++) {
+        const LightVertex& v = vertices[i];
+        auto depth = static_cast<uint16_t>(std::min(v.depth, 65535));
+        if (is_diffuse(*v.material)) photons.push_back({v.p, {v.flux, to_bits(v.ng), depth}, i});
+    }
+    return photons;
+}
+
+/// The light paths of one pass. The same for any number of threads: their order is that of numbers.
+inline LightPaths send_photons(const Scene& scene, const Prepared& prepared, Maps which,
+                               uint32_t pass, int threads, const Stopped& stopped) {
     constexpr int at_once = 1024;
     int paths = prepared.settings.photons, parts = (paths + at_once - 1) / at_once;
-    std::vector<std::vector<Photon>> sent(static_cast<size_t>(parts));
+    std::vector<std::vector<LightVertex>> sent(static_cast<size_t>(parts));
     parallel_for(parts, threads, [&](int part) {
         if (stopped()) return;
         Sampler sampler(prepared.settings.sampler, prepared.settings.seed,
@@ -108,10 +140,11 @@ inline PhotonMap send_photons(const Scene& scene, const Prepared& prepared, Maps
             send_photon(scene, prepared, which, sampler, sent[static_cast<size_t>(part)]);
         }
     });
-    std::vector<Photon> photons;
+    std::vector<LightVertex> all_sent;
     if (stopped()) return {};
-    for (const auto& some : sent) photons.insert(photons.end(), some.begin(), some.end());
-    return {std::move(photons), threads};
+    for (const auto& some : sent) all_sent.insert(all_sent.end(), some.begin(), some.end());
+    PhotonMap photons(photons_of(all_sent), threads);
+    return {std::move(all_sent), std::move(photons)};
 }
 
 }  // namespace ch23

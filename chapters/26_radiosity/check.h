@@ -54,10 +54,10 @@ struct RaySums {
         constexpr int bounces = 16;
         double by_patches = 0, by_paths = 0, Le = 0;
         if (std::optional<Hit> x = intersect(scene, ray)) {
-            PathLog log;
+            Recorder recorder;
             Sampler same = sampler;  // a final gather has the first bounce of the path
             Le = double{average(emission(scene, *x))};
-            by_patches = double{average(trace(scene, shown, ray, same, log))} - Le;
+            by_patches = double{average(trace(scene, shown, ray, same, recorder))} - Le;
             by_paths = double{average(final_gather(scene, shown, *x, -ray.d, sampler, bounces))};
         }
         patches.add(by_patches), paths.add(by_paths), emitted.add(Le);

@@ -10,10 +10,10 @@
 // Kept is  G_ij = A_i F_ij = A_j F_ji,  m^2, which is the same from both ends.
 #pragma once
 #include "common/geometry/transform.h"
-#include "common/path/path_log.h"
 #include "common/radiosity/display.h"
 #include "common/radiosity/rows.h"
 #include "common/radiosity/solution.h"
+#include "common/recording/recorder.h"
 
 namespace ch26 {
 
@@ -240,7 +240,7 @@ inline Shown show(const Scene& scene, std::shared_ptr<const Patches> patches, co
 ///
 /// Biased: as if each patch had one radiosity, or those between its corners were in between.
 /// source  Goral, Torrance, Greenberg, Battaile 1984      tested by  "ch26 radiosity"
-inline Rgb trace(const Scene& scene, const Shown& shown, Ray ray, Sampler& sampler, PathLog&) {
+inline Rgb trace(const Scene& scene, const Shown& shown, Ray ray, Sampler& sampler, Recorder&) {
     std::optional<Hit> x = intersect(scene, ray);
     if (!x) return {};
     if (shown.show != Show::gather) return radiosity_at(shown, *x) / pi;

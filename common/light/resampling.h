@@ -50,16 +50,22 @@ struct Reservoir {
     float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
 };
 
+/// Where candidates come from: the table that they are drawn from, and how many for one sample.
+struct Proposal {
+    LightTable lights;
+    int M;
+};
+
 /// Draws M lights by power, and keeps one in proportion to its potential at x.
 ///
 /// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
-inline Reservoir resample_lights(const Scene& scene, const LightTable& lights, const Hit& x, int M,
-                                 double u, float u1) {
+inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hit& x, double u,
+                                 float u1) {
     Reservoir kept;
-    for (int i = 0; i < M; i++) {
-        size_t light = pick_light(lights, (i + u) / M);
+    for (int i = 0; i < p.M; i++) {
+        size_t light = pick_light(p.lights, (i + u) / p.M);
         float p_hat = potential(scene, light, x);
-        kept.offer(light, p_hat, p_hat / pmf_light(lights, light), u1);
+        kept.offer(light, p_hat, p_hat / pmf_light(p.lights, light), u1);
     }
     return kept;
 }

@@ -2,16 +2,16 @@
 // can do.
 #pragma once
 #include "common/path/bidirectional_weights.h"
-#include "common/path/path_log.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 #include "common/path/splats.h"
+#include "common/recording/recorder.h"
 
 namespace bidirectional {
 
 /// t = 1: shows each vertex of the light's path to the camera. The lamp itself is left to s = 0.
 inline void show(const Scene& scene, const Prepared& prepared, const std::vector<Vertex>& path,
-                 Splats& splats, PathLog& log) {
+                 Splats& splats, Recorder& recorder) {
     const Pinhole& camera = prepared.ends.camera;
     for (size_t i = 1; i < path.size(); i++) {
         const Vertex& y = path[i];
@@ -24,20 +24,22 @@ inline void show(const Scene& scene, const Prepared& prepared, const std::vector
         float mis = mis_shown(scene, prepared, path[i - 1], y, wo, sight->We_cos / d2);
         Rgb L = y.beta * carry(scene, y.x, y.back, wo) * (mis * sight->We_cos / d2);
         if (is_black(L) || occluded(scene, spawn_ray(y.x, wo, d))) continue;
-        splats.push_back({sight->pixel, log.joined(L, s, 1, mis, sight->pixel)});
+        splats.push_back({sight->pixel, L});
+        recorder.connected(L, s, 1, mis, sight->pixel);
     }
 }
 
 /// s = 1: a point of a light, drawn anew.
 inline Rgb join_light(const Scene& scene, const Prepared& prepared, const Vertex& before,
-                      const Vertex& z, const Emission& e, int t, PathLog& log) {
+                      const Vertex& z, const Emission& e, int t, Recorder& recorder) {
     LightEnd y = light_end(e, z.x);
     Rgb f = eval_bsdf(z.x, z.back, y.wi) * std::abs(dot(y.wi, z.x.n));
     if (is_black(f * y.Li)) return {};
     float mis = mis_lit(scene, prepared, y, before, z);
     Rgb L = z.beta * f * y.Li * mis;
     if (occluded(scene, spawn_ray(z.x, y.wi, y.dist))) return {};
-    return log.joined(L, 1, t, mis);
+    recorder.connected(L, 1, t, mis);
+    return L;
 }
 
 /// s > 1: joins vertex y of the light's path with z of the eye's; `share`: the chance of this y.
@@ -45,7 +47,7 @@ inline Rgb join_light(const Scene& scene, const Prepared& prepared, const Vertex
 ///   L = beta_z f_z cos_z  V / d^2  carry_y beta_y / share
 inline Rgb join(const Scene& scene, const Prepared& prepared, float share, const Vertex& y_before,
                 const Vertex& y, const Vertex& before, const Vertex& z, int s, int t,
-                PathLog& log) {
+                Recorder& recorder) {
     Vec3 to_z = z.x.p - y.x.p;
     float d2 = dot(to_z, to_z), d = std::sqrt(d2);
     if (!(d2 > 0)) return {};
@@ -57,13 +59,15 @@ inline Rgb join(const Scene& scene, const Prepared& prepared, float share, const
     float mis = mis_joined(scene, prepared, y_before, y, before, z, w, d2);
     if (occluded(scene, spawn_ray(z.x, -w, d - (z.x.eps + y.x.eps) / std::abs(dot(w, y.x.ng)))))
         return {};
-    return log.joined(L * mis, s, t, mis);
+    L *= mis;
+    recorder.connected(L, s, t, mis);
+    return L;
 }
 
 /// What mirrors and glass alone bring from lights to z, where no join was possible on the way to
 /// it: LS+DS+E, LS+DS+DS+E, ... are left to s = 0, by chance. So it is given more chances.
 inline Rgb through_mirrors(const Scene& scene, const Prepared& prepared, const Vertex& z, int t,
-                           Sampler& sampler, PathLog& log) {
+                           Sampler& sampler, Recorder& recorder) {
     constexpr int chances = 16;
     sampler.jump(1 << 13);
     Rgb L;
@@ -81,16 +85,17 @@ inline Rgb through_mirrors(const Scene& scene, const Prepared& prepared, const V
             if (is_black(beta) || u_q >= q) break;
             beta /= q;
             left++;
-            log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+            recorder.scatter(s, z.beta * beta);
             std::optional<Hit> y = intersect(scene, spawn_ray(x, s.wi));
             Rgb Le = y ? emission(scene, *y) : scene.sky;
             if (left > 1 && counts(prepared, 0, t + left)) {
-                L += log.emitted(z.beta * beta * Le / chances);
+                L += z.beta * beta * Le / chances;
+                recorder.emitted(Le, 1.0f / chances);
             }
             if (!y || !is_specular(*y->material)) break;
             x = *y, wo = -s.wi;
         }
-        for (; left > 0; left--) log.step_back();
+        for (; left > 0; left--) recorder.step_back();
     }
     return L;
 }

@@ -5,7 +5,8 @@
 #include "common/light/pdf_one_light.h"
 #include "common/material/ggx.h"
 #include "common/path/mis.h"
-#include "common/path/path_log.h"
+#include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 
@@ -35,18 +36,19 @@ inline float pdf_best(const ManyLights& lights, size_t light, float pdf_one) {
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                        double u, Vec2 u2, Rgb beta, PathLog& log) {
-    if (is_specular(*x.material) || is_black(beta) || scene.lights.empty()) return {};
+                        LightNumbers u, Recorder& recorder) {
+    if (is_specular(*x.material) || scene.lights.empty()) return {};
     size_t N = scene.lights.size();
-    size_t light = std::min(static_cast<size_t>(u * static_cast<double>(N)), N - 1);
-    LightSample y = sample_one_light(scene, light, x, u2);
+    size_t light = std::min(static_cast<size_t>(u.light * static_cast<double>(N)), N - 1);
+    LightSample y = sample_one_light(scene, light, x, u.point);
     if (y.pdf_w == 0) return {};
     float pdf_l = pdf_any(lights, y.pdf_w);
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = mis_weight(pdf_l, pdf_best(lights, light, y.pdf_w), pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
+    recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
+    return Ld;
 }
 
 /// How much of a light's potential rough metal turns to wo, and the BSDF does not find by itself:
@@ -80,18 +82,19 @@ inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const 
 
 /// The same from one point of the best light.      Ld = mis_l f Le V cos / pdf_one W
 /// source  Talbot et al. 2005      tested by  "truth: irradiance of all lights"
-inline Rgb best_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo, double u,
-                      float u1, Vec2 u2, Rgb beta, PathLog& log) {
+inline Rgb best_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
+                      ResamplingNumbers u, Recorder& recorder) {
     if (is_specular(*x.material)) return {};
-    Kept best = resample_lights(scene, lights, x, wo, u, u1);
-    LightSample y = sample_one_light(scene, best.light, x, u2);
+    Kept best = resample_lights(scene, lights, x, wo, u.candidates, u.choice);
+    LightSample y = sample_one_light(scene, best.light, x, u.point);
     if (y.pdf_w == 0 || best.W == 0) return {};
     float pdf_l = pdf_best(lights, best.light, y.pdf_w);
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = mis_weight(pdf_l, pdf_any(lights, y.pdf_w), pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * best.W);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    return log.direct(beta * Ld, y.wi, pdf_l, pdf_b, mis_l);
+    recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
+    return Ld;
 }
 
 /// The weight of emission that the BSDF's direction wi from x has met: at y, or else in the sky.

@@ -28,6 +28,18 @@ inline float to_unit_float(uint32_t bits) { return static_cast<float>(bits >> 8)
 /// Two numbers in [0,1) of 24 bits as one of 48 bits, to choose among millions.
 inline double join(Vec2 u) { return double{u.x} + 0x1p-24 * double{u.y}; }
 
+/// What aiming at a light is drawn from: numbers in [0,1) that choose the light, and a point on it.
+struct LightNumbers {
+    double light;
+    Vec2 point;
+};
+/// Those that draw many candidates, choose one of them, and a point on that.
+struct ResamplingNumbers {
+    double candidates;
+    float choice;
+    Vec2 point;
+};
+
 inline uint32_t reverse_bits(uint32_t x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);

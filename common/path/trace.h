@@ -2,16 +2,16 @@
 #pragma once
 #include <functional>
 
-#include "common/path/path_log.h"
 #include "common/path/sampler.h"
 #include "common/path/splats.h"
+#include "common/recording/recorder.h"
 
 /// A chapter's estimator: one sample of the radiance that arrives along the ray.
-using Trace = std::function<Rgb(const Scene&, Ray, Sampler&, PathLog&)>;
+using Trace = std::function<Rgb(const Scene&, Ray, Sampler&, Recorder&)>;
 
 /// The same for a chapter whose paths also begin at lights: what they bring to whatever pixels they
 /// meet goes into the splats, that of the ray's own pixel is returned.
-using SplatTrace = std::function<Rgb(const Scene&, Ray, Splats&, Sampler&, PathLog&)>;
+using SplatTrace = std::function<Rgb(const Scene&, Ray, Splats&, Sampler&, Recorder&)>;
 
 /// The same for a chapter that prepares something anew for each sample: the samples of all pixels
 /// that have the same number make a pass, and depend on each other by what was prepared. So that
@@ -37,8 +37,8 @@ inline Ray copy_of(const volatile Ray& ray) {
 template <auto trace, class... Own>
 Trace trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Sampler& sampler,
-                                      PathLog& log) __attribute__((flatten)) {
-        return trace(scene, own..., copy_of(ray), sampler, log);
+                                      Recorder& recorder) __attribute__((flatten)) {
+        return trace(scene, own..., copy_of(ray), sampler, recorder);
     };
 }
 
@@ -46,8 +46,9 @@ Trace trace_with(Own... own) {
 template <auto trace, class... Own>
 SplatTrace splat_trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Splats& splats,
-                                      Sampler& sampler, PathLog& log) __attribute__((flatten)) {
-        return trace(scene, own..., copy_of(ray), splats, sampler, log);
+                                      Sampler& sampler, Recorder& recorder)
+        __attribute__((flatten)) {
+        return trace(scene, own..., copy_of(ray), splats, sampler, recorder);
     };
 }
 
@@ -55,8 +56,8 @@ SplatTrace splat_trace_with(Own... own) {
 template <auto trace_light, class... Own>
 SplatTrace trace_light_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, Ray, Splats& splats, Sampler& sampler,
-                                      PathLog& log) __attribute__((flatten)) {
-        trace_light(scene, own..., splats, sampler, log);
+                                      Recorder& recorder) __attribute__((flatten)) {
+        trace_light(scene, own..., splats, sampler, recorder);
         return Rgb{};
     };
 }

@@ -13,6 +13,7 @@
 #include "common/program/path_drawing.h"
 #include "common/program/table.h"
 #include "common/program/tile_renderer.h"
+#include "common/recording/class_filter.h"
 
 namespace {
 
@@ -43,10 +44,10 @@ std::string place(const Scene& scene, size_t pixel) {
 
 /// All that the sample adds, pixel by pixel with their sums: its own first, then those that a path
 /// from a light has met.
-Table table_of(const Scene& scene, std::vector<PathStory::Addition> additions, size_t own) {
+Table table_of(const Scene& scene, std::vector<Contribution> additions, size_t own) {
     std::vector<size_t> pixels = {own};
-    for (PathStory::Addition& added : additions) {
-        if (added.pixel == PathStory::own_pixel) added.pixel = own;
+    for (Contribution& added : additions) {
+        if (added.pixel == Contribution::own_pixel) added.pixel = own;
         if (std::find(pixels.begin(), pixels.end(), added.pixel) == pixels.end())
             pixels.push_back(added.pixel);
     }
@@ -57,7 +58,7 @@ Table table_of(const Scene& scene, std::vector<PathStory::Addition> additions, s
     };
     for (size_t pixel : pixels) {
         Sum sum;
-        for (const PathStory::Addition& added : additions) {
+        for (const Contribution& added : additions) {
             if (added.pixel != pixel) continue;
             Sum one;
             one.add(added.L), sum.add(added.L);
@@ -71,14 +72,14 @@ Table table_of(const Scene& scene, std::vector<PathStory::Addition> additions, s
 }
 
 /// Prints a warning where the table lacks something of what the chapter has returned.
-void warn_of_gaps(const PathStory& story, Rgb L, const Splats& splats) {
+void warn_of_gaps(const std::vector<Contribution>& additions, Rgb L, const Splats& splats) {
     Sum told, returned;
-    for (const PathStory::Addition& added : story.additions()) told.add(added.L);
+    for (const Contribution& added : additions) told.add(added.L);
     returned.add(L);
     for (const Splat& splat : splats) returned.add(splat.L);
     double difference = std::abs(told.total() - returned.total());
     if (difference > 1e-4 * std::abs(returned.total())) {
-        std::printf("warning: the sample is (%s), though: the chapter's log lacks a part\n",
+        std::printf("warning: the sample is (%s), though: the chapter has not reported a part\n",
                     (returned.cells()[0] + ", " + returned.cells()[1] + ", " + returned.cells()[2])
                         .c_str());
     }
@@ -92,12 +93,12 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     int x = options.explain_x, y = options.explain_y, s = std::max(0, options.explain_sample);
     size_t pixel = static_cast<size_t>(y * scene.width + x);
 
-    // Trace the sample just as render_film does, with a log that listens.
+    // Trace the sample just as render_film does, and record all of it.
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     uint32_t number = static_cast<uint32_t>(halves ? s / 2 : s);
     start_sample(sampler, pixel, halves ? s % 2 : 0, number);
     PathStory story(scene.max_depth, options.search == LightSearch::photons);
-    PathLog log(options.paths, &story);
+    Recorder recorder(true, &story);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     auto [ray, film] = camera_sample(view, x, y, sampler, options.pixel_centre);
     Splats splats;
@@ -105,7 +106,7 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     std::optional<Rgb> L;  // none: the path was longer than the user would wait
     try {
         TracingLimit tracing([&] { return limit.overdue(); });
-        L = trace(scene, ray, splats, sampler, log);
+        L = trace(scene, ray, splats, sampler, recorder);
         story.ends();
     } catch (const TracingEnds&) {
         story.is_given_up();
@@ -120,21 +121,25 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
                     x, y);
     }
     std::printf("%s", story.text().c_str());
-    std::printf("\n%s", aligned(table_of(scene, story.additions(), pixel)).c_str());
-    if (L) warn_of_gaps(story, *L, splats);
+    std::vector<Contribution> counted = recorder.contributions();
+    ClassSelection chosen(options.paths);
+    std::erase_if(counted, [&](const auto& added) { return !chosen.contains(added.path_class); });
+    std::printf("\n%s", aligned(table_of(scene, counted, pixel)).c_str());
+    if (L) warn_of_gaps(recorder.contributions(), *L, splats);
 
     std::string file = drawing_path(options);
     // Of a path that hardly ends, draw the beginning.
     constexpr size_t most_drawn = 1000;
-    std::vector<PathVertex> vertices = log.vertices();
+    std::vector<PathVertex> vertices = recorder.vertices();
     std::vector<TracedRay> rays = story.rays();
     if (vertices.size() > most_drawn) vertices.resize(most_drawn);
     if (rays.size() > most_drawn) rays.resize(most_drawn);
     write_file_atomically(file, draw_path(scene, ray.o, vertices, rays));
     if (!options.quiet) std::printf("wrote %s\n", file.c_str());
     if (!L) return 3;
-    for (const Splat& splat : splats) *L += splat.L;
-    return is_finite(*L) ? 0 : 1;
+    bool finite = std::all_of(counted.begin(), counted.end(),
+                              [](const Contribution& added) { return is_finite(added.L); });
+    return finite ? 0 : 1;
 }
 
 RenderOptions explain_brightest(const RenderOptions& options, const Rendering& rendering) {

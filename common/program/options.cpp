@@ -7,9 +7,9 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
-#include "common/path/class_filter.h"
 #include "common/picture/notes.h"
 #include "common/program/project.h"
+#include "common/recording/class_filter.h"
 
 namespace {
 

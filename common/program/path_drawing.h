@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/path/path_log.h"
-#include "common/scene/scene.h"
+#include "common/recording/recorder.h"
 
 /// An SVG with two panels: the scene as the camera sees it, and from above, each with the path and
 /// its shadow rays. eye: where the path from the eye begins; rays: all that it traced.

@@ -124,9 +124,8 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
 /// Explains a sample of a trace that has no splats.
 int explain_plain(const Scene& scene, const RenderOptions& options, const Trace& trace,
                   bool halves) {
-    auto without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler, PathLog& log) {
-        return trace(s, ray, sampler, log);
-    };
+    auto without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler,
+                              Recorder& recorder) { return trace(s, ray, sampler, recorder); };
     return explain(scene, options, without_splats, halves);
 }
 
@@ -194,9 +193,6 @@ int render(const Scene& scene, const RenderOptions& options, const SplatTrace& t
     return write_results(scene, options, render_film(scene, options, trace));
 }
 int render(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
-    if (!options.paths.empty() && scene.max_depth > 9) {  // see PathLog::gathered()
-        throw UsageError("error: --paths: photons know their first 8 events: try --max-depth 9");
-    }
     StopOnSignal until_all_is_written;
     check_outputs(scene, options);
     if (options.explain_brightest) return find_and_explain(scene, options, trace);

@@ -11,6 +11,7 @@
 #include "common/program/film_clock.h"
 #include "common/program/render.h"
 #include "common/program/stop.h"
+#include "common/recording/class_filter.h"
 
 /// When the render has to end before it has all samples.
 class Limit {
@@ -87,11 +88,7 @@ public:
     /// Takes the samples of a tile's pixels; none while the film waits to be saved.
     void render(int tile) {
         if (limit_.reached() || clock_.due()) return;
-        Sampler sampler(has_passes ? SamplerType::independent : options_.sampler, options_.seed,
-                        static_cast<uint32_t>(scene_.spp));
-        bool listen = !options_.paths.empty() || !options_.split.empty();
-        PathLog log = listen ? PathLog(options_.paths) : PathLog(), audit_log = log;
-        Splats splats, audit_splats;
+        Tools own(scene_, options_), audit = own;
         RenderStats stats;
         PixelSum of_pass;
         uint64_t rays_before = rays_traced, rays = rays_before, paths_cut = 0;  // of whole samples
@@ -111,12 +108,12 @@ public:
                     Place at = {x, y, pixel, half, s};
                     // For the audit the same sample again, with numbers of another key.
                     Rgb again;
-                    if (audited) again = trace(at, 1, sampler, audit_splats, audit_log).total;
-                    Rgb L = add_sample(at, sampler, splats, log, stats);
+                    if (audited) again = trace(at, 1, audit).total;
+                    Rgb L = add_sample(at, own, stats);
                     if (audited) result_.film.audit(pixel, again);
                     if constexpr (has_passes) of_pass.add(L);
                     if (seen) seen->add(L);
-                    rays = rays_traced, paths_cut = log.paths_cut();
+                    rays = rays_traced, paths_cut = own.recorder.paths_cut();
                 }
                 if (seen) seen->rays += static_cast<uint32_t>(rays_traced - rays_of_others);
             }
@@ -163,32 +160,60 @@ private:
         uint32_t sample;  // of the half
     };
 
+    /// What one sample after another is taken with.
+    struct Tools {
+        Tools(const Scene& scene, const RenderOptions& options)
+            : sampler(has_passes ? SamplerType::independent : options.sampler, options.seed,
+                      static_cast<uint32_t>(scene.spp)),
+              recorder(!options.paths.empty() || !options.split.empty()),
+              chosen(options.paths) {}
+
+        Sampler sampler;
+        Recorder recorder;
+        ClassSelection chosen;
+        Splats splats = {};
+    };
+
     /// What a sample brings to its own pixel, and what with all its splats.
     struct Sample {
         Rgb L, total;
     };
-    [[gnu::always_inline]] Sample trace(const Place& at, int half, Sampler& sampler, Splats& splats,
-                                        PathLog& log) {
-        start_sample(sampler, at.pixel, half, at.sample);
-        log.start();
-        Ray ray = camera_sample(view_, at.x, at.y, sampler, options_.pixel_centre).ray;
+    [[gnu::always_inline]] Sample trace(const Place& at, int half, Tools& with) {
+        start_sample(with.sampler, at.pixel, half, at.sample);
+        with.recorder.start();
+        with.splats.clear();
+        Ray ray = camera_sample(view_, at.x, at.y, with.sampler, options_.pixel_centre).ray;
+        Rgb L;
         if constexpr (has_splats) {
-            splats.clear();
-            Rgb L = trace_(scene_, ray, splats, sampler, log), total = L;
-            for (const Splat& splat : splats) total += splat.L;
-            return {L, total};
+            L = trace_(scene_, ray, with.splats, with.sampler, with.recorder);
         } else if constexpr (has_passes) {
-            Rgb L = trace_.trace(scene_, ray, sampler, log);
-            return {L, L};
+            L = trace_.trace(scene_, ray, with.sampler, with.recorder);
         } else {
-            Rgb L = trace_(scene_, ray, sampler, log);
-            return {L, L};
+            L = trace_(scene_, ray, with.sampler, with.recorder);
         }
+        if (!options_.paths.empty()) L = choose(with);
+        Rgb total = L;
+        for (const Splat& splat : with.splats) total += splat.L;
+        return {L, total};
     }
 
-    Rgb add_sample(const Place& at, Sampler& sampler, Splats& splats, PathLog& log,
-                   RenderStats& stats) {
-        auto [L, total] = trace(at, at.half, sampler, splats, log);
+    /// With --paths, what was recorded of the classes that count is the sample, with its splats.
+    Rgb choose(Tools& with) {
+        Rgb L;
+        with.splats.clear();
+        for (const Contribution& part : with.recorder.contributions()) {
+            if (!with.chosen.contains(part.path_class)) continue;
+            if (part.pixel == Contribution::own_pixel) {
+                L += part.L;
+            } else {
+                with.splats.push_back({part.pixel, part.L});
+            }
+        }
+        return L;
+    }
+
+    Rgb add_sample(const Place& at, Tools& with, RenderStats& stats) {
+        auto [L, total] = trace(at, at.half, with);
         int number = static_cast<int>(at.sample) * halves() + at.half;
         double value = static_cast<double>(average(total));
         if (!is_finite(total)) {
@@ -199,26 +224,27 @@ private:
         result_.film.add(at.pixel, L, at.half);
         if constexpr (has_splats) {
             result_.film.add_total(at.pixel, total);
-            for (const Splat& splat : splats) {
+            for (const Splat& splat : with.splats) {
                 std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
                 result_.film.splat(splat.pixel, splat.L);
             }
         }
-        if (!options_.split.empty()) split(at, log);
+        if (!options_.split.empty()) split(at, with);
         return L;
     }
 
-    void split(const Place& at, const PathLog& log) {
-        for (const auto& [path_class, L, pixel] : log.contributions()) {
+    void split(const Place& at, Tools& with) {
+        for (const Contribution& part : with.recorder.contributions()) {
+            if (!with.chosen.contains(part.path_class)) continue;
             // Keep all long paths together: their classes double with every letter.
-            bool is_long = path_class.size() > longest_class;
+            bool is_long = part.path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
-            auto [film, added] = film_of(is_long ? "longer" : path_class);
+            auto [film, added] = film_of(is_long ? "longer" : part.path_class);
             if (added && result_.film.has_halves()) film->second.start_halves();
-            if (pixel == Contribution::own_pixel) {
-                film->second.add_part(at.pixel, L, at.half);
+            if (part.pixel == Contribution::own_pixel) {
+                film->second.add_part(at.pixel, part.L, at.half);
             } else {
-                film->second.splat(pixel, L);
+                film->second.splat(part.pixel, part.L);
             }
         }
     }

@@ -22,14 +22,14 @@ struct Seen {
 
 Seen look(const Scene& scene, Vec3 from, Vec3 to, uint32_t seed = 1) {
     Sampler sampler = random_numbers(seed);
-    PathLog log("");
-    log.start();
+    Recorder recorder(true);
+    recorder.start();
     Seen seen;
-    seen.L = ch05::trace(scene, {from, normalize(to - from)}, sampler, log);
-    for (const auto& [name, L, pixel] : log.contributions()) {
-        seen.classes[name] += static_cast<double>(average(L));
+    seen.L = ch05::trace(scene, {from, normalize(to - from)}, sampler, recorder);
+    for (const Contribution& part : recorder.contributions()) {
+        seen.classes[part.path_class] += static_cast<double>(average(part.L));
     }
-    seen.cut = log.paths_cut();
+    seen.cut = recorder.paths_cut();
     return seen;
 }
 
@@ -267,10 +267,10 @@ TEST_SUITE("ch05 classes of paths") {
         CHECK(seen.L.r > 0);
         CHECK(seen.L.r == seen.L.b);
         Sampler sampler = random_numbers(1);
-        PathLog log;
+        Recorder recorder;
         double red = 0, blue = 0;
         for (int i = 0; i < 20000; i++) {
-            Rgb L = ch07::trace(scene, {eye, normalize(near_red - eye)}, sampler, log);
+            Rgb L = ch07::trace(scene, {eye, normalize(near_red - eye)}, sampler, recorder);
             red += static_cast<double>(L.r), blue += static_cast<double>(L.b);
         }
         CHECK(red > 1.1 * blue);

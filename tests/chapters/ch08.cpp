@@ -96,7 +96,7 @@ Moments red_moments() {
 enum class Flaw { none, no_division, before_emission, inverse };
 
 template <Flaw flaw>
-Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, PathLog&) {
+Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder&) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
         std::optional<Hit> x = intersect(scene, ray);
@@ -328,28 +328,28 @@ TEST_SUITE("ch08 russian roulette") {
 
     TEST_CASE("truth: a scene without light is black, one without things is sky: exactly") {
         Sampler random = random_numbers(1);
-        PathLog log;
+        Recorder recorder;
         Scene scene;
         prepare(scene, 1);
-        CHECK(is_black(ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, log)));
+        CHECK(is_black(ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, recorder)));
         scene.sky = {0.5f, 1, 2};
-        CHECK(ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, log) == Rgb{0.5f, 1, 2});
+        CHECK(ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, recorder) == Rgb{0.5f, 1, 2});
         Scene dark = closed_sphere(0, 100);
         for (int i = 0; i < 100; i++) {
-            CHECK(ch08::trace(dark, {{0, 0, 0}, {0, 0, 1}}, random, log) == Rgb{1, 1, 1});
+            CHECK(ch08::trace(dark, {{0, 0, 0}, {0, 0, 1}}, random, recorder) == Rgb{1, 1, 1});
         }
     }
 
-    TEST_CASE("identity: what roulette keeps, it hands on: --explain's log sees q and beta") {
+    TEST_CASE("identity: what roulette keeps, it hands on: --explain sees q and beta") {
         Scene scene = closed_sphere(0.5, 100);
         PathStory story(100, false);
-        PathLog log("", &story);
+        Recorder recorder(true, &story);
         bool seen = false;
         for (uint32_t i = 0; i < 100 && !seen; i++) {
             Sampler sampler(SamplerType::independent, 1, 1);
             sampler.start(0, i);
-            log.start();
-            ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, sampler, log);
+            recorder.start();
+            ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, sampler, recorder);
             seen = story.text().find("survives roulette, q 0.") != std::string::npos;
         }
         CHECK(seen);

@@ -412,11 +412,11 @@ TEST_SUITE("ch09 near lights") {
         Scene scene = floor_under(shining + disk(1, 0.1));
         double E = 3.110487775831;
         Sampler sampler(SamplerType::independent, 1, 1);
-        PathLog log;
+        Recorder recorder;
         RunningStats clamped;
         for (uint32_t i = 0; i < 200000; i++) {
             sampler.start(0, i);
-            double X = pi_exact * double{trace_by_area(scene, onto_origin, sampler, log).g};
+            double X = pi_exact * double{trace_by_area(scene, onto_origin, sampler, recorder).g};
             clamped.add(std::min(X, 10 * E));
         }
         check_bounded(clamped, (1 - 0.4743900567172) * E, 0.01);

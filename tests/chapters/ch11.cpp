@@ -221,11 +221,11 @@ TEST_SUITE("ch11 light importance") {
             "LightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [1 0 0]");
         Trace trace = trace_11(scene);
         Sampler sampler(SamplerType::independent, 1, 1);
-        PathLog log;
+        Recorder recorder;
         RunningStats blue;
         for (uint32_t i = 0; i < 40000; i++) {
             sampler.start(0, i);
-            blue.add(pi_exact * double{trace(scene, onto_origin, sampler, log).b});
+            blue.add(pi_exact * double{trace(scene, onto_origin, sampler, recorder).b});
         }
         check_mean(blue, 1, 1, 0.05);
         CHECK(blue.variance() == doctest::Approx(1).epsilon(1e-4).scale(0));

@@ -124,7 +124,7 @@ RunningStats resampled_square(int M, int samples) {
 /// Chapters 11 and 12 in this scene; M as in the program without options.
 Trace trace_11(const Scene& scene) { return trace_with<ch11::trace>(ch11::prepare(scene)); }
 Trace trace_12(const Scene& scene, int M = 16) {
-    return trace_with<ch12::trace>(ch12::prepare(scene), M);
+    return trace_with<ch12::trace>(ch12::prepare(scene, M));
 }
 
 /// hidden-light.pbrt with this radiance of the lamp in the other room.
@@ -159,7 +159,7 @@ struct Ring {
             potential.push_back(power * height / (d2 * std::sqrt(d2)));
         }
         scene = floor_under(lights);
-        LightTable table = ch12::prepare(scene);
+        LightTable table = ch12::prepare(scene, 1).lights;
         Hit x = origin_of(scene);
         for (size_t i = 0; i < 10; i++) {
             Vec3 to_y = scene.lights[i].p;

@@ -21,13 +21,13 @@ struct Choice {
     Heuristic heuristic = power_heuristic;
 };
 Trace by(Choice choice, const Scene& scene) {
-    LightTable lights = ch14::prepare(scene);
+    LightTable lights = ch13::prepare(scene);
     if (choice.strategy == Strategy::bsdf)
         return trace_with<ch13::trace>(lights, ch13::Strategy::bsdf);
     if (choice.strategy == Strategy::light)
         return trace_with<ch13::trace>(lights, ch13::Strategy::light);
     bool one_sample = choice.strategy == Strategy::one_sample;
-    return trace_with<ch14::trace>(lights, ch14::Settings{choice.heuristic, one_sample});
+    return trace_with<ch14::trace>(ch14::prepare(scene, {choice.heuristic, one_sample}));
 }
 
 constexpr Heuristic both_heuristics[] = {balance_heuristic, power_heuristic};
@@ -284,7 +284,8 @@ TEST_SUITE("ch14 mis") {
                                   "AttributeEnd AttributeBegin " + shining +
                                   "Translate 1 2 0 Shape \"sphere\" AttributeEnd " +
                                   "LightSource \"infinite\"\n");
-        LightTable lights = ch14::prepare(scene);
+        ch14::Strategies strategies = ch14::prepare(scene);
+        const LightTable& lights = strategies.lights;
         Hit x = origin_of(scene);
         Sampler random = random_numbers(1);
         int met[3] = {};
@@ -298,7 +299,7 @@ TEST_SUITE("ch14 mis") {
             if (met_light != static_cast<int>(light)) continue;  // behind another
             met[light]++;
             // Of two ways with the same density each gets half.
-            float mis_b = ch14::mis_emission(scene, lights, {}, x, y.wi, y.pdf_w, hit);
+            float mis_b = ch14::mis_emission(scene, strategies, x, y.wi, y.pdf_w, hit);
             CHECK(mis_b == doctest::Approx(0.5).epsilon(1e-3).scale(0));
         }
         for (int n : met) CHECK(n > 100);

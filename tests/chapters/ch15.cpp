@@ -18,11 +18,9 @@ struct Densities {
 };
 
 Trace by_twelve(const Scene& scene, int M = 16) {
-    return trace_with<ch12::trace>(ch12::prepare(scene), M);
+    return trace_with<ch12::trace>(ch12::prepare(scene, M));
 }
-Trace by_fourteen(const Scene& scene) {
-    return trace_with<ch14::trace>(ch14::prepare(scene), ch14::Settings{});
-}
+Trace by_fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
 Trace by_fifteen(const Scene& scene, int M = 64) {
     return trace_with<ch15::trace>(ch15::prepare(scene, M));
 }
@@ -135,7 +133,7 @@ TEST_SUITE("ch15 candidates") {
             square(0, false);
         for (Scene scene :
              {world_of(all_kinds), scene_from("scenes/thousand-lights.pbrt", 16, 1)}) {
-            LightTable table = ch12::prepare(scene);
+            LightTable table = ch12::prepare(scene, 1).lights;
             Sampler random = random_numbers(1);
             int gave = 0;
             for (int k = 0; k < 2000; k++) {

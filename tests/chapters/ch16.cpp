@@ -639,11 +639,11 @@ TEST_SUITE("ch16 sky") {
                 ch16::Prepared prepared = ch16::prepare(scene);
                 std::optional<Hit> x = intersect(scene, {{0, 1, 0}, {0, -1, 0}});
                 REQUIRE(x);
-                PathLog log;
+                Recorder recorder;
                 for (float u : {0.0f, 0.25f, 0.75f}) {
                     CAPTURE(faint);
-                    Rgb L = ch16::sky_light(scene, prepared.sky, *x, {0, 1, 0}, 0.0, {u, u},
-                                            {1, 1, 1}, log);
+                    Rgb L = ch16::sky_light(scene, prepared.sky, *x, {0, 1, 0}, {0.0, {u, u}},
+                                            recorder);
                     CHECK(is_finite(L));
                 }
             }
@@ -688,12 +688,12 @@ TEST_SUITE("ch16 sky") {
                 "\"rgb reflectance\" [.9 .9 .9] Translate 0 500 0 Shape \"sphere\"");
         scene.max_depth = 1;
         Sampler sampler(SamplerType::independent, 1, 1);
-        PathLog log;
+        Recorder recorder;
         RunningStats r, g, b;
         Trace trace = by_sixteen(scene);
         for (uint32_t i = 0; i < 100000; i++) {
             sampler.start(0, i);
-            Rgb L = trace(scene, onto_origin, sampler, log);
+            Rgb L = trace(scene, onto_origin, sampler, recorder);
             r.add(double{L.r}), g.add(double{L.g}), b.add(double{L.b});
         }
         check_bounded(r, 2, 0.01);
@@ -701,7 +701,7 @@ TEST_SUITE("ch16 sky") {
         check_bounded(b, 2.25, 0.01);
         // Straight into the sky, there is no chance in it.
         sampler.start(0, 0);
-        Rgb seen = trace(scene, {{0, 1, 0}, normalize(Vec3{0.5f, 0.5f, 0.1f})}, sampler, log);
+        Rgb seen = trace(scene, {{0, 1, 0}, normalize(Vec3{0.5f, 0.5f, 0.1f})}, sampler, recorder);
         CHECK(seen == Rgb{1, 2, 4});
     }
 
@@ -742,18 +742,22 @@ TEST_SUITE("ch16 sky") {
                 " AttributeEnd Translate 0 1 0 Material \"conductor\" "
                 "\"float roughness\" 0.3 Shape \"sphere\"");
         scene.max_depth = 4;
-        auto by_chance = [](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+        auto by_chance = [](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
             Rgb beta = {1, 1, 1};
             for (int depth = 0;; depth++) {
                 std::optional<Hit> x = intersect(s, ray);
-                if (!x) return log.emitted(beta * s.sky_image->at(point_of(*s.sky_image, ray.d)));
-                log.vertex(*x);
+                if (!x) {
+                    Rgb Le = s.sky_image->at(point_of(*s.sky_image, ray.d));
+                    recorder.emitted(Le);
+                    return beta * Le;
+                }
+                recorder.vertex(*x);
                 if (depth == s.max_depth) return Rgb{};
                 Vec2 u = sampler.u2();
                 BsdfSample b = glossy_bsdf::sample_bsdf(*x, -ray.d, sampler.u1(), u);
                 if (b.pdf_w == 0) return Rgb{};
                 beta *= b.f * (std::abs(dot(b.wi, x->n)) / b.pdf_w);
-                log.scatter(b.wi, b.f, b.pdf_w, b.specular, beta);
+                recorder.scatter(b.wi, b.f, b.pdf_w, b.specular, beta);
                 ray = spawn_ray(*x, b.wi);
             }
         };

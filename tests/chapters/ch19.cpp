@@ -35,9 +35,10 @@ Trace by_nineteen(const Scene& scene) { return trace_with<ch19::trace>(ch19::pre
 Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
 
 /// Light in one sample of twenty, of which a path knows nothing before.
-Rgb rare(const Scene&, Ray, Sampler& sampler, PathLog& log) {
+Rgb rare(const Scene&, Ray, Sampler& sampler, Recorder& recorder) {
     float L = sampler.u1() < 0.05f ? 1.0f : 0.0f;
-    return log.emitted({L, L, L});
+    recorder.emitted({L, L, L});
+    return {L, L, L};
 }
 
 /// The mean squared error of a picture against another, relative to that.
@@ -350,7 +351,7 @@ TEST_SUITE("ch19 adaptive") {
 
     TEST_CASE("truth: a sample that is not finite is named by the number that replays it") {
         Scene scene = empty_scene(8, 8, 24);
-        auto bad = [](const Scene&, Ray, Sampler& sampler, PathLog&) {
+        auto bad = [](const Scene&, Ray, Sampler& sampler, Recorder&) {
             float u = sampler.u1();
             return u < 0.002f ? Rgb{infinity, 0, 0} : Rgb{u, u, u};
         };

@@ -64,17 +64,15 @@ TEST_SUITE("ch20 camera") {
         Scene scene = floor_below(sun, 1);
         ch20::Pinhole camera = ch20::pinhole_of(scene);
         Sampler random = random_numbers(1);
-        PathLog log;
         int seen = 0;
         for (int i = 0; i < 10000; i++) {
             float x = 2 * random.u1() - 1, z = 2 * random.u1() - 1;
             Hit floor = *intersect(scene, {{x, 5, z}, {0, -1, 0}});
-            Splats splats;
-            ch20::show(scene, camera, floor, {0, 1, 0}, {4, 4, 4}, 2, splats, log);
-            if (splats.empty()) continue;  // in the outermost pixels, by rounding
+            std::optional<Splat> splat = ch20::show(scene, camera, floor, {0, 1, 0}, {4, 4, 4});
+            if (!splat) continue;  // in the outermost pixels, by rounding
             seen++;
-            CHECK(splats[0].L.g == doctest::Approx(0.1591549430919).epsilon(1e-5).scale(0));
-            int px = static_cast<int>(splats[0].pixel % 8);
+            CHECK(splat->L.g == doctest::Approx(0.1591549430919).epsilon(1e-5).scale(0));
+            int px = static_cast<int>(splat->pixel % 8);
             CHECK(std::abs(static_cast<double>(std::abs(x)) * 4 - std::abs(px + 0.5 - 4)) < 0.51);
         }
         CHECK(seen > 9990);

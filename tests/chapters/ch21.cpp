@@ -224,12 +224,12 @@ TEST_SUITE("ch21 weights") {
             bool leans = c.how == "leaning normals";
             bidirectional::Prepared prepared = bidirectional::prepare(scene);
             Sampler sampler(SamplerType::independent, 1, 1);
-            PathLog log;
+            Recorder recorder;
             std::vector<int> compared(9);
             for (uint32_t i = 0; i < 100000; i++) {
                 sampler.start(i, 0);
                 std::vector<bidirectional::Vertex> walk;
-                bidirectional::walk_from_light(scene, prepared, sampler, walk, log);
+                bidirectional::walk_from_light(scene, prepared, sampler, walk, recorder);
                 size_t n = 2 + i % 7;  // vertices of the path, but the eye
                 if (walk.size() < n) continue;
                 walk.resize(n);
@@ -388,11 +388,11 @@ TEST_SUITE("ch21 bidirectional") {
         for (const Form& form : forms) {
             CAPTURE(form.name);
             SplatTrace trace = form(mirror);
-            check_light_before_mirror(mirror,
-                                      [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
-                                          Splats splats;
-                                          return trace(s, ray, splats, sampler, log);
-                                      });
+            check_light_before_mirror(
+                mirror, [&](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
+                    Splats splats;
+                    return trace(s, ray, splats, sampler, recorder);
+                });
             CHECK(film_of(none, form(none), 4).film.mean() == 0);
         }
     }

@@ -460,11 +460,11 @@ TEST_SUITE("ch26 patches") {
         CHECK(bright >= 300);
         // Nor does the smooth picture leak.
         Shown shown = ch26::show(scene, patches, s, Show::smooth, 2);
-        PathLog log;
+        Recorder recorder;
         Sampler numbers = random_numbers(1);
         for (float x : {0.1f, 0.3f, 0.369f, 0.371f, 0.4f, 0.9f}) {
             CAPTURE(x);
-            Rgb L = ch26::trace(scene, shown, {{x, 0.5f, 0.5f}, {0, -1, 0}}, numbers, log);
+            Rgb L = ch26::trace(scene, shown, {{x, 0.5f, 0.5f}, {0, -1, 0}}, numbers, recorder);
             CHECK((L.g > 0) == (x < 0.37f));
         }
     }

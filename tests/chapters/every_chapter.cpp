@@ -150,7 +150,7 @@ TEST_SUITE("every chapter") {
             Measured truth = {f * all.mean, f * all.se};
             for (int M : {1, 16, 64}) {
                 CAPTURE(M);
-                for (const Trace& trace : {trace_with<ch12::trace>(ch12::prepare(scene), M),
+                for (const Trace& trace : {trace_with<ch12::trace>(ch12::prepare(scene, M)),
                                            trace_with<ch15::trace>(ch15::prepare(scene, M))}) {
                     RunningStats s = repeat(scene, ray, trace, M == 1 ? 40000 : 10000);
                     CHECK(z_between({s.mean(), s.standard_error()}, truth) < 5);

@@ -2,11 +2,16 @@
 // light there, class of path by class of path.
 #include <doctest/doctest.h>
 
-#include "chapters/14_mis/estimator.h"
-#include "chapters/15_mis_ris/estimator.h"
+#include <cstring>
+
+#include "chapters/05_ray_casting/estimator.h"
+#include "tests/support/chapters.h"
+// After these, as what they taught has the same names.
 #include "chapters/20_light_tracing/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
 #include "common/path/bidirectional.h"
+#include "common/path/distribution.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 
@@ -122,9 +127,97 @@ Room generated_room(uint32_t seed) {
     return room;
 }
 
+/// The traces of all chapters from 05 on that report paths, by name.
+std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
+    std::vector<std::pair<std::string, SplatTrace>> traces;
+    auto add = [&](const std::string& name, Trace trace) {
+        traces.emplace_back(
+            name, [=](const Scene& s, Ray ray, Splats&, Sampler& sampler, Recorder& recorder) {
+                return trace(s, ray, sampler, recorder);
+            });
+    };
+    add("05", trace_with<ch05::trace>());
+    for (const Chapter& chapter : every_chapter(scene)) add(chapter.name, chapter.trace);
+    add("16 and 19", trace_with<distribution::trace>(distribution::prepare(scene)));
+    traces.emplace_back("20", trace_light_with<ch20::trace_light>(ch20::ends_of(scene)));
+    traces.emplace_back("21", splat_trace_with<ch21::trace>(ch21::prepare(scene)));
+    traces.emplace_back("21, fast",
+                        splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)));
+    for (ch23::Gather gather : {ch23::Gather::direct, ch23::Gather::final}) {
+        PassTrace pass = ch23::photon_passes(scene, {.photons = 2000, .gather = gather});
+        pass.prepare(0, 1, [] { return false; });
+        add("23", pass.trace);
+    }
+    return traces;
+}
+
+/// What a path returns and adds to the splats: a number for each pixel, the path's own one last.
+struct Sample {
+    Splats splats;
+    bool has_bits_of(const Sample& b) const {
+        size_t n = splats.size();
+        for (size_t i = 0; i < n && n == b.splats.size(); i++) {
+            if (splats[i].pixel != b.splats[i].pixel) return false;
+            if (std::memcmp(&splats[i].L, &b.splats[i].L, sizeof(Rgb)) != 0) return false;
+        }
+        return n == b.splats.size();
+    }
+};
+Sample sample_of(const Scene& scene, const SplatTrace& trace, uint32_t i, Recorder& recorder) {
+    Sampler sampler(SamplerType::independent, 1, 1);
+    sampler.start(0, i);
+    Vec2 u = sampler.u2();
+    float width = static_cast<float>(scene.width), height = static_cast<float>(scene.height);
+    Ray ray = camera_ray(camera_view(scene.camera, scene.width, scene.height),
+                         {width * u.x, height * u.y});
+    recorder.start();
+    Sample sample;
+    Rgb L = trace(scene, ray, sample.splats, sampler, recorder);
+    sample.splats.push_back({Contribution::own_pixel, L});
+    return sample;
+}
+
+/// The largest relative difference, in any pixel, of what was recorded and what was returned.
+double difference(const Recorder& recorder, const Sample& sample) {
+    std::map<size_t, double> recorded, returned;
+    for (const Contribution& part : recorder.contributions())
+        recorded[part.pixel] += static_cast<double>(average(part.L));
+    for (const Splat& splat : sample.splats)
+        returned[splat.pixel] += static_cast<double>(average(splat.L));
+    double worst = recorded.size() > returned.size() ? 1 : 0;
+    for (const auto& [pixel, L] : returned)
+        worst = std::max(worst, std::abs(recorded[pixel] - L) / (L + 1e-20));
+    return worst;
+}
+
 }  // namespace
 
 TEST_SUITE("generated rooms") {
+    TEST_CASE("identity: recording never changes an estimate, and its parts add up to it") {
+        for (uint32_t seed = 1; seed <= 8; seed++) {
+            Scene scene = generated_room(seed).scene;
+            for (const auto& [name_here, trace] : all_traces(scene)) {
+                const std::string& name = name_here;
+                CAPTURE(seed);
+                CAPTURE(name);
+                Recorder none, all(true);
+                int others = 0, lit = 0;
+                double worst = 0;
+                for (uint32_t i = 0; i < 400; i++) {
+                    Sample unheard = sample_of(scene, trace, i, none);
+                    Sample heard = sample_of(scene, trace, i, all);
+                    others += !heard.has_bits_of(unheard);
+                    lit += !all.contributions().empty();
+                    worst = std::max(worst, difference(all, heard));
+                }
+                CHECK(others == 0);
+                CHECK(worst < 1e-5);
+                CHECK(lit > 20);
+                CHECK(none.contributions().empty());
+            }
+        }
+    }
+
     TEST_CASE("agreement: paths from the camera, from the lights and from both, in random rooms") {
         constexpr uint32_t rooms = 16;
         int compared = 0;
@@ -132,7 +225,7 @@ TEST_SUITE("generated rooms") {
             CAPTURE(seed);
             auto [scene, has_delta_light] = generated_room(seed);
             Trace eye = trace_with<ch15::trace>(ch15::prepare(scene));
-            Trace mis = trace_with<ch14::trace>(ch14::prepare(scene), ch14::Settings());
+            Trace mis = trace_with<ch14::trace>(ch14::prepare(scene));
             SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene)});
             SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
             SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::ends_of(scene));

@@ -10,14 +10,14 @@ namespace {
 /// The chapters that differ where there is one light: it is aimed at in the same way by 09 to 13.
 std::vector<Chapter> some_chapters(const Scene& scene) {
     return {{"09", trace_with<ch09::trace>(ch09::LightMeasure::solid_angle)},
-            {"14", trace_with<ch14::trace>(ch14::prepare(scene), ch14::Settings())},
+            {"14", trace_with<ch14::trace>(ch14::prepare(scene))},
             {"15", trace_with<ch15::trace>(ch15::prepare(scene))}};
 }
 std::vector<Chapter> all_chapters(const Scene& scene) {
     std::vector<Chapter> chapters = some_chapters(scene);
     chapters.push_back({"10", trace_with<ch10::trace>()});
     chapters.push_back({"11", trace_with<ch11::trace>(ch11::prepare(scene))});
-    chapters.push_back({"12", trace_with<ch12::trace>(ch12::prepare(scene), 4)});
+    chapters.push_back({"12", trace_with<ch12::trace>(ch12::prepare(scene, 4))});
     chapters.push_back(
         {"13", trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light)});
     return chapters;
@@ -112,12 +112,12 @@ RunningStats measure(const Scene& scene, const Trace& trace, const Ray& ray, uin
                      uint32_t points) {
     RunningStats stats;
     Sampler sampler(SamplerType::sobol, 1, points);
-    PathLog log;
+    Recorder recorder;
     for (uint32_t scramble = 0; scramble < scrambles; scramble++) {
         double sum = 0;
         for (uint32_t i = 0; i < points; i++) {
             sampler.start(scramble, i);
-            sum += static_cast<double>(trace(scene, ray, sampler, log).g);
+            sum += static_cast<double>(trace(scene, ray, sampler, recorder).g);
         }
         stats.add(pi_exact * sum / points);
     }
@@ -258,7 +258,7 @@ TEST_SUITE("light limits") {
 
     TEST_CASE("failure: on a light, but for rounding, it gives nothing by aiming, and no NaN") {
         Sampler sampler(SamplerType::independent, 1, 1);
-        PathLog log;
+        Recorder recorder;
         for (std::string h : {"1e-18", "1e-38", "1e-44", "0"}) {
             for (std::string shape : {unit_square_at(std::stod(h), {-0.3f, -0.4f}),
                                       triangles("0 2 1", std::stod(h), {{-1, 0}, {1, -1}, {0, 2}}),
@@ -274,7 +274,7 @@ TEST_SUITE("light limits") {
                     for (uint32_t i = 0; i < 200; i++) {
                         CAPTURE(chapter.name);
                         sampler.start(0, i);
-                        CHECK(is_finite(chapter.trace(scene, ray, sampler, log)));
+                        CHECK(is_finite(chapter.trace(scene, ray, sampler, recorder)));
                     }
             }
         }
@@ -296,7 +296,7 @@ TEST_SUITE("light limits") {
 
     TEST_CASE("failure: the brightest and smallest lights, by every chapter: no NaN") {
         Sampler sampler(SamplerType::independent, 1, 1);
-        PathLog log;
+        Recorder recorder;
         for (std::string r : {"1.1e-18", "1e-17", "1e-10", "4e8"}) {
             std::string rough = "Material \"conductor\" \"float roughness\" 0.1 Scale 1e6 1 1e6 ";
             std::string light =
@@ -310,7 +310,7 @@ TEST_SUITE("light limits") {
                     CAPTURE(chapter.name);
                     sampler.start(0, i);
                     CHECK(is_finite(
-                        chapter.trace(scene, {{0, 5, -9}, {0, -0.6f, 0.8f}}, sampler, log)));
+                        chapter.trace(scene, {{0, 5, -9}, {0, -0.6f, 0.8f}}, sampler, recorder)));
                 }
         }
     }

@@ -72,8 +72,8 @@ std::string story_of(const Scene& scene, const AnyTrace& trace, uint32_t number,
     Sampler sampler(SamplerType::independent, 1, 1);
     sampler.start(0, number);
     PathStory story(scene.max_depth, false);
-    PathLog log("", &story);
-    trace(scene, ray, sampler, log);
+    Recorder recorder(true, &story);
+    trace(scene, ray, sampler, recorder);
     story.ends();
     return story.text();
 }
@@ -167,7 +167,7 @@ TEST_SUITE("explain") {
         }
     }
 
-    TEST_CASE("teeth: a chapter that does not log all that it adds is told so") {
+    TEST_CASE("teeth: a chapter that does not report all that it adds is told so") {
         for (bool forgets : {false, true}) {
             TemporaryFolder folder;
             Finished end = Process([&] {
@@ -175,10 +175,12 @@ TEST_SUITE("explain") {
                                RenderOptions options;
                                options.out = {folder / "a.ppm"};
                                SplatTrace trace = [&](const Scene&, Ray, Splats& splats, Sampler&,
-                                                      PathLog& log) {
-                                   splats.push_back({5, log.joined({1, 1, 2}, 2, 1, 1, 5)});
+                                                      Recorder& recorder) {
+                                   splats.push_back({5, {1, 1, 2}});
+                                   recorder.connected({1, 1, 2}, 2, 1, 1, 5);
+                                   recorder.emitted({1, 1, 1});
                                    Rgb lost = forgets ? Rgb{0.5f, 0, 0} : Rgb{};
-                                   return log.emitted({1, 1, 1}) + lost;
+                                   return Rgb{1, 1, 1} + lost;
                                };
                                return explain(scene, options, trace, false);
                            }).wait();
@@ -222,9 +224,9 @@ TEST_SUITE("explain") {
         SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::prepare(scene));
         SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
         for (const SplatTrace& trace : {lesson, fast}) {
-            Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
+            Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
                 Splats splats;
-                return trace(s, ray, splats, sampler, log);
+                return trace(s, ray, splats, sampler, recorder);
             };
             CameraView view = camera_view(scene.camera, 8, 8);
             std::string text = story_of(scene, own, 3, camera_ray(view, {4, 4}));
@@ -243,15 +245,15 @@ TEST_SUITE("explain") {
         for (bool blocked : {false, true}) {
             Scene scene = world_of(square(0, true) + lamp + (blocked ? board : ""));
             PathStory story(1, false);
-            PathLog log("", &story);
+            Recorder recorder(true, &story);
             scene.max_depth = 1;
             Sampler sampler = random_numbers(3);
             Trace trace = trace_with<ch09::trace>(ch09::LightMeasure::solid_angle);
-            Rgb L = trace(scene, down, sampler, log);
+            Rgb L = trace(scene, down, sampler, recorder);
             story.ends();
             CHECK(is_black(L) == blocked);
             CHECK((story.text().find(": blocked\n") != std::string::npos) == blocked);
-            std::string svg = draw_path(scene, down.o, log.vertices(), story.rays());
+            std::string svg = draw_path(scene, down.o, recorder.vertices(), story.rays());
             svg = svg.substr(0, svg.find("path from the eye"));  // without the legend
             CHECK((svg.find("stroke='#555'") != std::string::npos) == blocked);
             CHECK((svg.find("stroke='#080'") != std::string::npos) == !blocked);

@@ -41,10 +41,10 @@ Ray ray_at(double degrees) {
 RunningStats repeat(const Scene& scene, const Ray& ray, int paths) {
     RunningStats stats;
     Sampler sampler(SamplerType::independent, 1, 1);
-    PathLog log;
+    Recorder recorder;
     for (int i = 0; i < paths; i++) {
         sampler.start(0, static_cast<uint32_t>(i));
-        stats.add(static_cast<double>(ch07::trace(scene, ray, sampler, log).g));
+        stats.add(static_cast<double>(ch07::trace(scene, ray, sampler, recorder).g));
     }
     return stats;
 }
@@ -52,9 +52,9 @@ RunningStats repeat(const Scene& scene, const Ray& ray, int paths) {
 /// Whether every path is worth 1 or nothing, which is what makes Bernoulli's variance hold.
 bool is_zero_or_one(const Scene& scene, const Ray& ray) {
     Sampler random = random_numbers(5);
-    PathLog log;
+    Recorder recorder;
     for (int i = 0; i < 1000; i++) {
-        float L = ch07::trace(scene, ray, random, log).g;
+        float L = ch07::trace(scene, ray, random, recorder).g;
         if (L != 0 && std::abs(L - 1) > 1e-5f) return false;
     }
     return true;
@@ -185,13 +185,13 @@ TEST_SUITE("optics") {
         auto disc = [&](int inside) {  // parallel rays, spread evenly over the ball's disc
             scene.max_depth = inside + 2;
             RunningStats stats;
-            PathLog log;
+            Recorder recorder;
             Sampler random = random_numbers(1);
             float largest = 0;
             for (int i = 0; i < 200000; i++) {
                 float s = std::sqrt(random.u1());
                 Ray ray = {{s, 0, -4}, {0, 0, 1}};
-                float L = ch07::trace(scene, ray, random, log).g;
+                float L = ch07::trace(scene, ray, random, recorder).g;
                 largest = std::max(largest, std::min(std::abs(L), std::abs(L - 1)));
                 stats.add(static_cast<double>(L));
             }
@@ -238,13 +238,13 @@ TEST_SUITE("optics") {
         for (int i = 0; i < paths; i++) {
             Vec3 d = uniform_direction(random.u2());
             float largest = max_component(abs(d));
-            PathLog log;
-            Rgb L = ch07::trace(scene, {{0.1f, 0.2f, 0.3f}, d}, random, log);
-            trapped.add(log.paths_cut() > 0);
+            Recorder recorder;
+            Rgb L = ch07::trace(scene, {{0.1f, 0.2f, 0.3f}, d}, random, recorder);
+            trapped.add(recorder.paths_cut() > 0);
             // Away from the critical angle, whether a path gets out is no matter of chance: for
             // others, a hundred reflections at R < 1 are.
-            if (largest < cos_critical - 1e-3f) disagreements += log.paths_cut() == 0;
-            if (largest > cos_critical + 0.01f) disagreements += log.paths_cut() > 0;
+            if (largest < cos_critical - 1e-3f) disagreements += recorder.paths_cut() == 0;
+            if (largest > cos_critical + 0.01f) disagreements += recorder.paths_cut() > 0;
             CHECK(is_finite(L));
         }
         CHECK(disagreements == 0);
@@ -318,9 +318,9 @@ TEST_SUITE("metal") {
             "LightSource \"infinite\"\n"
             "Material \"conductor\" \"rgb reflectance\" [0.9 0.5 0.2] Shape \"sphere\"");
         Sampler random = random_numbers(1);
-        PathLog log;
+        Recorder recorder;
         for (float s : {0.0f, 0.3f, 0.8f, 0.999f}) {
-            Rgb L = ch07::trace(scene, {{s, 0, -4}, {0, 0, 1}}, random, log);
+            Rgb L = ch07::trace(scene, {{s, 0, -4}, {0, 0, 1}}, random, recorder);
             double degrees = std::asin(static_cast<double>(s)) * 180 / std::numbers::pi;
             CHECK(std::abs(static_cast<double>(L.r) - metal(degrees, 0.9f)) < 1e-5);
             CHECK(std::abs(static_cast<double>(L.g) - metal(degrees, 0.5f)) < 1e-5);

@@ -1,5 +1,5 @@
 // What --explain tells of a path: its figures must be those of one path, whatever the scene.
-#include "common/path/path_story.h"
+#include "common/recording/path_story.h"
 
 #include <doctest/doctest.h>
 
@@ -95,7 +95,7 @@ TEST_SUITE("path story") {
         for (const char* name : {"veach-mis", "cornell-spheres", "cornell"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + std::string(name) + ".pbrt", 16, 30);
-            LightTable lights = ch14::prepare(scene);
+            ch14::Strategies strategies = ch14::prepare(scene);
             CameraView view = camera_view(scene.camera, 16, 16);
             Sampler sampler(SamplerType::independent, 1, 1);
             Checked checked;
@@ -103,9 +103,9 @@ TEST_SUITE("path story") {
                 sampler.start(0, i);
                 Vec2 u = sampler.u2();
                 PathStory story(scene.max_depth, false);
-                PathLog log("", &story);
-                ch14::trace(scene, lights, ch14::Settings(), camera_ray(view, {16 * u.x, 16 * u.y}),
-                            sampler, log);
+                Recorder recorder(true, &story);
+                ch14::trace(scene, strategies, camera_ray(view, {16 * u.x, 16 * u.y}), sampler,
+                            recorder);
                 story.ends();
                 checked.check(story.text());
             }

@@ -31,26 +31,28 @@ RenderOptions quiet_options(int threads = 2) {
 }
 
 /// Depends on the ray and on the random numbers.
-Rgb noise(const Scene&, Ray ray, Sampler& sampler, PathLog&) {
+Rgb noise(const Scene&, Ray ray, Sampler& sampler, Recorder&) {
     Rgb u = {sampler.u1(), sampler.u1(), sampler.u1()};
     return u + Rgb{ray.d.x, ray.d.y, ray.d.z};
 }
 
 /// Not finite for about one sample in a hundred.
-Rgb sometimes_not_finite(const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+Rgb sometimes_not_finite(const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
     float u = sampler.u1();
     if (u < 0.005f) return {1, infinity, 1};
     if (u < 0.01f) return {std::nanf(""), 1, 1};
-    return noise(scene, ray, sampler, log);
+    return noise(scene, ray, sampler, recorder);
 }
 
 /// A few paths of random classes: each scattering is D or S, each with 1/4 ends the path.
-Rgb random_classes(const Scene&, Ray, Sampler& sampler, PathLog& log) {
+Rgb random_classes(const Scene&, Ray, Sampler& sampler, Recorder& recorder) {
     Rgb L;
     for (int depth = 0; depth < 20; depth++) {
-        L += log.emitted({sampler.u1(), sampler.u1(), sampler.u1()});
+        Rgb Le = {sampler.u1(), sampler.u1(), sampler.u1()};
+        L += Le;
+        recorder.emitted(Le);
         if (sampler.u1() < 0.25f) break;
-        log.scatter({0, 0, 1}, {1, 1, 1}, 1, sampler.u1() < 0.5f, {1, 1, 1});
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, sampler.u1() < 0.5f, {1, 1, 1});
     }
     return L;
 }
@@ -64,15 +66,15 @@ bool same_bits(const Image& a, const Image& b) {
 Rgb sample_of(const Scene& scene, const RenderOptions& options, Trace trace, int x, int y, int s) {
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
-    PathLog log;
+    Recorder recorder;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Ray ray = camera_sample(view, x, y, sampler).ray;
-    return trace(scene, ray, sampler, log);
+    return trace(scene, ray, sampler, recorder);
 }
 
 std::atomic<int> calls = 0;
 
-Rgb counting(const Scene&, Ray, Sampler&, PathLog&) {
+Rgb counting(const Scene&, Ray, Sampler&, Recorder&) {
     calls++;
     return {1, 1, 1};
 }
@@ -81,13 +83,13 @@ Rgb counting(const Scene&, Ray, Sampler&, PathLog&) {
 Trace noise_with_signal(int signal, int at) {
     calls = 0;
     std::signal(signal, SIG_DFL);
-    return [=](const Scene& scene, Ray ray, Sampler& sampler, PathLog& log) {
+    return [=](const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
         if (++calls == at) std::raise(signal);
-        return noise(scene, ray, sampler, log);
+        return noise(scene, ray, sampler, recorder);
     };
 }
 
-Rgb throwing(const Scene&, Ray, Sampler&, PathLog&) { throw std::bad_alloc(); }
+Rgb throwing(const Scene&, Ray, Sampler&, Recorder&) { throw std::bad_alloc(); }
 
 constexpr SamplerType samplers[] = {SamplerType::independent, SamplerType::stratified,
                                     SamplerType::sobol};
@@ -193,7 +195,7 @@ TEST_SUITE("render loop") {
         Scene scene = empty_scene(4096, 4096, 1 << 20);
         RenderOptions options = quiet_options();
         options.time = 0.1;
-        auto slow = [](const Scene&, Ray, Sampler&, PathLog&) {  // a pass takes minutes
+        auto slow = [](const Scene&, Ray, Sampler&, Recorder&) {  // a pass takes minutes
             std::this_thread::sleep_for(std::chrono::microseconds(20));
             return Rgb{1, 1, 1};
         };
@@ -247,7 +249,7 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("truth: the same signal later ends the program; an ignored one does nothing") {
         for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
-            auto raising = [=](const Scene&, Ray, Sampler&, PathLog&) {
+            auto raising = [=](const Scene&, Ray, Sampler&, Recorder&) {
                 std::raise(signal);
                 return Rgb{};
             };
@@ -291,7 +293,7 @@ TEST_SUITE("render loop") {
         CHECK(outer.take_request());
         CHECK_FALSE(outer.requested());
         CHECK_FALSE(render_film(empty_scene(3, 3, 2), quiet_options(), counting).stats.interrupted);
-        auto raising = [](const Scene&, Ray, Sampler&, PathLog&) {
+        auto raising = [](const Scene&, Ray, Sampler&, Recorder&) {
             std::raise(SIGINT);
             return Rgb{};
         };
@@ -318,8 +320,9 @@ TEST_SUITE("render loop") {
     TEST_CASE("truth: a path that does not end is given up at the limit, and counts nowhere") {
         // The left half of the picture sees a path without end, the right one a short path.
         Scene scene = empty_scene(32, 32, 1 << 20);
-        auto half_endless = [](const Scene& s, Ray ray, Sampler& sampler, PathLog& log) {
-            Rgb L = log.emitted({1, 1, 1});
+        auto half_endless = [](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
+            Rgb L = {1, 1, 1};
+            recorder.emitted(L);
             do intersect(s, ray);
             while (ray.d.x < 0);
             return L * sampler.u1();

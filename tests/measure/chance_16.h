@@ -4,13 +4,13 @@
 #include "common/material/bsdf.h"
 #include "common/material/ggx.h"
 #include "common/material/observer.h"
-#include "common/path/path_log.h"
 #include "common/path/sampler.h"
+#include "common/recording/recorder.h"
 
 /// One path that meets light by chance: through a point of the lens that is found by throwing
 /// darts, at a moment and of a wavelength of which all are equally likely, and without roulette.
 inline Rgb trace_by_chance(const Scene& scene, const std::vector<Rgb>& white, Ray ray,
-                           Sampler& sampler, PathLog& log) {
+                           Sampler& sampler, Recorder& recorder) {
     const Camera& camera = scene.camera;
     float time = sampler.u1();
     ray.time = camera.shutter_open * (1 - time) + camera.shutter_close * time;
@@ -29,10 +29,13 @@ inline Rgb trace_by_chance(const Scene& scene, const std::vector<Rgb>& white, Ra
         if (!x) {
             Rgb sky = scene.sky;
             if (scene.sky_image) sky += scene.sky_image->at(point_of(*scene.sky_image, ray.d));
-            return L + log.emitted(beta * sky);
+            recorder.emitted(sky);
+            return L + beta * sky;
         }
-        log.vertex(*x);
-        L += log.emitted(beta * emission(scene, *x));
+        recorder.vertex(*x);
+        Rgb Le = emission(scene, *x);
+        L += beta * Le;
+        recorder.emitted(Le);
         if (depth == scene.max_depth) return L;
         Material glass = *x->material;
         if (glass.glass != nullptr) {
@@ -50,7 +53,7 @@ inline Rgb trace_by_chance(const Scene& scene, const std::vector<Rgb>& white, Ra
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
-        log.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
+        recorder.scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
         ray = spawn_ray(*x, s.wi);
     }
 }

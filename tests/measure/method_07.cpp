@@ -2,7 +2,7 @@
 #include "tests/measure/methods.h"
 
 /// Wrong on purpose: uniform directions, but divided by the density of cosine ones.
-static Rgb trace_wrong_pdf(const Scene& scene, Ray ray, Sampler& sampler, PathLog&) {
+static Rgb trace_wrong_pdf(const Scene& scene, Ray ray, Sampler& sampler, Recorder&) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {
         std::optional<Hit> x = intersect(scene, ray);

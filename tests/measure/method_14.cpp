@@ -9,7 +9,7 @@ static Method method(const char* name, const char* label, const char* color,
             .finds_light = "both ways",
             .scenes = {"veach-mis", "near-disk", "cornell"},
             .render = by_trace([=](const Scene& scene) {
-                return trace_with<ch14::trace>(ch14::prepare(scene), settings);
+                return trace_with<ch14::trace>(ch14::prepare(scene, settings));
             })};
 }
 

@@ -27,8 +27,8 @@ static Method with_sobol() {
 
 static Trace clamped(const Scene& scene) {
     return [trace = with_candidates(scene, 64)](const Scene& s, Ray ray, Sampler& sampler,
-                                                PathLog& log) {
-        Rgb L = trace(s, ray, sampler, log);
+                                                Recorder& recorder) {
+        Rgb L = trace(s, ray, sampler, recorder);
         return max_component(L) > 1 ? L / max_component(L) : L;
     };
 }

@@ -26,8 +26,8 @@ static Method by_chance() {
             .refuse = {refuse_delta_lights},
             .render = by_trace([](const Scene&) -> Trace {
                 return [white = shares_of_white()](const Scene& scene, Ray ray, Sampler& sampler,
-                                                   PathLog& log) {
-                    return trace_by_chance(scene, white, ray, sampler, log);
+                                                   Recorder& recorder) {
+                    return trace_by_chance(scene, white, ray, sampler, recorder);
                 };
             }),
             .has_distribution = true};

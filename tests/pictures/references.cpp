@@ -62,9 +62,7 @@ Trace eight(const Scene&) { return trace_with<ch08::trace>(); }
 Trace thirteen(const Scene& scene) {
     return trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
 }
-Trace fourteen(const Scene& scene) {
-    return trace_with<ch14::trace>(ch14::prepare(scene), ch14::Settings{});
-}
+Trace fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
 Trace fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
 
 }  // namespace

@@ -25,8 +25,8 @@ inline std::vector<Chapter> glossy_chapters(const Scene& scene) {
     ch14::Settings one_sample{ch14::power_heuristic, true};
     return {{"13 by the BSDF", trace_with<ch13::trace>(lights, ch13::Strategy::bsdf), true},
             {"13 by lights", trace_with<ch13::trace>(lights, ch13::Strategy::light)},
-            {"14", trace_with<ch14::trace>(lights, ch14::Settings())},
-            {"14, one sample", trace_with<ch14::trace>(lights, one_sample), true},
+            {"14", trace_with<ch14::trace>(ch14::prepare(scene))},
+            {"14, one sample", trace_with<ch14::trace>(ch14::prepare(scene, one_sample)), true},
             {"15", trace_with<ch15::trace>(ch15::prepare(scene))}};
 }
 /// 07 to 15.
@@ -38,7 +38,7 @@ inline std::vector<Chapter> every_chapter(const Scene& scene) {
                                      {"09", trace_with<ch09::trace>(LightMeasure::solid_angle)},
                                      {"10", trace_with<ch10::trace>()},
                                      {"11", trace_with<ch11::trace>(ch11::prepare(scene))},
-                                     {"12", trace_with<ch12::trace>(ch12::prepare(scene), 4)}};
+                                     {"12", trace_with<ch12::trace>(ch12::prepare(scene, 4))}};
     for (Chapter& chapter : glossy_chapters(scene)) chapters.push_back(std::move(chapter));
     return chapters;
 }

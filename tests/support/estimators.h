@@ -43,10 +43,10 @@ inline RunningStats repeat(const Scene& scene, const Ray& ray, const Trace& trac
     return in_blocks<RunningStats>(paths, [&](int first, int last) {
         RunningStats stats;
         Sampler sampler(SamplerType::independent, seed, 1);
-        PathLog log;
+        Recorder recorder;
         for (int i = first; i < last; i++) {
             sampler.start(0, static_cast<uint32_t>(i));
-            stats.add(scale * static_cast<double>(trace(scene, ray, sampler, log).g));
+            stats.add(scale * static_cast<double>(trace(scene, ray, sampler, recorder).g));
         }
         return stats;
     });

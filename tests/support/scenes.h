@@ -9,6 +9,7 @@
 #include "common/base/parallel.h"
 #include "common/base/stats.h"
 #include "common/program/render.h"
+#include "common/recording/class_filter.h"
 #include "common/scene/camera.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
@@ -201,27 +202,30 @@ inline PathCensus part_of_census(const Scene& scene, const SplatTrace& trace, in
     PathCensus census;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, seed, 1);
-    PathLog log(filter);
+    Recorder recorder(true);
+    ClassSelection chosen(filter);
     Splats splats;
     for (int i = first; i < last; i++) {
         sampler.start(0, static_cast<uint32_t>(i));
-        log.start();
+        recorder.start();
         splats.clear();
         Vec2 u = sampler.u2();
         Vec2 film = {u.x * static_cast<float>(scene.width), u.y * static_cast<float>(scene.height)};
-        Rgb L = trace(scene, camera_ray(view, film), splats, sampler, log);
+        Rgb L = trace(scene, camera_ray(view, film), splats, sampler, recorder);
         for (const Splat& splat : splats) L += splat.L;
         std::map<std::string, double> by_class;
         std::map<size_t, double> by_length;
-        double sum = 0, whole = static_cast<double>(average(L));
-        for (const Contribution& part : log.contributions()) {
+        double sum = 0, counted = 0, whole = static_cast<double>(average(L));
+        for (const Contribution& part : recorder.contributions()) {
             double y = static_cast<double>(average(part.L));
+            sum += y;
+            if (!chosen.contains(part.path_class)) continue;
             by_class[part.path_class] += y;
             by_length[part.path_class.size() - 2] += y;
-            sum += y;
+            counted += y;
         }
         census.worst_sum = std::max(census.worst_sum, std::abs(sum - whole) / (whole + 1e-20));
-        census.all.add(whole);
+        census.all.add(filter.empty() ? whole : counted);
         for (auto [name, y] : by_class) census.by_class[name].add(y);
         for (auto [length, y] : by_length) census.by_length[length].add(y);
     }
@@ -239,6 +243,8 @@ inline PathCensus census_of(const Scene& scene, const SplatTrace& trace, int pat
 inline PathCensus census_of(const Scene& scene, const Trace& trace, int paths, uint32_t seed,
                             const std::string& filter = "") {
     SplatTrace without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler,
-                                    PathLog& log) { return trace(s, ray, sampler, log); };
+                                    Recorder& recorder) {
+        return trace(s, ray, sampler, recorder);
+    };
     return census_of(scene, without_splats, paths, seed, filter);
 }

@@ -1,6 +1,8 @@
 // The expressions of --paths: which classes of paths count.
 #pragma once
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,4 +41,16 @@ private:
 
     std::vector<std::vector<Step>> steps_;  // from each place
     uint32_t start_ = 0, end_ = 0;
+};
+
+/// The classes that count. Remembers what the filter said of each class.
+class ClassSelection {
+public:
+    /// expression: that of a ClassFilter; empty: all classes count.
+    explicit ClassSelection(const std::string& expression);
+    bool contains(const std::string& path_class);
+
+private:
+    std::optional<ClassFilter> filter_;
+    std::map<std::string, bool> known_;
 };

@@ -3,26 +3,16 @@
 #include <string>
 #include <vector>
 
+#include "common/recording/contribution.h"
 #include "common/scene/intersect.h"
 
-/// Follows one path as its PathLog hears of it, and writes down each step, what it adds, which
+/// Follows one path as its Recorder hears of it, and writes down each step, what it adds, which
 /// shadow rays were blocked, and why it ends.
 ///
 /// Of rays it sees all that this thread traces until ends(); without any (chapter 05 has a search
 /// of its own) it cannot tell how the path ends.
 class PathStory {
 public:
-    static constexpr size_t own_pixel = SIZE_MAX;
-
-    /// What a path adds.
-    struct Addition {
-        int vertex;  // number of the last one on the way; 0: none
-        std::string way, path_class;
-        float mis;
-        Rgb L;
-        size_t pixel = own_pixel;
-    };
-
     /// counts_photons: a path may end where photons tell the rest, as in chapter 23.
     PathStory(int max_depth, bool counts_photons);
     ~PathStory();
@@ -37,14 +27,13 @@ public:
     void steps_back(int vertex);
     void is_cut();
     void aims(Vec3 wi, float pdf_l, float pdf_b);
-    void adds(const Addition& added);
+    void adds(const Contribution& added);
     /// Tells why the path ends, once it has.
     void ends();
     /// Says that the path was not followed to its end.
     void is_given_up();
 
     const std::string& text() const { return text_; }
-    const std::vector<Addition>& additions() const { return additions_; }
     const std::vector<TracedRay>& rays() const { return rays_; }
     /// Whether what was met last is the sky.
     bool has_left() const { return !rays_.empty() && !rays_.back().shadow && !rays_.back().met; }
@@ -57,7 +46,6 @@ private:
     const int max_depth_;
     const bool counts_photons_;
     std::string text_;
-    std::vector<Addition> additions_;
     std::vector<TracedRay> rays_;
     size_t told_ = 0;  // of the rays
     Last last_ = Last::start;

@@ -1,4 +1,4 @@
-#include "common/path/class_filter.h"
+#include "common/recording/class_filter.h"
 
 #include "common/base/position.h"
 
@@ -229,4 +229,16 @@ bool ClassFilter::matches_some_path() const {
         for (size_t i = 0; i < places.size(); i++) places[i] = places[i] || more[i];
     }
     return after(places, letter_bit('E'))[end_];
+}
+
+ClassSelection::ClassSelection(const std::string& expression) {
+    if (!expression.empty()) filter_.emplace(expression);
+}
+
+bool ClassSelection::contains(const std::string& path_class) {
+    if (!filter_) return true;
+    if (auto known = known_.find(path_class); known != known_.end()) return known->second;
+    bool matches = filter_->matches(path_class);
+    if (known_.size() < 1000) known_[path_class] = matches;
+    return matches;
 }

@@ -1,28 +1,28 @@
-// The log of a path: classes in the notation of light paths, and the filter over them.
-#include "common/path/path_log.h"
+// The recorder of a path: classes in the notation of light paths, and the filter over them.
+#include "common/recording/recorder.h"
 
 #include <doctest/doctest.h>
 
 #include <functional>
 #include <regex>
 
-#include "common/path/class_filter.h"
 #include "common/path/sampler.h"
+#include "common/recording/class_filter.h"
 #include "tests/support/folder.h"
 
 namespace {
 
-/// Light of radiance 1 found after scatterings of these kinds, the one next to the eye first.
-Rgb found_after(PathLog& log, const std::string& kinds) {
-    log.start();
-    for (char kind : kinds) log.scatter({0, 0, 1}, {1, 1, 1}, 1, kind == 'S', {1, 1, 1});
-    return log.emitted({1, 1, 1});
+/// Finds light of radiance 1 after scatterings of these kinds, the one next to the eye first.
+void find_after(Recorder& recorder, const std::string& kinds) {
+    recorder.start();
+    for (char kind : kinds) recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, kind == 'S', {1, 1, 1});
+    recorder.emitted({1, 1, 1});
 }
 
 std::string class_after(const std::string& kinds) {
-    PathLog log("");
-    found_after(log, kinds);
-    return log.contributions().at(0).path_class;
+    Recorder recorder(true);
+    find_after(recorder, kinds);
+    return recorder.contributions().at(0).path_class;
 }
 
 using Words = std::vector<std::string>;
@@ -43,7 +43,7 @@ Words matched(const std::string& expression) {
 
 }  // namespace
 
-TEST_SUITE("path log") {
+TEST_SUITE("recorder") {
     TEST_CASE("truth: a path's class is read from the light to the eye") {
         CHECK(class_after("") == "LE");
         CHECK(class_after("D") == "LDE");
@@ -52,83 +52,121 @@ TEST_SUITE("path log") {
     }
 
     TEST_CASE("truth: a light that is sampled adds one diffuse scattering") {
-        PathLog log("");
-        log.start();
-        log.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
-        CHECK(log.direct({1, 2, 3}, {0, 1, 0}, 0.5f, 0.25f, 0.8f) == Rgb{1, 2, 3});
-        CHECK(log.contributions().at(0).path_class == "LDSE");
-        CHECK(log.contributions().at(0).L == Rgb{1, 2, 3});
+        Recorder recorder(true);
+        recorder.start();
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
+        recorder.direct({1, 2, 3}, {0, 1, 0}, 0.5f, 0.25f, 0.8f);
+        CHECK(recorder.contributions().at(0).path_class == "LDSE");
+        CHECK(recorder.contributions().at(0).L == Rgb{1, 2, 3});
     }
 
     TEST_CASE("truth: after a step back the next branch has the class of its own vertices") {
-        PathLog log("");
-        log.start();
-        log.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
-        log.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});
-        log.step_back();
-        log.emitted({1, 1, 1});
-        log.step_back();
-        log.emitted({1, 1, 1});
-        CHECK(log.contributions().at(0).path_class == "LSE");
-        CHECK(log.contributions().at(1).path_class == "LE");
+        Recorder recorder(true);
+        recorder.start();
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});
+        recorder.step_back();
+        recorder.emitted({1, 1, 1});
+        recorder.step_back();
+        recorder.emitted({1, 1, 1});
+        CHECK(recorder.contributions().at(0).path_class == "LSE");
+        CHECK(recorder.contributions().at(1).path_class == "LE");
     }
 
     TEST_CASE("truth: each vertex knows the one it was reached from, on a tree of paths too") {
-        PathLog log("");
-        log.start();
+        Recorder recorder(true);
+        recorder.start();
         auto meet = [&](float x) {
             Hit hit{};
             hit.p = {x, 0, 0};
-            log.vertex(hit);
+            recorder.vertex(hit);
         };
-        auto go_on = [&] { log.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1}); };
+        auto go_on = [&] { recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1}); };
         // 1 -> 2 -> 3, back to 2 -> nothing, back to 1 -> 4 -> 5
-        meet(1), go_on(), meet(2), go_on(), meet(3), log.step_back();
-        go_on(), log.step_back(), log.step_back(), go_on(), meet(4), go_on(), meet(5);
+        meet(1), go_on(), meet(2), go_on(), meet(3), recorder.step_back();
+        go_on(), recorder.step_back(), recorder.step_back(), go_on(), meet(4), go_on(), meet(5);
         std::vector<int> from;
-        for (const PathVertex& x : log.vertices()) from.push_back(x.from);
+        for (const PathVertex& x : recorder.vertices()) from.push_back(x.from);
         CHECK(from == std::vector<int>{-1, 0, 1, 0, 3});
-        CHECK(log.vertices()[4].p == Vec3{5, 0, 0});
+        CHECK(recorder.vertices()[4].p == Vec3{5, 0, 0});
     }
 
-    TEST_CASE("identity: a log that does not listen returns all and keeps nothing") {
-        PathLog log;
-        CHECK(found_after(log, "DSDS") == Rgb{1, 1, 1});
-        CHECK(log.contributions().empty());
+    TEST_CASE("identity: a recorder that keeps nothing counts the paths that were cut") {
+        Recorder recorder;
+        find_after(recorder, "DSDS");
+        recorder.cut(), recorder.cut();
+        CHECK(recorder.contributions().empty());
+        CHECK(recorder.paths_cut() == 2);
     }
 
-    TEST_CASE("identity: what the filter does not match counts nothing") {
-        PathLog log("LD(S|D)*E");
-        CHECK(found_after(log, "D") == Rgb{1, 1, 1});
-        CHECK(found_after(log, "SSD") == Rgb{1, 1, 1});
-        CHECK(found_after(log, "") == Rgb{});
-        CHECK(log.contributions().empty());
-        CHECK(found_after(log, "DS") == Rgb{});
-        PathLog part("DE");  // the whole class must match
-        CHECK(found_after(part, "D") == Rgb{});
+    TEST_CASE("identity: what is found counts by the throughput that was reported last") {
+        Recorder recorder(true);
+        recorder.start();
+        recorder.emitted({1, 2, 3});
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {0.5f, 0.5f, 0.25f});
+        recorder.roulette(0.5f, {1, 1, 0.5f});
+        recorder.emitted({1, 2, 4}, 0.25f);
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {0.25f, 0, 0});
+        recorder.direct({4, 4, 4}, {0, 1, 0}, 0.5f, 0.25f, 0.8f);
+        recorder.step_back();
+        recorder.direct({4, 4, 4}, {0, 1, 0}, 0.5f, 0.25f, 0.8f);
+        recorder.emitted({0, 0, 0});
+        std::vector<Rgb> L;
+        for (const Contribution& part : recorder.contributions()) L.push_back(part.L);
+        CHECK(L == std::vector<Rgb>{{1, 2, 3}, {0.25f, 0.5f, 0.5f}, {1, 0, 0}, {4, 4, 2}});
+    }
+
+    TEST_CASE("truth: photons are kept by the class of their path, from the light to the eye") {
+        Material metal, wall;
+        metal.type = MaterialType::conductor;
+        struct Vertex {
+            const Material* material;
+        };
+        Recorder recorder(true);
+        recorder.start();
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {0.5f, 0.5f, 0.5f});
+        recorder.photon({1, 0, 0}, std::vector<Vertex>{{&metal}, {&wall}, {&wall}});
+        recorder.photon({0, 1, 0}, std::vector<Vertex>{{&wall}});
+        recorder.photon({0, 0, 1}, std::vector<Vertex>{{&metal}, {&wall}, {&wall}});
+        recorder.gathered({4, 4, 4});
+        std::map<std::string, Rgb> found;
+        for (const Contribution& part : recorder.contributions()) found[part.path_class] = part.L;
+        CHECK(found == std::map<std::string, Rgb>{{"LDSE", {0, 2, 0}}, {"LSDDSE", {2, 0, 2}}});
     }
 
     TEST_CASE("identity: a path starts anew") {
-        PathLog log("");
-        found_after(log, "DD");
-        found_after(log, "S");
-        REQUIRE(log.contributions().size() == 1);
-        CHECK(log.contributions()[0].path_class == "LSE");
+        Recorder recorder(true);
+        find_after(recorder, "DD");
+        find_after(recorder, "S");
+        REQUIRE(recorder.contributions().size() == 1);
+        CHECK(recorder.contributions()[0].path_class == "LSE");
+    }
+}
+
+TEST_SUITE("class filter") {
+    TEST_CASE("identity: a selection has the classes that its filter matches, or all") {
+        ClassSelection scattered("LD(S|D)*E"), part("DE"), all("");
+        for (int again = 0; again < 2; again++) {  // then it remembers
+            CHECK(scattered.contains("LDE"));
+            CHECK(scattered.contains("LDSSE"));
+            CHECK_FALSE(scattered.contains("LE"));
+            CHECK_FALSE(scattered.contains("LSDE"));
+            CHECK_FALSE(part.contains("LDE"));  // the whole class must match
+            CHECK(all.contains("LSDE"));
+        }
     }
 
     TEST_CASE("failure: nested stars and long paths need neither years nor all of the stack") {
         std::string many(20000, 'D');
         for (const char* filter : {"L(D*)*L", "L(D|D)*L", "L(D+)+L", "L(S|D|DD)*L"}) {
-            PathLog log(filter);
-            CHECK(found_after(log, many) == Rgb{});
+            CHECK_FALSE(ClassSelection(filter).contains("L" + many + "E"));
         }
-        PathLog log("L(D|S)*E");
-        CHECK(found_after(log, many) == Rgb{1, 1, 1});
+        CHECK(ClassSelection("L(D|S)*E").contains("L" + many + "E"));
     }
 
     TEST_CASE("input: what is no class filter is refused, with the column") {
         auto error = [](const std::string& filter) {
-            return error_of([&] { PathLog log(filter); });
+            return error_of([&] { ClassFilter read(filter); });
         };
         CHECK(error("LD(S|D") == "error: --paths \"LD(S|D\", column 3: this ( is not closed");
         CHECK(error("L[DS") == "error: --paths \"L[DS\", column 2: this [ is not closed");
@@ -152,9 +190,7 @@ TEST_SUITE("path log") {
         for (const char* other : {"L\\1E", "^LE$", "L E", "ld", "L\xc3\xa4"})
             CHECK(error(other) != "");
     }
-}
 
-TEST_SUITE("class filter") {
     TEST_CASE("truth: what each sign of a class filter matches") {
         CHECK(matched("LDSE") == Words{"DS"});
         CHECK(matched("LD.E") == Words{"DD", "DS"});

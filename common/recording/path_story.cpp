@@ -1,4 +1,4 @@
-#include "common/path/path_story.h"
+#include "common/recording/path_story.h"
 
 #include <cstdio>
 
@@ -108,11 +108,10 @@ void PathStory::aims(Vec3 wi, float pdf_l, float pdf_b) {
              format(": pdf_l %.6g, pdf_b %.6g sr^-1\n", double{pdf_l}, double{pdf_b});
 }
 
-void PathStory::adds(const Addition& added) {
+void PathStory::adds(const Contribution& added) {
     tell_rays();
     text_ += "    " + added.way + ": adds " + to_text(added.L) +
              format(", mis %.6g, class ", double{added.mis}) + added.path_class + "\n";
-    additions_.push_back(added);
 }
 
 /// Why it ends at the last vertex, before a direction to go on in was found.
