@@ -126,11 +126,9 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy
         recorder.vertex(x);
 
         // Add what shines there, unless the vertex before has aimed at it.
-        if (count_emission) {
-            Rgb Le = x ? emission(scene, *x) : scene.sky;
-            L += beta * Le;
-            recorder.emitted(Le);
-        }
+        Rgb Le = !count_emission ? Rgb{} : x ? emission(scene, *x) : scene.sky;
+        L += beta * Le;
+        recorder.emitted(Le);
         if (!x) return L;
         if (depth == scene.max_depth) {
             recorder.cut();

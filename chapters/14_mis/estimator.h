@@ -23,19 +23,16 @@ using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 inline float balance_heuristic(float a, float b) { return 1 / (1 + b / a); }
 inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / a)); }
 
-/// How the ways share. One-sample: a coin at each vertex takes one of them, which counts twice.
-struct Settings {
+/// The lights that paths aim at, and how aiming and the BSDF share. One-sample: a coin at each
+/// vertex takes one of them, which counts twice.
+struct Lights {
+    LightTable table;
     float (*heuristic)(float a, float b) = power_heuristic;
     bool one_sample = false;
 };
-
-/// Two strategies find light: one aims by this table, and one follows the BSDF.
-struct Strategies {
-    LightTable lights;
-    Settings settings;
-};
-inline Strategies prepare(const Scene& scene, const Settings& settings = {}) {
-    return {build_light_table(light_pmf(scene, 0.25)), settings};
+inline Lights prepare(const Scene& scene, float (*heuristic)(float, float) = power_heuristic,
+                      bool one_sample = false) {
+    return {build_light_table(light_pmf(scene, 0.25)), heuristic, one_sample};
 }
 
 /// Estimates what all lights send by way of x to wo, from one point of one light.
@@ -43,17 +40,16 @@ inline Strategies prepare(const Scene& scene, const Settings& settings = {}) {
 ///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pmf pdf_one, and half of that where a coin decides
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
-inline Rgb direct_light(const Scene& scene, const Strategies& strategies, const Hit& x, Vec3 wo,
+inline Rgb direct_light(const Scene& scene, const Lights& lights, const Hit& x, Vec3 wo,
                         LightNumbers u, Recorder& recorder) {
-    const auto& [lights, settings] = strategies;
-    if (is_specular(*x.material) || lights.empty()) return {};
-    size_t light = pick_light(lights, u.light);
+    if (is_specular(*x.material) || scene.lights.empty()) return {};
+    size_t light = pick_light(lights.table, u.light);
     LightSample y = sample_one_light(scene, light, x, u.point);
     if (y.pdf_w == 0) return {};
-    float chance = settings.one_sample ? 0.5f : 1;
-    float pdf_l = chance * pmf_light(lights, light) * y.pdf_w;
+    float chance = lights.one_sample ? 0.5f : 1;
+    float pdf_l = chance * pmf_light(lights.table, light) * y.pdf_w;
     float pdf_b = y.delta ? 0 : chance * pdf_bsdf(x, wo, y.wi);
-    float mis_l = settings.heuristic(pdf_l, pdf_b);
+    float mis_l = lights.heuristic(pdf_l, pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
     recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
@@ -61,12 +57,12 @@ inline Rgb direct_light(const Scene& scene, const Strategies& strategies, const 
 }
 
 /// The weight of emission that the BSDF's direction wi from x has met: at y, or else in the sky.
-inline float mis_emission(const Scene& scene, const Strategies& strategies, const Hit& x, Vec3 wi,
+inline float mis_emission(const Scene& scene, const Lights& lights, const Hit& x, Vec3 wi,
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
     float pdf_one = y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi);
-    float pdf_l = pmf_light(strategies.lights, light) * pdf_one;
-    return strategies.settings.heuristic(pdf_b, pdf_l);
+    float pdf_l = pmf_light(lights.table, light) * pdf_one;
+    return lights.heuristic(pdf_b, pdf_l);
 }
 
 /// Estimates Li along the ray from one path.
@@ -75,7 +71,7 @@ inline float mis_emission(const Scene& scene, const Strategies& strategies, cons
 ///
 /// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
 /// source  Veach, Guibas 1995      tested by  "ch14 mis"
-inline Rgb trace(const Scene& scene, const Strategies& strategies, Ray ray, Sampler& sampler,
+inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     Hit last;              // the vertex before
@@ -91,7 +87,7 @@ inline Rgb trace(const Scene& scene, const Strategies& strategies, Ray ray, Samp
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
             float mis_b = only_way ? 1 : count_b;
-            if (!only_way) mis_b *= mis_emission(scene, strategies, last, ray.d, pdf_b, x);
+            if (!only_way) mis_b *= mis_emission(scene, lights, last, ray.d, pdf_b, x);
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -107,10 +103,10 @@ inline Rgb trace(const Scene& scene, const Strategies& strategies, Ray ray, Samp
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
 
         // Aim at lights.
-        bool one_sample = strategies.settings.one_sample, aims = !one_sample || sampler.u1() < 0.5f;
-        count_b = !one_sample ? 1 : aims ? 0 : 2;
+        bool aims = !lights.one_sample || sampler.u1() < 0.5f;
+        count_b = !lights.one_sample ? 1 : aims ? 0 : 2;
         LightNumbers u = {join(sampler.u2()), sampler.u2()};
-        if (aims) L += beta * direct_light(scene, strategies, *x, wo, u, recorder);
+        if (aims) L += beta * direct_light(scene, lights, *x, wo, u, recorder);
 
         // Go on in that direction, and count it for all those that were not taken.
         last = *x, pdf_b = s.pdf_w, only_way = s.specular;

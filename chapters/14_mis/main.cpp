@@ -4,23 +4,25 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        ch14::Settings settings;
+        auto* heuristic = ch14::power_heuristic;
+        bool one_sample = false;
         std::vector<Option> extra = {
             {"heuristic", "KIND", "power (default) or balance",
              [&](const std::string& text) {
                  bool power = parse_choice("heuristic", text, {"balance", "power"}) == 1;
-                 settings.heuristic = power ? ch14::power_heuristic : ch14::balance_heuristic;
+                 heuristic = power ? ch14::power_heuristic : ch14::balance_heuristic;
              },
              "power"},
             {"ways", "N", "at each vertex: both (default), or one-sample: one of them, by a coin",
              [&](const std::string& text) {
-                 settings.one_sample = parse_choice("ways", text, {"both", "one-sample"}) == 1;
+                 one_sample = parse_choice("ways", text, {"both", "one-sample"}) == 1;
              },
              "both"},
         };
         RenderOptions options =
             parse_render_options(argc, argv, "14_mis", "scenes/veach-mis.pbrt", extra);
         Scene scene = load(options);
-        return render(scene, options, trace_with<ch14::trace>(ch14::prepare(scene, settings)));
+        auto lights = ch14::prepare(scene, heuristic, one_sample);
+        return render(scene, options, trace_with<ch14::trace>(lights));
     });
 }

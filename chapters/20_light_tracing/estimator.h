@@ -162,8 +162,7 @@ inline Rgb carry(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
 }
 
-/// What of the flux that arrives at x from wi the camera sees, and where.      flux f cos We V /
-/// d^2
+/// Connects x, where flux arrives from wi, to the camera.      flux f cos We V / d^2
 ///
 /// Mirrors and glass: nothing, since the pinhole lies not in the one direction that counts.
 inline std::optional<Splat> show(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi,

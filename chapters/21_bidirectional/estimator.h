@@ -49,10 +49,10 @@ inline Vertex vertex_at(const Scene& scene, const Ends& ends, const std::optiona
     return v;
 }
 
-/// Walks on along the ray: from a light as in chapter 20, from the eye as in chapter 13.
+/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. path[0]: yet empty.
 inline Path walk(const Scene& scene, const Ends& ends, bool from_light, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
-    Path path;
+    Path path(1);
     Rgb beta = {1, 1, 1};
     int last = scene.max_depth + (from_light ? 0 : 1);
     for (int depth = 1; depth <= last; depth++) {
@@ -96,14 +96,13 @@ inline Path walk_from_light(const Scene& scene, const Ends& ends, Sampler& sampl
     recorder.start_at_light(e.y.p);
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w));
-    Vertex light;
+    Path path = walk(scene, ends, true, {e.y.p + e.y.eps * e.y.n, e.d}, sampler, recorder);
+    for (Vertex& v : path) v.beta = flux * v.beta;
+    Vertex& light = path[0];
     light.x.p = e.y.p, light.x.ng = e.y.n, light.x.eps = e.y.eps;
     float R = scene.radius;
     light.type = e.type, light.pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
     light.beta = e.Le / light.pdf;
-    Path path = walk(scene, ends, true, {e.y.p + e.y.eps * e.y.n, e.d}, sampler, recorder);
-    for (Vertex& v : path) v.beta = flux * v.beta;
-    path.insert(path.begin(), light);
     return path;
 }
 
@@ -221,9 +220,7 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& 
     sampler.jump(8);
     recorder.start_at_eye();
     Path eye = walk(scene, ends, false, ray, sampler, recorder);
-    Vertex pinhole;
-    pinhole.x.p = ray.o;
-    eye.insert(eye.begin(), pinhole);
+    eye[0].x.p = ray.o;
 
     // Take each number of vertices of the one with each of the other.
     Rgb sum;

@@ -51,15 +51,14 @@ struct Prepared {
     std::vector<Rgb> white = shares_of_white();
 };
 inline Prepared prepare(const Scene& scene, int M = 64) {
-    Prepared prepared = {many_lights(scene, build_light_table(light_pmf(scene, 0)), M), {0}};
-    std::vector<double>& sky = prepared.sky;
+    std::vector<double> sky = {0};
     for (size_t i = 0; scene.sky_image && i < scene.sky_image->pixels.size(); i++) {
         float area = solid_angle_per_area(*scene.sky_image, scene.sky_image->middle_of(i));
         sky.push_back(sky.back() + double{average(scene.sky_image->pixels[i]) * area});
     }
     double sum = sky.back();
     for (double& share : sky) share /= sum;
-    return prepared;
+    return {many_lights(scene, build_light_table(light_pmf(scene, 0)), M), sky};
 }
 
 /// The density at uv, in pixel i of the sky.      pdf_w = pmf pixels / (solid angle per area)

@@ -27,7 +27,7 @@ Trace by(Choice choice, const Scene& scene) {
     if (choice.strategy == Strategy::light)
         return trace_with<ch13::trace>(lights, ch13::Strategy::light);
     bool one_sample = choice.strategy == Strategy::one_sample;
-    return trace_with<ch14::trace>(ch14::prepare(scene, {choice.heuristic, one_sample}));
+    return trace_with<ch14::trace>(ch14::prepare(scene, choice.heuristic, one_sample));
 }
 
 constexpr Heuristic both_heuristics[] = {balance_heuristic, power_heuristic};
@@ -284,22 +284,21 @@ TEST_SUITE("ch14 mis") {
                                   "AttributeEnd AttributeBegin " + shining +
                                   "Translate 1 2 0 Shape \"sphere\" AttributeEnd " +
                                   "LightSource \"infinite\"\n");
-        ch14::Strategies strategies = ch14::prepare(scene);
-        const LightTable& lights = strategies.lights;
+        ch14::Lights lights = ch14::prepare(scene);
         Hit x = origin_of(scene);
         Sampler random = random_numbers(1);
         int met[3] = {};
         for (int i = 0; i < 20000; i++) {
             float u1 = random.u1();
-            LightSample y = sample_light(scene, lights, x, u1, random.u2());
+            LightSample y = sample_light(scene, lights.table, x, u1, random.u2());
             if (y.pdf_w == 0 || y.wi.y < 1e-3f) continue;
             std::optional<Hit> hit = intersect(scene, spawn_ray(x, y.wi));
-            size_t light = pick_light(lights, u1);
+            size_t light = pick_light(lights.table, u1);
             int met_light = hit ? hit->light : scene.sky_light;
             if (met_light != static_cast<int>(light)) continue;  // behind another
             met[light]++;
             // Of two ways with the same density each gets half.
-            float mis_b = ch14::mis_emission(scene, strategies, x, y.wi, y.pdf_w, hit);
+            float mis_b = ch14::mis_emission(scene, lights, x, y.wi, y.pdf_w, hit);
             CHECK(mis_b == doctest::Approx(0.5).epsilon(1e-3).scale(0));
         }
         for (int n : met) CHECK(n > 100);

@@ -95,7 +95,7 @@ TEST_SUITE("path story") {
         for (const char* name : {"veach-mis", "cornell-spheres", "cornell"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + std::string(name) + ".pbrt", 16, 30);
-            ch14::Strategies strategies = ch14::prepare(scene);
+            ch14::Lights lights = ch14::prepare(scene);
             CameraView view = camera_view(scene.camera, 16, 16);
             Sampler sampler(SamplerType::independent, 1, 1);
             Checked checked;
@@ -104,7 +104,7 @@ TEST_SUITE("path story") {
                 Vec2 u = sampler.u2();
                 PathStory story(scene.max_depth, false);
                 Recorder recorder(true, &story);
-                ch14::trace(scene, strategies, camera_ray(view, {16 * u.x, 16 * u.y}), sampler,
+                ch14::trace(scene, lights, camera_ray(view, {16 * u.x, 16 * u.y}), sampler,
                             recorder);
                 story.ends();
                 checked.check(story.text());

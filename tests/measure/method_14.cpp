@@ -1,15 +1,14 @@
 #include "chapters/14_mis/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color,
-                     ch14::Settings settings) {
+static Method method(const char* name, const char* label, const char* color, ch14::Lights how) {
     return {.name = name,
             .label = label,
             .color = color,
             .finds_light = "both ways",
             .scenes = {"veach-mis", "near-disk", "cornell"},
             .render = by_trace([=](const Scene& scene) {
-                return trace_with<ch14::trace>(ch14::prepare(scene, settings));
+                return trace_with<ch14::trace>(ch14::prepare(scene, how.heuristic, how.one_sample));
             })};
 }
 
