@@ -277,7 +277,7 @@ TEST_SUITE("bent normals") {
         Scene matt = balls("Material \"diffuse\" \"rgb reflectance\" [.7 .7 .7]\n");
         Scene metal = balls(rough_metal("0.3"));
         Trace matt_10 = trace_with<ch10::trace>();
-        Trace metal_13 = trace_with<ch14::trace>(ch14::prepare(metal));
+        Trace metal_14 = trace_with<ch14::trace>(ch14::prepare(metal));
         for (const Chapter& chapter : every_chapter(matt)) {
             CAPTURE(chapter.name);
             CHECK(check_classes(matt, chapter.trace, matt, matt_10, 20000) >= 4);
