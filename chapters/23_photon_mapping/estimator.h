@@ -89,7 +89,7 @@ inline Rgb gather(const Prepared& prepared, const Pass& pass, Maps which, const 
         if (photon.depth > depth) return;
         Rgb counts = kernel(prepared.settings.kernel, dot(v, v) / (r * r)) * photon.flux;
         sum += counts;
-        recorder.photon(counts, paths.path_of(photon));
+        recorder.photon(counts, paths, photon);
     });
     Rgb f = x.material->reflectance / pi, scale = f / (pi * r * r);
     recorder.gathered(scale);

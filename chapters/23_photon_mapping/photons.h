@@ -43,9 +43,8 @@ struct Prepared {
 
 /// A vertex of a path from a light. Where the surface is diffuse it is a photon.
 struct LightVertex {
-    Vec3 p, ng;  // m; unit, on the side where light arrived
-    Rgb flux;    // W, of a photon
-    int depth;   // scattering events on the path, this one included
+    Vec3 p;         // m
+    Arrival light;  // without flux where it is no photon
     const Material* material;
 };
 
@@ -95,7 +94,8 @@ inline void send_photon(const Scene& scene, const Prepared& prepared, Maps which
             float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
             arrives = flux * beta * cosines;
         }
-        vertices.push_back({x->p, x->ng, arrives, depth, x->material});
+        auto events = static_cast<uint16_t>(std::min(depth, 65535));
+        vertices.push_back({x->p, {arrives, to_bits(x->ng), events}, x->material});
         if (last) return;
 
         // Go on as in chapter 20.
@@ -117,10 +117,10 @@ using Stopped = std::function<bool()>;
 /// The photons among these vertices.
 inline std::vector<Photon> photons_of(const std::vector<LightVertex>& vertices) {
     std::vector<Photon> photons;
+    photons.reserve(vertices.size());
     for (uint32_t i = 0; i < vertices.size(); i++) {
         const LightVertex& v = vertices[i];
-        auto depth = static_cast<uint16_t>(std::min(v.depth, 65535));
-        if (is_diffuse(*v.material)) photons.push_back({v.p, {v.flux, to_bits(v.ng), depth}, i});
+        if (is_diffuse(*v.material)) photons.push_back({v.p, v.light, i});
     }
     return photons;
 }

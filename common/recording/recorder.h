@@ -80,12 +80,13 @@ public:
     void splat(Rgb L, size_t pixel) {
         connected(L, static_cast<int>(vertices_.size()), 1, 1, pixel);
     }
-    /// A photon near the last vertex counts so much flux; its path, up to where it lies.
-    template <class Path>
-    void photon(Rgb flux, const Path& path) {
+    /// A photon near the last vertex counts so much flux. paths.path_of(photon): its path, up to
+    /// where it lies.
+    template <class Paths, class Photon>
+    void photon(Rgb flux, const Paths& paths, const Photon& photon) {
         if (!listening_) return;
         std::string events;
-        for (const auto& x : path) events += is_specular(*x.material) ? 'S' : 'D';
+        for (const auto& x : paths.path_of(photon)) events += is_specular(*x.material) ? 'S' : 'D';
         photons_[events] += flux;
     }
     /// beta scale times the flux of those photons was added.

@@ -122,12 +122,16 @@ TEST_SUITE("recorder") {
         struct Vertex {
             const Material* material;
         };
+        struct Paths {
+            std::vector<Vertex> path_of(const std::vector<Vertex>& photon) const { return photon; }
+        } paths;
+        std::vector<Vertex> caustic = {{&metal}, {&wall}, {&wall}}, direct = {{&wall}};
         Recorder recorder(true);
         recorder.start();
         recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {0.5f, 0.5f, 0.5f});
-        recorder.photon({1, 0, 0}, std::vector<Vertex>{{&metal}, {&wall}, {&wall}});
-        recorder.photon({0, 1, 0}, std::vector<Vertex>{{&wall}});
-        recorder.photon({0, 0, 1}, std::vector<Vertex>{{&metal}, {&wall}, {&wall}});
+        recorder.photon({1, 0, 0}, paths, caustic);
+        recorder.photon({0, 1, 0}, paths, direct);
+        recorder.photon({0, 0, 1}, paths, caustic);
         recorder.gathered({4, 4, 4});
         std::map<std::string, Rgb> found;
         for (const Contribution& part : recorder.contributions()) found[part.path_class] = part.L;
