@@ -1,0 +1,292 @@
+// What a recorder keeps and a story tells of events that are made by hand, to the last word.
+#include <doctest/doctest.h>
+
+#include "common/recording/recorder.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+/// A hit of this material at p.
+Hit hit_at(Vec3 p, const Material& material, bool front = true) {
+    Hit x{};
+    x.p = p, x.n = x.ng = {0, 0, -1}, x.t = 2.5f, x.front = front, x.material = &material;
+    return x;
+}
+
+struct Materials {
+    Material wall, soot, mirror, glass;
+    Materials() {
+        wall.reflectance = {0.5f, 0.5f, 0.5f};
+        soot.reflectance = {0, 0, 0};
+        mirror.type = MaterialType::conductor;
+        glass.type = MaterialType::dielectric;
+    }
+};
+
+/// The same scene for all: a ball of radius 1 around (9, 0, 0), for rays that meet something.
+const Scene& ball() {
+    static const Scene scene = world_of("LightSource \"point\" Translate 9 0 0 Shape \"sphere\"");
+    return scene;
+}
+/// Rays that this thread traces, of which a story keeps what they met.
+void trace_hit() { intersect(ball(), {{0, 0, 0}, {1, 0, 0}}); }
+void trace_miss() { intersect(ball(), {{0, 0, 0}, {0, 1, 0}}); }
+void shadow_hit() { occluded(ball(), {{0, 0, 0}, {1, 0, 0}}); }
+void shadow_miss() { occluded(ball(), {{0, 0, 0}, {0, 1, 0}}); }
+
+/// The story of events: tell(recorder, story).
+template <class Tell>
+std::string story_of(const Tell& tell, int max_depth = 5, bool counts_photons = false) {
+    PathStory story(max_depth, counts_photons);
+    Recorder recorder(true, &story);
+    recorder.start();
+    tell(recorder, story);
+    return story.text();
+}
+
+}  // namespace
+
+TEST_SUITE("path text") {
+    TEST_CASE("truth: the story of a path from the eye, word by word") {
+        Materials m;
+        std::string text = story_of([&](Recorder& recorder, PathStory& story) {
+            trace_hit();
+            recorder.vertex(hit_at({1, 2, 3}, m.glass, false));
+            CHECK_FALSE(story.has_left());
+            recorder.emitted({1, 0.5f, 0.25f}, 0.5f);
+            recorder.scatter({0, 0.6f, 0.8f}, {2, 4, 8}, 1, true, {0.5f, 0.25f, 0.125f});
+            recorder.roulette(1, {0.5f, 0.25f, 0.125f});
+            trace_hit();
+            recorder.vertex(hit_at({1, 2, 4}, m.wall));
+            shadow_miss();
+            recorder.direct({1, 2, 4}, {0, 1, 0}, 0.75f, 0.125f, 0.25f);
+            shadow_hit();
+            recorder.scatter({0, 0, -1}, {0.5f, 0.25f, 0.125f}, 0.375f, false, {1, 2, 3});
+            recorder.roulette(0.5f, {2, 4, 6});
+            trace_miss();
+            CHECK(story.has_left());
+            recorder.vertex({});
+            recorder.emitted({3, 2, 1});
+            story.ends();
+        });
+        CHECK(text ==
+              "vertex 1  dielectric at (1, 2, 3), n (0, 0, -1), back, distance 2.5\n"
+              "    light met: adds (0.5, 0.25, 0.125), mis 0.5, class LE\n"
+              "    goes on along wi (0, 0.6, 0.8): f (2, 4, 8) sr^-1, pdf_w 1 (delta), beta (0.5, "
+              "0.25, 0.125)\n"
+              "vertex 2  diffuse at (1, 2, 4), n (0, 0, -1), front, distance 2.5\n"
+              "    aims at a light along wi (0, 1, 0): pdf_l 0.75, pdf_b 0.125 sr^-1\n"
+              "    light aimed at: adds (0.5, 0.5, 0.5), mis 0.25, class LDSE\n"
+              "    shadow ray along (1, 0, 0): blocked\n"
+              "    goes on along wi (0, 0, -1): f (0.5, 0.25, 0.125) sr^-1, pdf_w 0.375 sr^-1, "
+              "beta (1, 2, 3)\n"
+              "    survives roulette, q 0.5, beta (2, 4, 6)\n"
+              "    leaves the scene along (0, 1, 0)\n"
+              "    sky met: adds (6, 8, 6), mis 1, class LDSE\n"
+              "    ends: it has left the scene\n");
+    }
+
+    TEST_CASE("truth: the story of a path from a light, and of the one from the eye behind it") {
+        Materials m;
+        for (bool reaches_limit : {false, true}) {
+            std::string text = story_of(
+                [&](Recorder& recorder, PathStory& story) {
+                    recorder.start_at_light({0, 9, 0});
+                    trace_hit();
+                    recorder.vertex(hit_at({0, 8, 0}, m.mirror));
+                    recorder.splat({1, 2, 3}, 7);
+                    if (reaches_limit) recorder.cut();
+                    recorder.scatter({0, -1, 0}, {1, 1, 1}, 1, true, {1, 1, 1});
+                    recorder.start_at_eye();
+                    trace_hit();
+                    recorder.vertex(hit_at({0, 0, 1}, m.wall));
+                    recorder.connected({1, 1, 2}, 2, 2, 0.125f);
+                    story.ends();
+                },
+                5);
+            const std::string middle =
+                reaches_limit ? "    ends: the depth limit, 5 scattering events\n"
+                              : "    goes on along wi (0, -1, 0): f (1, 1, 1) sr^-1, pdf_w 1 "
+                                "(delta), beta (1, 1, 1)\n"
+                                "    ends: roulette stops it\n";
+            CHECK(text ==
+                  "vertex 1  a light at (0, 9, 0)\n"
+                  "vertex 2  conductor at (0, 8, 0), n (0, 0, -1), front, distance 2.5\n"
+                  "    s 2, t 1: adds (1, 2, 3), mis 1, class LDE\n" +
+                      middle +
+                      "from the eye:\n"
+                      "vertex 3  diffuse at (0, 0, 1), n (0, 0, -1), front, distance 2.5\n"
+                      "    s 2, t 2: adds (1, 1, 2), mis 0.125, class LDDE\n"
+                      "    ends: absorbed at vertex 3: the direction drawn lies below the "
+                      "surface\n");
+        }
+    }
+
+    TEST_CASE("truth: why a path ends at a vertex") {
+        Materials m;
+        auto end_at = [&](const Material& material, bool counts_photons) {
+            std::string text = story_of(
+                [&](Recorder& recorder, PathStory& story) {
+                    trace_hit();
+                    recorder.vertex(hit_at({}, material));
+                    story.ends();
+                },
+                5, counts_photons);
+            return text.substr(text.find('\n') + 1);
+        };
+        const std::string below =
+            "    ends: absorbed at vertex 1: the direction drawn lies below the surface\n";
+        CHECK(end_at(m.wall, false) == below);
+        CHECK(end_at(m.wall, true) == "    ends: photons around vertex 1 tell the rest\n");
+        CHECK(end_at(m.mirror, true) == below);
+        CHECK(end_at(m.soot, true) == "    ends: vertex 1 is black: it absorbs all\n");
+        CHECK(end_at(m.soot, false) == "    ends: vertex 1 is black: it absorbs all\n");
+        // A path from a light ends at its last event; one that has no rays of its own cannot tell.
+        for (int depth : {1, 2}) {
+            std::string text = story_of(
+                [&](Recorder& recorder, PathStory& story) {
+                    recorder.start_at_light({});
+                    trace_hit();
+                    recorder.vertex(hit_at({}, m.mirror));
+                    story.ends();
+                },
+                depth);
+            CHECK(text.ends_with(depth == 1 ? "    ends: the depth limit, 1 scattering events\n"
+                                            : "below the surface\n"));
+        }
+        CHECK(story_of([&](Recorder& recorder, PathStory& story) {
+                  recorder.vertex(hit_at({}, m.soot));
+                  story.ends();
+              }).find("ends") == std::string::npos);
+    }
+
+    TEST_CASE("truth: a tree of paths steps back, and a path that is stopped is given up") {
+        Materials m;
+        std::string text = story_of([&](Recorder& recorder, PathStory& story) {
+            recorder.vertex(hit_at({1, 0, 0}, m.glass));
+            recorder.scatter({1, 0, 0}, {1, 1, 1}, 1, true, {1, 1, 1});
+            recorder.vertex(hit_at({2, 0, 0}, m.wall));
+            recorder.scatter({1, 0, 0}, {1, 1, 1}, 1, true, {0.5f, 0.5f, 0.5f});
+            recorder.step_back();
+            recorder.step_back();
+            recorder.emitted({1, 1, 1});
+            story.is_given_up();
+        });
+        CHECK(
+            text.ends_with("    steps back to vertex 2\n"
+                           "    steps back to vertex 1\n"
+                           "    light met: adds (1, 1, 1), mis 1, class LE\n"
+                           "    given up here: the path goes on, but the program was stopped\n"));
+    }
+
+    TEST_CASE("truth: only the story that begins and has not ended keeps this thread's rays") {
+        CHECK(rays_kept == nullptr);
+        {
+            PathStory story(5, false);
+            CHECK(rays_kept == &story.rays());
+            trace_hit(), shadow_miss();
+            REQUIRE(story.rays().size() == 2);
+            CHECK(story.rays()[0].met);
+            CHECK_FALSE(story.rays()[0].shadow);
+            CHECK(story.rays()[1].shadow);
+            CHECK_FALSE(story.rays()[1].met);
+            story.ends();
+            CHECK(rays_kept == nullptr);
+            trace_hit();
+            CHECK(story.rays().size() == 2);
+        }
+        {
+            PathStory first(5, false);
+            { PathStory second(5, false); }
+            CHECK(rays_kept == nullptr);
+        }
+        PathStory stopped(5, false);
+        stopped.is_given_up();
+        CHECK(rays_kept == nullptr);
+    }
+
+    TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {
+        // From the light D S D, from the eye S D S: what lies between the two ends that are
+        // connected has the letters of its vertices, and both ends are D.
+        Materials m;
+        const Material* kinds[] = {&m.wall, &m.mirror};
+        auto is_mirror = [&](char letter) { return letter == 'S'; };
+        const std::string light = "DSD", eye = "SDS";
+        Recorder recorder(true);
+        recorder.start();
+        recorder.start_at_light({});
+        for (char letter : light) {
+            recorder.vertex(hit_at({}, *kinds[is_mirror(letter)]));
+            recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, is_mirror(letter), {1, 1, 1});
+        }
+        recorder.start_at_eye();
+        for (char letter : eye) {
+            recorder.vertex(hit_at({}, *kinds[is_mirror(letter)]));
+            recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, is_mirror(letter), {1, 1, 1});
+        }
+        recorder.vertex(hit_at({}, m.wall));
+        CHECK(recorder.contributions().empty());
+        for (int s = 0; s <= 4; s++) {
+            for (int t = 1; t <= 5; t++) {
+                if (s + t < 2) continue;
+                CAPTURE(s);
+                CAPTURE(t);
+                // Vertices of the eye's path: t = 1 is the eye itself, 2 the first that it met.
+                std::string expected = "L";
+                for (int i = 1; i < s; i++)
+                    expected += i == s - 1 ? 'D' : light[static_cast<size_t>(i - 1)];
+                std::string from_eye;
+                for (int i = 2; i <= t - (s == 0); i++)
+                    from_eye += i == t ? 'D' : eye[static_cast<size_t>(i - 2)];
+                std::reverse(from_eye.begin(), from_eye.end());
+                expected += from_eye + "E";
+                size_t pixel = t == 1 ? 17 : Contribution::own_pixel;
+                recorder.connected({1, 2, 3}, s, t, 0.5f, pixel);
+                const Contribution& last = recorder.contributions().back();
+                CHECK(last.path_class == expected);
+                CHECK(last.way == "s " + std::to_string(s) + ", t " + std::to_string(t));
+                CHECK(last.pixel == pixel);
+                CHECK(last.mis == 0.5f);
+                CHECK(last.L == Rgb{1, 2, 3});
+                // Vertices count from 1: four of the light's path, then those from the eye.
+                CHECK(last.vertex == (t == 1 ? s : 4 + t - 1));
+            }
+        }
+        // The light's path begins anew; so does all.
+        recorder.start_at_light({});
+        recorder.vertex(hit_at({}, m.wall));
+        recorder.connected({1, 1, 1}, 2, 1, 1, 3);
+        CHECK(recorder.contributions().back().path_class == "LDE");
+        recorder.start();
+        CHECK(recorder.contributions().empty());
+        CHECK(recorder.vertices().empty());
+    }
+
+    TEST_CASE("truth: of light that is met the vertex is known, and of the sky the last one") {
+        Materials m;
+        Recorder recorder(true);
+        recorder.start();
+        recorder.emitted({1, 1, 1});
+        recorder.vertex(hit_at({}, m.wall));
+        recorder.emitted({1, 1, 1}, 0.25f);
+        recorder.direct({1, 1, 1}, {0, 1, 0}, 1, 1, 0.75f);
+        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});
+        recorder.emitted({1, 1, 1});
+        recorder.vertex(hit_at({}, m.wall));
+        recorder.emitted({1, 1, 1});
+        std::vector<int> vertex;
+        std::vector<float> mis;
+        for (const Contribution& part : recorder.contributions()) {
+            vertex.push_back(part.vertex), mis.push_back(part.mis);
+            CHECK(part.pixel == Contribution::own_pixel);
+        }
+        CHECK(vertex == std::vector<int>{0, 1, 1, 1, 2});
+        CHECK(mis == std::vector<float>{1, 0.25f, 0.75f, 1, 1});
+        // Each path that begins at a light begins a chain of vertices.
+        recorder.start_at_light({5, 0, 0});
+        recorder.vertex(hit_at({}, m.wall));
+        std::vector<int> from;
+        for (const PathVertex& x : recorder.vertices()) from.push_back(x.from);
+        CHECK(from == std::vector<int>{-1, 0, -2, 2});
+    }
+}
