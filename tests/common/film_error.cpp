@@ -1,0 +1,344 @@
+// What a film tells of its error: audits, halves, batches; and pictures held against each other
+// by another way of counting.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "common/path/sampler.h"
+#include "common/picture/comparison.h"
+#include "common/picture/film.h"
+#include "common/picture/finite_part.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+doctest::Approx about(double x, double by = 1e-9) {
+    return doctest::Approx(x).epsilon(by).scale(0);
+}
+Rgb grey(double v) {
+    float x = static_cast<float>(v);
+    return {x, x, x};
+}
+
+double mean_of(const std::vector<double>& x) {
+    return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
+/// The variance of the mean of these samples.
+double variance_of_mean(const std::vector<double>& x) {
+    double m = mean_of(x), sum = 0, n = static_cast<double>(x.size());
+    for (double v : x) sum += (v - m) * (v - m);
+    return sum / (n - 1) / n;
+}
+
+/// Numbers that a float holds, some larger than others.
+std::vector<double> samples_of(uint32_t key, int n, double size = 1) {
+    Sampler sampler(SamplerType::independent, 9, 1);
+    std::vector<double> x;
+    for (int s = 0; s < n; s++) {
+        sampler.start(key, static_cast<uint32_t>(s));
+        x.push_back(size * std::floor(256 * double{sampler.u1()}) / 256);
+    }
+    return x;
+}
+
+Image random_image(int width, int height, uint32_t seed) {
+    Image image(width, height);
+    Sampler sampler(SamplerType::independent, seed, 1);
+    for (uint32_t i = 0; i < image.pixels.size(); i++) {
+        sampler.start(i, 0);
+        float u = sampler.u1(), v = sampler.u1(), w = sampler.u1();
+        image.pixels[i] = {u < 0.2f ? 1 : 2 * u, v * v, u < 0.1f ? 0 : 3 * w};
+        if (i % 11 == 0) image.pixels[i] = {};
+    }
+    return image;
+}
+
+/// Red to green to blue to red.
+Rgb turned(Rgb p) { return {p.b, p.r, p.g}; }
+
+}  // namespace
+
+TEST_SUITE("film error") {
+    TEST_CASE("identity: few pixels are audited: one of each group, at edges and elsewhere") {
+        struct {
+            int width, height, edges;
+            size_t audited;
+        } cases[] = {{8, 8, 0, 64},      {16, 16, 0, 64},    {40, 50, 0, 65},  // 31 in a group
+                     {256, 128, 0, 128}, {40, 50, 200, 132},  // 65 of 1800 / 28, 67 of 200 / 3
+                     {20, 20, 10, 75}};                       // 65 of 390 / 6, 10 of 10
+        for (const auto& c : cases) {
+            CAPTURE(c.width);
+            CAPTURE(c.edges);
+            Film film(c.width, c.height);
+            for (int i = 0; i < c.edges; i++) film.mark_edge(static_cast<size_t>(7 * i));
+            film.start_audit();
+            size_t n = film.pixels().size(), audited = 0, at_edges = 0, last = 0, widest = 0;
+            for (size_t i = 0; i < n; i++) {
+                if (!film.is_audited(i)) continue;
+                audited++, at_edges += film.pixels()[i].is_edge;
+                widest = std::max(widest, i - last), last = i;
+            }
+            CHECK(audited == c.audited);
+            CHECK(film.audits().size() == audited);
+            CHECK((at_edges > 0) == (c.edges > 0));
+            CHECK(widest < 3 * std::max<size_t>(n / 64, 1));  // all over the picture
+            CHECK(film.has_audits());
+            CHECK_FALSE(film.has_halves());
+        }
+        // Where groups are larger, it is not always the same one of each.
+        Film film(256, 128);
+        film.start_audit();
+        std::set<size_t> places;
+        for (size_t i = 0; i < film.pixels().size(); i++)
+            if (film.is_audited(i)) places.insert(i % 256);
+        CHECK(places.size() > 60);
+    }
+
+    TEST_CASE("truth: audits scale the error of the pixels like them, at edges and elsewhere") {
+        // 20 x 20 pixels, 50 at edges, which are noisier.
+        Film film(20, 20);
+        for (size_t i = 0; i < 400; i += 8) film.mark_edge(i);
+        film.start_audit();
+        double v[2] = {}, v2[2] = {}, found[2] = {}, audited[2] = {}, audited2[2] = {};
+        double sum = 0, sum2 = 0, m2 = 0;
+        for (size_t i = 0; i < 400; i++) {
+            bool edge = i % 8 == 0;
+            int n = 3 + static_cast<int>(i % 4);
+            std::vector<double> x = samples_of(static_cast<uint32_t>(i), n, edge ? 8 : 1);
+            for (double s : x) film.add(i, grey(s)), sum += s, sum2 += s * s;
+            double here = variance_of_mean(x);
+            m2 += here * n * (n - 1);
+            v[edge] += here, v2[edge] += here * here;
+            if (!film.is_audited(i)) continue;
+            std::vector<double> y = samples_of(static_cast<uint32_t>(i + 1000), n, edge ? 8 : 1);
+            for (double s : y) film.audit(i, grey(s));
+            double both = (here + variance_of_mean(y)) / 2;
+            found[edge] += std::pow(mean_of(x) - mean_of(y), 2) / 2;
+            audited[edge] += both, audited2[edge] += both * both;
+        }
+        double share[2], squares = 0, of_audits = 0, all = 0;
+        for (int e : {0, 1}) {
+            double r = found[e] / audited[e];
+            CHECK(r > 0.1);
+            share[e] = r * v[e], all += share[e];
+            squares += r * r * v2[e];
+            of_audits += share[e] * share[e] * audited2[e] / audited[e] / audited[e];
+        }
+        CHECK(film.standard_error() == about(std::sqrt(all) / 400));
+        Film::ErrorBasis basis = film.error_basis();
+        CHECK(basis.pixels == about(all * all / squares));
+        CHECK(basis.audits == about(all * all / of_audits));
+        CHECK(basis.squares == about(m2));
+        CHECK(film.effective_samples() == about(sum * sum / sum2));
+
+        // Added to another film, samples and audits add up: as if it had had them all.
+        Film two(20, 20), both(20, 20);
+        for (Film* f : {&two, &both}) {
+            for (size_t i = 0; i < 400; i += 8) f->mark_edge(i);
+            f->start_audit();
+        }
+        for (size_t i = 0; i < 400; i++) {
+            std::vector<double> more = samples_of(static_cast<uint32_t>(i + 5000), 2);
+            std::vector<double> x = samples_of(static_cast<uint32_t>(i),
+                                               3 + static_cast<int>(i % 4), i % 8 == 0 ? 8 : 1);
+            std::vector<double> y = samples_of(static_cast<uint32_t>(i + 1000),
+                                               3 + static_cast<int>(i % 4), i % 8 == 0 ? 8 : 1);
+            for (double s : more) two.add(i, grey(s)), both.add(i, grey(s));
+            for (double s : x) both.add(i, grey(s));
+            if (!film.is_audited(i)) continue;
+            for (double s : more) two.audit(i, grey(s + 1)), both.audit(i, grey(s + 1));
+            for (double s : y) both.audit(i, grey(s));
+        }
+        two.add(film);
+        CHECK(two.standard_error() == both.standard_error());
+        CHECK(two.mean() == both.mean());
+        CHECK(two.samples() == both.samples());
+    }
+
+    TEST_CASE("truth: two halves tell the error by how far apart they are") {
+        Film film(6, 5);
+        film.start_halves();
+        double difference = 0, v_sum = 0, v2_sum = 0, m2 = 0, mean = 0, sum = 0, sum2 = 0;
+        uint64_t samples = 0;
+        for (uint32_t i = 0; i < 30; i++) {
+            std::vector<double> a = samples_of(i, 2 + static_cast<int>(i % 3));
+            std::vector<double> b = samples_of(i + 99, 3 + static_cast<int>(i % 2), 2);
+            for (double s : a) film.add(i, grey(s)), sum += s, sum2 += s * s;
+            for (double s : b) film.add(i, grey(s), 1), sum += s, sum2 += s * s;
+            difference += std::pow(mean_of(a) - mean_of(b), 2) / 4;
+            double va = variance_of_mean(a), vb = variance_of_mean(b), v = (va + vb) / 4;
+            v_sum += v, v2_sum += v * v;
+            double na = static_cast<double>(a.size()), nb = static_cast<double>(b.size());
+            m2 += va * na * (na - 1) + vb * nb * (nb - 1);
+            mean += (mean_of(a) + mean_of(b)) / 2 / 30;
+            samples += a.size() + b.size();
+            CHECK(film.count_of(i) == a.size() + b.size());
+        }
+        CHECK(film.mean() == about(mean));
+        CHECK(film.samples() == samples);
+        CHECK(film.standard_error() == about(std::sqrt(difference) / 30));
+        Film::ErrorBasis basis = film.error_basis();
+        CHECK(basis.pixels == about(v_sum * v_sum / v2_sum));
+        CHECK(basis.audits == basis.pixels);
+        CHECK(basis.squares == about(m2));
+        CHECK(film.effective_samples() == about(sum * sum / sum2));
+        CHECK_FALSE(film.has_audits());
+        CHECK(film.counts().at(1, 0).g == 3 + 4);
+        Film parts(6, 5);
+        parts.start_halves();
+        parts.add_part(3, grey(9), 1);
+        parts.count_as(film);
+        CHECK(parts.samples() == film.samples());
+        CHECK(parts.mean() > 0);
+    }
+
+    TEST_CASE("truth: whole passes tell the error by their means, each by its weight") {
+        // 40 passes of 4 pixels in 32 batches: the first 8 batches have two passes.
+        Film film(2, 2);
+        film.start_batches();
+        std::vector<std::vector<double>> batch(32);
+        for (uint32_t pass = 0; pass < 40; pass++) {
+            std::vector<double> x = samples_of(pass, 4);
+            PixelSum sum;
+            for (size_t i = 0; i < 4; i++) film.add(i, grey(x[i])), sum.add(grey(x[i]));
+            film.add_to_batch(pass, sum);
+            for (double s : x) batch[pass % 32].push_back(s);
+        }
+        auto expected = [&](size_t batches) {
+            std::vector<double> all;
+            for (size_t b = 0; b < batches; b++)
+                all.insert(all.end(), batch[b].begin(), batch[b].end());
+            double mean = mean_of(all), squares = 0, B = static_cast<double>(batches);
+            for (size_t b = 0; b < batches; b++) {
+                double share =
+                    static_cast<double>(batch[b].size()) / static_cast<double>(all.size());
+                squares += std::pow(share * (mean_of(batch[b]) - mean), 2);
+            }
+            return std::sqrt(B / (B - 1) * squares);
+        };
+        CHECK(film.has_batches());
+        CHECK(film.standard_error() == about(expected(32)));
+        // A pass that is not whole spoils its batch alone.
+        PixelSum half;
+        for (double x : {1.0, 2.0}) half.add(grey(x));
+        film.add_to_batch(31, half);
+        CHECK(film.standard_error() == about(expected(31)));
+        // One batch alone says nothing.
+        Film one(2, 2);
+        one.start_batches();
+        CHECK(std::isnan(one.standard_error()));
+        for (uint32_t pass : {0u, 1u}) {
+            PixelSum sum;
+            for (size_t i = 0; i < 4; i++) sum.add(grey(samples_of(pass, 4)[i]));
+            one.add_to_batch(pass, sum);
+            CHECK(std::isnan(one.standard_error()) == (pass == 0));
+        }
+    }
+
+    TEST_CASE("identity: film and comparison treat the channels alike") {
+        Image a = random_image(37, 21, 1), b = random_image(37, 21, 2), a2 = a, b2 = b;
+        for (Rgb& p : a2.pixels) p = turned(p);
+        for (Rgb& p : b2.pixels) p = turned(p);
+        Comparison c = compare(a, b, 3), d = compare(a2, b2, 3);
+        CHECK(d.mse == about(c.mse));
+        CHECK(d.rel_mse == about(c.rel_mse));
+        CHECK(d.mean_a == about(c.mean_a));
+        CHECK(d.median_ratio == about(c.median_ratio));
+        CHECK(d.cut_off == c.cut_off);
+        CHECK(d.standard_error == about(c.standard_error));
+        for (bool splats : {false, true}) {
+            Film film(37, 21, splats), film2(37, 21, splats);
+            for (size_t i = 0; i < a.pixels.size(); i++) {
+                film.add(i, a.pixels[i]), film.add(i, b.pixels[i]);
+                film2.add(i, a2.pixels[i]), film2.add(i, b2.pixels[i]);
+                if (!splats) continue;
+                film.splat(i, b.pixels[i]), film2.splat(i, b2.pixels[i]);
+            }
+            film.add(17, {infinity, 1, 2}), film2.add(17, turned({infinity, 1, 2}));
+            Image seen = film.image(), seen2 = film2.image();
+            for (size_t i = 0; i < seen.pixels.size(); i++)
+                if (i != 17) CHECK(turned(seen.pixels[i]) == seen2.pixels[i]);
+            FinitePart part = finite_part(film), part2 = finite_part(film2);
+            CHECK(turned(part.rgb) == part2.rgb);
+            CHECK(part.mean == about(part2.mean));
+            CHECK(part.share == about(1 - 1 / 777.0));
+            CHECK(part.mean ==
+                  about((double{part.rgb.r} + double{part.rgb.g} + double{part.rgb.b}) / 3, 1e-6));
+            film.pixels()[17] = film2.pixels()[17] = {};
+            CHECK(turned(film.mean_rgb()) == film2.mean_rgb());
+        }
+    }
+
+    TEST_CASE("brute: a comparison's numbers counted in another way") {
+        const int width = 37, height = 21;
+        Image a = random_image(width, height, 3), b = random_image(width, height, 4);
+        for (size_t i = 0; i < 300; i++) a.pixels[i] = 1.1f * b.pixels[i];
+        auto bright = [](Rgb p) { return (double{p.r} + double{p.g} + double{p.b}) / 3; };
+        std::vector<double> ratios;
+        std::vector<std::pair<double, double>> errors;  // relative, squared
+        int cut_off = 0;
+        for (size_t i = 0; i < a.pixels.size(); i++) {
+            Rgb p = a.pixels[i], q = b.pixels[i];
+            double squared = 0, relative = 0;
+            bool differ = false;
+            for (auto [x, y] : {std::pair{p.r, q.r}, {p.g, q.g}, {p.b, q.b}}) {
+                double d = double{x} - double{y};
+                squared += d * d / 3, relative += d * d / (double{y} * double{y} + 0.01) / 3;
+                differ = differ || (x == 1) != (y == 1);
+            }
+            errors.push_back({relative, squared});
+            cut_off += differ;
+            if (bright(q) > 0) ratios.push_back(bright(p) / bright(q));
+        }
+        std::sort(errors.begin(), errors.end());
+        std::sort(ratios.begin(), ratios.end());
+        for (double trim : {0.0, 10.0}) {
+            Comparison c = compare(a, b, trim);
+            size_t n = errors.size() - static_cast<size_t>(trim / 100 * 777);
+            double mse = 0, rel_mse = 0, worst = 0;
+            for (size_t i = 0; i < n; i++) {
+                mse += errors[i].second / static_cast<double>(n);
+                rel_mse += errors[i].first / static_cast<double>(n);
+                worst = std::max(worst, errors[i].second);
+            }
+            CHECK(c.mse == about(mse));
+            CHECK(c.rmse == about(std::sqrt(mse)));
+            CHECK(c.rel_mse == about(rel_mse));
+            CHECK(c.worst_share == about(worst / mse / static_cast<double>(n)));
+            CHECK(c.cut_off == cut_off);
+            size_t m = ratios.size() / 2;
+            CHECK(c.median_ratio ==
+                  about(ratios.size() % 2 ? ratios[m] : (ratios[m - 1] + ratios[m]) / 2));
+        }
+        // 5 x 3 blocks, of which the last column and row are 5 pixels wide.
+        Comparison c = compare(a, b);
+        CHECK(c.blocks == 15);
+        double variance = 0, worst = 0;
+        int beyond = 0, worst_x = 0, worst_y = 0;
+        for (int y0 = 0; y0 < height; y0 += 8)
+            for (int x0 = 0; x0 < width; x0 += 8) {
+                std::vector<double> d;
+                for (int y = y0; y < std::min(height, y0 + 8); y++)
+                    for (int x = x0; x < std::min(width, x0 + 8); x++)
+                        d.push_back(bright(a.at(x, y)) - bright(b.at(x, y)));
+                double n = static_cast<double>(d.size()), v = variance_of_mean(d);
+                variance += n * n * v;
+                double z = std::abs(mean_of(d)) / std::sqrt(v);
+                beyond += z > 5;
+                if (z > worst) worst = z, worst_x = x0, worst_y = y0;
+            }
+        CHECK(c.standard_error == about(std::sqrt(variance) / (width * height)));
+        CHECK(c.worst_z == about(worst, 1e-3));
+        CHECK(c.worst_x == worst_x);
+        CHECK(c.worst_y == worst_y);
+        CHECK(c.beyond_5 == beyond);
+        // The range of an error picture leaves one pixel of a hundred white.
+        double range = error_range(a, b);
+        Image picture = error_image(a, b, range);
+        auto white = std::count(picture.pixels.begin(), picture.pixels.end(), Rgb{1, 1, 1});
+        CHECK(white == 777 / 100 + 1);
+        CHECK(error_image(a, a, 0).pixels == Image(width, height).pixels);
+    }
+}

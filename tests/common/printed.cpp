@@ -1,0 +1,464 @@
+// What programs print and write beside pictures, to the last word: summaries, statistics, tables,
+// explained paths, and the reasons why a film does not fit.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "common/path/camera_sample.h"
+#include "common/picture/notes.h"
+#include "common/program/explain.h"
+#include "common/program/film_keeping.h"
+#include "common/program/results.h"
+#include "common/program/table.h"
+#include "tests/support/process.h"
+#include "tests/support/stand_ins.h"
+
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+/// A scene of 10 x 10 pixels, with a depth limit of 7.
+Scene small_scene() {
+    Scene scene = empty_scene(10, 10, 4);
+    scene.file = "a folder/b.pbrt";
+    scene.files_checksum = 0xabc;
+    scene.max_depth = 7;
+    return scene;
+}
+RenderOptions options_of(const std::string& folder) {
+    RenderOptions options;
+    options.name = "07_x";
+    options.command = "build/07_x --spp 4";
+    options.threads = 3;
+    options.seed = 5;
+    options.out = {folder + "/a.pfm"};
+    return options;
+}
+
+/// 4 samples in each pixel, but for the last `empty` ones: 1 +- 0.1 in red, twice that in green,
+/// nothing in blue.
+Rendering rendering_of(size_t empty = 0) {
+    Rendering r{Film(10, 10), {}, {}};
+    for (size_t i = 0; i + empty < 100; i++) {
+        for (int s = 0; s < 4; s++) {
+            float L = s % 2 == 0 ? 0.9f : 1.1f;
+            r.film.add(i, {L, 2 * L, 0});
+        }
+    }
+    r.stats.seconds = 2, r.stats.rays = 9'000'000, r.stats.rays_before = 1'000'000;
+    r.stats.samples_before = 200;
+    r.stats.largest = 1.1;
+    return r;
+}
+
+Finished written(const Scene& scene, const RenderOptions& options, const Rendering& r) {
+    return Process([&] { return write_results(scene, options, r); }).wait();
+}
+
+}  // namespace
+
+TEST_SUITE("printed") {
+    TEST_CASE("truth: the summary of a render, word by word") {
+        TemporaryFolder folder;
+        Scene scene = small_scene();
+        RenderOptions options = options_of(folder.path());
+        Rendering r = rendering_of();
+        // The error: variance 0.04 / 3 of a sample of 4, of 100 pixels.
+        std::string mean = "mean 1.000000 +- 0.005774\n";
+        std::string speed = "2.00 s, 0.00 M samples/s, 4.00 M rays/s, 3 threads\n";
+        std::string wrote = "wrote " + folder / "a.pfm" + "\n";
+        Finished end = written(scene, options, r);
+        CHECK(end.code == 0);
+        CHECK(end.err == "");
+        CHECK(end.out == "07_x  a folder/b.pbrt  10x10  4 spp\n" + mean + speed + wrote);
+
+        r.stats.interrupted = true, r.stats.paths_cut = 100;
+        r.warnings = {"one", "two"};
+        end = written(scene, options, r);
+        CHECK(end.code == 3);
+        CHECK(end.out == "07_x  a folder/b.pbrt  10x10  4 spp (interrupted)\n" + mean +
+                             "warning: one\nwarning: two\n" + speed +
+                             "depth limit 7 cut 25 % of the paths\n" + wrote);
+        r.stats.samples_before = 0, r.stats.seconds = 1e-5;
+        CHECK(written(scene, options, r).out.find(", 40.00 M samples/s, ") != std::string::npos);
+        options.quiet = true;
+        CHECK(written(scene, options, r).out == "");
+    }
+
+    TEST_CASE("truth: each figure of --stats is that of the film") {
+        TemporaryFolder folder;
+        Scene scene = small_scene();
+        RenderOptions options = options_of(folder.path());
+        options.quiet = true;
+        options.stats = folder / "s.json";
+        Rendering r = rendering_of(25);
+        r.stats.paths_cut = 12;
+        r.warnings = {"its own"};
+        CHECK(written(scene, options, r).code == 0);
+        std::string json = read_file(options.stats);
+        auto says = [&](const std::string& line) {
+            CAPTURE(json);
+            CAPTURE(line);
+            CHECK(json.find("\n  " + line) != std::string::npos);
+        };
+        says(
+            "\"scene\": \"a folder/b.pbrt\",\n  \"chapter\": \"07_x\",\n  \"width\": 10,\n  "
+            "\"height\": 10,\n  \"spp\": 3,\n  \"max_depth\": 7,\n  \"seed\": 5,\n");
+        says(
+            "\"threads\": 3,\n  \"seconds\": 2,\n  \"samples_per_second\": 50,\n  \"rays\": "
+            "9000000,\n  \"rays_per_second\": 4000000,\n  \"mean\": 1,\n");
+        says("\"standard_error\": 0.006666");
+        says(
+            "\"samples_not_finite\": 0,\n  \"pixels_not_finite_share\": 0,\n  "
+            "\"paths_cut_by_depth\": 12,\n  \"largest_sample\": 1.1,\n  "
+            "\"largest_sample_share\": 0.003666");
+        says("\"effective_samples\": 297.0297");
+        says(
+            "\"empty_pixels_share\": 0.25,\n  \"warnings\": [\"it ended before 25 % of the pixels "
+            "had a sample: they are black\", \"its own\"],\n  \"interrupted\": false\n}\n");
+        size_t rgb = json.find("\"mean_rgb\": [1, 2, 0],");
+        CHECK(rgb != std::string::npos);
+        // A picture without light has no sample that carries a share of it.
+        Rendering dark{Film(10, 10), {}, {}};
+        CHECK(written(scene, options, dark).code == 0);
+        CHECK(read_file(options.stats).find("\"largest_sample_share\": 0,") != std::string::npos);
+    }
+
+    TEST_CASE("truth: the notes of pictures, and those of --split, say what made them") {
+        TemporaryFolder folder;
+        Scene scene = small_scene();
+        RenderOptions options = options_of(folder.path());
+        options.out = {folder / "a.png"}, options.split = folder.path(), options.quiet = true;
+        options.map = folder / "m.png", options.sampler = SamplerType::stratified;
+        options.own = {{"m", "3"}};
+        Rendering r = rendering_of();
+        r.classes.emplace("LDE", r.film);
+        CHECK(written(scene, options, r).code == 0);
+        auto notes_of_file = [&](const std::string& name) {
+            return notes_in(decode_comment(name, read_file(folder / name)));
+        };
+        Notes notes = {{"chapter", "07_x"}, {"scene", "b.pbrt"}, {"checksum", "0000000000000abc"},
+                       {"size", "10x10"},   {"max-depth", "7"},  {"sampler", "stratified"},
+                       {"strata", "4"},     {"m", "3"},          {"spp", "4"},
+                       {"seed", "5"}};
+        for (const char* name : {"a.png", "m.png", "classes.png"}) {
+            CAPTURE(name);
+            CHECK(notes_of_file(name) == notes);
+        }
+        CHECK(value_of(notes_of_file("LDE.png"), "paths") == "LDE");
+        CHECK(folder.names() ==
+              std::set<std::string>{"a.png", "m.png", "classes.png", "LDE.png", "LDE.pfm"});
+        // The map of samples: colours up to four times the mean; the numbers in a .pfm.
+        Image colours = read_image(folder / "m.png");
+        CHECK(to_srgb8(colours.at(3, 3).b) == 255);
+        CHECK(to_srgb8(colours.at(3, 3).r) == 0);
+        options.map = folder / "m.pfm";
+        CHECK(written(scene, options, r).code == 0);
+        CHECK(read_image(options.map).at(3, 3) == Rgb{4, 4, 4});
+    }
+
+    TEST_CASE("truth: mean and error in words, known and unknown") {
+        CHECK(mean_and_error(rendering_of().film) == "mean 1.000000 +- 0.005774");
+        Film one(2, 1), uneven(2, 1);
+        for (size_t i : {0u, 1u}) one.add(i, {3, 3, 3}), uneven.add(i, {3, 3, 3});
+        CHECK(mean_and_error(one) == "mean 3.000000, standard error unknown (1 sample)");
+        uneven.add(0, {3, 3, 3});
+        CHECK(mean_and_error(uneven) == "mean 3.000000, standard error unknown");
+        one.add(0, {inf, 0, 0});
+        CHECK(mean_and_error(one) ==
+              "mean 3.000000, standard error unknown without the 50 % of the pixels that have "
+              "samples that are not finite");
+        one.add(1, {inf, 0, 0});
+        CHECK(mean_and_error(one) == "mean unknown: every pixel has samples that are not finite");
+    }
+
+    TEST_CASE("truth: the command to see a sample that is not finite is without film and part") {
+        TemporaryFolder folder;
+        RenderOptions options = options_of(folder.path());
+        options.quiet = true;
+        options.command = "build/07_x --film 'a b.film' --film-every=3 --spp 4 --part 1/2 a.pbrt";
+        Rendering r = rendering_of();
+        r.stats.not_finite = 2, r.stats.bad_x = 3, r.stats.bad_y = 4, r.stats.bad_sample = 6;
+        r.stats.interrupted = true;
+        Finished end = written(small_scene(), options, r);
+        CHECK(end.code == 1);
+        CHECK(end.err ==
+              "error: 2 samples were not finite; to see one: build/07_x --spp 4 a.pbrt --explain "
+              "3,4,6\n");
+    }
+
+    TEST_CASE("truth: tables are aligned for people, and have tabs for programs") {
+        Table table{{"name", "n", "long column"}, {{"a", "1000", "2"}, {"longer name", "1", ""}}};
+        CHECK(aligned(table) ==
+              "name            n  long column\n"
+              "a            1000            2\n"
+              "longer name     1\n");
+        CHECK(tab_separated(table) == "name\tn\tlong column\na\t1000\t2\nlonger name\t1\t\n");
+        CHECK(digits(1.23456789) == "1.2346");
+        CHECK(digits(1.23456789, 3) == "1.23");
+        CHECK(digits(NAN) == "unknown");
+        CHECK(digits(INFINITY) == "infinite");
+        CHECK(digits(-INFINITY) == "-infinite");
+        // y = 5 x^-0.5, x and y in no order.
+        std::vector<double> x = {100, 4, 9}, y = {0.5, 2.5, 5.0 / 3};
+        CHECK(fitted_slope(x, y) == doctest::Approx(-0.5).epsilon(1e-12).scale(0));
+        CHECK(fitted_slope({1, 4}, {1, 8}) == doctest::Approx(1.5).epsilon(1e-12).scale(0));
+    }
+
+    TEST_CASE("files: a table goes to the files that end in .tsv, the picture to the others") {
+        TemporaryFolder folder;
+        Table table{{"a", "b"}, {{"1", "2"}}};
+        Image picture(2, 1);
+        picture.at(1, 0) = {1, 1, 1};
+        TableOptions options;
+        options.out = {folder / "a.tsv", folder / "a.ppm", folder / "a.pfm"};
+        options.comment = comment_of({{"n", "3"}});
+        Finished end = Process([&] {
+                           write_results(options, table, "notes\n", picture);
+                           options.quiet = true;
+                           write_results(options, table, "notes\n", picture);
+                           return 0;
+                       }).wait();
+        CHECK(end.out == "a  b\n1  2\n\nnotes\n");
+        CHECK(read_file(folder / "a.tsv") == "a\tb\n1\t2\n");
+        CHECK(read_image(folder / "a.ppm").at(1, 0) == Rgb{1, 1, 1});
+        CHECK(read_image(folder / "a.pfm").at(1, 0) == Rgb{1, 1, 1});
+        CHECK(notes_in(decode_comment("a.ppm", read_file(folder / "a.ppm"))) == Notes{{"n", "3"}});
+    }
+
+    TEST_CASE("truth: an explained sample, with its splats, word by word") {
+        TemporaryFolder folder;
+        Scene scene = world_of("LightSource \"point\" Shape \"sphere\"", 4);
+        scene.file = "a.pbrt", scene.spp = 8, scene.max_depth = 3, scene.camera.o = {1, 2, -4};
+        RenderOptions options = options_of(folder.path());
+        options.explain_x = 1, options.explain_y = 2, options.explain_sample = 5;
+        Rgb far = {0, 0, 7}, near = {1, 1, 1}, met = {0.5f, 0.25f, 0}, connected = {1, 2, 4};
+        Rgb lost;
+        SplatTrace trace = [&](const Scene&, Ray, Splats& splats, Sampler& sampler,
+                               Recorder& recorder) {
+            std::printf("random %.9g\n", double{sampler.u1()});
+            recorder.emitted(met);
+            recorder.connected(connected, 2, 2, 0.125f);
+            splats.push_back({3, far}), recorder.connected(far, 3, 1, 1, 3);
+            splats.push_back({9, near}), recorder.connected(near, 2, 1, 1, 9);
+            return met + connected + lost;
+        };
+        auto explained = [&](bool halves = false) {
+            return Process([&] { return explain(scene, options, trace, halves); }).wait();
+        };
+        const std::string head = "pixel  vertex   found by  class    mis    R     G  B\n",
+                          first = "1,2         0  light met     LE      1  0.5  0.25  0\n",
+                          second = "1,2         0   s 2, t 2   LDDE  0.125    1     2  4\n",
+                          own_splat = "1,2         2   s 2, t 1    LDE      1    1     1  1\n",
+                          own_sum = "1,2                                sum  2.5  3.25  5\n",
+                          others =
+                              "3,0         3   s 3, t 1    LDE      1    0     0  7\n"
+                              "3,0                                sum    0     0  7\n",
+                          wrote = "wrote " + folder / "a.svg" + "\n";
+        Finished end = explained();
+        CHECK(end.code == 0);
+        CHECK(end.err == "");
+        // The numbers of a sample of this pixel, of which two have made the point on the film.
+        Sampler sampler(options.sampler, options.seed, 8);
+        sampler.start(9, 5);
+        Vec2 u = sampler.u2();
+        char begin[200];
+        std::snprintf(begin, sizeof begin,
+                      "random %.9g\npixel 1,2 sample 5 of a.pbrt: camera at (1, 2, -4), film point "
+                      "+%.4f +%.4f\n",
+                      double{sampler.u1()}, double{1 + u.x} - 1, double{2 + u.y} - 2);
+        CAPTURE(end.out);
+        CAPTURE(std::string(begin));
+        CHECK(end.out.starts_with(begin));
+        CHECK(end.out.find("No sample was named") == std::string::npos);
+        CHECK(end.out.find("\n    light met: adds (0.5, 0.25, 0), mis 1, class LE\n") !=
+              std::string::npos);
+        CHECK(end.out.substr(end.out.find("\n\n") + 2) ==
+              head + first + second + own_splat + own_sum + others + wrote);
+
+        // What is missing in the table is told, from a ten-thousandth on.
+        lost = {0, 0, 0.01f};
+        CHECK(explained().out.find(
+                  "warning: the sample is (2.5, 3.25, 12.01), though: the chapter has not "
+                  "reported a part\n") != std::string::npos);
+        lost = {0, 0, 0.0001f};
+        CHECK(explained().out.find("warning") == std::string::npos);
+        lost = {};
+
+        // With --paths only what counts; --quiet leaves the last line out; halves share numbers.
+        options.paths = "LD*E", options.quiet = true;
+        end = explained(true);
+        CHECK(end.out.substr(end.out.find("\n\n") + 2).ends_with(others));
+        options.paths = "LE", options.explain_sample = -1;
+        end = explained(true);
+        CHECK(end.out.find("\nNo sample was named: 0 is the first. --explain 1,2,S takes another "
+                           "one.\n") != std::string::npos);
+        CHECK(end.out.substr(end.out.find("\n\n") + 2) ==
+              "pixel  vertex   found by  class  mis    R     G  B\n"
+              "1,2         0  light met     LE    1  0.5  0.25  0\n"
+              "1,2                              sum  0.5  0.25  0\n");
+        options.explain_sample = 7;
+        start_sample(sampler, 9, 1, 3);
+        std::snprintf(begin, sizeof begin, "film point +%.4f", double{1 + sampler.u2().x} - 1);
+        CHECK(explained(true).out.find(begin) != std::string::npos);
+
+        // A sample that is not finite fails, where it counts.
+        met = {inf, 0, 0};
+        CHECK(explained(true).code == 1);
+        options.paths = "LDE";
+        CHECK(explained(true).code == 0);
+    }
+
+    TEST_CASE("truth: only samples of the picture are explained, with --time any") {
+        TemporaryFolder folder;
+        Scene scene = empty_scene(4, 3, 8);
+        RenderOptions options = options_of(folder.path());
+        SplatTrace trace = [](const Scene&, Ray, Splats&, Sampler&, Recorder&) { return Rgb{}; };
+        auto error = [&](int x, int y, int sample, double time, bool halves) {
+            options.explain_x = x, options.explain_y = y, options.explain_sample = sample;
+            options.time = time;
+            std::string text;
+            Finished end = Process([&] {
+                               text = error_of([&] { explain(scene, options, trace, halves); });
+                               std::fprintf(stderr, "%s", text.c_str());
+                               return 0;
+                           }).wait();
+            return end.err;
+        };
+        const std::string late =
+            "error: sample 8 is not one of the 8 of a pixel; they count from 0";
+        CHECK(error(3, 2, 7, 0, false) == "");
+        CHECK(error(3, 2, 8, 0, false) == late);
+        CHECK(error(3, 2, 8, 1, false) == "");
+        CHECK(error(3, 2, 8, 0, true) == "");
+        CHECK(error(4, 2, 7, 0, false) == "error: pixel 4,2 lies outside the picture of 4x3");
+        CHECK(error(3, 3, 7, 0, false) == "error: pixel 3,3 lies outside the picture of 4x3");
+    }
+
+    TEST_CASE("truth: the brightest sample is named with its share, and the command to see it") {
+        RenderOptions options = options_of("d");
+        options.explain_brightest = true;
+        options.command = "build/07_x --explain-brightest --spp 4 a.pbrt --explain-brightest";
+        Rendering r = rendering_of();
+        r.stats.largest_x = 3, r.stats.largest_y = 4, r.stats.largest_sample = 2;
+        r.stats.largest = 40;
+        auto printed = [&] {
+            Finished end = Process([&] {
+                               RenderOptions found = explain_brightest(options, r);
+                               std::printf("%d %d %d %d %d", found.explain, found.explain_brightest,
+                                           found.explain_x, found.explain_y, found.explain_sample);
+                               return 0;
+                           }).wait();
+            return end.out;
+        };
+        const std::string again =
+            "To see it again: build/07_x --explain 3,4,2 --spp 4 a.pbrt --explain 3,4,2\n\n"
+            "1 0 3 4 2";
+        CHECK(printed() ==
+              "Of 400 samples the brightest brings 40, 10 % of all light that counts here: paths "
+              "of class L.*D.*E, without lamps that are merely seen.\n" +
+                  again);
+        options.paths = "LDE";
+        CHECK(printed() ==
+              "Of 400 samples the brightest brings 40, 10 % of all light that counts here: that of "
+              "--paths.\n" +
+                  again);
+        r.stats.largest = 0;
+        CHECK(error_of([&] { explain_brightest(options, r); }) ==
+              "error: --explain-brightest: no path of class LDE brings light; --paths names "
+              "others");
+    }
+
+    TEST_CASE("truth: which samples are wanted, of all and of parts") {
+        Scene scene = empty_scene(4, 4, 10);
+        RenderOptions o;
+        o.seed = 3;
+        CHECK(wanted_samples(scene, o) == SampleRange{3, 0, 10});
+        o.parts = 3;
+        uint32_t next = 0;
+        for (int part : {1, 2, 3}) {
+            o.part = part;
+            SampleRange range = wanted_samples(scene, o);
+            CHECK(range.first == next);
+            next = range.last;
+        }
+        CHECK(next == 10);
+        o.parts = 10, o.part = 10;
+        CHECK(wanted_samples(scene, o) == SampleRange{3, 9, 10});
+        o.parts = 11;
+        CHECK(error_of([&] { wanted_samples(scene, o); }) ==
+              "error: --part: there are 10 samples, too few for 11 parts");
+        // With --time alone there is no last one; --spp ends it too.
+        o.part = o.parts = 1, o.time = 1;
+        CHECK(wanted_samples(scene, o) == SampleRange{3, 0, PixelSum::most});
+        o.spp = 6;
+        CHECK(wanted_samples(scene, o) == SampleRange{3, 0, 6});
+        o.spp = 0, o.parts = 2;
+        CHECK(wanted_samples(scene, o) == SampleRange{3, 0, 5});
+        o.parts = 1, o.time = 0;
+        scene.spp = (1 << 28) + 1;
+        CHECK(wanted_samples(scene, o).last == (1u << 28) + 1);
+        o.film = "a.film";
+        CHECK(error_of([&] { wanted_samples(scene, o); }) ==
+              "error: --film: a film holds at most 2^28 samples of a pixel");
+        scene.spp = 1 << 28;
+        CHECK(wanted_samples(scene, o).last == 1u << 28);
+    }
+
+    TEST_CASE("truth: a film goes on where its samples begin what is wanted, and says why not") {
+        TemporaryFolder folder;
+        Scene scene = small_scene();
+        RenderOptions options = options_of(folder.path());
+        options.film = folder / "a.film";
+        Rendering r = rendering_of();
+        r.stats.bad_seed = 0;
+        save_film(scene, options, r);
+        auto label = [&] { return read_film(options.film).label; };
+        CHECK(label().samples == std::vector<SampleRange>{{5, 0, 4}});
+        CHECK(label().goals.empty());  // all are there
+        auto go_on = [&](RenderOptions with) {
+            Rendering next{Film(10, 10), {}, {}};
+            std::string error = error_of([&] { continue_film(scene, with, next); });
+            CHECK((error == "") == (next.film.samples() == 400));
+            if (error == "") {
+                CHECK(next.begun == 4);
+                CHECK(next.stats.samples_before == 400);
+                CHECK(next.stats.rays_before == 9'000'000);
+                CHECK(next.stats.rays == 9'000'000);
+                CHECK(next.stats.largest == 1.1);
+            }
+            return error;
+        };
+        const std::string begin = options.film + ": error: it holds samples 0 to 3 of seed 5";
+        CHECK(go_on(options) == "");
+        scene.spp = 9;
+        CHECK(go_on(options) == "");
+        RenderOptions other = options;
+        other.part = 2, other.parts = 2;
+        CHECK(go_on(other) == begin +
+                                  ", which do not begin what is asked for: samples 4 to 8 of "
+                                  "seed 5");
+        scene.spp = 3;
+        CHECK(go_on(options) ==
+              begin + ", which do not begin what is asked for: samples 0 to 2 of seed 5");
+        scene.spp = 4;
+        LabeledFilm two = read_film(options.film);
+        two.label.samples.push_back({6, 0, 2});
+        write_film(options.film, two.label, two.film);
+        CHECK(go_on(options).starts_with(begin + " and others, which do not begin"));
+        // What is to come is in the film's goals; with --time alone nothing is.
+        scene.spp = 9;
+        save_film(scene, options, r);
+        CHECK(label().goals == std::vector<Goal>{{5, 9, 1}});
+        options.time = 3;
+        save_film(scene, options, r);
+        CHECK(label().goals.empty());
+        // A pixel that has more samples than others tells how many passes had begun.
+        r.film.add(0, {1, 1, 1});
+        save_film(scene, options, r);
+        CHECK(label().samples == std::vector<SampleRange>{{5, 0, 5}});
+        r.film = Film(10, 10);
+        save_film(scene, options, r);
+        CHECK(label().samples.empty());
+    }
+}
