@@ -13,43 +13,34 @@ namespace ch02 {
 struct Kind {
     PointSet set;
     const char *name, *edge, *smooth;  // slopes of the error in theory
-    uint32_t runs, largest;            // sets, and N, that it can afford
 };
 inline constexpr Kind kinds[] = {
-    {PointSet::uniform, "uniform", "-0.50", "-0.50", 256, 1 << 16},
-    {PointSet::jittered, "jittered", "-0.75", "-1.00", 256, 1 << 16},
-    {PointSet::rooks, "N-rooks", "-0.50", "-0.50", 256, 1 << 16},
-    {PointSet::poisson, "Poisson disc", "-0.50 at last", "-0.50 at last", 64, 1024},
-    {PointSet::repelled, "repelled", "unknown", "unknown", 64, 256},
-    {PointSet::halton, "Halton, shifted", "about -0.75", "about -0.84", 256, 1 << 16},
-    {PointSet::sobol, "Sobol, scrambled", "-0.75", "-1.50", 256, 1 << 16},
+    {PointSet::uniform, "uniform", "-0.50", "-0.50"},
+    {PointSet::jittered, "jittered", "-0.75", "-1.00"},
+    {PointSet::rooks, "N-rooks", "-0.50", "-0.50"},
 };
 
 struct Measurement {
-    double count = 0, pi = 0;  // means over the sets
-    double errors[3] = {};     // root mean square: of pi, of xy, of the penumbra
-    double seconds = 0;        // for one set
+    double pi = 0;          // mean over the sets
+    double errors[3] = {};  // root mean square: of pi, of xy, of the penumbra
+    double seconds = 0;     // for one set
 };
 
-/// Estimates from `runs` sets of about n points, against the truth.
+/// Estimates from `runs` sets of n points, against the truth.
 inline Measurement measure(PointSet set, uint32_t n, uint32_t runs, uint32_t seed) {
-    RunningStats count, pi_estimate, squares[3];
+    RunningStats pi_estimate, squares[3];
     Stopwatch watch;
     for (uint32_t run = 0; run < runs; run++) {
         Points points = make_points(set, n, hash32(seed, run));
         double p = (run + 0.5) / runs * (edge_a + edge_b);
         auto seen = [&](Vec2 u) { return sees_light(u, p); };
-        count.add(static_cast<double>(points.size()));
-        pi_estimate.add(estimate(points, quarter_circle));
-        squares[0].add(std::pow(estimate(points, quarter_circle) - std::numbers::pi, 2));
-        squares[1].add(std::pow(estimate(points, product) - 0.25, 2));
-        squares[2].add(std::pow(estimate(points, seen) - fraction_seen(p), 2));
+        pi_estimate.add(ch02::estimate(points, quarter_circle));
+        squares[0].add(std::pow(ch02::estimate(points, quarter_circle) - std::numbers::pi, 2));
+        squares[1].add(std::pow(ch02::estimate(points, product) - 0.25, 2));
+        squares[2].add(std::pow(ch02::estimate(points, seen) - fraction_seen(p), 2));
     }
     auto root_mean = [&](int k) { return std::sqrt(squares[k].mean()); };
-    return {count.mean(),
-            pi_estimate.mean(),
-            {root_mean(0), root_mean(1), root_mean(2)},
-            watch.seconds() / runs};
+    return {pi_estimate.mean(), {root_mean(0), root_mean(1), root_mean(2)}, watch.seconds() / runs};
 }
 
 /// Every kind of points with N = 16, 64, 256, ... up to n, and its efficiency for pi,
@@ -60,13 +51,13 @@ inline std::pair<Table, Table> compare_sets(uint64_t n, uint32_t seed) {
     Table slopes{{"slope of the error", "pi, penumbra", "theory", "xy", "theory"}, {}};
     for (const Kind& kind : kinds) {
         std::vector<double> counts, edge, smooth;
-        for (uint32_t N = 16; N <= std::min<uint64_t>(n, kind.largest); N *= 4) {
-            Measurement m = measure(kind.set, N, kind.runs, seed);
-            errors.rows.push_back({kind.name, digits(m.count, 4), digits(m.pi),
-                                   digits(m.errors[0], 3), digits(m.errors[1], 3),
-                                   digits(m.errors[2], 3), digits(m.seconds, 2),
+        for (uint32_t N = 16; N <= std::min<uint64_t>(n, 1 << 16); N *= 4) {
+            Measurement m = measure(kind.set, N, 256, seed);
+            errors.rows.push_back({kind.name, digits(N), digits(m.pi), digits(m.errors[0], 3),
+                                   digits(m.errors[1], 3), digits(m.errors[2], 3),
+                                   digits(m.seconds, 2),
                                    digits(std::pow(m.pi / m.errors[0], 2) / m.seconds, 2)});
-            counts.push_back(m.count);
+            counts.push_back(N);
             edge.push_back(std::sqrt(m.errors[0] * m.errors[2]));
             smooth.push_back(m.errors[1]);
         }
@@ -76,43 +67,55 @@ inline std::pair<Table, Table> compare_sets(uint64_t n, uint32_t seed) {
     return {errors, slopes};
 }
 
-/// 36 darts, thrown freely and into 6 x 6 strata.
+/// 36 darts, random and in 6 x 6 strata; and 23 darts, which no square grid has.
 inline std::string six_by_six(uint32_t seed) {
     double uniform = measure(PointSet::uniform, 36, 10000, seed).errors[0];
     double jittered = measure(PointSet::jittered, 36, 10000, seed).errors[0];
+    double any = measure(PointSet::jittered, 23, 10000, seed).errors[0];
     return "\n36 darts: standard error " + digits(uniform, 3) + " uniform (exact 0.274), " +
            digits(jittered, 3) + " in 6 x 6 strata (exact 0.127); ratio of variances " +
-           digits(uniform * uniform / (jittered * jittered), 3) + " (exact 4.62)\n";
+           digits(uniform * uniform / (jittered * jittered), 3) +
+           " (exact 4.62)\n23 darts: standard error " + digits(any, 3) +
+           " in 23 strata (uniform 0.342)\n";
 }
 
-/// A column for each kind: 64 points; the penumbra and a zone plate with 16 points in each pixel.
+/// The strata of one kind of n points, as lines.
+inline void draw_strata(const Panel& panel, PointSet set, uint32_t n, Rgb color) {
+    if (set == PointSet::uniform) return;
+    for (uint32_t i = 0; i < n; i++) {
+        Vec2 low = ch02::jitter_in_stratum(i, n, {0, 0});
+        Vec2 high = ch02::jitter_in_stratum(i, n, {1, 1});
+        if (set == PointSet::rooks) {  // column i and row i, all the way
+            float x = jitter_in_interval(i, n, 0);
+            panel.line({x, 0}, {x, 1}, color);
+            panel.line({0, x}, {1, x}, color);
+        } else {
+            panel.line(low, {low.x, high.y}, color);
+            panel.line(low, {high.x, low.y}, color);
+        }
+    }
+}
+
+/// A column for each kind: 36 points, 23 points, and the penumbra with 16 points for each pixel.
 inline Image sets_picture(uint32_t seed) {
-    constexpr int size = 76, gap = 4, sets = 256;
-    constexpr Rgb white{1, 1, 1}, paper{0.85f, 0.85f, 0.82f}, ink{0.05f, 0.2f, 0.55f};
+    constexpr int size = 151, gap = 6;
+    constexpr Rgb paper{0.85f, 0.85f, 0.82f}, lines{0.6f, 0.6f, 0.58f}, ink{0.05f, 0.2f, 0.55f};
     Image image(std::ssize(kinds) * (size + gap) - gap, 2 * (size + gap) + size / 3);
     std::fill(image.pixels.begin(), image.pixels.end(), paper);
     for (int k = 0; k < std::ssize(kinds); k++) {
-        int left = k * (size + gap);
-        Panel panel{image, left, 0, size, size};
-        for (Vec2 p : make_points(kinds[k].set, 64, seed)) panel.dot(p, 1.6f, ink);
-
-        std::vector<Points> pool;
-        for (uint32_t i = 0; i < sets; i++)
-            pool.push_back(make_points(kinds[k].set, 16, hash32(seed, i)));
-        uint32_t pixel = 0;  // each takes one set of the pool, by chance
-        auto average = [&](auto f) {
-            double value = estimate(pool[hash32(pixel++, seed) % sets], f);
-            return static_cast<float>(value) * white;
-        };
-        Panel penumbra{image, left, size + gap, size, size / 3, {0, 0}, {1.4f, 1}};
-        penumbra.fill(
-            [&](Vec2 x) { return average([&](Vec2 u) { return sees_light(u, double{x.x}); }); });
-        Panel zone_plate{image, left, size + size / 3 + 2 * gap, size, size, {0, 0}, {size, size}};
-        zone_plate.fill([&](Vec2 x) {  // rings whose period shrinks to one pixel at the border
-            return average([&](Vec2 u) {
-                double i = double{x.x} + double{u.x}, j = double{x.y} + double{u.y};
-                return std::cos(std::numbers::pi / size * (i * i + j * j)) > 0 ? 1 : 0;
-            });
+        int left = k * (size + gap), top = 0;
+        for (uint32_t n : {36u, 23u}) {
+            Panel panel{image, left, top, size, size};
+            draw_strata(panel, kinds[k].set, n, lines);
+            for (Vec2 p : make_points(kinds[k].set, n, seed)) panel.dot(p, 2.6f, ink);
+            top += size + gap;
+        }
+        Panel penumbra{image, left, top, size, size / 3, {0, 0}, {1.4f, 1}};
+        uint32_t pixel = 0;
+        penumbra.fill([&](Vec2 x) {
+            Points points = make_points(kinds[k].set, 16, hash32(seed, pixel++));
+            auto seen = [&](Vec2 u) { return sees_light(u, double{x.x}); };
+            return static_cast<float>(ch02::estimate(points, seen)) * Rgb{1, 1, 1};
         });
     }
     return image;

@@ -1,4 +1,4 @@
-// Chapter 02 as a program: compares the kinds of points in tables and in a picture.
+// Chapter 02 as a program: compares random points and strata in tables and in a picture.
 #include "chapters/02_stratification/figure.h"
 
 int main(int argc, char** argv) {

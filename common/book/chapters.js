@@ -7,6 +7,7 @@ const number = (name, label, value) => ({name, label, value});
 const chapters = {
     '01_monte_carlo_pi': {kind: 'table', n: 1 << 20},
     '02_stratification': {kind: 'table', n: 1024},
+    '03_point_sets': {kind: 'table', n: 1024},
     '04_importance': {kind: 'table', n: 1000000},
     '05_ray_casting': {kind: 'film', scene: 'cornell-spheres'},
     '06_bvh': {

@@ -1,4 +1,4 @@
-// in part taught by chapter 02 (strata, Sobol points); all chapters draw from the Sampler on top
+// in part taught by chapters 02 (strata) and 03 (Sobol points); all chapters draw from the Sampler
 // Random numbers as a pure function of (seed, pixel, sample, dimension).
 #pragma once
 #include <bit>
@@ -51,7 +51,7 @@ inline uint32_t reverse_bits(uint32_t x) {
 ///
 ///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
 ///
-/// Pascal's triangle mod 2 is its own quarter repeated, so that five steps multiply by all of it.
+/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: a step for each size of block.
 /// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points"
 inline uint32_t sobol_second(uint32_t index) {
     uint32_t x = reverse_bits(index);

@@ -4,6 +4,7 @@
 
 #include "chapters/01_monte_carlo_pi/estimator.h"
 #include "chapters/02_stratification/figure.h"
+#include "chapters/03_point_sets/figure.h"
 #include "chapters/04_importance/figure.h"
 #include "tests/measure/measure.h"
 
@@ -54,14 +55,12 @@ std::vector<LinePanel> darts(uint32_t largest, uint32_t runs) {
     return {over_n, over_t};
 }
 
-/// Chapter 02: every kind of point set on an edge, a smooth function and a penumbra.
-std::vector<LinePanel> point_sets(uint32_t largest, uint32_t runs) {
+/// Chapter 02: random points and strata on an edge, a smooth function and a penumbra.
+std::vector<LinePanel> strata(uint32_t largest, uint32_t runs) {
     std::vector<LinePanel> panels;
-    for (const std::string& axis : {samples, seconds}) {
-        for (const char* what : {"pi: an edge", "xy: smooth", "penumbra"}) {
+    for (const std::string& axis : {samples, seconds})
+        for (const char* what : {"pi: an edge", "xy: smooth", "penumbra"})
             panels.push_back({what, axis, error, {}});
-        }
-    }
     size_t color = 0;
     for (const ch02::Kind& kind : ch02::kinds) {
         for (size_t p = 0; p < panels.size(); p++) {
@@ -69,11 +68,36 @@ std::vector<LinePanel> point_sets(uint32_t largest, uint32_t runs) {
                 {kind.name, colors[color], p % 3 == 1 ? kind.smooth : kind.edge, {}, {}});
         }
         color++;
-        for (uint32_t n = 4; n <= std::min(largest, kind.largest); n *= 4) {
-            ch02::Measurement m = ch02::measure(kind.set, n, std::min(runs, kind.runs), n);
+        for (uint32_t n = 4; n <= largest; n *= 4) {
+            ch02::Measurement m = ch02::measure(kind.set, n, runs, n);
             for (size_t p = 0; p < panels.size(); p++) {
-                panels[p].lines.back().x.push_back(p < 3 ? m.count : m.seconds);
+                panels[p].lines.back().x.push_back(p < 3 ? n : m.seconds);
                 panels[p].lines.back().y.push_back(m.errors[p % 3]);
+            }
+        }
+    }
+    return panels;
+}
+
+/// Chapter 03: every kind of point set on edges and smooth functions in 1, 2 and 4 dimensions; over
+/// time those that one set is enough for.
+std::vector<LinePanel> point_sets(uint32_t largest, uint32_t runs) {
+    constexpr size_t integrand_of[] = {0, 1, 2, 3, 4, 5, 1, 2, 3}, over_n = 6;
+    std::vector<LinePanel> panels;
+    for (size_t k : integrand_of)
+        panels.push_back(
+            {ch03::integrands[k].name, panels.size() < over_n ? samples : seconds, error, {}});
+    size_t color = 0;
+    for (const ch03::Kind& kind : ch03::kinds) {
+        for (size_t p = 0; p < panels.size(); p++)
+            panels[p].lines.push_back(
+                {kind.name, colors[color], kind.theory[integrand_of[p]], {}, {}});
+        color++;
+        for (uint32_t n = 4; n <= std::min(largest, kind.largest); n *= 4) {
+            ch03::Measurement m = ch03::measure(kind.set, n, std::min(runs, kind.runs), n);
+            for (size_t p = 0; p < panels.size(); p++) {
+                panels[p].lines.back().x.push_back(p < over_n ? m.count : m.seconds);
+                panels[p].lines.back().y.push_back(m.errors[integrand_of[p]]);
             }
         }
     }
@@ -122,11 +146,15 @@ void chart_points(const std::string& folder, uint32_t largest, uint32_t runs) {
     std::vector<LinePanel> panels = darts(largest, runs);
     write(folder, "01-darts", "Four times the darts, half the error", panels, 2);
     std::printf("chapter 01\n%s\n", markdown(slopes_table({panels[0]})).c_str());
-    panels = point_sets(largest, runs);
-    write(folder, "02-points",
-          "Points that keep apart err less, most where the integrand is smooth", panels, 3);
+    panels = strata(largest, runs);
+    write(folder, "02-strata", "Strata lower the error most where the integrand is smooth", panels,
+          3);
     panels.resize(3);
     std::printf("chapter 02\n%s\n", markdown(slopes_table(panels)).c_str());
+    panels = point_sets(largest, runs);
+    write(folder, "03-points", "Even points help less in four dimensions than in two", panels, 3);
+    panels.resize(6);
+    std::printf("chapter 03\n%s\n", markdown(slopes_table(panels)).c_str());
     panels = densities(largest, runs);
     write(folder, "04-densities",
           "A density like x^2 errs least; one that leaves part of it out stays wrong", panels, 2);

@@ -11,7 +11,7 @@ def all_runs():
     def add(command):
         runs.append(command)
 
-    for chapter in ("01_monte_carlo_pi", "02_stratification", "04_importance"):
+    for chapter in ("01_monte_carlo_pi", "02_stratification", "03_point_sets", "04_importance"):
         add(f"$B/{chapter} --n 1000 --out a.pfm --out a.tsv")
         add(f"$B/{chapter} --n 36 --seed 2 --out a.png --quiet")
     for scene in ("cornell-spheres", "two-lights", "corner", "furnace"):

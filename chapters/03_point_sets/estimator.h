@@ -1,0 +1,204 @@
+// Chapter 03: point sets that are more even than strata, and how they fill many dimensions.
+#pragma once
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "common/path/points.h"
+
+namespace ch03 {
+
+/// From b to a the short way round the torus, on which opposite sides of the square meet.
+inline Vec2 torus_difference(Vec2 a, Vec2 b) {
+    float x = a.x - b.x, y = a.y - b.y;
+    return {x - std::floor(x + 0.5f), y - std::floor(y + 0.5f)};
+}
+
+/// The point of the square that p is on the torus.
+inline Vec2 wrap(Vec2 p) {
+    return {below_1(p.x - std::floor(p.x)), below_1(p.y - std::floor(p.y))};
+}
+
+enum class Rim { open, torus };
+
+/// Poisson disc by dart throwing: random points, none nearer than r to another.
+///
+/// Ends after `max_misses` darts in a row that were too near. The number of points is random:
+/// divide by that number. On the open square points crowd at the rim: a bias; the torus has none.
+/// source  Cook 1986      tested by  "failure: Poisson discs on the open square crowd at its rim"
+inline Points poisson_disc_points(float r, uint32_t max_misses, uint32_t seed,
+                                  Rim rim = Rim::torus) {
+    Points points;
+    for (uint32_t i = 0, misses = 0; r > 0 && misses < max_misses; i++) {
+        Vec2 dart = random_pair(seed, i);
+        bool near = false;
+        for (size_t k = 0; k < points.size() && !near; k++) {
+            Vec2 d = rim == Rim::torus ? torus_difference(dart, points[k])
+                                       : Vec2{dart.x - points[k].x, dart.y - points[k].y};
+            near = d.x * d.x + d.y * d.y < r * r;
+        }
+        if (!near) points.push_back(dart);
+        misses = near ? misses + 1 : 0;
+    }
+    return points;
+}
+
+/// The largest distance that n points on the torus can all keep: the hexagonal lattice.
+inline float hexagonal_distance(uint32_t n) {
+    return std::sqrt(2 / (std::sqrt(3.0f) * static_cast<float>(n)));
+}
+
+/// The sum of the pushes that p gets from all points nearer than `reach`: 1 - distance / reach.
+inline Vec2 repulsion(const Points& points, Vec2 p, float reach) {
+    Vec2 push;
+    for (Vec2 other : points) {
+        Vec2 d = torus_difference(p, other);
+        float distance = std::sqrt(d.x * d.x + d.y * d.y + 1e-12f);
+        float strength = std::max(0.0f, 1 - distance / reach) / distance;
+        push = {push.x + strength * d.x, push.y + strength * d.y};
+    }
+    return push;
+}
+
+/// Relaxation: random points push each other away until none moves, or `max_steps` times.
+///
+/// This is not Poisson disc: the points tend to a hexagonal lattice, which aliases.
+/// tested by  "failure: points that repel each other become a lattice"
+inline Points repelled_points(uint32_t n, int max_steps, uint32_t seed) {
+    Points points, moved(n);
+    for (uint32_t i = 0; i < n; i++) points.push_back(random_pair(seed, i));
+    float spacing = hexagonal_distance(n), farthest = infinity;
+    for (int step = 0; step < max_steps && farthest > 1e-3f * spacing; step++) {
+        farthest = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            Vec2 push = repulsion(points, points[i], 2 * spacing);
+            push = {0.2f * spacing * push.x, 0.2f * spacing * push.y};
+            farthest = std::max(farthest, std::abs(push.x) + std::abs(push.y));
+            moved[i] = wrap({points[i].x + push.x, points[i].y + push.y});
+        }
+        points.swap(moved);
+    }
+    return points;
+}
+
+/// The digits of i in `base`, mirrored at the point: 6 = 110 becomes 0.011 = 3/8 in base 2.
+///
+/// seed  0: the digits as they are; else each is permuted by a random function of the digits
+///       before it, which is Owen's scrambling in any base
+/// source  van der Corput 1935; Halton 1960
+/// tested by  "truth: radical inverses", "failure: Halton in bases 17 and 19 starts on a line"
+inline float radical_inverse(uint32_t base, uint32_t i, uint32_t seed = 0) {
+    double x = 0, place = 1;
+    for (uint32_t digits = seed; i > 0 || (seed != 0 && place > 0x1p-24); i /= base) {
+        uint32_t digit = seed == 0 ? i % base : permute(i % base, base, hash32(digits));
+        digits = hash32(digits, i % base);
+        place /= base;
+        x += place * digit;
+    }
+    return below_1(static_cast<float>(x));
+}
+
+/// n Halton points: bases 2 and 3 for the first pair of dimensions, 5 and 7 for the second. All
+/// are shifted by the same random vector, around the torus, so that each is uniform.
+/// tested by  "variance: shifted Halton points, pi and xy"
+inline Points halton_points(uint32_t pair, uint32_t n, uint32_t seed) {
+    constexpr uint32_t base[] = {2, 3, 5, 7};
+    Points points;
+    Vec2 shift = random_pair(seed, n + pair);
+    for (uint32_t i = 0; i < n; i++) {
+        Vec2 p = {radical_inverse(base[2 * pair], i), radical_inverse(base[2 * pair + 1], i)};
+        points.push_back(wrap({p.x + shift.x, p.y + shift.y}));
+    }
+    return points;
+}
+
+/// The second coordinate of the 2-D Sobol sequence as 32 bits; the first is reverse_bits(index).
+///
+///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
+///
+/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: a step for each size of block.
+/// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points"
+inline uint32_t sobol_second(uint32_t index) {
+    uint32_t x = reverse_bits(index);
+    x ^= (x << 16) & 0xffff0000u;
+    x ^= (x << 8) & 0xff00ff00u;
+    x ^= (x << 4) & 0xf0f0f0f0u;
+    x ^= (x << 2) & 0xccccccccu;
+    x ^= (x << 1) & 0xaaaaaaaau;
+    return x;
+}
+
+/// Owen's scrambling of a 32-bit fraction: each bit is flipped or not by a random function of the
+/// bits above it. The points stay as evenly spread as they were, and each becomes uniform.
+/// source  Laine, Karras 2011; constants: Vegdahl 2021
+inline uint32_t scramble_reversed(uint32_t x, uint32_t seed) {  // x: bits reversed
+    x ^= x * 0x3d20adeau;
+    x = (x + seed) * ((seed >> 16) | 1u);
+    x ^= x * 0x05526c56u;
+    return x ^ x * 0x53a22864u;
+}
+inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
+    return reverse_bits(scramble_reversed(reverse_bits(x), seed));
+}
+
+/// The first n points of the 2-D Sobol sequence, scrambled.
+/// tested by  "variance: Owen-scrambled Sobol points as with explicit nested scrambling"
+inline Points sobol_points(uint32_t n, uint32_t seed) {
+    Points points;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t x = owen_scramble(reverse_bits(i), hash32(seed, 1));
+        uint32_t y = owen_scramble(sobol_second(i), hash32(seed, 2));
+        points.push_back({to_unit_float(x), to_unit_float(y)});
+    }
+    return points;
+}
+
+enum class PointSet { uniform, jittered, poisson, repelled, halton, sobol };
+
+/// n points of a kind (Poisson disc: about n); another seed gives others, and over all seeds the
+/// points of each kind are uniform on the square.
+inline Points make_points(PointSet set, uint32_t n, uint32_t seed) {
+    if (set == PointSet::poisson)
+        return poisson_disc_points(std::sqrt(0.65f / static_cast<float>(n)), 1000, seed);
+    if (set == PointSet::repelled) return repelled_points(n, 100, seed);
+    if (set == PointSet::halton) return halton_points(0, n, seed);
+    if (set == PointSet::sobol) return sobol_points(n, seed);
+
+    Points points;
+    for (uint32_t i = 0; i < n; i++) {
+        Vec2 u = random_pair(seed, i);
+        points.push_back(set == PointSet::jittered ? jitter_in_stratum(i, n, u) : u);
+    }
+    return points;
+}
+
+/// The points in a random order, every order equally likely.      source  Fisher, Yates 1938
+inline Points shuffled(Points points, uint32_t seed) {
+    for (size_t left = points.size(); left > 1; left--) {
+        double u = double{random_pair(seed, static_cast<uint32_t>(left)).x};
+        std::swap(points[left - 1], points[static_cast<size_t>(u * static_cast<double>(left))]);
+    }
+    return points;
+}
+
+/// The second pair of dimensions, z and w, of points in four.
+///
+/// Halton has bases of its own for them. All others are a set of points for z and w in a random
+/// order, so that which (z, w) meets which (x, y) is random: in the same order, both pairs would
+/// fill their strata at the same time, and z would follow x.
+/// tested by  "variance: two pairs in a random order have the variance of random matching",
+///            "failure: two Sobol sets in the same order have a variance of 1/248 for any N"
+inline Points second_pair(PointSet set, uint32_t n, uint32_t seed) {
+    if (set == PointSet::halton) return halton_points(1, n, seed);
+    return shuffled(make_points(set, n, hash32(seed, 1)), hash32(seed, 2));
+}
+
+/// The estimate of the integral of f over four dimensions: (1/N) sum f(xy_i, zw_i).
+template <class Function>
+double estimate_4d(const Points& xy, const Points& zw, Function f) {
+    RunningStats stats;
+    for (size_t i = 0; i < std::min(xy.size(), zw.size()); i++) stats.add(f(xy[i], zw[i]));
+    return stats.mean();
+}
+
+}  // namespace ch03

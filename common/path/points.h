@@ -1,0 +1,36 @@
+// taught by chapter 02
+#pragma once
+#include <vector>
+
+#include "common/base/stats.h"
+#include "common/path/sampler.h"
+
+using Points = std::vector<Vec2>;  // on the unit square
+
+/// Pair number i of the independent random numbers of `seed`.
+inline Vec2 random_pair(uint32_t seed, uint32_t i) {
+    Sampler sampler(SamplerType::independent, seed, 1);
+    sampler.start(0, i);
+    return sampler.u2();
+}
+
+/// The largest float below 1 for what rounding took to 1.
+inline float below_1(float x) { return std::min(x, 0x1.fffffep-1f); }
+
+/// The estimate of the integral of f over the square: (1/N) sum f(x_i).
+///
+/// bias 0 for points that are uniform on the square. Points of one set are not independent: s^2/N
+/// is NOT the variance of the estimate. The spread of the estimates of many sets is.
+/// tested by  "failure: s^2/N is 4.7 times the variance of 6 x 6 strata"
+template <class Function>
+double estimate(const Points& points, Function f) {
+    RunningStats stats;
+    for (Vec2 p : points) stats.add(f(p));
+    return stats.mean();
+}
+
+/// Two integrands: a dart for pi, which jumps at the edge of the circle, and a smooth function.
+inline double quarter_circle(Vec2 x) {
+    return double{x.x} * double{x.x} + double{x.y} * double{x.y} <= 1 ? 4 : 0;  // integral pi
+}
+inline double product(Vec2 x) { return double{x.x} * double{x.y}; }  // integral 1/4
