@@ -4,31 +4,24 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        ch23::Settings s;
+        ch23::PhotonSettings s;
         std::vector<Option> extra = {
-            {"photons", "N", "paths from lights in each pass (default 100000)",
+            {"photons", "N", "light paths in each pass (default 100000)",
              [&](const std::string& text) {
-                 s.photons = static_cast<int>(parse_integer("photons", text, 1, 1'000'000));
+                 s.light_paths = static_cast<int>(parse_integer("photons", text, 1, 1'000'000));
              },
              "100000"},
-            {"gather", "final|direct|nearest",
-             "count photons one diffuse bounce on; where the eye looks; or there, k nearest",
+            {"gather", "final|direct",
+             "photons: one diffuse bounce behind what the camera sees, or right there",
              [&](const std::string& text) {
-                 auto i = parse_choice("gather", text, {"nearest", "direct", "final"});
-                 s.gather = static_cast<ch23::Gather>(i);
+                 s.final_gathering = parse_choice("gather", text, {"direct", "final"}) == 1;
              },
              "final"},
-            {"nearest", "K", "photons that the radius is to hold at first (default 50)",
+            {"radius", "METRES", "radius of the disk in which photons count (default by the scene)",
              [&](const std::string& text) {
-                 s.k = static_cast<size_t>(parse_integer("nearest", text, 3, 10'000));
+                 s.radius = static_cast<float>(parse_positive("radius", text));
              },
-             "50"},
-            {"kernel", "box|cone|epanechnikov", "how photons count by distance",
-             [&](const std::string& text) {
-                 auto i = parse_choice("kernel", text, {"box", "cone", "epanechnikov"});
-                 s.kernel = static_cast<ch23::Kernel>(i);
-             },
-             "epanechnikov"}};
+             "by the scene"}};
         RenderOptions options = parse_render_options(argc, argv, "23_photon_mapping",
                                                      "scenes/pool.pbrt", std::move(extra));
         options.search = LightSearch::photons;

@@ -59,10 +59,13 @@ const chapters = {
     },
     '23_photon_mapping': {
         kind: 'film', scene: 'pool', against: '21_bidirectional', spp: 8,
-        own: [number('photons', 'photons in each pass', 100000),
-              choice('gather', 'count photons', 'final', 'direct', 'nearest'),
-              number('nearest', 'photons in the first radius', 50),
-              choice('kernel', 'kernel', 'epanechnikov', 'cone', 'box')]
+        own: [number('photons', 'light paths in each pass', 100000),
+              choice('gather', 'gather photons', 'final', 'direct')]
+    },
+    '24_progressive_photons': {
+        kind: 'film', scene: 'pool', against: '23_photon_mapping', spp: 8,
+        own: [number('photons', 'light paths in each pass', 100000),
+              choice('gather', 'gather photons', 'final', 'direct')]
     },
     '26_radiosity': {
         kind: 'once', scene: 'cornell',

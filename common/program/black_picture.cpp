@@ -124,6 +124,7 @@ std::string of_search(LightSearch search, double chance) {
             return "paths begin at the lights, and few of them come to what the camera sees: more "
                    "samples, or a chapter whose paths begin at the camera";
         case LightSearch::photons:
+        case LightSearch::progressive_photons:
             return "photons begin at the lights, and few of them come to what the camera sees: "
                    "more photons, or a chapter whose paths begin at the camera";
         case LightSearch::aims:
@@ -172,7 +173,7 @@ std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions
     } else if (s.reach == Reach::through_glass) {
         causes.push_back(
             "light comes to what is in view only through glass, where aiming at a light does not "
-            "find it: chapters 20 to 23 do");
+            "find it: chapters 20 to 24 do");
     }
     if (s.reach != Reach::arrives && scene.max_depth == 1) {
         causes.push_back("with a depth of 1 light comes straight from the lights alone");

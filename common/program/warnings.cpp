@@ -118,9 +118,14 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     }
     if (options.search == LightSearch::photons) {
         lines.push_back(
-            "light is blurred as far as photons are counted, the less the more passes there are: "
-            "the "
-            "error does not know of it");
+            "photons blur light within their radius, however many passes there are: the reported "
+            "error does not include this bias");
+        return;
+    }
+    if (options.search == LightSearch::progressive_photons) {
+        lines.push_back(
+            "photons blur light within their radius, which shrinks from pass to pass: the "
+            "reported error does not include this bias");
         return;
     }
     auto any_material = [&](auto is) {

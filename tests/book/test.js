@@ -75,7 +75,7 @@ async function all_same_bytes(browser, chapters) {
         if (kind === 'film') words.push('--spp', '18', '--seed', '5');
         if (chapter === '26_radiosity') words.splice(0, 1, 'scenes/cornell.pbrt', '--patches', '200', '--shots', '50');
         const set = {scene: words[0].slice(7, -5), size, spp: 18, seed: 5, patches: 200, shots: 50};
-        if (chapter === '23_photon_mapping') set.photons = 2000, words.push('--photons', '2000');
+        if (chapter === '23_photon_mapping' || chapter === '24_progressive_photons') set.photons = 2000, words.push('--photons', '2000');
         await same_bytes(browser, chapter, set, words);
     }
 }

@@ -10,6 +10,7 @@
 #include "chapters/20_light_tracing/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
+#include "chapters/24_progressive_photons/estimator.h"
 #include "common/path/bidirectional.h"
 #include "common/path/distribution.h"
 #include "tests/support/known_lights.h"
@@ -143,10 +144,15 @@ std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
     traces.emplace_back("21", splat_trace_with<ch21::trace>(ch21::prepare(scene)));
     traces.emplace_back("21, fast",
                         splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)));
-    for (ch23::Gather gather : {ch23::Gather::direct, ch23::Gather::final}) {
-        PassTrace pass = ch23::photon_passes(scene, {.photons = 2000, .gather = gather});
-        pass.prepare(0, 1, [] { return false; });
-        add("23", pass.trace);
+    for (bool final : {false, true}) {
+        PassTrace of_23 =
+            ch23::photon_passes(scene, {.light_paths = 2000, .final_gathering = final});
+        PassTrace of_24 =
+            ch24::photon_passes(scene, {.light_paths = 2000, .final_gathering = final});
+        of_23.prepare(0, 1, [] { return false; });
+        of_24.prepare(9, 1, [] { return false; });
+        add("23", of_23.trace);
+        add("24", of_24.trace);
     }
     return traces;
 }

@@ -28,6 +28,7 @@ struct Case {
     }
     bool other_off(const char* probe) const { return other && other->off(probe); }
     bool other_right(const char* probe) const { return other && other->right(probe); }
+    bool by_photons() const { return chapter == 23 || chapter == 24; }
     bool noisy(const char* probe, double times) const {
         Quantity r = f.ratio(probe, "noise");
         return r.mean - 3 * r.se > times;
@@ -49,7 +50,7 @@ const std::vector<Rule> rules_of_paths = {
     {"box", "leak",
      "light leaks into a closed box: photons of other surfaces count (or rays start at the point "
      "itself, not just off the surface)",
-     [](const Case& c) { return c.chapter == 23 && c.leaks("box") && !c.f.leaks("box", "LDE"); }},
+     [](const Case& c) { return c.by_photons() && c.leaks("box") && !c.f.leaks("box", "LDE"); }},
     {"box", "leak",
      "light leaks into a closed box: rays start at the point itself, not just off the surface",
      [](const Case& c) { return c.leaks("box"); }},
@@ -98,10 +99,10 @@ const std::vector<Rule> rules_of_everything = {
                 c.ratio("room", "LDDE") > c.ratio("floor");
      }},
     {"sky", "LDE",
-     "light counts twice: it is aimed at, and met again by the ray that goes on to where photons "
-     "are counted",
+     "direct light counts twice: light sampling finds it, and so do photons, or the ray to the "
+     "point where photons are gathered",
      [](const Case& c) {
-         return c.chapter == 23 && c.ratio("floor") > 1.8 && c.ratio("sky") > 1.8;
+         return c.by_photons() && c.ratio("floor") > 1.8 && c.ratio("sky") > 1.8;
      }},
     {"sky", "LDE",
      "light that both ways find counts 3/2: what was aimed at counts in full, and what is met "

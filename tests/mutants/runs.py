@@ -30,11 +30,13 @@ def all_runs():
             sampler = ("independent", "stratified", "sobol")[(number + place) % 3]
             add(f"$B/{chapter} $S/{scene}.pbrt --size 20x16 --spp 8 --threads 1 --sampler {sampler}"
                 " --out a.pfm --stats a.json")
-    for scene in ("pool", "caustic", "cornell-spheres", "near-light"):
-        add(f"$B/23_photon_mapping $S/{scene}.pbrt --size 20x16 --spp 2 --photons 3000 --threads 1 --out a.pfm"
+    for number, scene in enumerate(("pool", "caustic", "cornell-spheres", "near-light")):
+        chapter = ("23_photon_mapping", "24_progressive_photons")[number % 2]
+        add(f"$B/{chapter} $S/{scene}.pbrt --size 20x16 --spp 2 --photons 3000 --threads 1 --out a.pfm"
             " --stats a.json")
-    for words in ("--gather direct --kernel cone", "--gather final --kernel box --nearest 20"):
-        add(f"$B/23_photon_mapping $S/cornell-spheres.pbrt --size 16x12 --spp 2 --photons 2000 {words} --out a.pfm")
+    for chapter in ("23_photon_mapping", "24_progressive_photons"):
+        for words in ("--gather direct", "--gather final --radius 20"):
+            add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 16x12 --spp 2 --photons 2000 {words} --out a.pfm")
     for words in ("", "--form-factors point --solver jacobi --show constant",
                   "--form-factors chance --solver gauss-seidel --show gather --spp 2",
                   "--shots 40 --every 20 --mesh a.ply"):

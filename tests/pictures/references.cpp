@@ -166,8 +166,8 @@ TEST_SUITE("references slow") {
             blocks_of(scene, trace_light_with<ch20::trace_light>(ch20::ends_of(scene)), 8, 32, 16);
         BlockMeans by_photons{128, 16};
         for (uint32_t seed = 1; seed <= 12; seed++) {
-            ch23::Settings settings{.seed = seed, .photons = 20000};
-            settings.r = 0.01f * scene.radius;
+            ch23::PhotonSettings settings{.seed = seed, .light_paths = 20000};
+            settings.radius = 0.01f * scene.radius;
             by_photons.add(
                 film_of(scene, ch23::photon_passes(scene, settings), 16, seed).film.image());
         }

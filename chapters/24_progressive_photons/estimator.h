@@ -1,0 +1,162 @@
+// Chapter 24: progressive photon mapping. The radius shrinks from pass to pass, slowly enough that
+// the photons in it, of all passes together, grow without end: bias and noise both go to 0.
+//
+//   (r_i+1 / r_i)^2 = (i + alpha) / (i + 1),    i = 1, 2, ...:    r_i ~ i^((alpha - 1) / 2)
+#pragma once
+#include <memory>
+
+#include "common/light/pdf_one_light.h"
+#include "common/path/mis.h"
+#include "common/path/photons.h"
+#include "common/path/trace.h"
+
+namespace ch24 {
+
+using glossy_bsdf::pdf_bsdf;
+
+/// The weight of a photon at distance d, by Epanechnikov: 1 on average over the disk.
+inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
+
+/// Estimates the light that x reflects from the photons of a map that are near to x.
+///
+///   Lo = rho / pi  sum over photons nearer than r of  K(d / r) flux / (pi r^2)
+///
+/// Photons count only if they lie on the same surface: their normal is within 45 degrees, and they
+/// are in a disk that is an eighth as thick as it is wide. `depth`: scattering events that are
+/// left. Biased: the mean over the disk. At the edge of a surface half of the disk is empty.
+/// source  Jensen 1996      tested by  "truth: light at an edge and in a corner"
+inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, int depth,
+                  Recorder& recorder) {
+    Rgb sum;
+    float r = map.radius();
+    map.for_each_near(x.p, [&](const Photon& photon, Vec3 v) {
+        bool same_surface = dot(photon.ng, x.ng) > std::numbers::sqrt2_v<float> / 2;
+        if (!same_surface || std::abs(dot(v, x.ng)) > r / 8) return;
+        if (photon.depth > depth) return;
+        Rgb flux = kernel(dot(v, v) / (r * r)) * photon.flux;
+        sum += flux;
+        recorder.photon(flux, maps, photon);
+    });
+    Rgb scale = x.material->reflectance / (pi * pi * r * r);
+    recorder.gathered(scale);
+    return scale * sum;
+}
+
+/// Estimates the light that travels from the lights straight to x and on to wo. Where x is rough
+/// metal, BSDF sampling may find the same light.      Ld = mis_l f Le V cos / pdf_l
+inline Rgb direct_light(const Scene& scene, const Ends& ends, const Hit& x, Vec3 wo, LightNumbers u,
+                        Recorder& recorder) {
+    if (is_specular(*x.material)) return {};
+    LightSample y = sample_light(scene, ends.lights, x, u.light, u.point);
+    if (y.pdf_w == 0) return {};
+    float pdf_b = is_diffuse(*x.material) || y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
+    float mis_l = power_heuristic(y.pdf_w, pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
+    recorder.direct(Ld, y.wi, y.pdf_w, pdf_b, mis_l);
+    return Ld;
+}
+
+/// The weight of emission that a camera path finds at y. `last`: its last vertex that is neither
+/// mirror nor glass, if there is one. Behind a diffuse vertex light sampling and the caustic map
+/// find all of this light: 0.
+inline float mis_emission(const Scene& scene, const Ends& ends, const std::optional<Hit>& last,
+                          Vec3 wi, float pdf_b, const std::optional<Hit>& y) {
+    if (last && is_diffuse(*last->material)) return 0;
+    if (!last || pdf_b == infinity) return 1;
+    size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
+    float pdf_one = y ? pdf_one_light(scene, light, *last, *y) : pdf_sky(*last, wi);
+    return power_heuristic(pdf_b, pmf_light(ends.lights, light) * pdf_one);
+}
+
+/// Pass two: estimates Li along the ray. The path goes on over mirrors, glass and rough metal to a
+/// diffuse vertex, and gathers photons there or (final gathering) at the next one.
+///
+/// Biased, as photons count near a point and not at it: the bias of the mean of all passes goes
+/// to 0 as the radius does.
+/// source  Knaus, Zwicker 2011      tested by  "ch24 progressive photons"
+inline Rgb trace(const Scene& scene, const Ends& ends, const PhotonMaps& maps, Ray ray,
+                 Sampler& sampler, Recorder& recorder) {
+    Rgb L, beta = {1, 1, 1};
+    std::optional<Hit> last;  // the last vertex that is neither mirror nor glass
+    float pdf_b = infinity;   // of the ray's direction: a mirror and the camera draw no other
+    bool is_last = !maps.final_gathering;  // the next diffuse vertex ends the path
+    for (int depth = 0;; depth++) {
+        // Find the next vertex, and the light that it emits.
+        std::optional<Hit> x = intersect(scene, ray);
+        recorder.vertex(x);
+        Rgb Le = x ? emission(scene, *x) : scene.sky;
+        if (!is_black(Le)) {
+            float mis_b = mis_emission(scene, ends, last, ray.d, pdf_b, x);
+            L += beta * Le * mis_b;
+            recorder.emitted(Le, mis_b);
+        }
+        if (!x) return L;
+        if (depth == scene.max_depth) {
+            recorder.cut();
+            return L;
+        }
+
+        // Gather photons: of all light, where the path ends; else of caustics.
+        if (is_diffuse(*x->material)) {
+            const PhotonMap& map = is_last ? maps.global : maps.caustic;
+            L += beta * gather(maps, map, *x, scene.max_depth - depth, recorder);
+            if (is_last) return L;
+            is_last = true;
+        }
+
+        // Sample a light.
+        Vec3 wo = -ray.d;
+        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        L += beta * direct_light(scene, ends, *x, wo, u, recorder);
+
+        // Sample the BSDF, and go on.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+        float u_q = sampler.u1();
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        recorder.scatter(s, beta);
+        float q = survival_probability(beta, depth);
+        if (u_q >= q) return L;
+        beta /= q;
+        recorder.roulette(q, beta);
+        if (!s.specular) last = *x;
+        pdf_b = s.specular ? infinity : s.pdf_w;
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+/// The radius of a pass, of all points alike. The first one: what the user asks for, or a share of
+/// the scene's radius.
+///
+///   (r_i+1 / r_i)^2 = (i + alpha) / (i + 1),    alpha = 2/3:    r_i ~ i^(-1/6)
+///
+/// After N passes bias^2 ~ r^4 ~ N^(-2/3), and variance ~ 1 / (N r^2) ~ N^(-2/3).
+/// source  Hachisuka et al. 2008; Knaus, Zwicker 2011      tested by  "truth: radii shrink"
+inline float radius_of(const Scene& scene, const PhotonSettings& settings, uint32_t pass) {
+    constexpr double alpha = 2.0 / 3;
+    double r2 = 1;  // over the square of the first radius
+    for (double i = 1; i <= pass; i++) r2 *= (i + alpha) / (i + 1);
+    float first = settings.radius > 0 ? settings.radius : scene.radius / 80;
+    return first * static_cast<float>(std::sqrt(r2));
+}
+
+/// The chapter's passes: new photons and a smaller radius for each sample of all pixels.
+inline PassTrace photon_passes(const Scene& scene, const PhotonSettings& settings) {
+    auto ends = std::make_shared<Ends>(ends_of(scene));
+    auto maps = std::make_shared<PhotonMaps>();
+    auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
+        auto vertices = trace_light_paths(scene, *ends, settings, pass, threads, stopped);
+        float radius = radius_of(scene, settings, pass);
+        *maps = build_maps(std::move(vertices), radius, settings.final_gathering);
+    };
+    auto trace_pass = [=](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder)
+        __attribute__((flatten)) {
+        return trace(s, *ends, *maps, ray, sampler, recorder);
+    };
+    return {begin, trace_pass};
+}
+
+}  // namespace ch24

@@ -1,0 +1,33 @@
+// Chapter 24 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/24_progressive_photons/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        PhotonSettings s;
+        std::vector<Option> extra = {
+            {"photons", "N", "light paths in each pass (default 100000)",
+             [&](const std::string& text) {
+                 s.light_paths = static_cast<int>(parse_integer("photons", text, 1, 1'000'000));
+             },
+             "100000"},
+            {"gather", "final|direct",
+             "photons: one diffuse bounce behind what the camera sees, or right there",
+             [&](const std::string& text) {
+                 s.final_gathering = parse_choice("gather", text, {"direct", "final"}) == 1;
+             },
+             "final"},
+            {"radius", "METRES",
+             "the first pass's radius of the disk in which photons count (default by the scene)",
+             [&](const std::string& text) {
+                 s.radius = static_cast<float>(parse_positive("radius", text));
+             },
+             "by the scene"}};
+        RenderOptions options = parse_render_options(argc, argv, "24_progressive_photons",
+                                                     "scenes/pool.pbrt", std::move(extra));
+        options.search = LightSearch::progressive_photons;
+        Scene scene = load(options);
+        s.sampler = options.sampler, s.seed = options.seed;
+        return render(scene, options, ch24::photon_passes(scene, s));
+    });
+}

@@ -1,0 +1,121 @@
+// taught by chapter 23
+// The photons of a pass, and a hash grid that finds those near to a point.
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+/// The flux that a path from a light has left at one point of a diffuse surface.
+struct Photon {
+    Vec3 p, ng;           // m; unit, on the side where the light arrived
+    Rgb flux;             // W
+    int depth = 0;        // scattering events on the path, the one at p included
+    uint32_t vertex = 0;  // its place among the vertices of all light paths
+};
+
+/// A hash grid: the photons sorted by the cubic cell that they lie in.
+///
+/// Cells have sides of twice the radius, so a ball of that radius reaches into 8 of them at most.
+/// A table holds where the photons of each cell begin. Cells far apart may share an entry: their
+/// photons are farther away than the radius.
+/// source  Teschner et al. 2003      tested by  "brute: photons near a point"
+class PhotonMap {
+public:
+    PhotonMap() = default;
+    PhotonMap(const std::vector<Photon>& photons, float radius)
+        : radius_(radius), photons_(photons.size()) {
+        // Count the photons of each entry; make that the end of each entry; fill from the end.
+        begin_.resize(std::max(std::bit_ceil(photons.size()), size_t{32}) + 1);
+        for (const Photon& photon : photons) begin_[entry_of(cell_of(photon.p))]++;
+        for (size_t i = 1; i < begin_.size(); i++) begin_[i] += begin_[i - 1];
+        for (size_t i = photons.size(); i-- > 0;) {
+            photons_[--begin_[entry_of(cell_of(photons[i].p))]] = photons[i];
+        }
+    }
+
+    size_t size() const { return photons_.size(); }
+    float radius() const { return radius_; }
+
+    /// Calls work(photon, v) for each photon nearer to p than the radius; v: from p to the photon.
+    template <class Work>
+    void for_each_near(Vec3 p, const Work& work) const {
+        if (photons_.empty()) return;
+        Cell low = cell_of(p - Vec3{radius_, radius_, radius_});
+        for (uint64_t i = 0; i < 8; i++) {
+            size_t entry = entry_of({low.x + (i & 1), low.y + (i >> 1 & 1), low.z + (i >> 2)});
+            for (size_t j = begin_[entry]; j < begin_[entry + 1]; j++) {
+                Vec3 v = photons_[j].p - p;
+                if (dot(v, v) < radius_ * radius_) work(photons_[j], v);
+            }
+        }
+    }
+
+private:
+    /// Numbers of a cell along the axes, modulo 2^64.
+    struct Cell {
+        uint64_t x, y, z;
+    };
+    Cell cell_of(Vec3 p) const {
+        // A little more than twice the radius, so that rounding loses no photon.
+        double per_m = 1 / (2.001 * double{radius_});
+        auto number = [&](float a) {
+            double cell = std::clamp(std::floor(per_m * double{a}), -1e18, 1e18);
+            return static_cast<uint64_t>(static_cast<int64_t>(cell));
+        };
+        return {number(p.x), number(p.y), number(p.z)};
+    }
+    /// The factors are 3 and 9 modulo 32. So 8 neighbours have 8 different entries, and no photon
+    /// is found twice.
+    size_t entry_of(Cell c) const {
+        return (c.x + 73856099 * c.y + 83493257 * c.z) & (begin_.size() - 2);
+    }
+
+    float radius_ = 0;  // m
+    std::vector<Photon> photons_;
+    std::vector<uint32_t> begin_;  // of each entry, among the photons
+};
+
+inline bool is_diffuse(const Material& m) { return m.type == MaterialType::diffuse; }
+
+/// A vertex of a path from a light. Where the surface is diffuse it is a photon.
+struct LightVertex {
+    Vec3 p, ng;  // m; unit, on the side where the light arrived
+    Rgb flux;    // W, of a photon
+    int depth;   // scattering events on the path, this one included
+    const Material* material;
+};
+
+/// The photons of one pass, and how they are gathered.
+struct PhotonMaps {
+    bool final_gathering;               // at the second diffuse vertex, and not at the first
+    std::vector<LightVertex> vertices;  // of all light paths, one path after the other
+    PhotonMap global, caustic;          // all photons; those of paths LS+D alone
+
+    /// The light path of a photon, from the first vertex behind the light to the photon itself.
+    std::span<const LightVertex> path_of(const Photon& photon) const {
+        size_t events = static_cast<size_t>(photon.depth), end = photon.vertex + size_t{1};
+        return {vertices.data() + (end - events), events};
+    }
+};
+
+/// Sorts the photons among these vertices into the two maps.
+inline PhotonMaps build_maps(std::vector<LightVertex> vertices, float radius,
+                             bool final_gathering) {
+    std::vector<Photon> global, caustic;
+    bool only_specular = true;  // so far, on this path
+    for (uint32_t i = 0; i < vertices.size(); i++) {
+        const LightVertex& v = vertices[i];
+        if (v.depth == 1) only_specular = true;
+        if (is_diffuse(*v.material)) {
+            global.push_back({v.p, v.ng, v.flux, v.depth, i});
+            if (only_specular && v.depth > 1) caustic.push_back(global.back());
+        }
+        only_specular = only_specular && is_specular(*v.material);
+    }
+    return {final_gathering, std::move(vertices), PhotonMap(global, radius),
+            PhotonMap(caustic, radius)};
+}

@@ -1,0 +1,78 @@
+// taught by chapter 23
+// Pass one of photon mapping: light paths, and the flux that they bring to each vertex.
+#pragma once
+#include "common/base/parallel.h"
+#include "common/path/camera_sample.h"
+#include "common/path/light_paths.h"
+#include "common/path/photon_map.h"
+#include "common/path/roulette.h"
+
+/// What the user asks for.
+struct PhotonSettings {
+    SamplerType sampler = SamplerType::independent;
+    uint32_t seed = 0;
+    int light_paths = 100000;  // in each pass
+    bool final_gathering = true;
+    float radius = 0;  // m, of the disk around a point in which photons count; 0: by the scene
+};
+
+/// Traces one of so many light paths, and stores the flux that arrives at each diffuse vertex.
+///
+///   flux = Le cos_y / (pmf pdf_A pdf_w paths) beta
+///
+/// Flux arrives in proportion to |wi.ng|, but a camera path multiplies by wi.n, where n is the
+/// smoothed normal: so the photon carries the flux times their ratio.
+/// source  Jensen 1996      tested by  "truth: irradiance of all lights, by photons alone"
+inline void trace_light_path(const Scene& scene, const Ends& ends, int paths, Sampler& sampler,
+                             std::vector<LightVertex>& vertices) {
+    if (scene.lights.empty()) return;
+    double u = join(sampler.u2());
+    Vec2 u_y = sampler.u2();
+    Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
+    float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
+    Rgb beta = {1, 1, 1};
+    Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w * static_cast<float>(paths)));
+    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
+    for (int depth = 1; depth <= scene.max_depth; depth++) {
+        // Find the next vertex, and store it.
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x) return;
+        Vec3 wi = -ray.d;
+        float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
+        vertices.push_back({x->p, x->ng, flux * beta * cosines, depth, x->material});
+
+        // Go on as in chapter 20.
+        float u1 = sampler.u1();
+        BsdfSample s = sample_light_bsdf(scene, *x, wi, u1, sampler.u2());
+        float u_q = sampler.u1();
+        if (s.pdf_w == 0) return;
+        beta *= s.f / s.pdf_w;
+        float q = survival_probability(beta, depth - 1);
+        if (is_black(beta) || u_q >= q) return;
+        beta /= q;
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+/// Whether the user wants the program to end.
+using Stopped = std::function<bool()>;
+
+/// Pass one: traces the light paths. The order of the vertices does not depend on threads.
+inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Ends& ends,
+                                                  const PhotonSettings& settings, uint32_t pass,
+                                                  int threads, const Stopped& stopped) {
+    constexpr int at_once = 1024;
+    int paths = settings.light_paths, parts = (paths + at_once - 1) / at_once;
+    std::vector<std::vector<LightVertex>> of_part(static_cast<size_t>(parts));
+    parallel_for(parts, threads, [&](int part) {
+        if (stopped()) return;
+        Sampler sampler(settings.sampler, settings.seed, static_cast<uint32_t>(paths));
+        for (int i = part * at_once; i < std::min((part + 1) * at_once, paths); i++) {
+            start_sample(sampler, pass, 1, static_cast<uint32_t>(i));
+            trace_light_path(scene, ends, paths, sampler, of_part[static_cast<size_t>(part)]);
+        }
+    });
+    std::vector<LightVertex> vertices;
+    for (const auto& some : of_part) vertices.insert(vertices.end(), some.begin(), some.end());
+    return vertices;
+}

@@ -1,0 +1,116 @@
+// Chapter 24: photons whose radius shrinks from pass to pass.
+#include <doctest/doctest.h>
+
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
+// In this order: names of a lower chapter must not be found by way of a higher one.
+#include "chapters/24_progressive_photons/estimator.h"
+#include "tests/support/photons.h"
+
+namespace {
+
+/// The chapter's picture of a scene.
+Film film_by(const Scene& scene, PhotonSettings settings, int spp, uint32_t seed = 1, int part = 1,
+             int parts = 1) {
+    Scene of_spp = scene;
+    of_spp.spp = spp;
+    RenderOptions options;
+    options.seed = settings.seed = seed;
+    options.threads = 2, options.quiet = true, options.part = part, options.parts = parts;
+    return render_film(of_spp, options, ch24::photon_passes(of_spp, settings)).film;
+}
+
+}  // namespace
+
+TEST_SUITE("ch24 radius") {
+    TEST_CASE("truth: radii shrink as (i + alpha) / (i + 1)") {
+        Scene scene;
+        PhotonSettings settings{.radius = 3};
+        auto radius = [&](uint32_t pass) {
+            return double{ch24::radius_of(scene, settings, pass)} / 3;
+        };
+        CHECK(radius(0) == 1);
+        for (uint32_t pass = 1; pass < 1000; pass++) {
+            double ratio = radius(pass) / radius(pass - 1);
+            CHECK(ratio * ratio ==
+                  doctest::Approx((pass + 2.0 / 3) / (pass + 1.0)).epsilon(1e-5).scale(0));
+        }
+        double slope = std::log10(radius(100000) / radius(10000));
+        CHECK(slope == doctest::Approx(-1.0 / 6).epsilon(1e-3).scale(0));
+    }
+
+    TEST_CASE("identity: without --radius it goes by the size of the scene") {
+        Scene small, large;
+        small.radius = 1, large.radius = 1000;
+        for (uint32_t pass : {0u, 7u}) {
+            float r = ch24::radius_of(small, {}, pass);
+            CHECK(r > 0);
+            CHECK(ch24::radius_of(large, {}, pass) ==
+                  doctest::Approx(1000 * r).epsilon(1e-6).scale(0));
+        }
+    }
+}
+
+TEST_SUITE("ch24 progressive photons") {
+    TEST_CASE("identity: each pass is one of chapter 23 with that pass's radius") {
+        for (const char* name : {"cornell-spheres", "veach-mis"}) {
+            Scene scene = scene_from(std::string("scenes/") + name + ".pbrt", 12, 5);
+            CameraView view = camera_view(scene.camera, scene.width, scene.height);
+            for (bool final_gathering : {false, true}) {
+                PhotonSettings of_24{.light_paths = 20000, .final_gathering = final_gathering};
+                for (uint32_t pass : {0u, 1u, 20u}) {
+                    ch23::PhotonSettings of_23{.light_paths = 20000,
+                                               .final_gathering = final_gathering,
+                                               .radius = ch24::radius_of(scene, of_24, pass)};
+                    PassTrace a = ch23::photon_passes(scene, of_23);
+                    PassTrace b = ch24::photon_passes(scene, of_24);
+                    a.prepare(pass, 2, [] { return false; });
+                    b.prepare(pass, 2, [] { return false; });
+                    int lit = 0;
+                    for (int i = 0; i < 144; i++) {
+                        Sampler for_a(SamplerType::independent, 1, 1), for_b = for_a;
+                        start_sample(for_a, static_cast<size_t>(i), 0, pass);
+                        start_sample(for_b, static_cast<size_t>(i), 0, pass);
+                        Ray ray = camera_sample(view, i % 12, i / 12, for_a).ray;
+                        camera_sample(view, i % 12, i / 12, for_b);
+                        Recorder recorder;
+                        Rgb L = a.trace(scene, ray, for_a, recorder);
+                        CHECK(L == b.trace(scene, ray, for_b, recorder));
+                        lit += !is_black(L);
+                    }
+                    CHECK(lit > 20);
+                }
+            }
+        }
+    }
+
+    TEST_CASE("identity: parts add up to the whole: a pass's radius goes by its number alone") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
+        PhotonSettings settings{.light_paths = 1000};
+        Film whole = film_by(scene, settings, 7), sum = film_by(scene, settings, 7, 1, 2, 3);
+        sum.add(film_by(scene, settings, 7, 1, 3, 3));
+        sum.add(film_by(scene, settings, 7, 1, 1, 3));
+        CHECK(sum.image().pixels == whole.image().pixels);
+        CHECK(sum.standard_error() == whole.standard_error());
+    }
+}
+
+TEST_SUITE("ch24 progressive photons slow") {
+    TEST_CASE("truth: bias and noise together go to 0 as N^(-2/3)") {
+        Scene scene = bulb_over_a_floor();
+        Film exact = film_of(scene, trace_with<ch15::trace>(ch15::prepare(scene)), 40000).film;
+        PhotonSettings settings{.light_paths = 1000, .final_gathering = false, .radius = 0.4f};
+        auto error = [&](int spp) {
+            RunningStats mse;
+            for (uint32_t seed = 1; seed <= 24; seed++) {
+                mse.add(mean_squared_error(film_by(scene, settings, spp, seed), exact));
+            }
+            return mse.mean();
+        };
+        double first = error(32), last = error(2048);
+        double slope = std::log(last / first) / std::log(64.0);
+        CAPTURE(first);
+        CAPTURE(last);
+        CHECK(slope == doctest::Approx(-2.0 / 3).epsilon(0.12).scale(0));
+    }
+}
