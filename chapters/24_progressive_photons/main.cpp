@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
              "by the scene"}};
         RenderOptions options = parse_render_options(argc, argv, "24_progressive_photons",
                                                      "scenes/pool.pbrt", std::move(extra));
-        options.search = LightSearch::progressive_photons;
+        options.search = LightSearch::photons;
         Scene scene = load(options);
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch24::photon_passes(scene, s));

@@ -124,7 +124,6 @@ std::string of_search(LightSearch search, double chance) {
             return "paths begin at the lights, and few of them come to what the camera sees: more "
                    "samples, or a chapter whose paths begin at the camera";
         case LightSearch::photons:
-        case LightSearch::progressive_photons:
             return "photons begin at the lights, and few of them come to what the camera sees: "
                    "more photons, or a chapter whose paths begin at the camera";
         case LightSearch::aims:

@@ -97,9 +97,7 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     uint32_t number = static_cast<uint32_t>(halves ? s / 2 : s);
     start_sample(sampler, pixel, halves ? s % 2 : 0, number);
-    bool by_photons = options.search == LightSearch::photons ||
-                      options.search == LightSearch::progressive_photons;
-    PathStory story(scene.max_depth, by_photons);
+    PathStory story(scene.max_depth, options.search == LightSearch::photons);
     Recorder recorder(true, &story);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     auto [ray, film] = camera_sample(view, x, y, sampler, options.pixel_centre);

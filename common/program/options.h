@@ -9,13 +9,12 @@
 
 /// How a chapter finds light, which decides what it can tell about its error.
 enum class LightSearch : uint8_t {
-    aims,                // at lights, and also meets by chance those that it cannot aim at
-    by_chance,           // never aims
-    direct,              // only aims, and follows mirrors and glass; other light it leaves out
-    from_lights,         // begins at them, and cannot see what mirrors and glass show the camera
-    both_ends,           // begins at them and at the eye, and joins the two
-    photons,             // begins at them, and estimates light from the photons around a point
-    progressive_photons  // the same, in a radius that shrinks from pass to pass
+    aims,         // at lights, and also meets by chance those that it cannot aim at
+    by_chance,    // never aims
+    direct,       // only aims, and follows mirrors and glass; other light it leaves out
+    from_lights,  // begins at them, and cannot see what mirrors and glass show the camera
+    both_ends,    // begins at them and at the eye, and joins the two
+    photons       // begins at them, and counts what arrives near to what the eye sees
 };
 
 /// What every chapter that renders a scene understands.

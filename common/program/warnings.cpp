@@ -118,14 +118,8 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     }
     if (options.search == LightSearch::photons) {
         lines.push_back(
-            "photons blur light within their radius, however many passes there are: the reported "
-            "error does not include this bias");
-        return;
-    }
-    if (options.search == LightSearch::progressive_photons) {
-        lines.push_back(
-            "photons blur light within their radius, which shrinks from pass to pass: the "
-            "reported error does not include this bias");
+            "photons blur light within their radius: the reported error does not include this "
+            "bias");
         return;
     }
     auto any_material = [&](auto is) {

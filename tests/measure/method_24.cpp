@@ -3,7 +3,7 @@
 
 static auto by_photons(PhotonSettings settings) {
     return [=](const Scene& scene, RenderOptions options) {
-        options.search = LightSearch::progressive_photons;
+        options.search = LightSearch::photons;
         PhotonSettings own = settings;
         own.sampler = options.sampler, own.seed = options.seed;
         return render_film(scene, options, ch24::photon_passes(scene, own));
