@@ -17,11 +17,12 @@ int main(int argc, char** argv) {
                  s.final_gathering = parse_choice("gather", text, {"direct", "final"}) == 1;
              },
              "final"},
-            {"radius", "METRES", "radius of the disk in which photons count (default by the scene)",
+            {"radius", "METRES",
+             "radius of the disk in which photons count (default 0: by the scene)",
              [&](const std::string& text) {
-                 s.radius = static_cast<float>(parse_positive("radius", text));
+                 s.radius = text == "0" ? 0 : static_cast<float>(parse_positive("radius", text));
              },
-             "by the scene"}};
+             "0"}};
         RenderOptions options = parse_render_options(argc, argv, "23_photon_mapping",
                                                      "scenes/pool.pbrt", std::move(extra));
         options.search = LightSearch::photons;

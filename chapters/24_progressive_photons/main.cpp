@@ -18,11 +18,12 @@ int main(int argc, char** argv) {
              },
              "final"},
             {"radius", "METRES",
-             "the first pass's radius of the disk in which photons count (default by the scene)",
+             "radius of the disk in which photons count, in the first pass (default 0: by the "
+             "scene)",
              [&](const std::string& text) {
-                 s.radius = static_cast<float>(parse_positive("radius", text));
+                 s.radius = text == "0" ? 0 : static_cast<float>(parse_positive("radius", text));
              },
-             "by the scene"}};
+             "0"}};
         RenderOptions options = parse_render_options(argc, argv, "24_progressive_photons",
                                                      "scenes/pool.pbrt", std::move(extra));
         options.search = LightSearch::photons;
