@@ -1,0 +1,441 @@
+// What surrounds a render: loading, progress, help, and the pixels at the edges of lamps.
+#include <doctest/doctest.h>
+#include <stdlib.h>
+
+#include <cmath>
+
+#include "common/picture/notes.h"
+#include "common/picture/verdict.h"
+#include "common/program/film_clock.h"
+#include "common/program/labels.h"
+#include "common/program/lamp_edges.h"
+#include "common/program/loading.h"
+#include "common/program/loading_progress.h"
+#include "common/program/options.h"
+#include "common/program/outputs.h"
+#include "common/program/path_drawing.h"
+#include "common/program/progress.h"
+#include "tests/support/process.h"
+#include "tests/support/stand_ins.h"
+
+namespace {
+
+/// What `work` prints on stderr, which is a terminal.
+template <class Work>
+std::string on_terminal(const Work& work) {
+    return Process([&] {
+               int master = ::posix_openpt(O_RDWR | O_NOCTTY);
+               if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) return 77;
+               int slave = ::open(::ptsname(master), O_RDWR | O_NOCTTY);
+               ::dup2(slave, STDERR_FILENO);
+               work();
+               std::fflush(stderr);
+               ::fcntl(master, F_SETFL, O_NONBLOCK);
+               char text[4096];
+               ssize_t n = ::read(master, text, sizeof text);
+               if (n > 0) std::fwrite(text, 1, static_cast<size_t>(n), stdout);
+               return 0;
+           })
+        .wait()
+        .out;
+}
+template <class Work>
+std::string in_file(const Work& work) {
+    return Process([&] { return work(), 0; }).wait().err;
+}
+
+std::string help_of(const std::vector<std::string>& takes, std::vector<Option> extra) {
+    return Process([&] {
+               std::string words[] = {"build/07_x", "--help"};
+               char* argv[] = {words[0].data(), words[1].data()};
+               parse_render_options(2, argv, "07_x", "scenes/a.pbrt", extra, takes);
+               return 9;
+           })
+        .wait()
+        .out;
+}
+
+RenderOptions parsed(std::vector<std::string> words, std::vector<Option> extra = {},
+                     const std::vector<std::string>& takes = {}) {
+    words.insert(words.begin(), "build/07_x");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    return parse_render_options(static_cast<int>(argv.size()), argv.data(), "07_x", "scenes/a.pbrt",
+                                extra, takes);
+}
+
+}  // namespace
+
+TEST_SUITE("surroundings") {
+    TEST_CASE("truth: progress is a bar on a terminal, and a line a minute in a file") {
+        auto work = [](bool quiet) {
+            return [=] {
+                Progress progress(quiet);
+                progress.show(0.25, 0.05);  // too early
+                progress.show(0.5, 10);
+                progress.show(0.75, 61);
+                progress.show(0.8, 62);
+                progress.show(1.5, 122);
+            };
+        };
+        CHECK(in_file(work(false)) == " 75 %  20 s left\n100 %  0 s left\n");
+        CHECK(in_file(work(true)) == "");
+        const std::string fifteen(15, '#'), seven(7, ' '), end = "\x1b[K";
+        CHECK(on_terminal(work(false)) ==
+              "\r[" + fifteen + std::string(15, ' ') + "]  50 %  10 s left" + end + "\r[" +
+                  fifteen + "#######" + std::string(8, ' ') + "]  75 %  20 s left" + end + "\r[" +
+                  fifteen + "#########" + std::string(6, ' ') + "]  80 %  16 s left" + end + "\r[" +
+                  fifteen + fifteen + "] 100 %  0 s left" + end + "\r" + end);
+        CHECK(on_terminal(work(true)) == "");
+    }
+
+    TEST_CASE("truth: loading shows a line that goes away, or lines that stay") {
+        auto told = [](bool is_terminal, double pause, bool clears) {
+            char* text = nullptr;
+            size_t size = 0;
+            std::FILE* to = ::open_memstream(&text, &size);
+            {
+                LoadingProgress progress(to, is_terminal, pause);
+                ::usleep(2000);
+                progress.show("reading 'a\nb'", 0.126);
+                ::usleep(2000);
+                progress.show("sorting", 7);
+                if (clears) progress.clear(), std::fprintf(to, "!");
+            }
+            std::fclose(to);
+            std::string all(text, size);
+            std::free(text);
+            return all;
+        };
+        const std::string end = "\x1b[K";
+        CHECK(told(false, 0.001, true) == "reading 'a?b' ... 13 %\nsorting ... 100 %\n!");
+        CHECK(told(true, 0.001, true) ==
+              "\rreading 'a?b' ... 13 %" + end + "\rsorting ... 100 %" + end + "\r" + end + "!");
+        CHECK(told(true, 0.001, false).ends_with("\r" + end));
+        CHECK(told(false, 100, true) == "!");
+        // On a terminal it is drawn every tenth of a second, whatever the pause.
+        CHECK(told(true, 100, true) == "!");
+    }
+
+    TEST_CASE("truth: options replace the scene's size, samples and depth; notes are told") {
+        TemporaryFolder folder;
+        RenderOptions options;
+        options.scene = folder / "a.pbrt";
+        options.threads = 1;
+        write_file_atomically(options.scene,
+                              "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20\n"
+                              "Sampler \"sobol\" \"integer pixelsamples\" 5\n"
+                              "Integrator \"path\" \"integer maxdepth\" 6\n"
+                              "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+                              "Shape \"sphere\"\n");
+        auto loaded = [&] {
+            Finished end = Process([&] {
+                               Scene s = load(options);
+                               std::printf("%d %d %d %d", s.width, s.height, s.spp, s.max_depth);
+                               return 0;
+                           }).wait();
+            CHECK((end.err == "") == options.quiet);
+            CHECK((end.err.find(": note: ") != std::string::npos) == !options.quiet);
+            return end.out;
+        };
+        CHECK(loaded() == "30 20 5 6");
+        options.quiet = true;
+        CHECK(loaded() == "30 20 5 6");
+        options.width = 7, options.height = 8, options.spp = 9, options.max_depth = 0;
+        CHECK(loaded() == "7 8 9 0");
+        options.quiet = false;
+        write_file_atomically(options.scene, "Sampler \"sobol\"\nWorldBegin\nShape \"x\"\n");
+        std::string error;
+        Finished end = Process([&] {
+                           error = error_of([&] { load(options); });
+                           std::printf("%s", error.c_str());
+                           return 0;
+                       }).wait();
+        CHECK(end.err.find(": note: ") != std::string::npos);  // though an error follows
+        CHECK(end.out.find(":3:7: error: ") != std::string::npos);
+    }
+
+    TEST_CASE("input: what a chapter cannot render is refused, with its place in the file") {
+        auto scene = [](const std::string& directive, const std::string& shape = "") {
+            return world_of("LightSource \"infinite\"\n\n    " + directive + "\n" +
+                            (shape.empty() ? "Shape \"sphere\"" : shape));
+        };
+        auto error = [](auto refuse, const Scene& s) { return error_of([&] { refuse(s); }); };
+        const std::string at = "test.pbrt:7:5: error: ";
+        const Scene plain = scene("Material \"conductor\"");
+        CHECK(error(refuse_delta_lights, plain) == "");
+        CHECK(error(refuse_glossy, plain) == "");
+        CHECK(error(refuse_distribution, plain) == "");
+        for (const char* kind : {"point", "distant"}) {
+            CHECK(error(refuse_delta_lights, scene("LightSource \"" + std::string(kind) + "\"")) ==
+                  at + "a " + kind +
+                      " light has no size, so no path finds it by chance; chapters from 09 on "
+                      "sample it");
+        }
+        CHECK(error(refuse_glossy, scene("Material \"conductor\" \"float roughness\" 0.1")) ==
+              at + "rough conductors are not supported before chapter 13");
+        CHECK(error(refuse_distribution,
+                    scene("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\""))
+                  .starts_with(at + "outside chapters 16 and 19 glass does not disperse: try "
+                                    "\"float eta\" 1.51"));
+        CHECK(error(refuse_distribution, scene("ActiveTransform EndTime Translate 1 0 0 "
+                                               "ActiveTransform All Shape \"sphere\""))
+                  .ends_with("error: outside chapters 16 and 19 nothing moves"));
+        Scene lens = scene_of(
+            "LookAt 0 0 -4 0 0 0 0 1 0\n   Camera \"perspective\" \"float lensradius\" 0.1\n"
+            "WorldBegin LightSource \"infinite\" Shape \"sphere\"");
+        CHECK(error(refuse_distribution, lens) ==
+              "test.pbrt:2:4: error: all chapters but 16 and 19 have a pinhole: lensradius must be "
+              "0");
+    }
+
+    TEST_CASE("truth: the pixels at edges of lamps are those that differ from a neighbour") {
+        Scene scene = world_of(
+            "LightSource \"infinite\" \"rgb L\" [0.5 0.5 0.5]\n" +
+                ("Rotate -90 1 0 0 Scale 0.7 1 0.4 " + square(1, true)) +
+                "AreaLightSource \"diffuse\" \"rgb L\" [0.503 0.503 0.503] \"bool twosided\" true "
+                "Translate 0 2 0 Scale 0.3 1 9 " +
+                square(0, true),
+            24);
+        scene.width = 30;
+        Film film(30, 24), other(30, 24);
+        mark_lamp_edges(scene, 1, film);
+        mark_lamp_edges(scene, 3, other);
+        CameraView view = camera_view(scene.camera, 30, 24);
+        auto seen = [&](int x, int y) {
+            Vec2 middle = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+            auto hit = intersect(scene, camera_ray(view, middle));
+            return average(hit ? emission(scene, *hit) : scene.sky);
+        };
+        int marked = 0;
+        std::set<float> values;
+        for (int y = 0; y < 24; y++)
+            for (int x = 0; x < 30; x++) {
+                float here = seen(x, y);
+                values.insert(here);
+                bool edge = false;
+                for (auto [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+                    if (x + dx < 0 || y + dy < 0 || x + dx >= 30 || y + dy >= 24) continue;
+                    float there = seen(x + dx, y + dy);
+                    edge |= std::abs(here - there) > 0.01f * std::max(here, there);
+                }
+                size_t i = static_cast<size_t>(30 * y + x);
+                CHECK((film.pixels()[i].is_edge == 1) == edge);
+                CHECK(other.pixels()[i].is_edge == film.pixels()[i].is_edge);
+                marked += edge;
+            }
+        CHECK(values.size() == 3);  // of which two are within 1 % of each other
+        CHECK(marked > 10);
+    }
+
+    TEST_CASE("truth: --help has a line for each option, and leaves out what means nothing") {
+        std::vector<Option> extra = {
+            {"way", "KIND", "a way", [](const std::string&) {}, "short"},
+            {"hidden", "", "", [](const std::string&) {}},
+            {"a-very-long-option", "ARGUMENT", "long", [](const std::string&) {}}};
+        CHECK(help_of({"spp", "quiet"}, extra) ==
+              "usage: build/07_x [SCENE] [OPTION]...\n"
+              "Chapter 07_x on a pbrt-v4 scene (default: the project's scenes/a.pbrt).\n"
+              "Writes into the folder where it is started. Ctrl-C keeps the picture so far: exit "
+              "code 3.\n\n"
+              "  --way KIND               a way\n"
+              "  --a-very-long-option ARGUMENT long\n"
+              "  --spp N                  samples per pixel (default: as the scene says)\n"
+              "  --quiet                  print errors only\n"
+              "  --help                   print this and stop\n");
+        std::string all = help_of({}, {});
+        CHECK(all.find("\n  --out FILE               .ppm, .pfm or .png; may be repeated (default "
+                       "out/07_x.ppm)\n") != std::string::npos);
+        CHECK(std::count(all.begin(), all.end(), '\n') == 4 + 17 + 1);
+        // Each line has a name, and words behind it.
+        for (size_t at = all.find("\n  --"); at != std::string::npos;
+             at = all.find("\n  --", at + 1)) {
+            std::string line = all.substr(at + 1, all.find('\n', at + 1) - at - 1);
+            CAPTURE(line);
+            REQUIRE(line.size() > 32);
+            CHECK(line[26] == ' ');
+            CHECK(line[27] != ' ');
+        }
+        CHECK(error_of([&] {
+                  parsed({"--part", "1/2"}, extra, {"spp"});
+              }) == "error: option '--part' means nothing to 07_x; --help lists those that do");
+    }
+
+    TEST_CASE("input: films, parts and a chapter's own options") {
+        std::string way, other;
+        std::vector<Option> extra = {
+            {"way", "KIND", "a way", [&](const std::string& text) { way = text; }, "short"},
+            {"other", "KIND", "no value", [&](const std::string& text) { other = text; }},
+            {"m", "N", "m", [](const std::string&) {}, "3"}};
+        RenderOptions o = parsed({"--film", "a.film", "--part", "2/3", "--film-every", "0.5", "--m",
+                                  "4", "--other", "x", "s.pbrt"},
+                                 extra);
+        CHECK(o.film == "a.film");
+        CHECK(o.part == 2);
+        CHECK(o.parts == 3);
+        CHECK(o.film_every == 0.5);
+        CHECK(other == "x");
+        CHECK(o.own ==
+              std::vector<std::pair<std::string, std::string>>{{"way", "short"}, {"m", "4"}});
+        CHECK(parsed({"--film", "a.film", "--part", "3/3"}).part == 3);
+        CHECK(parsed({"--film", "a.film", "--part", "1/1"}).parts == 1);
+        CHECK(parsed({"--film-every", "0.01"}).film_every == 0.01);
+        CHECK(parsed({}).film_every == 60);
+        CHECK(parsed({"--explain-brightest"}).explain_brightest);
+        CHECK(parsed({"--threads", "1024"}).threads == 1024);
+        auto error = [&](std::vector<std::string> words) {
+            return error_of([&] { parsed(words, extra); });
+        };
+        const std::string part = "error: --part takes K/N, such as 1/8, with K from 1 to N, not '";
+        for (const char* bad : {"0/3", "4/3", "1", "1/0", "/2", "1/2/3", "x/2"})
+            CHECK(error({"--film", "a.film", "--part", bad}) == part + bad + "'");
+        CHECK(error({"--part", "1/2"}) ==
+              "error: --part needs --film, or its samples could not be merged");
+        CHECK(error({"--film", "a.sum"}) == "error: --film takes a .film file, not 'a.sum'");
+        CHECK(error({"--film", "a.film", "--split", "d"}) ==
+              "error: --split and --film: a film keeps the whole alone, no classes");
+        for (std::vector<std::string> words :
+             {std::vector<std::string>{"--explain", "1,1"}, {"--explain-brightest"}}) {
+            words.insert(words.end(), {"--film", "a.film"});
+            CHECK(error(words) == "error: --explain and --film: a film keeps no paths");
+        }
+        CHECK(error({"--film-every", "0.009"}) ==
+              "error: --film-every takes at least 0.01 seconds, not '0.009'");
+        CHECK(error({"--size", "65537x1"}).find("from 1 to 65536") != std::string::npos);
+        CHECK(parsed({"--size", "16384x16384"}).width == 16384);  // 2^28 pixels
+    }
+
+    TEST_CASE("truth: a film is due after its time, if there is one to write") {
+        Scene scene = empty_scene(1, 1, 1);
+        RenderOptions options;
+        options.film_every = 0.02;
+        FilmClock none(scene, options);
+        ::usleep(30'000);
+        CHECK_FALSE(none.due());
+        TemporaryFolder folder;
+        options.film = folder / "a.film";
+        FilmClock clock(scene, options);
+        CHECK_FALSE(clock.due());
+        ::usleep(30'000);
+        CHECK(clock.due());
+        Rendering r{Film(1, 1), {}, {}};
+        clock.save(r);
+        CHECK_FALSE(clock.due());
+        CHECK(folder.names() == std::set<std::string>{"a.film"});
+        // One that cannot be written is told, and the render goes on.
+        options.film = "none/a.film";
+        FilmClock failing(scene, options);
+        CHECK(in_file([&] { failing.save(r); }) ==
+              "none/a.film: error: cannot write: No such file or directory\n");
+    }
+
+    TEST_CASE(
+        "truth: words stand above and right of their point, then around it, then further out") {
+        Svg svg;
+        Labels labels;
+        constexpr int count = 24;
+        // As wide as 3 letters, and so small in number that none covers another: far apart.
+        for (int i = 0; i < count; i++) {
+            Vec2 point = {100, 100.0f + 200 * static_cast<float>(i)};
+            // Keep all places before number i from being free.
+            for (int k = 0; k < i; k++) {
+                float angle = 2 * pi * (static_cast<float>(k % 16) / 16 - 0.125f);
+                float away = 14 + 10 * static_cast<float>(k / 16);
+                labels.keep_free(
+                    {point.x + away * std::cos(angle), point.y + away * std::sin(angle)});
+            }
+            labels.put(svg, point, "abc");
+        }
+        std::string text = svg.finish({400, 400});
+        std::vector<Vec2> at;
+        for (size_t i = 0; (i = text.find("<text x='", i)) != std::string::npos; i++) {
+            Vec2 p;
+            REQUIRE(std::sscanf(text.c_str() + i, "<text x='%f' y='%f'", &p.x, &p.y) == 2);
+            at.push_back(p);
+        }
+        REQUIRE(at.size() == count);
+        // The first: its middle is 14 px away at 45 degrees; 24 px wide, with 11 of 13 above the
+        // line.
+        float diagonal = 14 * std::sqrt(0.5f);
+        CHECK(std::abs(at[0].x - (100 + diagonal - 12)) < 0.06f);
+        CHECK(std::abs(at[0].y - (100 - diagonal - 6.5f + 11)) < 0.06f);
+        size_t lines = 0;
+        for (size_t i = 0; (i = text.find("<line", i)) != std::string::npos; i++) lines++;
+        size_t expected = 0;
+        for (size_t i = 0; i < count; i++) {
+            Vec2 middle = {at[i].x + 12, at[i].y - 4.5f};
+            float dx = middle.x - 100, dy = middle.y - (100 + 200 * static_cast<float>(i));
+            float away = std::sqrt(dx * dx + dy * dy);
+            CHECK(std::abs(away - 10 * std::round((away - 14) / 10) - 14) < 0.1f);
+            expected += away > 19;
+        }
+        CHECK(lines == expected);
+        CHECK(expected > 0);
+    }
+
+    TEST_CASE("truth: a ray that leaves is drawn as far as the scene is wide") {
+        Scene scene = world_of("LightSource \"point\"\n" + square(-1, true));
+        Vec3 p = {0, 0, 0};
+        TracedRay ray = {{p, {1, 0, 0}}, false, false, infinity};
+        std::string svg = draw_path(scene, scene.camera.o, {{p, -1}, {{0.5f, 0, 0}, 0}}, {ray});
+        svg = svg.substr(svg.find("as the camera sees it"));
+        Vec2 a, b;
+        size_t line = svg.find("stroke-dasharray='2 4'");
+        line = svg.rfind("<line", line);
+        REQUIRE(std::sscanf(svg.c_str() + line, "<line x1='%f' y1='%f' x2='%f' y2='%f'", &a.x, &a.y,
+                            &b.x, &b.y) == 4);
+        std::vector<float> points;
+        for (size_t i = 0; (i = svg.find("<circle cx='", i)) != std::string::npos; i++) {
+            if (svg.substr(i, svg.find('\n', i) - i).find("#c03") != std::string::npos)
+                points.push_back(std::strtof(svg.c_str() + i + 12, nullptr));
+        }
+        REQUIRE(points.size() == 2);
+        float scale = 2 * (points[1] - points[0]);  // px for 1 m
+        CHECK(std::abs(b.x - a.x - scale * 2 * scene.radius) < 2);
+    }
+
+    TEST_CASE("truth: where the facts about a picture are from, and means of nothing") {
+        TemporaryFolder folder;
+        Image image(4, 4), errors(4, 4);
+        for (Rgb& p : errors.pixels) p = {2, 2, 2};
+        std::string a = folder / "a.pfm";
+        write_image(a, image, "");
+        CHECK(facts_of(a, image).file == a);
+        CHECK(facts_of(a, image).known_from == "");
+        write_file_atomically(folder / "a.json", "{\"standard_error\": 0.25, \"spp\": 3}");
+        PictureFacts facts = facts_of(a, image);
+        CHECK(facts.known_from == folder / "a.json");
+        CHECK(facts.standard_error == 0.25);
+        CHECK(value_of(facts.notes, "spp") == "3");
+        CHECK(facts.other_stats == "");
+        write_image(folder / "a.err.pfm", errors, "");
+        facts = facts_of(a, image);
+        CHECK(facts.known_from == folder / "a.err.pfm");
+        CHECK(facts.standard_error == 0.5);
+        // Against black there is no share of the mean.
+        Comparison c;
+        c.mean_a = 1, c.mse = 1;
+        CHECK(verdict(c, 0.1, {}, {}) ==
+              "other means: A is brighter than B, and noise does not do that (10 standard errors)");
+        std::swap(c.mean_a, c.mean_b);
+        CHECK(verdict(c, 0.1, {}, {}) ==
+              "other means: A is 100 % darker than B, and noise does not do that (10 standard "
+              "errors)");
+        auto with_error = [](double e, const char* spp) {
+            return PictureFacts{"a.pfm", e, "", {{"spp", spp}}};
+        };
+        c.mean_a = 1, c.mean_b = 1;
+        auto told = [&](const PictureFacts& x, const PictureFacts& y) {
+            std::string text = verdict(c, 0.1, x, y);
+            return text.substr(std::min(text.size(), text.find("; ")));
+        };
+        CHECK(told(with_error(1, "4"), with_error(1.04, "4")) == "; both have the same error");
+        CHECK(told(with_error(1, "4"), with_error(1.05, "4")).starts_with("; A has 9.3 % less"));
+        CHECK(told(with_error(1, "x"), with_error(2, "4")) ==
+              "; A has 75 % less squared error, worth 4 times as many samples");
+        CHECK(told(with_error(NAN, "4"), with_error(2, "4")) == "");
+        CHECK(told(with_error(1, "4"), with_error(0, "4")) == "");
+        CHECK(told(with_error(1, "4"), with_error(5, "4")) ==
+              "; A has 96 % less squared error: at equal samples that is 25 times fewer");
+    }
+}
