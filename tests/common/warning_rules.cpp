@@ -182,8 +182,8 @@ TEST_SUITE("warning rules") {
                               "light that comes by way of mirrors or glass to what the camera "
                               "sees by way of mirrors or glass ",
                           blurred =
-                              "light is blurred as far as photons are counted, the less the "
-                              "more passes there are: the error does not know of it",
+                              "photons blur light within their radius: the reported error does not "
+                              "include this bias",
                           direct = leaves + "is left out, as is light from surface to surface",
                           by_sky =
                               "light from the sky to a surface is left out: the sky is only "
@@ -300,7 +300,7 @@ TEST_SUITE("warning rules") {
                               "another chapter",
                           through =
                               "light comes to what is in view only through glass, where "
-                              "aiming at a light does not find it: chapters 20 to 23 do",
+                              "aiming at a light does not find it: chapters 20 to 24 do",
                           turned =
                               ": ReverseOrientation turns a light, \"bool twosided\" true "
                               "lights both sides",
