@@ -102,7 +102,7 @@ const std::vector<Rule> rules_of_everything = {
      "direct light counts twice: light sampling finds it, and so do photons, or the ray to the "
      "point where photons are gathered",
      [](const Case& c) {
-         return c.by_photons() && c.ratio("floor") > 1.8 && c.ratio("sky") > 1.8;
+         return c.by_photons() && c.ratio("floor") > 1.8 && c.ratio("sky") > 1.5;
      }},
     {"sky", "LDE",
      "light that both ways find counts 3/2: what was aimed at counts in full, and what is met "
