@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "20_light_tracing", "scenes/caustic.pbrt");
         options.search = LightSearch::from_lights;
         Scene scene = load(options);
-        return render(scene, options, trace_light_with<ch20::trace_light>(ch20::ends_of(scene)));
+        return render(scene, options,
+                      trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
     });
 }

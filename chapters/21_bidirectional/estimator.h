@@ -1,5 +1,4 @@
-// Chapter 21: bidirectional path tracing. One path from the eye, one from a light, and all ways to
-// join them, each with its weight:
+// Chapter 21: bidirectional path tracing. All connections of two paths, each with its weight:
 //
 //   strategy (s, t): s vertices from the light, t from the eye;   mis_s = p_s / sum over i of p_i
 #pragma once
@@ -11,32 +10,24 @@
 
 namespace ch21 {
 
-using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
-
 /// A vertex of a path: on a surface, on a light, in the sky; or the pinhole.
 struct Vertex {
     Hit x = {};
     Vec3 back;                         // unit, to the vertex before
-    Rgb beta = {1, 1, 1};              // what the path carries to x; of a light drawn: Le / pdf
-    bool joins = true;                 // neither mirror nor glass nor sky
-    Rgb Le;                            // what shines there
-    LightType type = LightType::area;  // of what shines there
+    Rgb beta = {1, 1, 1};              // throughput from the eye, flux from a light; Le / pdf on it
+    bool connectible = true;           // neither mirror nor glass nor sky
+    Rgb Le;                            // emitted there
+    LightType type = LightType::area;  // of that light
     float pdf = 0;                     // m^-2, of this point of the light
 };
 using Path = std::vector<Vertex>;
 
-/// What is prepared for a scene; s >= 0: the one strategy that counts, without a weight.
-struct Prepared {
-    Ends ends;
-    int s = -1, t = -1;
-};
-
-inline Prepared prepare(const Scene& scene) { return {ends_of(scene)}; }
 inline bool is_far(LightType t) { return t == LightType::distant || t == LightType::infinite; }
-inline Vec3 unit(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
+inline bool can_be_hit(LightType t) { return t == LightType::area || t == LightType::infinite; }
+inline Vec3 direction(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
 
-/// The vertex that a walk comes to along the ray: x, or the sky where it meets nothing.
-inline Vertex vertex_at(const Scene& scene, const Ends& ends, const std::optional<Hit>& x,
+/// The vertex where a ray hits x, or that of the sky where it hits nothing.
+inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const std::optional<Hit>& x,
                         const Ray& ray, Rgb beta) {
     Vertex v{x ? *x : Hit{}, -ray.d, beta, x && !is_specular(*x->material), {}};
     if (!x) v.x.ng = -ray.d;
@@ -44,28 +35,28 @@ inline Vertex vertex_at(const Scene& scene, const Ends& ends, const std::optiona
     if (is_black(v.Le)) return v;
     size_t i = static_cast<size_t>(x ? x->light : scene.sky_light);
     v.type = scene.lights[i].type;
-    float R = scene.radius, sides = scene.lights[i].two_sided ? 2 : 1;
-    v.pdf = pmf_light(ends.lights, i) * (x ? pdf_area(scene, i) / sides : 1 / (4 * pi * R * R));
+    float pmf = pmf_light(endpoints.lights, i), sides = scene.lights[i].two_sided ? 2 : 1;
+    v.pdf = pmf * (x ? pdf_area(scene, i) / sides : 1 / (4 * pi * scene.radius * scene.radius));
     return v;
 }
 
-/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. path[0]: yet empty.
-inline Path walk(const Scene& scene, const Ends& ends, bool from_light, Ray ray, Sampler& sampler,
-                 Recorder& recorder) {
+/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. path[0] stays empty.
+inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool from_light, Ray ray,
+                        Sampler& sampler, Recorder& recorder) {
     Path path(1);
     Rgb beta = {1, 1, 1};
     int last = scene.max_depth + (from_light ? 0 : 1);
     for (int depth = 1; depth <= last; depth++) {
-        // Find the next point.
+        // Find the next vertex.
         std::optional<Hit> x = intersect(scene, ray);
-        path.push_back(vertex_at(scene, ends, x, ray, beta));
+        path.push_back(vertex_at(scene, endpoints, x, ray, beta));
         if (!x) return path;
         recorder.vertex(x);
         Vec3 wi = -ray.d;
         if (depth == last && !from_light) recorder.cut();
         if (depth == last) return path;
 
-        // Go on, with what does not depend on the light but on the path alone.
+        // Sample the next direction, by the path alone: the same for every light.
         float u1 = sampler.u1();
         Vec2 u2 = sampler.u2();
         BsdfSample s =
@@ -75,7 +66,7 @@ inline Path walk(const Scene& scene, const Ends& ends, bool from_light, Ray ray,
         if (is_black(beta)) return path;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Terminate with probability 1 - q, and divide by q to compensate.
         float q = survival_probability(beta, depth - 1);
         if (sampler.u1() >= q) return path;
         beta /= q;
@@ -85,73 +76,82 @@ inline Path walk(const Scene& scene, const Ends& ends, bool from_light, Ray ray,
     return path;
 }
 
-/// One path from a light, vertex by vertex; the first is the point on the light.
-inline Path walk_from_light(const Scene& scene, const Ends& ends, Sampler& sampler,
-                            Recorder& recorder) {
+/// A path from a light; its first vertex is the point on the light.
+inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sampler& sampler,
+                          Recorder& recorder) {
     // Choose a light, a point on it and a direction.
     if (scene.lights.empty()) return {};
-    double u = ::join(sampler.u2());
+    double u = join(sampler.u2());
     Vec2 u_y = sampler.u2();
-    Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
+    Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     recorder.start_at_light(e.y.p);
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w));
-    Path path = walk(scene, ends, true, {e.y.p + e.y.eps * e.y.n, e.d}, sampler, recorder);
+    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
+    Path path = random_walk(scene, endpoints, true, ray, sampler, recorder);
     for (Vertex& v : path) v.beta = flux * v.beta;
-    Vertex& light = path[0];
-    light.x.p = e.y.p, light.x.ng = e.y.n, light.x.eps = e.y.eps;
-    float R = scene.radius;
-    light.type = e.type, light.pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
-    light.beta = e.Le / light.pdf;
+    float R = scene.radius, pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
+    path[0].x.p = e.y.p, path[0].x.ng = e.y.n, path[0].x.eps = e.y.eps;
+    path[0].type = e.type, path[0].pdf = pdf, path[0].beta = e.Le / pdf;
     return path;
+}
+
+/// Places y, the point of a light, for the vertex x that it lights.
+///
+/// Far lights stand on a sphere of the scene's radius around x; lights without a size face x.
+inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
+    if (is_far(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
+    if (y.type == LightType::point) y.x.ng = direction(y, x);
 }
 
 /// The path of s vertices from the light and t from the eye, from the light on.
-///
-/// Far lights stand on a sphere of the scene's radius. Lights without a size face what they light.
 inline Path whole_path(const Scene& scene, const Path& light, int s, const Path& eye, int t) {
     Path path(light.begin(), light.begin() + s);
     path.insert(path.end(), eye.rend() - t, eye.rend());
-    Vertex& y = path[0];
-    if (is_far(y.type)) y.x.p = path[1].x.p - scene.radius * y.x.ng;
-    if (y.type == LightType::point) y.x.ng = unit(y, path[1]);
+    place_light(scene, path[0], path[1]);
     return path;
 }
 
-/// Whether strategy s can make a path: by a join of vertices s - 1 and s, or where the light is met
-/// (s = 0). The light itself is not shown to the camera: the eye meets it without noise.
+/// Whether strategy s can make a path: by connecting vertices s - 1 and s, or, if s = 0, because
+/// the path hits the light. The light itself is not connected to the camera: its rays hit it.
 inline bool can_make(const Path& path, size_t s) {
-    if (s == 0) return path[0].type == LightType::area || path[0].type == LightType::infinite;
-    return path.size() > 2 && (s == 1 || path[s - 1].joins) && path[s].joins;
+    if (s == 0) return can_be_hit(path[0].type);
+    return path.size() > 2 && (s == 1 || path[s - 1].connectible) && path[s].connectible;
 }
 
-/// The density, in sr^-1, with which a walk goes on at x from `from` to `to`. Mirrors and glass: 1,
-/// as they have the same chances in both directions.
+/// The density, in sr^-1, of direction `to` at x, where the path came from `from`. Mirrors and
+/// glass: 1, as both directions have the same probability there.
 inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3 from, Vec3 to) {
     if (is_specular(*x.material)) return 1;
     Hit y = seen_from(scene, x, from);
     if (from_light && x.material->type == MaterialType::diffuse) y.n = y.ng;
-    return pdf_bsdf(y, from, to);
+    return glossy_bsdf::pdf_bsdf(y, from, to);
 }
-/// The density, in sr^-1, with which a ray leaves a light along w. The disk of far ones has pi sr.
+/// The density, in sr^-1, of direction w at a light. Rays of far lights fill a disk: pi sr.
 inline float pdf_emission(const Vertex& light, Vec3 w) {
     return light.type == LightType::point ? 1 / (4 * pi) : std::abs(dot(w, light.x.ng)) / pi;
 }
 
-/// The density of each vertex of a path, when a walk comes along it that begins at path[0].
+/// The density of vertex x, in m^-2, in a walk that came from `before` to v (null: it begins at v).
 ///
-///   pdf_A = pdf_w cos / d^2,    pdf_w: of the direction in which it leaves v, the vertex before
-inline std::vector<double> densities(const Scene& scene, const Ends& ends, bool from_light,
-                                     const Path& path) {
+///   pdf_A = pdf_w cos / d^2,    pdf_w: of the direction in which the walk leaves v
+inline double pdf_next(const Scene& scene, const Endpoints& endpoints, bool from_light,
+                       const Vertex* before, const Vertex& v, const Vertex& x) {
+    Vec3 w = direction(v, x);
+    float pdf_w = before       ? pdf_onwards(scene, from_light, v.x, direction(v, *before), w)
+                  : from_light ? pdf_emission(v, w)
+                               : importance_cos(endpoints.camera, w);
+    float cos_x = std::abs(dot(w, x.x.ng)), d2 = length_squared(x.x.p - v.x.p);
+    return static_cast<double>(pdf_w * cos_x / d2);
+}
+
+/// The density of each vertex of a path, in a walk that begins at path[0].
+inline std::vector<double> densities(const Scene& scene, const Endpoints& endpoints,
+                                     bool from_light, const Path& path) {
     std::vector<double> pdf_A = {static_cast<double>(path[0].pdf)};
     for (size_t i = 1; i < path.size(); i++) {
-        const Vertex &v = path[i - 1], &x = path[i];
-        Vec3 w = unit(v, x);
-        float pdf_w = i > 1        ? pdf_onwards(scene, from_light, v.x, unit(v, path[i - 2]), w)
-                      : from_light ? pdf_emission(v, w)
-                                   : importance_cos(ends.camera, w);
-        float cos_x = std::abs(dot(w, x.x.ng)), d2 = length_squared(x.x.p - v.x.p);
-        pdf_A.push_back(static_cast<double>(pdf_w * cos_x / d2));
+        const Vertex* before = i > 1 ? &path[i - 2] : nullptr;
+        pdf_A.push_back(pdf_next(scene, endpoints, from_light, before, path[i - 1], path[i]));
     }
     return pdf_A;
 }
@@ -160,13 +160,13 @@ inline std::vector<double> densities(const Scene& scene, const Ends& ends, bool 
 ///
 ///   mis_s = p_s / sum over i of p_i,    p_i = light_0 ... light_i-1  eye_i ... eye_k-1
 ///
-/// light, eye: the density of each vertex from either side. Of p_i / p_s only factors are left that
-/// differ: no product is too large or too small for a number. 0 where vertices touch (0 / 0).
-/// source  Veach 1997, sec. 10.2
+/// light, eye: the density of each vertex from either side. Only factors of p_i / p_s that differ
+/// are multiplied: none overflows. 0 where vertices touch (0 / 0).   source  Veach 1997, sec. 10.2
 /// tested by  "identity: weights are p_s / sum p_i over the densities of whole paths"
-inline float mis_weight(const Scene& scene, const Ends& ends, const Path& path, size_t s) {
-    std::vector<double> light = densities(scene, ends, true, path);
-    std::vector<double> eye = densities(scene, ends, false, {path.rbegin(), path.rend()});
+inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Path& path,
+                        size_t s) {
+    std::vector<double> light = densities(scene, endpoints, true, path);
+    std::vector<double> eye = densities(scene, endpoints, false, {path.rbegin(), path.rend()});
     std::reverse(eye.begin(), eye.end());
     double sum = 0;
     for (size_t i = 0; i < path.size(); i++) {
@@ -178,70 +178,70 @@ inline float mis_weight(const Scene& scene, const Ends& ends, const Path& path, 
     return sum > 0 ? static_cast<float>(1 / sum) : 0;
 }
 
-/// t = 1: shows y, the last vertex from the light, to the camera.      flux f cos We V / d^2
-inline Rgb show(const Scene& scene, const Pinhole& camera, const Vertex& y, size_t& pixel) {
+/// t = 1: connects y, the last vertex from the light, to the camera.      flux f cos We V / d^2
+inline Splat connect_to_camera(const Scene& scene, const Pinhole& camera, const Vertex& y) {
     Vec3 away = y.x.p - camera.view.o;
-    std::optional<Sight> sight = sight_of(camera, away);
-    if (!sight) return {};
+    std::optional<CameraImportance> importance = camera_importance(camera, away);
+    if (!importance) return {0, {}};
     float d = length(away);
     Vec3 wo = -1 / d * away;
-    Rgb L = y.beta * carry(scene, y.x, y.back, wo) * (sight->We_cos / (d * d));
-    pixel = sight->pixel;
-    return is_black(L) || occluded(scene, spawn_ray(y.x, wo, d)) ? Rgb{} : L;
+    Rgb L = y.beta * adjoint_bsdf(scene, y.x, y.back, wo) * (importance->We_cos / (d * d));
+    bool hidden = is_black(L) || occluded(scene, spawn_ray(y.x, wo, d));
+    return {importance->pixel, hidden ? Rgb{} : L};
 }
 
-/// s > 0, t > 1: joins y, the last vertex from the light, with z, the last one from the eye.
+/// s > 0, t > 1: connects y, the last vertex from the light, with z, the last one from the eye.
 ///
-///   L = beta_z f_z cos_z  V / d^2  carry_y beta_y,    of the light itself cos_y for carry_y
-inline Rgb join(const Scene& scene, const Vertex& y, const Vertex& z, int s) {
+///   L = beta_z f_z cos_z  V / d^2  f_y cos_y beta_y,    s = 1: without f_y
+inline Rgb connect(const Scene& scene, const Vertex& y, const Vertex& z, int s) {
     float d = length(y.x.p - z.x.p);
-    Vec3 wi = unit(z, y);
+    Vec3 wi = direction(z, y);
     Rgb f = eval_bsdf(z.x, z.back, wi) * std::abs(dot(wi, z.x.n));
     if (!(d > 0) || is_black(f)) return {};
     float cos_y = dot(-wi, y.x.ng);
-    Rgb flux = s > 1 ? y.beta * carry(scene, y.x, y.back, -wi) : y.beta * std::max(0.0f, cos_y);
-    Rgb L = z.beta * f * flux / (d * d);
+    Rgb f_y = std::max(0.0f, cos_y) * Rgb{1, 1, 1};
+    if (s > 1) f_y = adjoint_bsdf(scene, y.x, y.back, -wi);
+    Rgb L = z.beta * f * (y.beta * f_y) / (d * d);
     float t_max = s == 1 && is_far(y.type) ? infinity : d - (z.x.eps + y.x.eps) / std::abs(cos_y);
     return is_black(L) || occluded(scene, spawn_ray(z.x, wi, t_max)) ? Rgb{} : L;
 }
 
-/// Estimates Li along the ray; adds to the splats what light shows to other pixels.
+/// Estimates Li along the ray; adds to the splats what light brings to other pixels.
 ///
 ///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
 ///
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Lafortune, Willems 1993; Veach, Guibas 1994      tested by  "ch21 bidirectional"
-inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Splats& splats,
+inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
     // Walk from a light, with numbers that have their own dimensions, and from the eye.
-    const Ends& ends = prepared.ends;
     sampler.jump(1 << 12);
-    Path light = walk_from_light(scene, ends, sampler, recorder);
+    Path light = light_subpath(scene, endpoints, sampler, recorder);
     sampler.jump(8);
     recorder.start_at_eye();
-    Path eye = walk(scene, ends, false, ray, sampler, recorder);
+    Path eye = random_walk(scene, endpoints, false, ray, sampler, recorder);
     eye[0].x.p = ray.o;
 
-    // Take each number of vertices of the one with each of the other.
+    // Connect each number of vertices of one path with each number of the other.
     Rgb sum;
     for (int t = 1; t <= static_cast<int>(eye.size()); t++) {
         for (int s = 0; s <= static_cast<int>(light.size()); s++) {
             if (s + t < 2 || s + t > scene.max_depth + 2) continue;
-            if (prepared.s >= 0 && (prepared.s != s || prepared.t != t)) continue;
             Path path = whole_path(scene, light, s, eye, t);
-            size_t i = static_cast<size_t>(s), pixel = Contribution::own_pixel;
+            size_t i = static_cast<size_t>(s);
             if (!can_make(path, i)) continue;
-            Rgb L = s == 0   ? path[0].beta * path[0].Le
-                    : t == 1 ? show(scene, ends.camera, path[i - 1], pixel)
-                             : join(scene, path[i - 1], path[i], s);
-            if (is_black(L)) continue;
+            Splat splat = {Contribution::own_pixel, {}};
+            if (s == 0) splat.L = path[0].beta * path[0].Le;
+            if (s > 0 && t > 1) splat.L = connect(scene, path[i - 1], path[i], s);
+            if (t == 1) splat = connect_to_camera(scene, endpoints.camera, path[i - 1]);
+            if (is_black(splat.L)) continue;
 
-            // Weigh what it brings by how likely this strategy was to make the path.
-            float mis = prepared.s < 0 ? mis_weight(scene, ends, path, i) : 1;
-            L *= mis;
-            recorder.connected(L, s, t, mis, pixel);
-            if (t == 1) splats.push_back({pixel, L});
-            if (t > 1) sum += L;
+            // Weight it by how likely this strategy was to make the path.
+            float mis = mis_weight(scene, endpoints, path, i);
+            splat.L *= mis;
+            recorder.connected(splat.L, s, t, mis, splat.pixel);
+            if (t == 1) splats.push_back(splat);
+            if (t > 1) sum += splat.L;
         }
     }
     return sum;

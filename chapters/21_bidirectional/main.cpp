@@ -6,35 +6,26 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        int s = -1, t = -1;
-        std::string sheet;
-        bool plain = false;
-        Option form = {"form", "fast|plain", "as common/ has it, or the lesson itself: slow",
-                       [&](const std::string& text) {
-                           plain = parse_choice("form", text, {"fast", "plain"}) == 1;
-                       },
-                       "fast"};
+        std::string alone, sheet;
         Option strategy = {
             "strategy", "S,T", "one alone, without a weight: S vertices from the light, T the eye",
             [&](const std::string& text) {
                 size_t comma = std::min(text.find(','), text.size() - 1);
-                s = static_cast<int>(parse_integer("strategy", text.substr(0, comma), 0, 1000));
-                t = static_cast<int>(parse_integer("strategy", text.substr(comma + 1), 1, 1000));
+                alone = ch21::strategy_name(
+                    static_cast<int>(parse_integer("strategy", text.substr(0, comma), 0, 1000)),
+                    static_cast<int>(parse_integer("strategy", text.substr(comma + 1), 1, 1000)));
             },
             "all"};
         Option pyramid = {"pyramid", "FILE", "also write all short strategies as one sheet",
                           [&](const std::string& text) { sheet = text; }, ""};
-        RenderOptions options =
-            parse_render_options(argc, argv, "21_bidirectional", "scenes/cornell-spheres.pbrt",
-                                 {form, strategy, pyramid});
+        RenderOptions options = parse_render_options(
+            argc, argv, "21_bidirectional", "scenes/cornell-spheres.pbrt", {strategy, pyramid});
         options.search = LightSearch::both_ends;
+        options.strategy = alone, options.unweighted = !alone.empty();
         Scene scene = load(options);
         if (!sheet.empty())
             write_image(sheet, ch21::pyramid(scene, options),
                         comment_of(notes_of(label_of(scene, options), scene.spp)));
-        ch21::Prepared prepared = {ends_of(scene), s, t};
-        if (plain) return render(scene, options, splat_trace_with<ch21::trace>(prepared));
-        return render(scene, options,
-                      splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene, s, t)));
+        return render(scene, options, splat_trace_with<ch21::trace>(endpoints_of(scene)));
     });
 }

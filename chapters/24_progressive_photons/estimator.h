@@ -44,10 +44,10 @@ inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, in
 
 /// Estimates the light that travels from the lights straight to x and on to wo. Where x is rough
 /// metal, BSDF sampling may find the same light.      Ld = mis_l f Le V cos / pdf_l
-inline Rgb direct_light(const Scene& scene, const Ends& ends, const Hit& x, Vec3 wo, LightNumbers u,
-                        Recorder& recorder) {
+inline Rgb direct_light(const Scene& scene, const Endpoints& endpoints, const Hit& x, Vec3 wo,
+                        LightNumbers u, Recorder& recorder) {
     if (is_specular(*x.material)) return {};
-    LightSample y = sample_light(scene, ends.lights, x, u.light, u.point);
+    LightSample y = sample_light(scene, endpoints.lights, x, u.light, u.point);
     if (y.pdf_w == 0) return {};
     float pdf_b = is_diffuse(*x.material) || y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = power_heuristic(y.pdf_w, pdf_b);
@@ -60,13 +60,14 @@ inline Rgb direct_light(const Scene& scene, const Ends& ends, const Hit& x, Vec3
 /// The weight of emission that a camera path finds at y. `last`: its last vertex that is neither
 /// mirror nor glass, if there is one. Behind a diffuse vertex light sampling and the caustic map
 /// find all of this light: 0.
-inline float mis_emission(const Scene& scene, const Ends& ends, const std::optional<Hit>& last,
-                          Vec3 wi, float pdf_b, const std::optional<Hit>& y) {
+inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
+                          const std::optional<Hit>& last, Vec3 wi, float pdf_b,
+                          const std::optional<Hit>& y) {
     if (last && is_diffuse(*last->material)) return 0;
     if (!last || pdf_b == infinity) return 1;
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
     float pdf_one = y ? pdf_one_light(scene, light, *last, *y) : pdf_sky(*last, wi);
-    return power_heuristic(pdf_b, pmf_light(ends.lights, light) * pdf_one);
+    return power_heuristic(pdf_b, pmf_light(endpoints.lights, light) * pdf_one);
 }
 
 /// Pass two: estimates Li along the ray. The path goes on over mirrors, glass and rough metal to a
@@ -75,7 +76,7 @@ inline float mis_emission(const Scene& scene, const Ends& ends, const std::optio
 /// Biased, as photons count near a point and not at it: the bias of the mean of all passes goes
 /// to 0 as the radius does.
 /// source  Knaus, Zwicker 2011      tested by  "ch24 progressive photons"
-inline Rgb trace(const Scene& scene, const Ends& ends, const PhotonMaps& maps, Ray ray,
+inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMaps& maps, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     std::optional<Hit> last;  // the last vertex that is neither mirror nor glass
@@ -87,7 +88,7 @@ inline Rgb trace(const Scene& scene, const Ends& ends, const PhotonMaps& maps, R
         recorder.vertex(x);
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = mis_emission(scene, ends, last, ray.d, pdf_b, x);
+            float mis_b = mis_emission(scene, endpoints, last, ray.d, pdf_b, x);
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -108,7 +109,7 @@ inline Rgb trace(const Scene& scene, const Ends& ends, const PhotonMaps& maps, R
         // Sample a light.
         Vec3 wo = -ray.d;
         LightNumbers u = {join(sampler.u2()), sampler.u2()};
-        L += beta * direct_light(scene, ends, *x, wo, u, recorder);
+        L += beta * direct_light(scene, endpoints, *x, wo, u, recorder);
 
         // Sample the BSDF, and go on.
         float u1 = sampler.u1();
@@ -145,16 +146,16 @@ inline float radius_of(const Scene& scene, const PhotonSettings& settings, uint3
 
 /// The chapter's passes: new photons and a smaller radius for each sample of all pixels.
 inline PassTrace photon_passes(const Scene& scene, const PhotonSettings& settings) {
-    auto ends = std::make_shared<Ends>(ends_of(scene));
+    auto endpoints = std::make_shared<Endpoints>(endpoints_of(scene));
     auto maps = std::make_shared<PhotonMaps>();
     auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
-        auto vertices = trace_light_paths(scene, *ends, settings, pass, threads, stopped);
+        auto vertices = trace_light_paths(scene, *endpoints, settings, pass, threads, stopped);
         float radius = radius_of(scene, settings, pass);
         *maps = build_maps(std::move(vertices), radius, settings.final_gathering);
     };
     auto trace_pass = [=](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder)
         __attribute__((flatten)) {
-        return trace(s, *ends, *maps, ray, sampler, recorder);
+        return trace(s, *endpoints, *maps, ray, sampler, recorder);
     };
     return {begin, trace_pass};
 }

@@ -24,7 +24,7 @@ inline Pinhole pinhole_of(const Scene& scene) {
     return {view, n, axis, depth, pixels * length(n) / (depth * depth), scene.width, scene.height};
 }
 
-/// What the camera makes of light that comes from where `away` points to, in sr^-1.
+/// The importance of light from the direction of `away`, times its cosine, in sr^-1.
 ///
 ///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos over A: 1
 ///
@@ -36,16 +36,16 @@ inline float importance_cos(const Pinhole& camera, Vec3 away) {
     return 1 / (camera.area * cos_c * cos_c * cos_c);
 }
 
-/// Where the camera sees a point, and what it makes of it.
-struct Sight {
+/// The pixel that shows a point, and the importance of its direction, times the cosine.
+struct CameraImportance {
     size_t pixel;
     float We_cos;  // sr^-1
 };
 
-/// The pixel in which the camera sees a point, `away` from the pinhole; none beyond the picture.
+/// The same for a point `away` from the pinhole; none outside of the picture.
 ///
 /// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
-inline std::optional<Sight> sight_of(const Pinhole& camera, Vec3 away) {
+inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, Vec3 away) {
     float depth = dot(away, camera.axis);
     if (!(depth > 0)) return {};
     Vec3 q = camera.depth / depth * away - camera.view.corner;  // on the film, from its corner
@@ -55,16 +55,16 @@ inline std::optional<Sight> sight_of(const Pinhole& camera, Vec3 away) {
     float width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
     if (!(x >= 0 && y >= 0 && x < width && y < height)) return {};
     size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width);
-    return Sight{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
+    return CameraImportance{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
 }
 
-/// Where paths begin: the lights, three in four by power, with the scene's middle; and the camera.
-struct Ends {
+/// Where paths begin: a distribution of the lights, three in four by power; and the camera.
+struct Endpoints {
     LightTable lights;
-    Vec3 centre;
+    Vec3 centre;  // of the scene
     Pinhole camera;
 };
-inline Ends ends_of(const Scene& scene) {
+inline Endpoints endpoints_of(const Scene& scene) {
     Box box = bounds_of(scene.geometry);
     LightTable lights = build_light_table(light_pmf(scene, 0.25));  // as in chapter 11
     return {lights, (box.low + box.high) / 2, pinhole_of(scene)};
@@ -93,11 +93,11 @@ inline Vec3 sample_sphere(Vec2 u) {
 ///   sky      the same, from any direction:  pdf = 1 / (pi R^2), 1 / (4 pi)
 ///
 /// tested by  "identity: each light sends out its power"
-inline Emission sample_emission(const Scene& scene, const Ends& ends, double u, Vec2 u_y,
+inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, double u, Vec2 u_y,
                                 Vec2 u_d) {
-    size_t i = pick_light(ends.lights, u);
+    size_t i = pick_light(endpoints.lights, u);
     const Light& light = scene.lights[i];
-    float pmf = pmf_light(ends.lights, i), R = scene.radius;
+    float pmf = pmf_light(endpoints.lights, i), R = scene.radius;
     if (light.type == LightType::point)
         return {light.type, {light.p, {}, 0, 1}, sample_sphere(u_d), pmf, 1 / (4 * pi), light.L};
     if (light.type == LightType::area) {
@@ -113,7 +113,7 @@ inline Emission sample_emission(const Scene& scene, const Ends& ends, double u, 
     bool sky = light.type == LightType::infinite;
     Vec3 d = sky ? sample_sphere(u_d) : -light.p;
     Vec3 disk = from_cylindrical(R * std::sqrt(u_y.x), u_y.y, -R);
-    Vec3 p = ends.centre + Frame(d).to_world(disk);
+    Vec3 p = endpoints.centre + Frame(d).to_world(disk);
     return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
 }
 
@@ -125,14 +125,14 @@ inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
     return x;
 }
 
-/// f cos, of light that arrives at x from wi and leaves to wo, as a factor of its flux.
+/// The adjoint BSDF times its cosine: the factor of flux that arrives from wi and leaves to wo.
 ///
 ///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, if wo sees its front
 ///
 /// For a path from the eye the cosine is that of wi and n. Flux arrives in proportion to |wi.ng|
 /// and leaves to |wo.ng|: where n is ng, the cosine is that of wo.
 /// source  Veach 1997, sec. 5.3      tested by  "agreement: smoothed normals"
-inline Rgb carry(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
+inline Rgb adjoint_bsdf(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     Hit seen = seen_from(scene, x, wo);
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
 }
@@ -147,7 +147,7 @@ inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, f
     BsdfSample s = sample_bsdf(y, wi, u1, u2);
     if (s.pdf_w == 0) return s;
     if (!s.specular) {
-        s.f = carry(scene, x, wi, s.wi);
+        s.f = adjoint_bsdf(scene, x, wi, s.wi);
         return s;
     }
     bool through = dot(s.wi, x.ng) < 0;

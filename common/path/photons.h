@@ -23,12 +23,12 @@ struct PhotonSettings {
 /// Flux arrives in proportion to |wi.ng|, but a camera path multiplies by wi.n, where n is the
 /// smoothed normal: so the photon carries the flux times their ratio.
 /// source  Jensen 1996      tested by  "truth: irradiance of all lights, by photons alone"
-inline void trace_light_path(const Scene& scene, const Ends& ends, int paths, Sampler& sampler,
-                             std::vector<LightVertex>& vertices) {
+inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int paths,
+                             Sampler& sampler, std::vector<LightVertex>& vertices) {
     if (scene.lights.empty()) return;
     double u = join(sampler.u2());
     Vec2 u_y = sampler.u2();
-    Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
+    Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb beta = {1, 1, 1};
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w * static_cast<float>(paths)));
@@ -58,7 +58,7 @@ inline void trace_light_path(const Scene& scene, const Ends& ends, int paths, Sa
 using Stopped = std::function<bool()>;
 
 /// Pass one: traces the light paths. The order of the vertices does not depend on threads.
-inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Ends& ends,
+inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endpoints& endpoints,
                                                   const PhotonSettings& settings, uint32_t pass,
                                                   int threads, const Stopped& stopped) {
     constexpr int at_once = 1024;
@@ -69,7 +69,7 @@ inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Ends
         Sampler sampler(settings.sampler, settings.seed, static_cast<uint32_t>(paths));
         for (int i = part * at_once; i < std::min((part + 1) * at_once, paths); i++) {
             start_sample(sampler, pass, 1, static_cast<uint32_t>(i));
-            trace_light_path(scene, ends, paths, sampler, of_part[static_cast<size_t>(part)]);
+            trace_light_path(scene, endpoints, paths, sampler, of_part[static_cast<size_t>(part)]);
         }
     });
     std::vector<LightVertex> vertices;

@@ -16,22 +16,22 @@ constexpr uint32_t tried = 1 << 14, tried_from_camera = 1 << 16;
 /// What the camera sees of flux that arrives at x from wi; see chapter 20.
 Rgb shown(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb flux) {
     Vec3 away = x.p - camera.view.o;
-    std::optional<Sight> sight = sight_of(camera, away);
-    if (!sight) return {};
+    std::optional<CameraImportance> importance = camera_importance(camera, away);
+    if (!importance) return {};
     float d = length(away);
     Vec3 wo = -1 / d * away;
-    Rgb L = flux * carry(scene, x, wi, wo) * (sight->We_cos / (d * d));
+    Rgb L = flux * adjoint_bsdf(scene, x, wi, wo) * (importance->We_cos / (d * d));
     return is_black(L) || occluded(scene, spawn_ray(x, wo, d)) ? Rgb{} : L;
 }
 
 /// What one path from a light brings to the picture by way of nearly mirrors.
-Rgb path_by_nearly_mirrors(const Scene& scene, const Ends& ends, double paths, bool meets_lights,
-                           Sampler& sampler) {
+Rgb path_by_nearly_mirrors(const Scene& scene, const Endpoints& endpoints, double paths,
+                           bool meets_lights, Sampler& sampler) {
     double u = join(sampler.u2());
     Vec2 u_y = sampler.u2();
-    Emission e = sample_emission(scene, ends, u, u_y, sampler.u2());
+    Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     if (e.type == LightType::infinite) return {};  // no light is larger
-    const LightShape& shape = scene.light_shapes[pick_light(ends.lights, u)];
+    const LightShape& shape = scene.light_shapes[pick_light(endpoints.lights, u)];
     double area = meets_lights && e.type == LightType::area ? double{shape.area} : 0;
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w));
@@ -43,7 +43,7 @@ Rgb path_by_nearly_mirrors(const Scene& scene, const Ends& ends, double paths, b
         d += double{x->t};
         Vec3 wi = -ray.d;
         if (!is_nearly_mirror(*x->material, paths, area / (4 * std::numbers::pi * d * d))) {
-            return depth == 1 ? Rgb{} : shown(scene, ends.camera, *x, wi, flux);
+            return depth == 1 ? Rgb{} : shown(scene, endpoints.camera, *x, wi, flux);
         }
         float u1 = sampler.u1();
         BsdfSample s = sample_light_bsdf(scene, *x, wi, u1, sampler.u2());
@@ -111,12 +111,12 @@ double light_by_nearly_mirrors(const Scene& scene, double paths, bool meets_ligh
     if (scene.sky_image && has_any(size_of_sky(*scene.sky_image)))
         return std::numeric_limits<double>::infinity();
     if (scene.lights.empty()) return 0;
-    Ends ends = ends_of(scene);
+    Endpoints endpoints = endpoints_of(scene);
     Sampler sampler(SamplerType::independent, 1, 1);
     double sum = 0;
     for (uint32_t i = 0; i < tried; i++) {
         sampler.start(0, i);
-        Rgb L = path_by_nearly_mirrors(scene, ends, paths, meets_lights, sampler);
+        Rgb L = path_by_nearly_mirrors(scene, endpoints, paths, meets_lights, sampler);
         if (is_finite(L)) sum += static_cast<double>(average(L));
     }
     return sum / tried;

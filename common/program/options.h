@@ -35,6 +35,8 @@ struct RenderOptions {
     int explain_x = 0, explain_y = 0, explain_sample = -1;  // -1: none was named
     bool explain_brightest = false;
     std::string paths;        // regular expression; empty: all
+    std::string strategy;     // chapter 21: the `way` of the contributions that count; empty: all
+    bool unweighted = false;  // they count without their MIS weight
     std::string split;        // folder; empty: none
     std::string film;         // keeps the sums; empty: none
     double film_every = 60;   // s, from one writing of the film to the next

@@ -165,7 +165,7 @@ private:
         Tools(const Scene& scene, const RenderOptions& options)
             : sampler(has_passes ? SamplerType::independent : options.sampler, options.seed,
                       static_cast<uint32_t>(scene.spp)),
-              recorder(!options.paths.empty() || !options.split.empty()),
+              recorder(chooses(options) || !options.split.empty()),
               chosen(options.paths) {}
 
         Sampler sampler;
@@ -191,18 +191,34 @@ private:
         } else {
             L = trace_(scene_, ray, with.sampler, with.recorder);
         }
-        if (!options_.paths.empty()) L = choose(with);
+        if (chooses(options_)) L = choose(with);
         Rgb total = L;
         for (const Splat& splat : with.splats) total += splat.L;
         return {L, total};
     }
 
-    /// With --paths, what was recorded of the classes that count is the sample, with its splats.
+    static bool chooses(const RenderOptions& options) {
+        return !options.paths.empty() || !options.strategy.empty();
+    }
+
+    /// What was recorded of the classes and of the strategy that count.
+    std::vector<Contribution> chosen_parts(Tools& with) const {
+        std::vector<Contribution> parts = with.recorder.contributions();
+        std::erase_if(parts, [&](const Contribution& part) {
+            bool other = !options_.strategy.empty() && part.way != options_.strategy;
+            return other || !with.chosen.contains(part.path_class);
+        });
+        for (Contribution& part : parts) {
+            if (options_.unweighted) part.L = part.L / part.mis;
+        }
+        return parts;
+    }
+
+    /// The sample, with its splats, is what counts of it.
     Rgb choose(Tools& with) {
         Rgb L;
         with.splats.clear();
-        for (const Contribution& part : with.recorder.contributions()) {
-            if (!with.chosen.contains(part.path_class)) continue;
+        for (const Contribution& part : chosen_parts(with)) {
             if (part.pixel == Contribution::own_pixel) {
                 L += part.L;
             } else {
@@ -234,8 +250,7 @@ private:
     }
 
     void split(const Place& at, Tools& with) {
-        for (const Contribution& part : with.recorder.contributions()) {
-            if (!with.chosen.contains(part.path_class)) continue;
+        for (const Contribution& part : chosen_parts(with)) {
             // Keep all long paths together: their classes double with every letter.
             bool is_long = part.path_class.size() > longest_class;
             std::lock_guard lock(mutex_);

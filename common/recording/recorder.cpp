@@ -65,6 +65,10 @@ void Recorder::note_step_back() {
     if (story_) story_->steps_back(current_vertex());
 }
 
+void Recorder::note_back_to(int t) {
+    while (scattered_.size() + 2 > static_cast<size_t>(t)) note_step_back();
+}
+
 void Recorder::note_cut() {
     if (story_) story_->is_cut();
 }

@@ -57,6 +57,11 @@ public:
     void step_back() {
         if (listening_) note_step_back();
     }
+    /// Goes back to the t-th vertex from the eye, the pinhole being the first: the next branch of
+    /// the path begins there.
+    void back_to(int t) {
+        if (listening_) note_back_to(t);
+    }
     /// The depth limit ended a path that could have gone on.
     void cut() {
         paths_cut_++;
@@ -106,6 +111,7 @@ private:
     void note_scatter(Vec3, Rgb, float, bool, Rgb);
     void note_roulette(float, Rgb);
     void note_step_back();
+    void note_back_to(int);
     void note_cut();
     void note_emitted(Rgb, float);
     void note_direct(Rgb, Vec3, float, float, float);

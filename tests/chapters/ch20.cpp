@@ -11,7 +11,7 @@ namespace {
 
 Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
 SplatTrace by_twenty(const Scene& scene) {
-    return trace_light_with<ch20::trace_light>(ch20::ends_of(scene));
+    return trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
 }
 
 /// A grey floor of side 2 `half` below a pinhole that looks straight down from height 1.
@@ -68,7 +68,8 @@ TEST_SUITE("ch20 camera") {
         for (int i = 0; i < 10000; i++) {
             float x = 2 * random.u1() - 1, z = 2 * random.u1() - 1;
             Hit floor = *intersect(scene, {{x, 5, z}, {0, -1, 0}});
-            std::optional<Splat> splat = ch20::show(scene, camera, floor, {0, 1, 0}, {4, 4, 4});
+            std::optional<Splat> splat =
+                ch20::connect_to_camera(scene, camera, floor, {0, 1, 0}, {4, 4, 4});
             if (!splat) continue;  // in the outermost pixels, by rounding
             seen++;
             CHECK(splat->L.g == doctest::Approx(0.1591549430919).epsilon(1e-5).scale(0));
@@ -103,14 +104,14 @@ TEST_SUITE("ch20 camera") {
                 Vec2 film = {u.x * static_cast<float>(scene.width),
                              u.y * static_cast<float>(scene.height)};
                 Vec3 d = camera_ray(camera.view, film).d;
-                auto sight = ch20::sight_of(camera, (1 + 100 * random.u1()) * d);
+                auto importance = ch20::camera_importance(camera, (1 + 100 * random.u1()) * d);
                 size_t x = static_cast<size_t>(film.x), y = static_cast<size_t>(film.y);
                 bool inside =
                     film.x - std::floor(film.x) > 1e-3f && film.y - std::floor(film.y) > 1e-3f;
                 if (!inside) continue;
-                REQUIRE(sight.has_value());
-                CHECK(sight->pixel == y * static_cast<size_t>(scene.width) + x);
-                CHECK(!ch20::sight_of(camera, -1 * d));
+                REQUIRE(importance.has_value());
+                CHECK(importance->pixel == y * static_cast<size_t>(scene.width) + x);
+                CHECK(!ch20::camera_importance(camera, -1 * d));
             }
         }
     }
@@ -123,8 +124,8 @@ TEST_SUITE("ch20 camera") {
             RunningStats s;
             Sampler random = random_numbers(1);
             for (int i = 0; i < 1000000; i++) {
-                auto sight = ch20::sight_of(camera, uniform_direction(random.u2()));
-                s.add(sight ? 4 * pi_exact * static_cast<double>(sight->We_cos) : 0);
+                auto importance = ch20::camera_importance(camera, uniform_direction(random.u2()));
+                s.add(importance ? 4 * pi_exact * static_cast<double>(importance->We_cos) : 0);
             }
             check_bounded(s, 1, 0.01);
         }
@@ -148,20 +149,20 @@ TEST_SUITE("ch20 light tracing") {
             "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
             "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
             square(0, false));
-        ch20::Ends ends = ch20::ends_of(scene);
+        ch20::Endpoints endpoints = ch20::endpoints_of(scene);
         Sampler random = random_numbers(1);
         double share = 0, backs = 0, n = 0;
         for (int k = 0; k < 20000; k++) {
             double u = join(random.u2());
-            size_t i = pick_light(ends.lights, u);
+            size_t i = pick_light(endpoints.lights, u);
             Vec2 u_y = random.u2();
-            ch20::Emission e = ch20::sample_emission(scene, ends, u, u_y, random.u2());
+            ch20::Emission e = ch20::sample_emission(scene, endpoints, u, u_y, random.u2());
             REQUIRE(length(e.d) == doctest::Approx(1).epsilon(1e-5).scale(0));
             bool point = e.type == LightType::point;
             float cos_y = point ? 1 : dot(e.d, e.y.n);
             REQUIRE(cos_y >= 0);
             if (cos_y < 1e-4f) continue;
-            CHECK(e.pmf == pmf_light(ends.lights, i));
+            CHECK(e.pmf == pmf_light(endpoints.lights, i));
             double flux = static_cast<double>(average(e.Le) * cos_y / (e.y.pdf * e.pdf_w));
             CHECK(flux == doctest::Approx(light_power(scene, i)).epsilon(1e-4).scale(0));
             if (!scene.lights[i].two_sided) continue;
@@ -174,13 +175,13 @@ TEST_SUITE("ch20 light tracing") {
 
     TEST_CASE("density: rays of the sky and the sun fill the disk of the scene evenly") {
         Scene scene = world_of("Translate 5 6 7 " + square(0, true) + "LightSource \"infinite\"");
-        ch20::Ends ends = ch20::ends_of(scene);
+        ch20::Endpoints endpoints = ch20::endpoints_of(scene);
         Sampler random = random_numbers(1);
         std::vector<double> rings(10), octants(8);
         for (int i = 0; i < 100000; i++) {
             Vec2 u_y = random.u2();
-            ch20::Emission e = ch20::sample_emission(scene, ends, 0.5, u_y, random.u2());
-            Vec3 to = ends.centre - e.y.p;
+            ch20::Emission e = ch20::sample_emission(scene, endpoints, 0.5, u_y, random.u2());
+            Vec3 to = endpoints.centre - e.y.p;
             float r2 = (dot(to, to) - dot(to, e.d) * dot(to, e.d)) / scene.radius / scene.radius;
             rings[std::min<size_t>(9, static_cast<size_t>(10 * r2))]++;
             octants[static_cast<size_t>((e.d.x > 0) + 2 * (e.d.y > 0) + 4 * (e.d.z > 0))]++;

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "chapters/15_mis_ris/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
-#include "common/path/bidirectional.h"
 #include "common/program/warnings.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
@@ -344,8 +344,7 @@ TEST_SUITE("ch23 photon mapping") {
             PhotonSettings settings{.light_paths = 5000, .radius = 0.01f * scene.radius};
             Measured m = mean_over_seeds(scene, settings, 16, 8, classes);
             Measured truth = mean_over_seeds_of(
-                scene, splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)), 32, 8,
-                classes);
+                scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 32, 8, classes);
             CAPTURE(m.mean);
             CAPTURE(truth.mean);
             CHECK(std::abs(m.mean - truth.mean) <
@@ -394,7 +393,7 @@ TEST_SUITE("ch23 photon mapping") {
             square(0, true) + "AttributeEnd Material \"dielectric\" Scale 3 1 3\n" +
             square(0.5f, true) + square(0.45f, false));
         scene.max_depth = 12;
-        auto both = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
+        auto both = splat_trace_with<ch22::trace>(ch22::prepare(scene));
         CHECK(film_of(scene, both, 64).film.mean() == 0);
         // Straight through but for the glass: about I cos^3 / h^2 rho / pi of the light, 12 / 13
         // of it on the way down and on the way up.

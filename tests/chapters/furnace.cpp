@@ -3,7 +3,7 @@
 // In this order: names of a lower chapter must not be found by way of a higher one.
 #include "chapters/16_distribution/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
-#include "common/path/bidirectional.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 
 namespace {
 
@@ -72,11 +72,8 @@ TEST_SUITE("furnace of all things") {
         for (const std::string& around : {sphere, sky}) {
             CAPTURE(around);
             Scene scene = furnace(around, lamps + things);
-            check_is_two(scene, splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene)}),
-                         15000);
-            check_is_two(scene,
-                         splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
-                         30000);
+            check_is_two(scene, splat_trace_with<ch21::trace>(endpoints_of(scene)), 15000);
+            check_is_two(scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 30000);
         }
     }
 
@@ -90,8 +87,7 @@ TEST_SUITE("furnace of all things") {
                               "Translate -1 -0.4 -4 Shape \"sphere\" \"float radius\" 0.8"));
         scene.max_depth = 6;
         CHECK(check_classes(scene, trace_with<ch15::trace>(ch15::prepare(scene)), scene,
-                            splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
-                            100000) > 40);
+                            splat_trace_with<ch22::trace>(ch22::prepare(scene)), 100000) > 40);
     }
 
     TEST_CASE("furnace: a sky in mirrors and glass that fill the scene, by paths from both ends") {
@@ -104,8 +100,7 @@ TEST_SUITE("furnace of all things") {
                                    "Translate -0.5 -0.4 0 Shape \"sphere\" \"float radius\" 0.5") +
                              thing("\"dielectric\"",
                                    "Translate 0.5 -0.4 0 Shape \"sphere\" \"float radius\" 0.5"));
-        check_is_two(scene, splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene)}), 15000);
-        check_is_two(scene, splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)),
-                     60000);
+        check_is_two(scene, splat_trace_with<ch21::trace>(endpoints_of(scene)), 15000);
+        check_is_two(scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 60000);
     }
 }

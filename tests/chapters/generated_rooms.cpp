@@ -9,9 +9,9 @@
 // After these, as what they taught has the same names.
 #include "chapters/20_light_tracing/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/24_progressive_photons/estimator.h"
-#include "common/path/bidirectional.h"
 #include "common/path/distribution.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
@@ -140,10 +140,9 @@ std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
     add("05", trace_with<ch05::trace>());
     for (const Chapter& chapter : every_chapter(scene)) add(chapter.name, chapter.trace);
     add("16 and 19", trace_with<distribution::trace>(distribution::prepare(scene)));
-    traces.emplace_back("20", trace_light_with<ch20::trace_light>(ch20::ends_of(scene)));
-    traces.emplace_back("21", splat_trace_with<ch21::trace>(ch21::prepare(scene)));
-    traces.emplace_back("21, fast",
-                        splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene)));
+    traces.emplace_back("20", trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
+    traces.emplace_back("21", splat_trace_with<ch21::trace>(endpoints_of(scene)));
+    traces.emplace_back("22", splat_trace_with<ch22::trace>(ch22::prepare(scene)));
     for (bool final : {false, true}) {
         PassTrace of_23 =
             ch23::photon_passes(scene, {.light_paths = 2000, .final_gathering = final});
@@ -237,9 +236,9 @@ TEST_SUITE("generated rooms") {
             auto [scene, has_delta_light] = generated_room(seed);
             Trace eye = trace_with<ch15::trace>(ch15::prepare(scene));
             Trace mis = trace_with<ch14::trace>(ch14::prepare(scene));
-            SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::Prepared{ends_of(scene)});
-            SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
-            SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::ends_of(scene));
+            SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
+            SplatTrace fast = splat_trace_with<ch22::trace>(ch22::prepare(scene));
+            SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
             std::string seen = has_delta_light ? "L(D(S|D)*)?E" : "";  // by paths from the camera
             auto compare = [&](const std::string& what, const auto& a, const auto& b, int paths,
                                const std::string& classes) {
@@ -247,9 +246,9 @@ TEST_SUITE("generated rooms") {
                 compared += check_classes(scene, a, scene, b, paths, 2 * seed, classes);
             };
             compare("14 and 15", mis, eye, 50000, "");
-            compare("15 and fast 21", eye, fast, 50000, seen);
-            compare("21 and its fast form", lesson, fast, 20000, "");
-            compare("20 and fast 21", walk, fast, 50000, shown_by_light);
+            compare("15 and 22", eye, fast, 50000, seen);
+            compare("21 and 22", lesson, fast, 20000, "");
+            compare("20 and 22", walk, fast, 50000, shown_by_light);
         }
         CHECK(compared > 30 * static_cast<int>(rooms));
     }

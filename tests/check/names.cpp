@@ -227,8 +227,7 @@ int write_references(const MeasureOptions& o) {
 }
 
 int check(const std::string& chapter, const MeasureOptions& o) {
-    const std::map<std::string, std::string> as = {
-        {"21", "21-plain"}, {"23", "23-few"}, {"24", "24-few"}};
+    const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
     const Method method = methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0);
     Findings found = findings_of(method, o);
     std::vector<Findings> other;

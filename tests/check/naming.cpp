@@ -95,7 +95,7 @@ const std::vector<Rule> rules_of_everything = {
     {"room", "LDDE",
      "each path counts as often as there are strategies that find it: the weights are all 1",
      [](const Case& c) {
-         return c.chapter == 21 && c.ratio("floor") > 1.8 &&
+         return (c.chapter == 21 || c.chapter == 22) && c.ratio("floor") > 1.8 &&
                 c.ratio("room", "LDDE") > c.ratio("floor");
      }},
     {"sky", "LDE",
@@ -328,7 +328,7 @@ const std::vector<Rule> rules_of_later_chapters = {
      "join "
      "a path at a mirror count, though they cannot find it",
      [](const Case& c) {
-         return c.chapter == 21 && c.right("floor") && c.right("near") &&
+         return (c.chapter == 21 || c.chapter == 22) && c.right("floor") && c.right("near") &&
                 (c.ratio("bulb", "LSDE") < 0.95 || c.ratio("mirror", "LSDE") < 0.95);
      }},
     {"near", "LDE",

@@ -11,7 +11,7 @@
 #include "chapters/09_light_sampling/estimator.h"
 #include "chapters/13_glossy/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
-#include "common/path/bidirectional.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 #include "common/picture/stats_file.h"
 #include "common/program/labels.h"
 #include "common/program/path_drawing.h"
@@ -219,10 +219,10 @@ TEST_SUITE("explain") {
         CHECK(tells(metal, rough, {{0, 0.98f, -4}, {0, 0, 1}}, "drawn lies below the surface\n"));
     }
 
-    TEST_CASE("truth: light paths of chapter 21 end at the depth limit, and say so") {
+    TEST_CASE("truth: light paths of chapters 21 and 22 end at the depth limit, and say so") {
         Scene scene = scene_from("scenes/cornell.pbrt", 8, 1);
-        SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::prepare(scene));
-        SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
+        SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
+        SplatTrace fast = splat_trace_with<ch22::trace>(ch22::prepare(scene));
         for (const SplatTrace& trace : {lesson, fast}) {
             Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
                 Splats splats;

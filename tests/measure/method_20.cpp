@@ -12,7 +12,8 @@ static void refuse_seen_mirrors(const Scene& scene) {
 
 static Rendering by_light(const Scene& scene, RenderOptions options) {
     options.search = LightSearch::from_lights;
-    return render_film(scene, options, trace_light_with<ch20::trace_light>(ch20::ends_of(scene)));
+    return render_film(scene, options,
+                       trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
 }
 
 [[maybe_unused]] static const bool added = add_method({.name = "20",

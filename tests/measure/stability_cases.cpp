@@ -353,7 +353,7 @@ StabilityCase blurred_lamp() {
 }
 
 /// A lamp with its back to the ground, under a mirror in which the eye sees the ground: LSDSE, met
-/// by chance alone, from which no strategy of both ends saves. 21 gives it sixteen chances.
+/// by chance alone: no strategy of both ends makes it. 22 takes sixteen samples for one.
 StabilityCase lit_and_seen_by_mirror() {
     double d2 = 1, h2 = 1.8 * 1.8, r2 = 0.1 * 0.1, sum = d2 + h2 + r2;
     double hit = 0.5 * (1 - (d2 + h2 - r2) / std::sqrt(sum * sum - 4 * d2 * r2));  // form factor
@@ -367,7 +367,8 @@ StabilityCase lit_and_seen_by_mirror() {
             N,
             {{{"10", "11", "12", "13", "13-bsdf", "14", "15", "16"},
               {bad_relvar(1 / hit - 1), covers(coverage_of_rare(hit, N))}},
-             {{"21"}, {bad_relvar((1 / hit - 1) / 16)}}},
+             {{"21", "22-weights"}, {bad_relvar(1 / hit - 1)}},
+             {{"22"}, {bad_relvar((1 / hit - 1) / 16)}}},
             {"20"}};
 }
 
@@ -381,7 +382,7 @@ StabilityCase close_to_the_floor(double h) {
                 quad("-1 0 -1  -1 0 1  1 0 1  1 0 -1"),
             0.5 / pi,
             N,
-            {{{"09", "10", "11", "12", "13", "14", "15", "16", "21"}},
+            {{{"09", "10", "11", "12", "13", "14", "15", "16", "21", "22"}},
              {{"20"}, {bad_relvar(1 / seen - 1), covers(coverage_of_rare(seen, N))}}},
             {"07", "08", "13-bsdf"}};
 }

@@ -8,8 +8,8 @@
 #include "chapters/15_mis_ris/estimator.h"
 #include "chapters/20_light_tracing/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
-#include "common/path/bidirectional.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
 
@@ -139,13 +139,13 @@ TEST_SUITE("references slow") {
         check_agreement(hold_against_reference("glass-caustic", seven, 4096, 32), 0.015);
     }
 
-    TEST_CASE("agreement: a caustic and plates, with chapter 21") {
+    TEST_CASE("agreement: a caustic and plates, with chapters 21 and 22") {
         for (std::string name : {"glass-caustic", "veach-mis", "cornell-grey"}) {
             CAPTURE(name);
             Reference reference("references/" + name);
             Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
-            SplatTrace lesson = splat_trace_with<ch21::trace>(ch21::prepare(scene));
-            SplatTrace fast = splat_trace_with<bidirectional::trace>(bidirectional::prepare(scene));
+            SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
+            SplatTrace fast = splat_trace_with<ch22::trace>(ch22::prepare(scene));
             for (const SplatTrace& trace : {lesson, fast}) {
                 BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
                 check_agreement(
@@ -162,8 +162,8 @@ TEST_SUITE("references slow") {
         Scene scene = scene_from("tests/pictures/references/glass-caustic.pbrt", 128, 100);
         auto theirs = [&](int x, int y, int side) { return reference.block(x, y, side); };
         // From the light: the blocks that show no glass.
-        BlockMeans by_light =
-            blocks_of(scene, trace_light_with<ch20::trace_light>(ch20::ends_of(scene)), 8, 32, 16);
+        BlockMeans by_light = blocks_of(
+            scene, trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)), 8, 32, 16);
         BlockMeans by_photons{128, 16};
         for (uint32_t seed = 1; seed <= 12; seed++) {
             ch23::PhotonSettings settings{.seed = seed, .light_paths = 20000};

@@ -64,5 +64,29 @@ inline Scene in_units(const std::string& path, float unit, int size, int max_dep
     return scene;
 }
 
+/// Makes all lights shine to both sides, or makes every surface metal, or lets all normals lean.
+inline void change(Scene& scene, const std::string& how) {
+    if (how == "two-sided") {
+        for (Light& light : scene.lights) light.two_sided = true;
+    }
+    if (how == "metal") {
+        for (Material& m : scene.materials) {
+            m.type = MaterialType::conductor, m.alpha = 0.3f;
+            m.eta = {0.2f, 0.2f, 0.2f}, m.k = {3.9f, 3.9f, 3.9f};
+        }
+    }
+    if (how == "leaning normals") {
+        Geometry& g = scene.geometry;
+        Sampler random = random_numbers(3);
+        g.normals.resize(g.positions.size());
+        for (size_t i = 0; i < g.triangles.size(); i++) {
+            for (uint32_t v : g.triangles[i].v) {
+                g.normals[v] =
+                    normalize(g.facet_normals[i] + 0.4f * uniform_direction(random.u2()));
+            }
+        }
+    }
+}
+
 /// Paths that a light can show to a pinhole: those whose last vertex is no mirror and no glass.
 inline const std::string shown_by_light = "L((D|S)*D)?E";

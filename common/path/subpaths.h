@@ -1,0 +1,157 @@
+// taught by chapter 21
+// Paths from the camera and from lights, vertex by vertex, and how they are connected.
+#pragma once
+#include "common/path/light_paths.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+#include "common/path/splats.h"
+#include "common/recording/recorder.h"
+
+/// A vertex of a path: on a surface, on a light, in the sky; or the pinhole.
+struct Vertex {
+    Hit x = {};
+    Vec3 back;                         // unit, to the vertex before
+    Rgb beta = {1, 1, 1};              // throughput from the eye, flux from a light; Le / pdf on it
+    bool connectible = true;           // neither mirror nor glass nor sky
+    Rgb Le;                            // emitted there
+    LightType type = LightType::area;  // of that light
+    float pdf = 0;                     // m^-2, of this point of the light
+};
+using Path = std::vector<Vertex>;
+
+inline bool is_far(LightType t) { return t == LightType::distant || t == LightType::infinite; }
+inline bool can_be_hit(LightType t) { return t == LightType::area || t == LightType::infinite; }
+inline Vec3 direction(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
+
+/// The vertex where a ray hits x, or that of the sky where it hits nothing.
+inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const std::optional<Hit>& x,
+                        const Ray& ray, Rgb beta) {
+    Vertex v{x ? *x : Hit{}, -ray.d, beta, x && !is_specular(*x->material), {}};
+    if (!x) v.x.ng = -ray.d;
+    v.Le = x ? emission(scene, *x) : scene.sky;
+    if (is_black(v.Le)) return v;
+    size_t i = static_cast<size_t>(x ? x->light : scene.sky_light);
+    v.type = scene.lights[i].type;
+    float pmf = pmf_light(endpoints.lights, i), sides = scene.lights[i].two_sided ? 2 : 1;
+    v.pdf = pmf * (x ? pdf_area(scene, i) / sides : 1 / (4 * pi * scene.radius * scene.radius));
+    return v;
+}
+
+/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. path[0] stays empty.
+inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool from_light, Ray ray,
+                        Sampler& sampler, Recorder& recorder) {
+    Path path(1);
+    Rgb beta = {1, 1, 1};
+    int last = scene.max_depth + (from_light ? 0 : 1);
+    for (int depth = 1; depth <= last; depth++) {
+        // Find the next vertex.
+        std::optional<Hit> x = intersect(scene, ray);
+        path.push_back(vertex_at(scene, endpoints, x, ray, beta));
+        if (!x) return path;
+        recorder.vertex(x);
+        Vec3 wi = -ray.d;
+        if (depth == last && !from_light) recorder.cut();
+        if (depth == last) return path;
+
+        // Sample the next direction, by the path alone: the same for every light.
+        float u1 = sampler.u1();
+        Vec2 u2 = sampler.u2();
+        BsdfSample s =
+            from_light ? sample_light_bsdf(scene, *x, wi, u1, u2) : sample_bsdf(*x, wi, u1, u2);
+        if (s.pdf_w == 0) return path;
+        beta *= s.f * ((from_light ? 1 : std::abs(dot(s.wi, x->n))) / s.pdf_w);
+        if (is_black(beta)) return path;
+        recorder.scatter(s, beta);
+
+        // Terminate with probability 1 - q, and divide by q to compensate.
+        float q = survival_probability(beta, depth - 1);
+        if (sampler.u1() >= q) return path;
+        beta /= q;
+        recorder.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+    return path;
+}
+
+/// A path from a light; its first vertex is the point on the light.
+inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sampler& sampler,
+                          Recorder& recorder) {
+    // Choose a light, a point on it and a direction.
+    if (scene.lights.empty()) return {};
+    double u = join(sampler.u2());
+    Vec2 u_y = sampler.u2();
+    Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
+    recorder.start_at_light(e.y.p);
+    float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
+    Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w));
+    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
+    Path path = random_walk(scene, endpoints, true, ray, sampler, recorder);
+    for (Vertex& v : path) v.beta = flux * v.beta;
+    float R = scene.radius, pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
+    path[0].x.p = e.y.p, path[0].x.ng = e.y.n, path[0].x.eps = e.y.eps;
+    path[0].type = e.type, path[0].pdf = pdf, path[0].beta = e.Le / pdf;
+    return path;
+}
+
+/// Places y, the point of a light, for the vertex x that it lights.
+///
+/// Far lights stand on a sphere of the scene's radius around x; lights without a size face x.
+inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
+    if (is_far(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
+    if (y.type == LightType::point) y.x.ng = direction(y, x);
+}
+
+/// The density, in sr^-1, of direction `to` at x, where the path came from `from`. Mirrors and
+/// glass: 1, as both directions have the same probability there.
+inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3 from, Vec3 to) {
+    if (is_specular(*x.material)) return 1;
+    Hit y = seen_from(scene, x, from);
+    if (from_light && x.material->type == MaterialType::diffuse) y.n = y.ng;
+    return glossy_bsdf::pdf_bsdf(y, from, to);
+}
+
+/// The density, in sr^-1, of direction w at a light. Rays of far lights fill a disk: pi sr.
+inline float pdf_emission(const Vertex& light, Vec3 w) {
+    return light.type == LightType::point ? 1 / (4 * pi) : std::abs(dot(w, light.x.ng)) / pi;
+}
+
+/// The density of vertex x, in m^-2, in a walk that came from `before` to v (null: it begins at v).
+///
+///   pdf_A = pdf_w cos / d^2,    pdf_w: of the direction in which the walk leaves v
+inline double pdf_next(const Scene& scene, const Endpoints& endpoints, bool from_light,
+                       const Vertex* before, const Vertex& v, const Vertex& x) {
+    Vec3 w = direction(v, x);
+    float pdf_w = before       ? pdf_onwards(scene, from_light, v.x, direction(v, *before), w)
+                  : from_light ? pdf_emission(v, w)
+                               : importance_cos(endpoints.camera, w);
+    float cos_x = std::abs(dot(w, x.x.ng)), d2 = length_squared(x.x.p - v.x.p);
+    return static_cast<double>(pdf_w * cos_x / d2);
+}
+
+/// t = 1: connects y, the last vertex from the light, to the camera.      flux f cos We V / d^2
+inline Splat connect_to_camera(const Scene& scene, const Pinhole& camera, const Vertex& y) {
+    Vec3 away = y.x.p - camera.view.o;
+    std::optional<CameraImportance> importance = camera_importance(camera, away);
+    if (!importance) return {0, {}};
+    float d = length(away);
+    Vec3 wo = -1 / d * away;
+    Rgb L = y.beta * adjoint_bsdf(scene, y.x, y.back, wo) * (importance->We_cos / (d * d));
+    bool hidden = is_black(L) || occluded(scene, spawn_ray(y.x, wo, d));
+    return {importance->pixel, hidden ? Rgb{} : L};
+}
+
+/// s > 0, t > 1: connects y, the last vertex from the light, with z, the last one from the eye.
+///
+///   L = beta_z f_z cos_z  V / d^2  f_y cos_y beta_y,    s = 1: without f_y
+inline Rgb connect(const Scene& scene, const Vertex& y, const Vertex& z, int s) {
+    float d = length(y.x.p - z.x.p);
+    Vec3 wi = direction(z, y);
+    Rgb f = eval_bsdf(z.x, z.back, wi) * std::abs(dot(wi, z.x.n));
+    if (!(d > 0) || is_black(f)) return {};
+    float cos_y = dot(-wi, y.x.ng);
+    Rgb f_y = std::max(0.0f, cos_y) * Rgb{1, 1, 1};
+    if (s > 1) f_y = adjoint_bsdf(scene, y.x, y.back, -wi);
+    Rgb L = z.beta * f * (y.beta * f_y) / (d * d);
+    float t_max = s == 1 && is_far(y.type) ? infinity : d - (z.x.eps + y.x.eps) / std::abs(cos_y);
+    return is_black(L) || occluded(scene, spawn_ray(z.x, wi, t_max)) ? Rgb{} : L;
+}

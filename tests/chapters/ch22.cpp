@@ -1,0 +1,130 @@
+// Chapter 22: the weights of 21 in constant time, and more samples of what only chance can find.
+// What holds for both chapters is in ch21.cpp.
+#include <doctest/doctest.h>
+
+#include "chapters/21_bidirectional/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/support/light_paths.h"
+
+namespace {
+
+/// What one path brought: by strategy and pixel, what was added, and its weight.
+struct Sample {
+    Rgb L;
+    Splats splats;
+    std::vector<Contribution> parts;
+};
+Sample sample_of(const Scene& scene, const SplatTrace& trace, uint32_t i) {
+    Sampler sampler(SamplerType::independent, 1, 1);
+    sampler.start(0, i);
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    Vec2 u = sampler.u2();
+    Vec2 film = {u.x * static_cast<float>(scene.width), u.y * static_cast<float>(scene.height)};
+    Recorder recorder(true);
+    Sample sample;
+    sample.L = trace(scene, camera_ray(view, film), sample.splats, sampler, recorder);
+    sample.parts = recorder.contributions();
+    return sample;
+}
+
+/// |a - b|, relative to the larger one.
+double relative(Rgb a, Rgb b) {
+    auto largest = [](Rgb c) { return static_cast<double>(std::max({c.r, c.g, c.b})); };
+    Rgb d = {std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)};
+    return largest(d) / std::max({largest(a), largest(b), 1e-20});
+}
+
+SplatTrace by_22(const Scene& scene, int chances) {
+    return splat_trace_with<ch22::trace>(ch22::prepare(scene, chances));
+}
+
+}  // namespace
+
+TEST_SUITE("ch22 fast bidirectional") {
+    TEST_CASE("identity: without chances, each path brings what it brings in chapter 21") {
+        struct {
+            std::string name, how;
+        } cases[] = {
+            {"cornell", ""},      {"cornell-spheres", ""},     {"light-in-glass", ""},
+            {"horizon-sky", ""},  {"far-and-near", ""},        {"veach-mis", ""},
+            {"cornell", "metal"}, {"two-lights", "two-sided"}, {"cornell", "leaning normals"}};
+        for (const auto& c : cases) {
+            CAPTURE(c.name);
+            CAPTURE(c.how);
+            Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
+            change(scene, c.how);
+            SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
+            SplatTrace fast = by_22(scene, 0);
+            int compared = 0, others = 0;
+            double worst = 0, worst_mis = 0;
+            for (uint32_t i = 0; i < 20000; i++) {
+                Sample a = sample_of(scene, lesson, i), b = sample_of(scene, fast, i);
+                bool same = a.parts.size() == b.parts.size() && a.splats.size() == b.splats.size();
+                others += !same;
+                if (!same) continue;
+                worst = std::max(worst, relative(a.L, b.L));
+                for (size_t k = 0; k < a.splats.size(); k++) {
+                    others += a.splats[k].pixel != b.splats[k].pixel;
+                    worst = std::max(worst, relative(a.splats[k].L, b.splats[k].L));
+                }
+                for (size_t k = 0; k < a.parts.size(); k++) {
+                    const Contribution &x = a.parts[k], &y = b.parts[k];
+                    others += x.way != y.way || x.path_class != y.path_class;
+                    worst_mis = std::max(worst_mis, std::abs(double{x.mis} - double{y.mis}));
+                    compared++;
+                }
+            }
+            CHECK(others == 0);
+            CHECK(worst < 1e-4);
+            CHECK(worst_mis < 1e-5);
+            CHECK(compared > 1000);
+        }
+    }
+
+    TEST_CASE("identity: chances replace only paths that no connection can make") {
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 8);
+        SplatTrace without = by_22(scene, 0), with = by_22(scene, 16);
+        int replaced = 0, added = 0, others = 0;
+        for (uint32_t i = 0; i < 150000; i++) {
+            Sample a = sample_of(scene, without, i), b = sample_of(scene, with, i);
+            std::vector<Contribution> kept;
+            for (const Contribution& part : b.parts) {
+                bool by_chance = part.mis == 1 / 16.0f && part.way.starts_with("s 0");
+                if (!by_chance) kept.push_back(part);
+                added += by_chance;
+            }
+            size_t k = 0;
+            for (const Contribution& part : a.parts) {
+                bool is_kept =
+                    k < kept.size() && kept[k].way == part.way && relative(kept[k].L, part.L) == 0;
+                k += is_kept;
+                replaced += !is_kept;
+                others += !is_kept && (part.mis != 1 || !part.way.starts_with("s 0"));
+            }
+            others += k != kept.size();
+        }
+        CHECK(others == 0);
+        CHECK(replaced > 3);
+        CHECK(added > 100);
+    }
+
+    TEST_CASE("agreement: with and without chances through mirrors, by length and class") {
+        for (std::string name : {"cornell-spheres", "light-in-glass", "caustic"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
+            CHECK(check_classes(scene, by_22(scene, 0), scene, by_22(scene, 16), 400000) >= 8);
+            CHECK(check_classes(scene, by_22(scene, 1), scene, by_22(scene, 5), 200000) >= 8);
+        }
+    }
+
+    TEST_CASE("variance: sixteen chances leave a sixteenth of the variance of their paths") {
+        // Light by way of glass, seen by way of glass or a mirror: what chance alone finds.
+        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 8);
+        constexpr int paths = 400000;
+        Measured one = census_of(scene, by_22(scene, 0), paths, 1, "LS+DS+E").all.measured(paths);
+        Measured many = census_of(scene, by_22(scene, 16), paths, 2, "LS+DS+E").all.measured(paths);
+        CHECK(z_between(one, many) < 5);
+        CHECK(many.se < 0.5 * one.se);
+        CHECK(many.se > 0.2 * one.se);
+    }
+}
