@@ -148,7 +148,7 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler&
 
         // Aim at a light.
         Vec3 wo = -ray.d;
-        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, lights, *x, wo, u, recorder);
 
         // Go on in one direction, and count it for all those that were not taken.

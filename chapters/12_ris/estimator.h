@@ -21,7 +21,7 @@ using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
 /// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
 /// count as radius / d at least, and d as its radius, unless all of it lies behind the surface or
 /// turns its back. So p_hat is 0 only where the light gives nothing, and no point gives much more.
-inline float potential(const Scene& scene, size_t i, const Hit& x) {
+inline float target(const Scene& scene, size_t i, const Hit& x) {
     const Light& light = scene.lights[i];
     const LightShape& shape = scene.light_shapes[i];
     float L = average(light.L);
@@ -67,7 +67,7 @@ struct Proposal {
     int M;
 };
 
-/// Draws M lights by power, and keeps one in proportion to its potential at x.
+/// Draws M lights by power, and keeps one in proportion to its target at x.
 ///
 /// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
 inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hit& x, double u,
@@ -75,7 +75,7 @@ inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hi
     Reservoir kept;
     for (int i = 0; i < p.M; i++) {
         size_t light = pick_light(p.lights, (i + u) / p.M);
-        float p_hat = potential(scene, light, x);
+        float p_hat = target(scene, light, x);
         kept.offer(light, p_hat, p_hat / pmf_light(p.lights, light), u1);
     }
     return kept;
@@ -135,7 +135,7 @@ inline Rgb trace(const Scene& scene, const Proposal& p, Ray ray, Sampler& sample
 
         // Aim at one of M lights.
         Vec3 wo = -ray.d;
-        ResamplingNumbers u = {join(sampler.u2()), sampler.u1(), sampler.u2()};
+        ResamplingNumbers u = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
         L += beta * direct_light(scene, p, *x, wo, u, recorder);
 
         // Go on in one direction, and count it for all those that were not taken.

@@ -137,7 +137,7 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy
 
         // Aim at a light, if that is the way.
         Vec3 wo = -ray.d;
-        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         if (strategy == Strategy::light) {
             L += beta * direct_light(scene, lights, *x, wo, u, recorder);
         }

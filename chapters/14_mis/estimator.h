@@ -105,7 +105,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         // Aim at lights.
         bool aims = !lights.one_sample || sampler.u1() < 0.5f;
         count_b = !lights.one_sample ? 1 : aims ? 0 : 2;
-        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         if (aims) L += beta * direct_light(scene, lights, *x, wo, u, recorder);
 
         // Go on in that direction, and count it for all those that were not taken.

@@ -61,7 +61,7 @@ inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit&
     return Ld;
 }
 
-/// How much of a light's potential rough metal turns to wo, and the BSDF does not find by itself:
+/// How much of a light's target rough metal turns to wo, and the BSDF does not find by itself:
 /// mis_l f, both towards the light's centre. + 0.05: a heuristic, as its other points may differ.
 inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t light, const Hit& x,
                         Vec3 wo) {
@@ -75,7 +75,7 @@ inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t lig
     return power_heuristic(pdf_l, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
-/// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
+/// Draws M lights by power, and keeps one in proportion to its target at x, with the MIS weight
 /// inside: candidates of which the BSDF takes care are not chosen.
 inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
                             double u, float u1) {
@@ -152,10 +152,10 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
 
         // Aim at lights.
         bool choose = scene.lights.size() > 1;
-        LightNumbers u = {choose ? join(sampler.u2()) : 0, sampler.u2()};
+        LightNumbers u = {choose ? to_unit_double(sampler.u2()) : 0, sampler.u2()};
         L += beta * direct_light(scene, lights, *x, wo, u, recorder);
         if (choose) {
-            ResamplingNumbers v = {join(sampler.u2()), sampler.u1(), sampler.u2()};
+            ResamplingNumbers v = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
             L += beta * best_light(scene, lights, *x, wo, v, recorder);
         }
 

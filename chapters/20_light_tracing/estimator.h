@@ -205,7 +205,7 @@ inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& 
                         Sampler& sampler, Recorder& recorder) {
     // Choose a light, a point on it and a direction; show the light itself.
     if (scene.lights.empty()) return;
-    double u = join(sampler.u2());
+    double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     recorder.start_at_light(e.y.p);

@@ -54,7 +54,7 @@ inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& wa
 ///
 /// A connection changes two ratios alone. x: the vertex of the other walk that the last one of this
 /// walk is connected to; behind_x: the one before x. Null where the other walk has none.
-/// tested by  "identity: weights are p_s / sum p_i over the densities of whole paths"
+/// tested by  "identity: without chances, each path brings what it brings in chapter 21"
 inline double sum_of_fewer(const Scene& scene, const Endpoints& endpoints, const Subpath& walk,
                            size_t n, const Vertex* x, const Vertex* behind_x) {
     if (n == 0 || (n == 1 && walk.sum[0] == 0)) return 0;
@@ -72,7 +72,7 @@ inline double sum_of_fewer(const Scene& scene, const Endpoints& endpoints, const
 
 /// The weight of strategy (s, t): the balance heuristic, in the same time for every path.
 ///
-///   mis_s = p_s / sum over i of p_i = 1 / (sum over i < s + 1 + sum over i > s of p_i / p_s)
+///   mis_s = p_s / sum over i of p_i = 1 / (1 + sum over i < s and i > s of p_i / p_s)
 ///
 /// 0 where vertices touch (0 / 0). The camera sees a light without noise: no other strategy then.
 inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Subpath& light,

@@ -38,7 +38,7 @@ struct PhotonSettings {
 inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int paths,
                              Sampler& sampler, std::vector<LightVertex>& vertices) {
     if (scene.lights.empty()) return;
-    double u = join(sampler.u2());
+    double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
@@ -182,7 +182,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
 
         // Sample a light.
         Vec3 wo = -ray.d;
-        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, endpoints, *x, wo, u, recorder);
 
         // Sample the BSDF, and go on.

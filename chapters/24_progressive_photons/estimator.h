@@ -108,7 +108,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
 
         // Sample a light.
         Vec3 wo = -ray.d;
-        LightNumbers u = {join(sampler.u2()), sampler.u2()};
+        LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, endpoints, *x, wo, u, recorder);
 
         // Sample the BSDF, and go on.

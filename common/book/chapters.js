@@ -54,11 +54,14 @@ const chapters = {
     '20_light_tracing': {kind: 'film', scene: 'caustic', against: '15_mis_ris'},
     '21_bidirectional': {
         kind: 'film', scene: 'cornell-spheres', against: '15_mis_ris',
-        own: [choice('strategy', 'strategy s,t', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2'),
-              choice('form', 'form', 'fast', 'plain')]
+        own: [choice('strategy', 'strategy s,t', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2')]
+    },
+    '22_fast_bidirectional': {
+        kind: 'film', scene: 'cornell-spheres', against: '21_bidirectional',
+        own: [number('chances', 'chances through mirrors', 16)]
     },
     '23_photon_mapping': {
-        kind: 'film', scene: 'pool', against: '21_bidirectional', spp: 8,
+        kind: 'film', scene: 'pool', against: '22_fast_bidirectional', spp: 8,
         own: [number('photons', 'light paths in each pass', 100000),
               choice('gather', 'gather photons', 'final', 'direct')]
     },

@@ -78,8 +78,8 @@ struct SideBySide {
     }
 };
 
-/// Chapter 12's potential, as one formula for all lights, for the sake of vector instructions.
-inline float potential(const LightBounds& y, const Hit& x) {
+/// Chapter 12's target, as one formula for all lights, for the sake of vector instructions.
+inline float target(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
     float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));
     float inv_d = 1 / std::sqrt(d2), least = y.radius * inv_d;
@@ -114,7 +114,7 @@ Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u) {
     if (M <= 8) {  // not worth the turning
         for (int i = 0; i < M; i++) {
             const LightBounds& y = lights.bounds[static_cast<size_t>(c.light[i])];
-            c.p_hat[i] = potential(y, x);
+            c.p_hat[i] = target(y, x);
             c.weight[i] = c.p_hat[i] * y.inv_pmf;
         }
         return c;
@@ -126,7 +126,7 @@ Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u) {
             part.put(lights.bounds.data(), c.light + begin, i);
         for (int i = 0; i < SideBySide::size; i++) {
             LightBounds y = part.bounds(i);
-            c.p_hat[begin + i] = potential(y, x);
+            c.p_hat[begin + i] = target(y, x);
             c.weight[begin + i] = c.p_hat[begin + i] * y.inv_pmf;
         }
     }

@@ -3,7 +3,7 @@
 #pragma once
 #include "common/light/light_table.h"
 
-/// A light of any type in one form, from which its potential at a point follows without a branch.
+/// A light of any type in one form, from which its target at a point follows without a branch.
 struct LightBounds {
     Vec3 centre;          // m; unit, towards a light without a place
     float has_place = 1;  // 0: distant and infinite lights
@@ -15,7 +15,7 @@ struct LightBounds {
     float inv_pmf = 0;  // 1 / its probability in the table
 };
 
-/// All lights of a scene: a table to draw candidates from, and what their potentials need.
+/// All lights of a scene: a table to draw candidates from, and what their targets need.
 struct ManyLights {
     LightTable table;
     std::vector<LightBounds> bounds;
@@ -23,12 +23,12 @@ struct ManyLights {
 };
 ManyLights many_lights(const Scene& scene, LightTable table, int M);
 
-/// Candidates for one shadow ray, each with its potential at a point.
+/// Candidates for one shadow ray, each with its target at a point.
 struct Candidates {
     static constexpr int most = 1024;
     int M;
     int light[most];
-    float p_hat[most];   // W m^-2: the potential, as in chapter 12
+    float p_hat[most];   // W m^-2: the target, as in chapter 12
     float weight[most];  // p_hat / pmf
 };
 
@@ -40,7 +40,7 @@ struct Kept {
 
 /// Draws one candidate from each of M slices of the table; u in [0,1) is the place in each slice.
 ///
-/// The same lights and potentials as chapter 12's, one after the other, but for rounding.
+/// The same lights and targets as chapter 12's, one after the other, but for rounding.
 /// tested by  "identity: candidates all at once are those of chapter 12"
 Candidates draw_candidates(const ManyLights& lights, const Hit& x, double u);
 

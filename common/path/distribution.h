@@ -150,14 +150,14 @@ inline Rgb trace(const Scene& scene, const Prepared& prepared, Ray ray, Sampler&
 
         // Aim at lights.
         bool choose = scene.lights.size() > 1;
-        LightNumbers u = {choose ? join(sampler.u2()) : 0, sampler.u2()};
+        LightNumbers u = {choose ? to_unit_double(sampler.u2()) : 0, sampler.u2()};
         L += beta * direct_light(scene, lights, *x, wo, u, recorder);
         if (choose) {
-            ResamplingNumbers v = {join(sampler.u2()), sampler.u1(), sampler.u2()};
+            ResamplingNumbers v = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
             L += beta * best_light(scene, lights, *x, wo, v, recorder);
         }
         if (scene.sky_image) {
-            LightNumbers v = {join(sampler.u2()), sampler.u2()};
+            LightNumbers v = {to_unit_double(sampler.u2()), sampler.u2()};
             L += beta * sky_light(scene, prepared.sky, *x, wo, v, recorder);
         }
 

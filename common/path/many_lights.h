@@ -51,7 +51,7 @@ inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit&
     return Ld;
 }
 
-/// How much of a light's potential rough metal turns to wo, and the BSDF does not find by itself:
+/// How much of a light's target rough metal turns to wo, and the BSDF does not find by itself:
 /// mis_l f, both towards the light's centre. + 0.05: a heuristic, as its other points may differ.
 inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t light, const Hit& x,
                         Vec3 wo) {
@@ -65,7 +65,7 @@ inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t lig
     return power_heuristic(pdf_l, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
-/// Draws M lights by power, and keeps one in proportion to its potential at x, with the MIS weight
+/// Draws M lights by power, and keeps one in proportion to its target at x, with the MIS weight
 /// inside: candidates of which the BSDF takes care are not chosen.
 inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
                             double u, float u1) {

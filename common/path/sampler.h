@@ -26,7 +26,7 @@ inline uint64_t hash64(uint64_t x) {
 inline float to_unit_float(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
 /// Two numbers in [0,1) of 24 bits as one of 48 bits, to choose among millions.
-inline double join(Vec2 u) { return double{u.x} + 0x1p-24 * double{u.y}; }
+inline double to_unit_double(Vec2 u) { return double{u.x} + 0x1p-24 * double{u.y}; }
 
 /// What aiming at a light is drawn from: numbers in [0,1) that choose the light, and a point on it.
 struct LightNumbers {

@@ -78,7 +78,7 @@ inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sample
                           Recorder& recorder) {
     // Choose a light, a point on it and a direction.
     if (scene.lights.empty()) return {};
-    double u = join(sampler.u2());
+    double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     recorder.start_at_light(e.y.p);

@@ -27,7 +27,7 @@ Rgb shown(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb 
 /// What one path from a light brings to the picture by way of nearly mirrors.
 Rgb path_by_nearly_mirrors(const Scene& scene, const Endpoints& endpoints, double paths,
                            bool meets_lights, Sampler& sampler) {
-    double u = join(sampler.u2());
+    double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     if (e.type == LightType::infinite) return {};  // no light is larger
@@ -67,7 +67,7 @@ double size_of_sky(const SkyImage& sky) {
 
 /// Aims at a light from x.
 Rgb aim(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo, Sampler& sampler) {
-    double u = join(sampler.u2());
+    double u = to_unit_double(sampler.u2());
     LightSample y = sample_light(scene, lights, x, u, sampler.u2());
     if (y.pdf_w == 0) return {};
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w);

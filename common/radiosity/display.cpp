@@ -107,7 +107,7 @@ Rgb final_gather(const Scene& scene, const Shown& shown, Hit x, Vec3 wo, Sampler
     Rgb L, beta = {1, 1, 1};
     while (true) {
         x.n = x.ng;
-        double u = join(sampler.u2());
+        double u = to_unit_double(sampler.u2());
         LightSample y = sample_light(scene, shown.lights, x, u, sampler.u2());
         BsdfSample s = basic_bsdf::sample_bsdf(x, wo, 0, sampler.u2());
         if (y.pdf_w > 0 && !occluded(scene, spawn_ray(x, y.wi, y.dist)))

@@ -140,7 +140,7 @@ Scene hidden_light(const std::string& L) {
 /// Ten point lights in a ring over the origin, of very different power, two of them in shadow.
 struct Ring {
     Scene scene;
-    std::vector<double> given, potential, pmf;
+    std::vector<double> given, target, pmf;
     double E = 0;
 
     Ring() {
@@ -156,7 +156,7 @@ struct Ring {
             lights += "LightSource \"point\" \"float scale\" " + std::to_string(power) +
                       " \"point3 from\" [" + std::to_string(at.x) + " " + std::to_string(at.y) +
                       " " + std::to_string(at.z) + "]\n";
-            potential.push_back(power * height / (d2 * std::sqrt(d2)));
+            target.push_back(power * height / (d2 * std::sqrt(d2)));
         }
         scene = floor_under(lights);
         LightTable table = ch12::prepare(scene, 1).lights;
@@ -164,7 +164,7 @@ struct Ring {
         for (size_t i = 0; i < 10; i++) {
             Vec3 to_y = scene.lights[i].p;
             bool dark = occluded(scene, spawn_ray(x, normalize(to_y), length(to_y)));
-            given.push_back(dark ? 0 : potential[i]);
+            given.push_back(dark ? 0 : target[i]);
             pmf.push_back(static_cast<double>(pmf_light(table, i)));
             E += given.back();
         }
@@ -247,8 +247,8 @@ TEST_SUITE("ch12 reservoir") {
     }
 }
 
-TEST_SUITE("ch12 potential") {
-    TEST_CASE("truth: far away the potential is the irradiance") {
+TEST_SUITE("ch12 target") {
+    TEST_CASE("truth: far away the target is the irradiance") {
         for (const std::string& light :
              {shining + "Translate 20 30 0 Rotate -20 0 0 1 " + square(0, false),
               shining + "Translate 20 30 0 Rotate 100 1 0 0 Shape \"disk\"",
@@ -258,12 +258,12 @@ TEST_SUITE("ch12 potential") {
             CAPTURE(light);
             Scene scene = floor_under(light);
             double E = irradiance(scene, trace_12(scene), 4000).mean();
-            double potential = static_cast<double>(ch12::potential(scene, 0, origin_of(scene)));
-            CHECK(potential == doctest::Approx(E).epsilon(0.15).scale(0));
+            double target = static_cast<double>(ch12::target(scene, 0, origin_of(scene)));
+            CHECK(target == doctest::Approx(E).epsilon(0.15).scale(0));
         }
     }
 
-    TEST_CASE("identity: wherever any point of a light gives something, the potential is not 0") {
+    TEST_CASE("identity: wherever any point of a light gives something, the target is not 0") {
         for (const std::string& shape :
              {square(0, false), std::string("Shape \"disk\""), std::string("Shape \"sphere\""),
               std::string("Shape \"trianglemesh\" \"point3 P\" [-1 0 -1  1 0.2 -0.5  0 0 1]"),
@@ -288,7 +288,7 @@ TEST_SUITE("ch12 potential") {
                         dot(to_y, x.n) > 0 && (scene.lights[0].two_sided ? cos_y != 0 : cos_y > 0);
                     if (!gives) continue;
                     gave++;
-                    CHECK(ch12::potential(scene, 0, x) > 0);
+                    CHECK(ch12::target(scene, 0, x) > 0);
                     Vec3 to_centre = shape_of_light.centre - x.p;
                     not_by_centre += dot(to_centre, x.n) <= 0;
                 }
@@ -311,9 +311,9 @@ TEST_SUITE("ch12 ris") {
     TEST_CASE("variance: Var_p for one candidate, below Var_p / M + (1 - 1/M) Var_q for M") {
         Ring ring;
         double sum = 0;
-        for (double x : ring.potential) sum += x;
+        for (double x : ring.target) sum += x;
         std::vector<double> q;
-        for (double x : ring.potential) q.push_back(x / sum);
+        for (double x : ring.target) q.push_back(x / sum);
         double E2 = ring.E * ring.E;
         double Var_p = ring.moment(ring.pmf, 2) - E2, Var_q = ring.moment(q, 2) - E2;
         double fourth = ring.moment(ring.pmf, 4) - 4 * ring.E * ring.moment(ring.pmf, 3) +

@@ -142,13 +142,13 @@ TEST_SUITE("ch15 candidates") {
                 x.n = x.ng = uniform_direction(random.u2());
                 ManyLights lights = many_lights(scene, table, 1 + k % 70);
                 int M = lights.M;
-                double u = join(random.u2());
+                double u = to_unit_double(random.u2());
                 Candidates c = draw_candidates(lights, x, u);
                 REQUIRE(c.M == M);
                 for (int i = 0; i < M; i++) {
                     size_t light = static_cast<size_t>(c.light[i]);
                     REQUIRE(light == pick_light(table, (i + u) * (1.0 / M)));
-                    float p_hat = ch12::potential(scene, light, x);
+                    float p_hat = ch12::target(scene, light, x);
                     REQUIRE(std::abs(c.p_hat[i] - p_hat) <= 1e-5f * p_hat);
                     float weight = p_hat / pmf_light(table, light);
                     REQUIRE(std::abs(c.weight[i] - weight) <= 1e-5f * weight);
@@ -298,7 +298,7 @@ TEST_SUITE("ch15 mis ris") {
     }
 
     TEST_CASE("failure: near a light no sample is much brighter than the light") {
-        // Where potentials misjudge near lights, a few samples weigh ten times too much.
+        // Where targets misjudge near lights, a few samples weigh ten times too much.
         for (std::string name :
              {"scenes/near-light", "tests/pictures/references/tiny-close-light"}) {
             CAPTURE(name);
@@ -313,8 +313,7 @@ TEST_SUITE("ch15 mis ris") {
         }
     }
 
-    TEST_CASE(
-        "variance: a bright light behind a wall: the even way finds what potential misjudges") {
+    TEST_CASE("variance: a bright light behind a wall: the even way finds what target misjudges") {
         Scene scene = scene_from("scenes/hidden-light.pbrt", 32, 8);
         double twelve = rel_mse(film_of(scene, by_twelve(scene), 64).film);
         double fifteen = rel_mse(film_of(scene, by_fifteen(scene), 64).film);

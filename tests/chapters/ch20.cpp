@@ -153,7 +153,7 @@ TEST_SUITE("ch20 light tracing") {
         Sampler random = random_numbers(1);
         double share = 0, backs = 0, n = 0;
         for (int k = 0; k < 20000; k++) {
-            double u = join(random.u2());
+            double u = to_unit_double(random.u2());
             size_t i = pick_light(endpoints.lights, u);
             Vec2 u_y = random.u2();
             ch20::Emission e = ch20::sample_emission(scene, endpoints, u, u_y, random.u2());

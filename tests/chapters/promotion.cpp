@@ -48,7 +48,7 @@ const std::vector<Promoted> promoted = {
      "common/light/light_table.h",
      {"light_power", "light_pmf", "AliasColumn", "LightTable", "build_light_table", "pick_light",
       "pmf_light", "sample_light"}},
-    {"12", "common/light/resampling.h", {"potential", "Reservoir", "Proposal", "resample_lights"}},
+    {"12", "common/light/resampling.h", {"target", "Reservoir", "Proposal", "resample_lights"}},
     {"13",
      "common/material/ggx.h",
      {"ggx_D", "ggx_lambda", "sample_ggx_normal", "pdf_ggx_normal", "invert_ggx_normal",

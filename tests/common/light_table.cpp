@@ -71,7 +71,7 @@ TEST_SUITE("light table") {
         Sampler random(SamplerType::independent, 1, 1);
         random.start(0, 0);
         for (int k = 0; k < 1000; k++) {
-            double u = join(random.u2());
+            double u = to_unit_double(random.u2());
             Candidates c = draw_candidates(lights, Hit(), u);
             for (int i = 0; i < c.M; i++)
                 REQUIRE(c.light[i] == static_cast<int>(pick_light(lights.table, (i + u) / c.M)));

@@ -266,11 +266,14 @@ TEST_SUITE("programs") {
     }
 
     TEST_CASE("identity: a picture's notes tell how to make its bytes again") {
-        const std::map<std::string, Words> own = {
-            {"09_light_sampling", {"--light-by", "area"}}, {"12_ris", {"--m", "3"}},
-            {"13_glossy", {"--strategy", "bsdf"}},         {"15_mis_ris", {"--m", "2"}},
-            {"16_distribution", {"--pixel", "centre"}},    {"19_adaptive", {"--pilot", "4"}},
-            {"21_bidirectional", {"--strategy", "1,2"}}};
+        const std::map<std::string, Words> own = {{"09_light_sampling", {"--light-by", "area"}},
+                                                  {"12_ris", {"--m", "3"}},
+                                                  {"13_glossy", {"--strategy", "bsdf"}},
+                                                  {"15_mis_ris", {"--m", "2"}},
+                                                  {"16_distribution", {"--pixel", "centre"}},
+                                                  {"19_adaptive", {"--pilot", "4"}},
+                                                  {"21_bidirectional", {"--strategy", "1,2"}},
+                                                  {"22_fast_bidirectional", {"--chances", "2"}}};
         for (bool render : {false, true}) {
             for (const std::string& program : programs(render)) {
                 CAPTURE(program);

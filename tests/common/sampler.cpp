@@ -252,9 +252,9 @@ TEST_SUITE("sampler: keys") {
     }
 
     TEST_CASE("identity: two numbers make one of 48 bits that is never 1") {
-        CHECK(join({0, 0}) == 0);
-        CHECK(join({0, 0x1p-24f}) == 0x1p-48);
-        CHECK(join({0x1.fffffep-1f, 0x1.fffffep-1f}) == 1 - 0x1p-48);
+        CHECK(to_unit_double({0, 0}) == 0);
+        CHECK(to_unit_double({0, 0x1p-24f}) == 0x1p-48);
+        CHECK(to_unit_double({0x1.fffffep-1f, 0x1.fffffep-1f}) == 1 - 0x1p-48);
     }
 
     TEST_CASE("density: seeds 92 and 267 share no numbers") {

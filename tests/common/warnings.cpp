@@ -165,7 +165,8 @@ TEST_SUITE("warnings") {
         CHECK_FALSE(
             said_of("15_mis_ris", scene("0.02", "0.02", bright), {"--spp", "1024"}).says(warning));
         // Paths from both ends find it.
-        CHECK_FALSE(said_of("21_bidirectional", scene("0.005", "0.02", bright)).says(warning));
+        for (std::string both_ends : {"21_bidirectional", "22_fast_bidirectional"})
+            CHECK_FALSE(said_of(both_ends, scene("0.005", "0.02", bright)).says(warning));
     }
 
     TEST_CASE("failure: paths from lights miss what nearly mirrors show, and a warning says so") {

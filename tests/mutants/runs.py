@@ -22,7 +22,7 @@ def all_runs():
     # Every chapter on the scenes that it can render; those that it refuses say so.
     walks = ["07_path_tracing", "08_russian_roulette", "09_light_sampling", "10_cosine_sampling",
              "11_light_importance", "12_ris", "13_glossy", "14_mis", "15_mis_ris", "16_distribution",
-             "19_adaptive", "20_light_tracing", "21_bidirectional"]
+             "19_adaptive", "20_light_tracing", "21_bidirectional", "22_fast_bidirectional"]
     scenes = ["cornell-spheres", "two-lights", "veach-mis", "near-light", "corner", "sky", "prism",
               "moving-ball", "bokeh", "light-in-glass", "near-disk", "furnace", "hidden-light"]
     for number, chapter in enumerate(walks):
@@ -48,7 +48,7 @@ def all_runs():
     for words in ("09_light_sampling $S/near-light.pbrt --light-by area", "13_glossy $S/veach-mis.pbrt --strategy bsdf",
                   "14_mis $S/veach-mis.pbrt --heuristic balance", "14_mis $S/veach-mis.pbrt --ways one-sample",
                   "15_mis_ris $S/two-lights.pbrt --m 2", "16_distribution $S/bokeh.pbrt --pixel centre",
-                  "19_adaptive $S/cornell.pbrt --judge own --map b.pfm", "21_bidirectional $S/cornell-spheres.pbrt --form plain",
+                  "19_adaptive $S/cornell.pbrt --judge own --map b.pfm", "22_fast_bidirectional $S/cornell-spheres.pbrt --chances 4",
                   "21_bidirectional $S/cornell-spheres.pbrt --strategy 2,2",
                   "16_distribution $M/everything.pbrt", "16_distribution $S/cornell-spheres.pbrt --threads 3",
                   "15_mis_ris $S/cornell.pbrt --max-depth 1", "07_path_tracing $S/cornell.pbrt --max-depth 0",
@@ -59,7 +59,7 @@ def all_runs():
     add("$B/12_ris $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm")
     add("$B/10_cosine_sampling $S/knot.pbrt --size 24x16 --spp 2 --threads 2 --out a.pfm")
     add("$B/19_adaptive $S/high-contrast.pbrt --size 40x32 --spp 32 --threads 1 --out a.pfm --stats a.json")
-    for chapter in ("09_light_sampling", "15_mis_ris", "21_bidirectional"):
+    for chapter in ("09_light_sampling", "15_mis_ris", "22_fast_bidirectional"):
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --explain 12,9,1 --out a.pfm")
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --explain-brightest --out a.pfm")
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --split d --out a.pfm")
