@@ -1,5 +1,5 @@
-// Chapter 20: light tracing. Paths begin at the lights, and each of their points is shown to the
-// camera:
+// Chapter 20: light tracing. Paths begin at the lights, and each of their vertices is connected to
+// the camera:
 //
 //   pixel = mean over paths of  sum over their points of  flux f cos We V / d^2
 #pragma once
@@ -203,7 +203,7 @@ inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, f
 /// source  Arvo 1986; Dutre, Willems 1995      tested by  "ch20 light tracing"
 inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& splats,
                         Sampler& sampler, Recorder& recorder) {
-    // Choose a light, a point on it and a direction; show the light itself.
+    // Choose a light, a point on it and a direction; connect the light to the camera.
     if (scene.lights.empty()) return;
     double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
@@ -219,7 +219,7 @@ inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& 
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w)), beta = {1, 1, 1};
     Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
     for (int depth = 1; depth <= scene.max_depth; depth++) {
-        // Find the next point, and show it.
+        // Find the next vertex, and connect it to the camera.
         std::optional<Hit> x = intersect(scene, ray);
         if (!x) return;
         recorder.vertex(x);

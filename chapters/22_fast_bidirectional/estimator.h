@@ -179,7 +179,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
         for (size_t s = t == 1 ? 2 : 0; s <= light.path.size() && s + t <= longest; s++) {
             if (s == 0 && settings.chances > 0 && has_chances(eye, t)) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
-            if (s == 2) place_light(scene, light.path[0], light.path[s - 1]);
+            if (s == 2) place_light(scene, light.path[0], light.path[1]);
             Splat splat = unweighted(scene, endpoints, light.path, s, eye.path, t);
             if (is_black(splat.L)) continue;
             float mis = mis_weight(scene, endpoints, light, s, eye, t);
