@@ -15,6 +15,7 @@ static Method method(const char* name, const char* label, const char* color, ch1
 [[maybe_unused]] static const bool added[] = {
     add_method(method("14", "14 MIS", "#bcbd22", {})),
     add_method(method("14-balance", "14 MIS, balance heuristic", "#e7cb94",
-                      {.heuristic = ch14::balance_heuristic})),
-    add_method(method("14-one-sample", "14 MIS, one sample", "#8c6d31", {.one_sample = true})),
+                      {.table = {}, .heuristic = ch14::balance_heuristic})),
+    add_method(method("14-one-sample", "14 MIS, one sample", "#8c6d31",
+                      {.table = {}, .one_sample = true})),
 };
