@@ -380,7 +380,7 @@ TEST_SUITE("warning rules") {
         };
         Scene scene = scene_with("0.9 0.8 0.4");
         REQUIRE(is_nearly_mirror(scene.materials[scene.shapes[1].material], 100));
-        SplatTrace trace = splat_trace_with<ch21::trace>(ch21::prepare(scene));
+        SplatTrace trace = splat_trace_with<ch21::trace>(endpoints_of(scene));
         Film film = film_of(scene, trace, 512).film;
         double found = light_by_nearly_mirrors(scene, 100, false);
         CHECK(film.standard_error() < 0.02 * film.mean());
