@@ -240,7 +240,7 @@ TEST_SUITE("drawing") {
         CameraView view = camera_view(scene.camera, 40, 20);
         Vec3 forward = camera_ray(view, {20, 10}).d, eye = scene.camera.o;
         Vec3 seen = camera_ray(view, {30, 10}).o + 4 * camera_ray(view, {30, 10}).d;
-        Vec3 behind = eye - 2 * forward + (seen - eye);
+        Vec3 behind = eye - 8 * forward + (seen - eye);
         // Straight ahead of the camera all goes to the middle of the picture.
         auto lines = lines_in(drawn(scene, eye, {{behind, -1}, {seen, 0}, {behind, 1}}),
                               "stroke='#c03' stroke-width='2'/>");
