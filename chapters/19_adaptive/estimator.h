@@ -1,5 +1,5 @@
 // Chapter 19: adaptive sampling. A few samples of each pixel tell where the error is; the others
-// go there. Chapter 16 traces the paths.
+// go there. Chapter 18 traces the paths.
 //
 //   error^2 = sum over the pixels of  v_i / n_i   is least, for a given sum of n_i c_i, where
 //   n_i is proportional to sqrt(v_i / c_i)        v_i: the variance of a pixel's samples
@@ -9,12 +9,12 @@
 #include <numeric>
 
 #include "common/base/parallel.h"
-#include "common/path/distribution.h"
+#include "common/path/dispersion.h"
 #include "common/picture/allocation.h"
 
 namespace ch19 {
 
-using distribution::trace, distribution::prepare;
+using dispersion::trace, dispersion::prepare;
 
 /// How much a pixel's samples vary, in the measure in which pictures are compared here: that of
 /// relMSE, in which what is dark counts as much as what is bright.

@@ -26,7 +26,7 @@ Scene load_and_tell(const std::string& path, const Report& report, LoadingProgre
 
 }  // namespace
 
-Scene load(const RenderOptions& options, bool has_distribution) {
+Scene load(const RenderOptions& options, Features features) {
     constexpr double pause = 10;  // s
     LoadingProgress progress(stderr, isatty(STDERR_FILENO), pause);
     Report report;
@@ -40,7 +40,7 @@ Scene load(const RenderOptions& options, bool has_distribution) {
     } catch (const std::bad_alloc&) {
         fail({options.scene}, "out of memory while it was read, with the files that it names");
     }
-    if (!has_distribution) refuse_distribution(scene);
+    refuse_features(scene, features);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
@@ -70,27 +70,26 @@ void refuse_glossy(const Scene& scene) {
     }
 }
 
-void refuse_distribution(const Scene& scene) {
+void refuse_features(const Scene& scene, Features features) {
     const Camera& camera = scene.camera;
-    if (camera.lens_radius > 0) {
+    if (features < Features::lens_and_shutter && camera.lens_radius > 0) {
         fail({scene.file, camera.line, camera.column},
-             "all chapters but 16 and 19 have a pinhole: lensradius must be 0");
+             "only chapters 16 to 19 have a lens: lensradius must be 0");
     }
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
-        if (m.glass == nullptr) continue;
+        if (features >= Features::dispersion || m.glass == nullptr) continue;
         char eta[32];
         std::snprintf(eta, sizeof eta, "%.5g", double{m.ior});
         fail({scene.file, m.line, m.column},
-             std::string("outside chapters 16 and 19 glass does not ") +
-                 "disperse: try \"float eta\" " + eta);
+             std::string("glass disperses in chapters 18 and 19 only: try \"float eta\" ") + eta);
     }
-    if (!scene.movers.empty()) {
+    if (features < Features::lens_and_shutter && !scene.movers.empty()) {
         fail({scene.file, scene.movers[0].line, scene.movers[0].column},
-             "outside chapters 16 and 19 nothing moves");
+             "shapes move in chapters 16 to 19 only");
     }
-    if (scene.sky_image) {
+    if (features < Features::sky_image && scene.sky_image) {
         fail({scene.file, scene.sky_image->line, scene.sky_image->column},
-             "outside chapters 16 and 19 the sky has no picture");
+             "the sky has an image in chapters 17 to 19 only");
     }
 }

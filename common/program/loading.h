@@ -3,11 +3,14 @@
 #include "common/program/options.h"
 #include "common/scene/scene.h"
 
+/// What chapters 16, 17 and 18 add, each to all before it.
+enum class Features { none, lens_and_shutter, sky_image, dispersion };
+
 /// Reads the scene that the options name, makes it ready to trace, and puts the options' size,
 /// samples and depth in place of the scene's own.
 ///
-/// Throws for what refuse_distribution() names, unless the chapter `has_distribution`.
-Scene load(const RenderOptions& options, bool has_distribution = false);
+/// Throws for what refuse_features() names.
+Scene load(const RenderOptions& options, Features features = Features::none);
 
 /// Throws InputError when the scene has a point or distant light: a path that only looks for light
 /// by chance never finds one.
@@ -17,6 +20,6 @@ void refuse_delta_lights(const Scene& scene);
 /// have not got.
 void refuse_glossy(const Scene& scene);
 
-/// Throws InputError when the scene has what chapter 16 is about: a lens, shapes that move, glass
-/// that disperses, or a picture for the sky.
-void refuse_distribution(const Scene& scene);
+/// Throws InputError when the scene has a lens, shapes that move, an image for the sky or glass
+/// that disperses, and the chapter, which has these features, cannot render it.
+void refuse_features(const Scene& scene, Features features);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "chapters/16_distribution/estimator.h"
+#include "chapters/18_dispersion/estimator.h"
 #include "chapters/19_adaptive/estimator.h"
 #include "common/base/files.h"
 #include "common/path/camera_sample.h"
@@ -31,8 +31,12 @@ Rendering adaptive(Scene scene, const Trace& trace, int spp, uint32_t seed = 1,
     return render_film(scene, options, trace, ch19::allocation(shares));
 }
 
-Trace by_nineteen(const Scene& scene) { return trace_with<ch19::trace>(ch19::prepare(scene)); }
-Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
+Trace by_nineteen(const Scene& scene) {
+    return trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white());
+}
+Trace by_eighteen(const Scene& scene) {
+    return trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white());
+}
 
 /// Light in one sample of twenty, of which a path knows nothing before.
 Rgb rare(const Scene&, Ray, Sampler& sampler, Recorder& recorder) {
@@ -231,7 +235,7 @@ TEST_SUITE("ch19 adaptive") {
                 double mean = adaptive(scene, trace, 12, seed, {4, ch19::Judge::other, {}}, sampler)
                                   .film.mean();
                 difference.add(mean -
-                               film_of(scene, by_sixteen(scene), 12, seed + 1000).film.mean());
+                               film_of(scene, by_eighteen(scene), 12, seed + 1000).film.mean());
             }
             CAPTURE(difference.mean());
             CHECK(std::abs(difference.mean()) < 5 * difference.standard_error());
@@ -255,12 +259,12 @@ TEST_SUITE("ch19 adaptive") {
         }
     }
 
-    TEST_CASE("agreement: with chapter 16, block by block, on scenes with all that it renders") {
+    TEST_CASE("agreement: with chapter 18, block by block, on scenes with all that it renders") {
         for (std::string name : {"cornell", "prism", "moving-ball", "high-contrast"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
             Film a = adaptive(scene, by_nineteen(scene), 96).film;
-            Film b = film_of(scene, by_sixteen(scene), 96, 2).film;
+            Film b = film_of(scene, by_eighteen(scene), 96, 2).film;
             Image of_a = a.image(), of_b = b.image();
             double v = a.standard_error(), w = b.standard_error();
             CHECK(std::abs(a.mean() - b.mean()) < 5 * std::hypot(v, w));
@@ -288,10 +292,11 @@ TEST_SUITE("ch19 adaptive") {
 
     TEST_CASE("variance: at equal samples less error than even sampling, where error is local") {
         Scene scene = scene_from("scenes/high-contrast.pbrt", 48, 8);
-        Image truth = film_of(scene, by_sixteen(scene), 2048, 77).film.image();
+        Image truth = film_of(scene, by_eighteen(scene), 2048, 77).film.image();
         double even = 0, shared = 0;
         for (uint32_t seed = 1; seed <= 4; seed++) {
-            even += relative_error(film_of(scene, by_sixteen(scene), 64, seed).film.image(), truth);
+            even +=
+                relative_error(film_of(scene, by_eighteen(scene), 64, seed).film.image(), truth);
             Rendering r = adaptive(scene, by_nineteen(scene), 64, seed);
             shared += relative_error(r.film.image(), truth);
             CHECK(r.film.spp() == doctest::Approx(64).epsilon(0.005).scale(0));

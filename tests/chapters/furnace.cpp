@@ -1,7 +1,7 @@
 // A room in which light is the same everywhere, whatever stands in it: every chapter must find it.
 #include "tests/support/chapters.h"
 // In this order: names of a lower chapter must not be found by way of a higher one.
-#include "chapters/16_distribution/estimator.h"
+#include "chapters/18_dispersion/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
 
@@ -57,7 +57,8 @@ TEST_SUITE("furnace of all things") {
             CAPTURE(around);
             Scene scene = furnace(around, lamps + things);
             std::vector<Chapter> chapters = every_chapter(scene);
-            chapters.push_back({"16", trace_with<ch16::trace>(ch16::prepare(scene))});
+            chapters.push_back(
+                {"18", trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white())});
             for (const Chapter& chapter : chapters) {
                 CAPTURE(chapter.name);
                 int paths = 25000;

@@ -12,7 +12,7 @@
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/24_progressive_photons/estimator.h"
-#include "common/path/distribution.h"
+#include "common/path/dispersion.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 
@@ -139,7 +139,7 @@ std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
     };
     add("05", trace_with<ch05::trace>());
     for (const Chapter& chapter : every_chapter(scene)) add(chapter.name, chapter.trace);
-    add("16 and 19", trace_with<distribution::trace>(distribution::prepare(scene)));
+    add("18 and 19", trace_with<dispersion::trace>(dispersion::prepare(scene), shares_of_white()));
     traces.emplace_back("20", trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
     traces.emplace_back("21", splat_trace_with<ch21::trace>(endpoints_of(scene)));
     traces.emplace_back("22", splat_trace_with<ch22::trace>(ch22::prepare(scene)));

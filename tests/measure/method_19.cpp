@@ -13,12 +13,13 @@ static Method method(const char* name, const char* label, const char* color, Sam
                     if (sampler != SamplerType::independent) options.sampler = sampler;
                     ch19::Shares shares;
                     shares.judge = judge;
-                    return render_film(scene, options,
-                                       trace_with<ch19::trace>(ch19::prepare(scene)),
-                                       ch19::allocation(shares));
+                    return render_film(
+                        scene, options,
+                        trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()),
+                        ch19::allocation(shares));
                 },
             .biased = judge == ch19::Judge::own,
-            .has_distribution = true};
+            .features = Features::dispersion};
 }
 
 [[maybe_unused]] static const bool added[] = {

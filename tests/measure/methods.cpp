@@ -26,7 +26,6 @@ std::vector<std::string> scenes_in(const char* folder) {
 
 bool add_method(Method method) {
     auto& methods = registry();
-    if (!method.has_distribution) method.refuse.push_back(refuse_distribution);
     auto before = [](const Method& a, const Method& b) { return a.name < b.name; };
     methods.insert(std::upper_bound(methods.begin(), methods.end(), method, before), method);
     return true;
@@ -59,9 +58,14 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
     return found;
 }
 
+void refuse(const Method& method, const Scene& scene) {
+    refuse_features(scene, method.features);
+    for (auto check : method.refuse) check(scene);
+}
+
 bool can_render(const Method& method, const Scene& scene) {
     try {
-        for (auto refuse : method.refuse) refuse(scene);
+        refuse(method, scene);
     } catch (const InputError&) {
         return false;
     }

@@ -22,8 +22,8 @@ struct Method {
     std::vector<std::string> scenes = {};  // what its chapter is about, for make efficiency
     std::vector<void (*)(const Scene&)> refuse = {};  // throw InputError for what it cannot render
     std::function<Rendering(const Scene&, const RenderOptions&)> render = {};
-    bool biased = false;            // on purpose
-    bool has_distribution = false;  // renders what refuse_distribution() names
+    bool biased = false;                 // on purpose
+    Features features = Features::none;  // of scenes, which it renders
 };
 
 /// Whether the method is a chapter with an option, and not the chapter as it is.
@@ -44,6 +44,8 @@ const std::vector<Method>& all_methods();
 /// variants.
 std::vector<Method> methods_named(const std::vector<std::string>& names);
 
+/// Throws InputError when the method cannot render the scene.
+void refuse(const Method& method, const Scene& scene);
 /// Whether the method can render the scene.
 bool can_render(const Method& method, const Scene& scene);
 

@@ -145,7 +145,7 @@ int main(int argc, char** argv) {
             remove_references(scene_name(scene.file));
             int first_seed = 1;
             for (const Method& method : methods_named(names)) {
-                for (auto refuse : method.refuse) refuse(scene);
+                refuse(method, scene);
                 scene.spp = o.spp > 0 ? o.spp : part_samples(method, scene, o, first_seed);
                 make_reference(method, scene, o, command_line(argc, argv), first_seed);
                 first_seed += 1000;

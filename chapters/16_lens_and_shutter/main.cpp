@@ -1,5 +1,5 @@
 // Chapter 16 as a program: reads options, loads a scene, renders it, writes the picture.
-#include "chapters/16_distribution/estimator.h"
+#include "chapters/16_lens_and_shutter/estimator.h"
 #include "common/program/render.h"
 
 int main(int argc, char** argv) {
@@ -18,10 +18,10 @@ int main(int argc, char** argv) {
                             centre = parse_choice("pixel", text, {"area", "centre"}) == 1;
                         },
                         "area"};
-        RenderOptions options = parse_render_options(argc, argv, "16_distribution",
+        RenderOptions options = parse_render_options(argc, argv, "16_lens_and_shutter",
                                                      "scenes/bokeh.pbrt", {candidates, pixel});
         options.pixel_centre = centre;
-        Scene scene = load(options, true);
+        Scene scene = load(options, Features::lens_and_shutter);
         return render(scene, options, trace_with<ch16::trace>(ch16::prepare(scene, M)));
     });
 }

@@ -1,0 +1,105 @@
+// Chapter 16: the lens and the shutter. A pixel is a mean over its area, the lens and the time that
+// the shutter is open: each path draws one point of all three.
+//
+//   pixel = 1 / (|A| |lens| |T|)  integral over A, lens and T of  L(path)
+#pragma once
+#include "common/path/many_lights.h"
+#include "common/path/roulette.h"
+#include "common/path/sampler.h"
+
+namespace ch16 {
+
+using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
+
+/// The lights, and M: candidates for one shadow ray, but no more than there are lights.
+inline ManyLights prepare(const Scene& scene, int M = 64) {
+    return many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
+}
+
+/// Turns the pinhole's ray into one through a point of the lens that is sharp at the same place.
+///
+///   focus = o + F d / (depth of d);   o' = o + R sqrt(u1) (cos, sin)(2 pi u2);   d' = focus - o'
+///
+/// F and depths count along the camera's axis: what is sharp is a plane, not a sphere.
+/// source  Cook, Porter, Carpenter 1984      tested by  "truth: circles of confusion"
+inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
+    Vec3 axis = cross(camera.right, camera.up);
+    float depth = dot(ray.d, axis) / dot(camera.forward, axis);
+    Vec3 focus = ray.o + camera.focal_distance / depth * ray.d;
+    Vec3 p = from_cylindrical(camera.lens_radius * std::sqrt(u.x), u.y, 0);
+    Vec3 o = ray.o + p.x * camera.right + p.y * camera.up;
+    return {o, normalize(focus - o)};
+}
+
+/// A time at which the shutter is open, in s; all of them are equally likely.
+///
+/// tested by  "truth: how long what moves covers a point"
+inline float sample_time(const Camera& camera, float u) {
+    return std::lerp(camera.shutter_open, camera.shutter_close, u);
+}
+
+/// Estimates Li along the ray from one path.
+///
+///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
+///
+/// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
+/// source  Veach, Guibas 1995      tested by  "ch16 lens and shutter"
+inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler& sampler,
+                 Recorder& recorder) {
+    // Choose a point of the lens, and a time.
+    if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
+    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
+
+    Rgb L, beta = {1, 1, 1};
+    Hit last;              // the vertex before
+    float pdf_b = 0;       // of the direction that was drawn there
+    bool only_way = true;  // nothing but this path could find what shines next
+    for (int depth = 0;; depth++) {
+        // Find the next vertex, or the sky.
+        std::optional<Hit> x = intersect(scene, ray);
+        recorder.vertex(x);
+
+        // Add what shines there, as far as it is this way's share.
+        Rgb Le = x ? emission(scene, *x) : scene.sky;
+        if (!is_black(Le)) {
+            float mis_b = only_way ? 1 : mis_emission(scene, lights, last, ray.d, pdf_b, x);
+            L += beta * Le * mis_b;
+            recorder.emitted(Le, mis_b);
+        }
+        if (!x) return L;
+        if (depth == scene.max_depth) {
+            recorder.cut();
+            return L;
+        }
+
+        // Draw the direction to go on in.
+        Vec3 wo = -ray.d;
+        float u1 = sampler.u1();
+        BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
+
+        // Aim at lights.
+        bool choose = scene.lights.size() > 1;
+        LightNumbers u = {choose ? to_unit_double(sampler.u2()) : 0, sampler.u2()};
+        L += beta * direct_light(scene, lights, *x, wo, u, recorder);
+        if (choose) {
+            ResamplingNumbers v = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
+            L += beta * best_light(scene, lights, *x, wo, v, recorder);
+        }
+
+        // Go on in that direction, and count it for all those that were not taken.
+        last = *x, pdf_b = s.pdf_w, only_way = s.specular;
+        if (s.pdf_w == 0) return L;
+        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
+        if (is_black(beta)) return L;
+        recorder.scatter(s, beta);
+
+        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 08
+        if (sampler.u1() >= q) return L;
+        beta /= q;
+        recorder.roulette(q, beta);
+        ray = spawn_ray(*x, s.wi);
+    }
+}
+
+}  // namespace ch16

@@ -1,0 +1,19 @@
+// Chapter 17 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/17_sky_image/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        int M = 64;
+        Option candidates = {
+            "m", "M", "light candidates, at most one per light (default 64)",
+            [&](const std::string& text) {
+                M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
+            },
+            "64"};
+        RenderOptions options =
+            parse_render_options(argc, argv, "17_sky_image", "scenes/sky.pbrt", {candidates});
+        Scene scene = load(options, Features::sky_image);
+        return render(scene, options, trace_with<ch17::trace>(ch17::prepare(scene, M)));
+    });
+}

@@ -1,0 +1,20 @@
+// Chapter 18 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/18_dispersion/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        int M = 64;
+        Option candidates = {
+            "m", "M", "light candidates, at most one per light (default 64)",
+            [&](const std::string& text) {
+                M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
+            },
+            "64"};
+        RenderOptions options =
+            parse_render_options(argc, argv, "18_dispersion", "scenes/prism.pbrt", {candidates});
+        Scene scene = load(options, Features::dispersion);
+        return render(scene, options,
+                      trace_with<ch18::trace>(ch18::prepare(scene, M), shares_of_white()));
+    });
+}

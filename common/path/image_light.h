@@ -1,0 +1,95 @@
+// taught by chapter 17
+// Light from an image of the sky.
+#pragma once
+#include "common/path/many_lights.h"
+
+namespace sky_light {
+
+/// The probability that light sampling chooses one of the pixels before pixel i, for each i, and
+/// at the end 1.      All are 0 for an image of one colour: no pixel is brighter than the mean.
+///
+///   pmf_i = max(0, L_i - mean L) w_i / sum,    mean L = sum of L_i w_i / sum of w_i
+///
+/// Subtracting the mean is MIS compensation: BSDF sampling finds light that comes from everywhere
+/// anyway, so light sampling is left for what is brighter. 1e-6: as the mean is rounded.
+/// source  Karlik et al. 2019      tested by  "density: the image's density sums to 1, or is 0"
+inline std::vector<double> image_cdf(const SkyImage& image) {
+    double light = 0, sphere = 0;
+    std::vector<double> w, cdf = {0};
+    for (size_t i = 0; i < image.pixels.size(); i++) {
+        w.push_back(double{solid_angle_per_area(image, image.middle_of(i))});
+        light += double{average(image.pixels[i])} * w[i], sphere += w[i];
+    }
+    double mean = (1 + 1e-6) * light / sphere;
+    for (size_t i = 0; i < image.pixels.size(); i++)
+        cdf.push_back(cdf[i] + std::max(0.0, double{average(image.pixels[i])} - mean) * w[i]);
+    double sum = cdf.back();
+    if (sum > 0)
+        for (double& c : cdf) c /= sum;
+    return cdf;
+}
+
+/// The lights of chapter 15, and the sky's image as one more: what chooses its pixels.
+struct LightsAndSky : ManyLights {
+    std::vector<double> image_cdf;
+};
+inline LightsAndSky prepare(const Scene& scene, int M = 64) {
+    ManyLights lights = many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
+    return {lights, scene.sky_image ? image_cdf(*scene.sky_image) : std::vector<double>{}};
+}
+
+/// The density at uv, in pixel i.      pdf_w = pmf_i pixels / (solid angle per area at uv)
+inline float pdf_image(const SkyImage& image, const std::vector<double>& cdf, size_t i, Vec2 uv) {
+    double pmf = cdf[i + 1] - cdf[i], pixels = static_cast<double>(image.pixels.size());
+    return static_cast<float>(pmf * pixels) / solid_angle_per_area(image, uv);
+}
+
+/// Estimates what the image sends by way of x to wo, from a point of one pixel. By rounding the
+/// point may lie in the next pixel, which may be black: the pixel drawn tells Le and density.
+///
+///   Ld = mis_l f Le V cos / pdf_l      0 for an image of one colour
+/// tested by  "truth: skies of known irradiance"
+inline Rgb image_light(const Scene& scene, const LightsAndSky& lights, const Hit& x, Vec3 wo,
+                       LightNumbers u, Recorder& recorder) {
+    const std::vector<double>& cdf = lights.image_cdf;
+    if (is_specular(*x.material) || cdf.back() == 0) return {};
+    const SkyImage& image = *scene.sky_image;
+    auto chosen = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u.light) - cdf.begin() - 1;
+    size_t i = static_cast<size_t>(chosen);
+    Vec2 uv = image.point_in(i, u.point);
+    Vec3 wi = direction_of(image, uv);
+    float pdf_l = pdf_image(image, cdf, i, uv), pdf_b = pdf_bsdf(x, wo, wi);
+    float mis_l = power_heuristic(pdf_l, pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, wi) * image.pixels[i] * (mis_l * dot(wi, x.n) / pdf_l);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, wi))) return {};
+    recorder.direct(Ld, wi, pdf_l, pdf_b, mis_l);
+    return Ld;
+}
+
+/// The image in direction wi, in which the path has left the scene, times mis_b. pdf_b: with which
+/// wi was drawn; infinite where light sampling cannot draw it, so that mis_b = 1.
+inline Rgb image_emission(const Scene& scene, const LightsAndSky& lights, Vec3 wi, float pdf_b,
+                          Recorder& recorder) {
+    if (!scene.sky_image) return {};
+    Vec2 uv = point_of(*scene.sky_image, wi);
+    size_t i = scene.sky_image->pixel_at(uv);
+    float mis_b = power_heuristic(pdf_b, pdf_image(*scene.sky_image, lights.image_cdf, i, uv));
+    recorder.emitted(scene.sky_image->pixels[i], mis_b);
+    return scene.sky_image->pixels[i] * mis_b;
+}
+
+/// The random numbers of all light samples of one vertex.
+struct DirectNumbers {
+    LightNumbers any;
+    std::optional<ResamplingNumbers> best;
+    std::optional<LightNumbers> image;
+};
+inline DirectNumbers draw_numbers(const Scene& scene, Sampler& sampler) {
+    bool choose = scene.lights.size() > 1;
+    DirectNumbers u = {{choose ? to_unit_double(sampler.u2()) : 0, sampler.u2()}, {}, {}};
+    if (choose) u.best = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
+    if (scene.sky_image) u.image = {to_unit_double(sampler.u2()), sampler.u2()};
+    return u;
+}
+
+}  // namespace sky_light

@@ -1,0 +1,26 @@
+// taught by chapter 16
+// A point of the lens, and a time at which the shutter is open.
+#pragma once
+#include "common/scene/scene.h"
+
+/// Turns the pinhole's ray into one through a point of the lens that is sharp at the same place.
+///
+///   focus = o + F d / (depth of d);   o' = o + R sqrt(u1) (cos, sin)(2 pi u2);   d' = focus - o'
+///
+/// F and depths count along the camera's axis: what is sharp is a plane, not a sphere.
+/// source  Cook, Porter, Carpenter 1984      tested by  "truth: circles of confusion"
+inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
+    Vec3 axis = cross(camera.right, camera.up);
+    float depth = dot(ray.d, axis) / dot(camera.forward, axis);
+    Vec3 focus = ray.o + camera.focal_distance / depth * ray.d;
+    Vec3 p = from_cylindrical(camera.lens_radius * std::sqrt(u.x), u.y, 0);
+    Vec3 o = ray.o + p.x * camera.right + p.y * camera.up;
+    return {o, normalize(focus - o)};
+}
+
+/// A time at which the shutter is open, in s; all of them are equally likely.
+///
+/// tested by  "truth: how long what moves covers a point"
+inline float sample_time(const Camera& camera, float u) {
+    return std::lerp(camera.shutter_open, camera.shutter_close, u);
+}

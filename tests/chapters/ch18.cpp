@@ -1,0 +1,171 @@
+// Chapter 18: dispersion.
+#include <doctest/doctest.h>
+
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/17_sky_image/estimator.h"
+#include "chapters/18_dispersion/estimator.h"
+#include "common/base/error.h"
+#include "common/program/loading.h"
+#include "common/scene_file/spectra.h"
+#include "tests/support/estimators.h"
+
+namespace {
+
+Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
+Trace by_seventeen(const Scene& scene) { return trace_with<ch17::trace>(ch17::prepare(scene)); }
+Trace by_eighteen(const Scene& scene) {
+    return trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white());
+}
+
+}  // namespace
+
+TEST_SUITE("ch18 dispersion") {
+    TEST_CASE("identity: where nothing is new, each picture is chapter 17's, bit for bit") {
+        for (std::string name : {"cornell-spheres", "moving-ball", "bokeh"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 16, 8);
+            for (SamplerType sampler :
+                 {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
+                Image a = film_of(scene, by_seventeen(scene), 4, 1, sampler).film.image();
+                Image b = film_of(scene, by_eighteen(scene), 4, 1, sampler).film.image();
+                CHECK(a.pixels == b.pixels);
+            }
+        }
+    }
+}
+
+TEST_SUITE("ch18 dispersion") {
+    TEST_CASE("identity: all wavelengths together are white") {
+        std::vector<Rgb> white = shares_of_white();
+        Rgb sum;
+        constexpr int n = 1 << 16;
+        double last = 0;
+        for (int i = 0; i < n; i++) {
+            auto drawn = ch18::sample_wavelength(white, (static_cast<float>(i) + 0.5f) / n);
+            CHECK(average(drawn.weight) == doctest::Approx(1).epsilon(1e-5).scale(0));
+            CHECK(double{drawn.micrometres} >= last - 1e-6);
+            last = double{drawn.micrometres};
+            sum += drawn.weight / n;
+        }
+        for (float channel : {sum.r, sum.g, sum.b}) CHECK(std::abs(channel - 1) < 3e-4f);
+        CHECK(last < 0.7851);
+        CHECK(ch18::sample_wavelength(white, 0).micrometres > 0.37f);
+        // Blue, green and red, where they are seen.
+        auto weight_at = [&](float micrometres) {
+            float u = 0;
+            while (ch18::sample_wavelength(white, u).micrometres < micrometres) u += 1e-4f;
+            return ch18::sample_wavelength(white, u).weight;
+        };
+        Rgb blue = weight_at(0.45f), green = weight_at(0.54f), red = weight_at(0.64f);
+        CHECK((blue.b > 2 && blue.g < 0.5f));
+        CHECK((green.g > 2 && green.r < 0.5f && green.b < 0.5f));
+        CHECK((red.r > 2.5f && red.g < 0.2f));
+    }
+
+    TEST_CASE("truth: the glasses have the indices and Abbe numbers of their data sheets") {
+        struct {
+            const char* name;
+            double n_d, abbe;
+        } sheets[] = {{"glass-BAF10", 1.67003, 47.11}, {"glass-BK7", 1.516800034501, 64.1673362375},
+                      {"glass-F10", 1.72828, 28.53},   {"glass-F11", 1.78472, 25.68},
+                      {"glass-F5", 1.67270, 32.21},    {"glass-FK51A", 1.48656, 84.47},
+                      {"glass-LASF9", 1.85025, 32.17}};
+        REQUIRE(all_glasses().size() == std::size(sheets));
+        for (size_t i = 0; i < std::size(sheets); i++) {
+            const Glass& glass = all_glasses()[i];
+            CAPTURE(glass.name);
+            CHECK(std::string(glass.name) == sheets[i].name);
+            double F = double{index_of_refraction(glass, 0.4861327)};
+            double d = double{index_of_refraction(glass, 0.5875618)};
+            double C = double{index_of_refraction(glass, 0.6562725)};
+            CHECK(std::abs(d - sheets[i].n_d) < 2e-5);
+            CHECK(std::abs((d - 1) / (F - C) - sheets[i].abbe) < 0.002 * sheets[i].abbe);
+        }
+    }
+
+    TEST_CASE("truth: a prism of 60 degrees bends each color by its own angle") {
+        const Glass& BK7 = all_glasses()[1];
+        struct {
+            double micrometres, degrees;
+        } cases[] = {
+            {0.4861327, 39.14097361135}, {0.5875618, 38.65363675922}, {0.6562725, 38.43841179471}};
+        for (auto [micrometres, degrees] : cases) {
+            float n = index_of_refraction(BK7, micrometres), rad = pi / 180;
+            // Faces whose normals, towards the light and away from it, are 60 degrees apart.
+            Vec3 in = {-std::cos(60 * rad / 2), std::sin(60 * rad / 2), 0};
+            Vec3 out = {-in.x, in.y, 0};
+            float a = std::atan2(in.y, in.x) + 50 * rad;  // towards the lamp, away from the edge
+            Vec3 wo = {std::cos(a), std::sin(a), 0};
+            Vec3 inside = *refract(wo, in, n);
+            Vec3 after = *refract(-inside, -1 * out, 1 / n);
+            double angle = std::acos(static_cast<double>(dot(after, -wo))) * 180 / pi_exact;
+            CHECK(std::abs(angle - degrees) < 2e-4 * degrees);
+        }
+    }
+
+    TEST_CASE("furnace: white in, white out: glass that does not disperse, color by color") {
+        const Glass plain = {"plain", {1.25, 0, 0}, {0, 0, 0}};
+        for (bool disperses : {false, true}) {
+            Scene scene = scene_from("scenes/furnace-glass.pbrt", 16, 100);
+            for (Material& m : scene.materials)
+                if (m.type == MaterialType::dielectric)
+                    m.glass = disperses ? &all_glasses()[3] : &plain;
+            Film film = film_of(scene, by_eighteen(scene), 512).film;
+            Rgb mean = film.mean_rgb();
+            // The variance of a channel of one path is at most that of the weights, 1.2.
+            double se = std::sqrt(1.2 / static_cast<double>(film.samples()));
+            for (float channel : {mean.r, mean.g, mean.b})
+                CHECK(std::abs(double{channel} - 1) < 5 * se);
+            CHECK(std::abs(film.mean() - 1) < 1e-4);
+        }
+    }
+
+    TEST_CASE("agreement: glass of one index by way of wavelengths, with chapter 15") {
+        Scene scene = scene_from("scenes/caustic.pbrt", 16, 8), by_colors = scene;
+        const Glass plain = {"plain", {1.25, 0, 0}, {0, 0, 0}};
+        for (Material& m : by_colors.materials)
+            if (m.type == MaterialType::dielectric) m.glass = &plain, m.ior = 1;
+        for (Material& m : scene.materials) m.ior = 1.5f;
+        CHECK(check_classes(scene, by_fifteen(scene), by_colors, by_eighteen(by_colors), 100000) >=
+              4);
+    }
+}
+
+TEST_SUITE("ch18 dispersion") {
+    TEST_CASE("input: a chapter refuses what only later ones can render, at its place") {
+        std::string ball = " Shape \"sphere\"", sky = "LightSource \"infinite\" ";
+        struct {
+            Features first;  // that can render it
+            std::string text, error;
+        } cases[] = {
+            {Features::lens_and_shutter,
+             "Camera \"perspective\" \"float lensradius\" 1 WorldBegin " + sky + ball,
+             "1:1: error: only chapters 16 to 19 have a lens: lensradius must be 0"},
+            {Features::dispersion,
+             "Camera \"perspective\" WorldBegin " + sky +
+                 "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"" + ball,
+             "1:56: error: glass disperses in chapters 18 and 19 only: try \"float eta\" 1.5168"},
+            {Features::lens_and_shutter,
+             "Camera \"perspective\" WorldBegin " + sky + "ActiveTransform EndTime Scale 1 2 1" +
+                 ball,
+             "1:92: error: shapes move in chapters 16 to 19 only"},
+            {Features::sky_image,
+             "Camera \"perspective\" WorldBegin LightSource \"infinite\" \"string filename\" "
+             "\"scenes/sky.pfm\"" +
+                 ball,
+             "1:33: error: the sky has an image in chapters 17 to 19 only"},
+            {Features::none, "Camera \"perspective\" WorldBegin " + sky + ball, ""}};
+        for (const auto& c : cases)
+            for (Features features : {Features::none, Features::lens_and_shutter,
+                                      Features::sky_image, Features::dispersion}) {
+                CAPTURE(c.text);
+                std::string said;
+                try {
+                    refuse_features(scene_of(c.text), features);
+                } catch (const InputError& error) {
+                    said = error.what();
+                }
+                CHECK(said == (features < c.first ? "test.pbrt:" + c.error : ""));
+            }
+    }
+}

@@ -1,0 +1,23 @@
+#include "chapters/17_sky_image/estimator.h"
+#include "tests/measure/methods.h"
+
+static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
+    auto render =
+        by_trace([](const Scene& scene) { return trace_with<ch17::trace>(ch17::prepare(scene)); });
+    return {.name = name,
+            .label = label,
+            .color = color,
+            .finds_light = "both ways",
+            .scenes = {"sky"},
+            .render =
+                [=](const Scene& scene, RenderOptions options) {
+                    if (sampler != SamplerType::independent) options.sampler = sampler;
+                    return render(scene, options);
+                },
+            .features = Features::sky_image};
+}
+
+[[maybe_unused]] static const bool added[] = {
+    add_method(method("17", "17 image of the sky", "#2b8cbe", SamplerType::independent)),
+    add_method(method("17-sobol", "17, Sobol", "#a8ddb5", SamplerType::sobol)),
+};

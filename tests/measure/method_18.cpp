@@ -1,0 +1,41 @@
+#include "chapters/18_dispersion/estimator.h"
+#include "tests/measure/chance.h"
+#include "tests/measure/methods.h"
+
+static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
+    auto render = by_trace([](const Scene& scene) {
+        return trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white());
+    });
+    return {.name = name,
+            .label = label,
+            .color = color,
+            .finds_light = "both ways",
+            .scenes = {"prism"},
+            .render =
+                [=](const Scene& scene, RenderOptions options) {
+                    if (sampler != SamplerType::independent) options.sampler = sampler;
+                    return render(scene, options);
+                },
+            .features = Features::dispersion};
+}
+
+static Method by_chance() {
+    return {.name = "18-chance",
+            .label = "18, light by chance",
+            .color = "#0077ff",
+            .finds_light = "by chance",
+            .refuse = {refuse_delta_lights},
+            .render = by_trace([](const Scene&) -> Trace {
+                return [white = shares_of_white()](const Scene& scene, Ray ray, Sampler& sampler,
+                                                   Recorder& recorder) {
+                    return trace_by_chance(scene, white, ray, sampler, recorder);
+                };
+            }),
+            .features = Features::dispersion};
+}
+
+[[maybe_unused]] static const bool added[] = {
+    add_method(method("18", "18 dispersion", "#54278f", SamplerType::independent)),
+    add_method(by_chance()),
+    add_method(method("18-sobol", "18, Sobol", "#bcbddc", SamplerType::sobol)),
+};
