@@ -17,17 +17,17 @@ using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 ///
 ///   pmf_i = max(0, L_i - mean L) w_i / sum,    mean L = sum of L_i w_i / sum of w_i
 ///
-/// Subtracting the mean is MIS compensation: BSDF sampling finds light that comes from everywhere
+/// To subtract the mean is MIS compensation: BSDF sampling finds light that comes from everywhere
 /// anyway, so light sampling is left for what is brighter. 1e-6: as the mean is rounded.
 /// source  Karlik et al. 2019      tested by  "density: the image's density sums to 1, or is 0"
-inline std::vector<double> image_cdf(const SkyImage& image) {
+inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
     double light = 0, sphere = 0;
     std::vector<double> w, cdf = {0};
     for (size_t i = 0; i < image.pixels.size(); i++) {
         w.push_back(double{solid_angle_per_area(image, image.middle_of(i))});
         light += double{average(image.pixels[i])} * w[i], sphere += w[i];
     }
-    double mean = (1 + 1e-6) * light / sphere;
+    double mean = compensate ? (1 + 1e-6) * light / sphere : 0;
     for (size_t i = 0; i < image.pixels.size(); i++)
         cdf.push_back(cdf[i] + std::max(0.0, double{average(image.pixels[i])} - mean) * w[i]);
     double sum = cdf.back();
@@ -40,9 +40,10 @@ inline std::vector<double> image_cdf(const SkyImage& image) {
 struct LightsAndSky : ManyLights {
     std::vector<double> image_cdf;
 };
-inline LightsAndSky prepare(const Scene& scene, int M = 64) {
+inline LightsAndSky prepare(const Scene& scene, int M = 64, bool compensate = true) {
     ManyLights lights = many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
-    return {lights, scene.sky_image ? image_cdf(*scene.sky_image) : std::vector<double>{}};
+    if (!scene.sky_image) return {lights, {}};
+    return {lights, image_cdf(*scene.sky_image, compensate)};
 }
 
 /// The density at uv, in pixel i.      pdf_w = pmf_i pixels / (solid angle per area at uv)

@@ -5,15 +5,22 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         int M = 64;
+        bool compensate = true;
         Option candidates = {
             "m", "M", "light candidates, at most one per light (default 64)",
             [&](const std::string& text) {
                 M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
             },
             "64"};
+        Option sky = {"compensation", "on|off",
+                      "pixels of the sky's image by what they have above its mean, or by all",
+                      [&](const std::string& text) {
+                          compensate = parse_choice("compensation", text, {"on", "off"}) == 0;
+                      },
+                      "on"};
         RenderOptions options =
-            parse_render_options(argc, argv, "17_sky_image", "scenes/sky.pbrt", {candidates});
+            parse_render_options(argc, argv, "17_sky_image", "scenes/sky.pbrt", {candidates, sky});
         Scene scene = load(options, Features::sky_image);
-        return render(scene, options, trace_with<ch17::trace>(ch17::prepare(scene, M)));
+        return render(scene, options, trace_with<ch17::trace>(ch17::prepare(scene, M, compensate)));
     });
 }

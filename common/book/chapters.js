@@ -41,13 +41,22 @@ const chapters = {
         kind: 'film', scene: 'thousand-lights', against: '14_mis',
         own: [number('m', 'candidates M', 64)]
     },
-    '16_distribution': {
-        kind: 'film', scene: 'bokeh', against: '16_distribution',
+    '16_lens_and_shutter': {
+        kind: 'film', scene: 'bokeh', against: '16_lens_and_shutter',
         own: [number('m', 'candidates M', 64),
               choice('pixel', 'of each pixel', 'area', 'centre')]
     },
+    '17_sky_image': {
+        kind: 'film', scene: 'sky', against: '17_sky_image',
+        own: [number('m', 'candidates M', 64),
+              choice('compensation', 'compensation', 'on', 'off')]
+    },
+    '18_dispersion': {
+        kind: 'film', scene: 'prism', against: '18_dispersion',
+        own: [number('m', 'candidates M', 64)]
+    },
     '19_adaptive': {
-        kind: 'film', scene: 'high-contrast', against: '16_distribution',
+        kind: 'film', scene: 'high-contrast', against: '18_dispersion',
         own: [number('pilot', 'samples of the pilot', 16),
               choice('judge', 'a half is judged by', 'other', 'own')]
     },

@@ -70,7 +70,7 @@ async function all_same_bytes(browser, chapters) {
             await same_bytes(browser, chapter, {n: some, seed: 3}, ['--n', some, '--seed', '3']);
             continue;
         }
-        const scene = {'16_distribution': 'bokeh', '19_adaptive': 'high-contrast'}[chapter] || 'cornell-spheres';
+        const scene = {'16_lens_and_shutter': 'bokeh', '17_sky_image': 'sky', '18_dispersion': 'prism', '19_adaptive': 'high-contrast'}[chapter] || 'cornell-spheres';
         const size = '24x24', words = [`scenes/${scene}.pbrt`, '--size', size];
         if (kind === 'film') words.push('--spp', '18', '--seed', '5');
         if (chapter === '26_radiosity') words.splice(0, 1, 'scenes/cornell.pbrt', '--patches', '200', '--shots', '50');
@@ -198,7 +198,7 @@ async function holding(browser) {
     check('a picture of the page can be held', open && text.length > 0, text);
     await browser.value(`document.querySelector('dialog .close').click()`);
     await browser.key('ArrowRight');
-    await browser.until(`location.href.includes('16_distribution')`);
+    await browser.until(`location.href.includes('16_lens_and_shutter')`);
     check('an arrow turns the page', true);
 }
 

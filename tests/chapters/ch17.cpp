@@ -11,16 +11,7 @@ Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prep
 Trace by_seventeen(const Scene& scene) { return trace_with<ch17::trace>(ch17::prepare(scene)); }
 /// The same with pixels drawn in proportion to all of their light.
 Trace without_compensation(const Scene& scene) {
-    ch17::LightsAndSky lights = ch17::prepare(scene);
-    const SkyImage& image = *scene.sky_image;
-    lights.image_cdf = {0};
-    for (size_t i = 0; i < image.pixels.size(); i++) {
-        double w = double{solid_angle_per_area(image, image.middle_of(i))};
-        lights.image_cdf.push_back(lights.image_cdf[i] + double{average(image.pixels[i])} * w);
-    }
-    double sum = lights.image_cdf.back();
-    for (double& c : lights.image_cdf) c /= sum;
-    return trace_with<ch17::trace>(lights);
+    return trace_with<ch17::trace>(ch17::prepare(scene, 64, false));
 }
 
 /// A scene under a picture of the sky of these pixels.
@@ -169,7 +160,7 @@ TEST_SUITE("ch17 sky image") {
                         },
                         white_floor);
                     const SkyImage& image = *scene.sky_image;
-                    std::vector<double> cdf = ch17::image_cdf(image);
+                    std::vector<double> cdf = ch17::image_cdf(image, true);
                     auto pdf = [&](Vec3 wi) {
                         Vec2 uv = point_of(image, wi);
                         return ch17::pdf_image(image, cdf, image.pixel_at(uv), uv);
@@ -197,9 +188,9 @@ TEST_SUITE("ch17 sky image") {
         SkyImage image;
         image.width = image.height = 2;
         for (float L : {1.0f, 2.0f, 3.0f, 6.0f}) image.pixels.push_back({L, L, L});
-        CHECK(ch17::image_cdf(image) == std::vector<double>{0, 0, 0, 0, 1});
+        CHECK(ch17::image_cdf(image, true) == std::vector<double>{0, 0, 0, 0, 1});
         image.pixels[1] = {5, 5, 5};  // the mean is 3.75
-        std::vector<double> cdf = ch17::image_cdf(image);
+        std::vector<double> cdf = ch17::image_cdf(image, true);
         CHECK(cdf[2] == doctest::Approx(1.25 / 3.5).epsilon(1e-5).scale(0));
         CHECK(cdf[3] == cdf[2]);
         // Longitude and latitude: by solid angle, rows have the shares (1 - cos 45)/2 and sin 45/2
@@ -207,7 +198,7 @@ TEST_SUITE("ch17 sky image") {
         image = {};
         image.map = SkyImage::Map::wide, image.width = 1, image.height = 4;
         for (float L : {0.0f, 0.0f, 1.0f, 1.0f}) image.pixels.push_back({L, L, L});
-        cdf = ch17::image_cdf(image);
+        cdf = ch17::image_cdf(image, true);
         double outer = std::sin(pi_exact / 8), inner = std::sin(3 * pi_exact / 8);
         CHECK(cdf[2] == 0);
         CHECK(cdf[3] == doctest::Approx(inner / (inner + outer)).epsilon(1e-6).scale(0));

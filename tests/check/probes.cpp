@@ -264,18 +264,18 @@ void add_cameras(std::vector<Probe>& p) {
                  16, 19});
 }
 
-/// What else the chapters 16 and 19 are about.
+/// What chapters 17 to 19 are about.
 void add_wavelengths_and_shares(std::vector<Probe>& p) {
     p.push_back({"dispersing", "a ball of glass that disperses, before a white sky",
                  view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 20", 20) + sky() +
                      group("Material \"dielectric\" \"spectrum eta\" \"glass-F11\" " + ball(1)),
-                 16, 19});
+                 18, 19});
     p.push_back({"sky picture", "a floor under the picture of a sky",
                  from_above(0.5) +
                      group(turn(-90, x_axis) +
                            "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
                      floor_here,
-                 16, 19});
+                 17, 19});
     p.push_back({"rare light", "a floor on which light is found rarely",
                  from_above(0.5, 2) + floor_here +
                      lamp(at(1.5, 1, 0) + scale(0.15), 100, false, true) +

@@ -99,7 +99,7 @@ TEST_SUITE("outputs") {
         fs::create_symlink("../sky.pfm", folder / "d/LDE.pfm");
         auto refuses = [&](const std::string& scene, const Words& words) {
             CAPTURE(words[0] + " " + words[1]);
-            Finished end = run("16_distribution", brief(folder / scene, words));
+            Finished end = run("17_sky_image", brief(folder / scene, words));
             CHECK(end.code == 2);
             CHECK(end.out == "");
             CHECK(end.err.ends_with(overwritten));
@@ -117,7 +117,7 @@ TEST_SUITE("outputs") {
         refuses("a.svg", {"--explain-brightest", "--out", folder / "a.ppm"});
         CHECK(folder.names() == before);
         CHECK(read_image(folder / "sky.pfm").at(1, 1) == Rgb{1, 1, 1});
-        CHECK(run("16_distribution", brief(folder / "a.pbrt", {"--out", out})).code == 0);
+        CHECK(run("17_sky_image", brief(folder / "a.pbrt", {"--out", out})).code == 0);
     }
 
     TEST_CASE("files: two outputs of one run are never one file, those of --split among them") {

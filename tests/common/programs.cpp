@@ -270,7 +270,9 @@ TEST_SUITE("programs") {
                                                   {"12_ris", {"--m", "3"}},
                                                   {"13_glossy", {"--strategy", "bsdf"}},
                                                   {"15_mis_ris", {"--m", "2"}},
-                                                  {"16_distribution", {"--pixel", "centre"}},
+                                                  {"16_lens_and_shutter", {"--pixel", "centre"}},
+                                                  {"17_sky_image", {"--compensation", "off"}},
+                                                  {"18_dispersion", {"--m", "2"}},
                                                   {"19_adaptive", {"--pilot", "4"}},
                                                   {"21_bidirectional", {"--strategy", "1,2"}},
                                                   {"22_fast_bidirectional", {"--chances", "2"}}};

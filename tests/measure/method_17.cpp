@@ -1,9 +1,11 @@
 #include "chapters/17_sky_image/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
-    auto render =
-        by_trace([](const Scene& scene) { return trace_with<ch17::trace>(ch17::prepare(scene)); });
+static Method method(const char* name, const char* label, const char* color,
+                     SamplerType sampler = SamplerType::independent, bool compensate = true) {
+    auto render = by_trace([=](const Scene& scene) {
+        return trace_with<ch17::trace>(ch17::prepare(scene, 64, compensate));
+    });
     return {.name = name,
             .label = label,
             .color = color,
@@ -18,6 +20,8 @@ static Method method(const char* name, const char* label, const char* color, Sam
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("17", "17 image of the sky", "#2b8cbe", SamplerType::independent)),
+    add_method(method("17", "17 image of the sky", "#2b8cbe")),
+    add_method(
+        method("17-plain", "17, no compensation", "#a6bddb", SamplerType::independent, false)),
     add_method(method("17-sobol", "17, Sobol", "#a8ddb5", SamplerType::sobol)),
 };

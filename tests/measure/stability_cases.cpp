@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "common/scene_file/reader.h"
 #include "tests/measure/stability_theory.h"
 
 namespace {
@@ -348,8 +349,49 @@ StabilityCase blurred_lamp() {
                 lamp + "Rotate 180 0 1 0 Translate 0 0 -20 Shape \"disk\" \"float radius\" [0.1]\n",
             seen,
             N,
-            {{{"16"}, {bad_relvar(1 / seen - 1), covers(coverage_of_rare(seen, N))}}},
+            {{{"16", "17", "18"}, {bad_relvar(1 / seen - 1), covers(coverage_of_rare(seen, N))}}},
             {"07", "08", "09", "10", "11", "12", "13", "14", "15"}};
+}
+
+/// Ground under scenes/sky.pfm, of which a sun has half the light; or under a black roof that hides
+/// all of it but the haze below the elevation whose sine is 0.1: most light samples go to the sun.
+StabilityCase sky_with_a_sun(bool roof) {
+    std::string image =
+        "AttributeBegin Rotate -90 1 0 0\n"
+        "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\" AttributeEnd\n";
+    std::string text = look("0 1 -2  0 0 0  0 1 0", 1) + image + ground;
+    const SkyImage dome = *parse_scene("sky", text, nullptr).sky_image;
+    double pixels = static_cast<double>(dome.pixels.size()), mean = 0, truth = 0;
+    for (Rgb L : dome.pixels) mean += double{average(L)} / pixels;
+    std::vector<Part> seen;
+    std::vector<double> all, above;  // densities, but for a factor
+    double sum_above = 0;
+    constexpr int n = 8;
+    for (size_t i = 0; i < dome.pixels.size(); i++) {
+        double L = double{average(dome.pixels[i])}, more = std::max(0.0, L - mean);
+        sum_above += more / pixels;
+        for (int k = 0; k < n * n; k++) {
+            Vec2 u = {(static_cast<float>(k % n) + 0.5f) / n,
+                      (static_cast<float>(k / n) + 0.5f) / n};
+            double cos = double{direction_of(dome, dome.point_in(i, u)).y};
+            if (cos <= 0 || (roof && cos > 0.1)) continue;
+            seen.push_back({cos, L * cos * 0.5 / pi, 4 * pi / pixels / (n * n)});
+            truth += seen.back().value * seen.back().omega;
+            all.push_back(L / mean / (4 * pi)), above.push_back(std::max(more / (4 * pi), 1e-30));
+        }
+    }
+    for (double& pdf : above) pdf /= sum_above;
+    auto by = [&](const std::vector<double>& pdf) {
+        auto of_part = [&](const Part& p) { return pdf[static_cast<size_t>(&p - seen.data())]; };
+        double x = variance_of_mis(seen, of_part, pdf_cosine);
+        return roof ? bad_relvar(x) : relvar(x);
+    };
+    return {roof ? "haze below a roof" : "sky with a sun",
+            text + (roof ? black + disk(3 * std::sqrt(99.0), 3) : ""),
+            truth,
+            N,
+            {{{"17", "18"}, {by(above)}}, {{"17-plain"}, {by(all)}}},
+            {"07", "08", "09", "10", "11", "12", "13", "14", "15", "16"}};
 }
 
 /// A lamp with its back to the ground, under a mirror in which the eye sees the ground: LSDSE, met
@@ -410,6 +452,8 @@ std::vector<StabilityCase> stability_cases() {
             far_ball(),
             far_wall(),
             blurred_lamp(),
+            sky_with_a_sun(false),
+            sky_with_a_sun(true),
             lit_and_seen_by_mirror(),
             close_to_the_floor(0.3)};
 }

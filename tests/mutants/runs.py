@@ -21,8 +21,8 @@ def all_runs():
 
     # Every chapter on the scenes that it can render; those that it refuses say so.
     walks = ["07_path_tracing", "08_russian_roulette", "09_light_sampling", "10_cosine_sampling",
-             "11_light_importance", "12_ris", "13_glossy", "14_mis", "15_mis_ris", "16_distribution",
-             "19_adaptive", "20_light_tracing", "21_bidirectional", "22_fast_bidirectional"]
+             "11_light_importance", "12_ris", "13_glossy", "14_mis", "15_mis_ris", "16_lens_and_shutter",
+             "17_sky_image", "18_dispersion", "19_adaptive", "20_light_tracing", "21_bidirectional", "22_fast_bidirectional"]
     scenes = ["cornell-spheres", "two-lights", "veach-mis", "near-light", "corner", "sky", "prism",
               "moving-ball", "bokeh", "light-in-glass", "near-disk", "furnace", "hidden-light"]
     for number, chapter in enumerate(walks):
@@ -47,10 +47,10 @@ def all_runs():
     # Ways of a chapter, and what programs can do besides a picture.
     for words in ("09_light_sampling $S/near-light.pbrt --light-by area", "13_glossy $S/veach-mis.pbrt --strategy bsdf",
                   "14_mis $S/veach-mis.pbrt --heuristic balance", "14_mis $S/veach-mis.pbrt --ways one-sample",
-                  "15_mis_ris $S/two-lights.pbrt --m 2", "16_distribution $S/bokeh.pbrt --pixel centre",
+                  "15_mis_ris $S/two-lights.pbrt --m 2", "16_lens_and_shutter $S/bokeh.pbrt --pixel centre",
                   "19_adaptive $S/cornell.pbrt --judge own --map b.pfm", "22_fast_bidirectional $S/cornell-spheres.pbrt --chances 4",
                   "21_bidirectional $S/cornell-spheres.pbrt --strategy 2,2",
-                  "16_distribution $M/everything.pbrt", "16_distribution $S/cornell-spheres.pbrt --threads 3",
+                  "17_sky_image $S/sky.pbrt --compensation off", "18_dispersion $M/everything.pbrt", "18_dispersion $S/cornell-spheres.pbrt --threads 3",
                   "15_mis_ris $S/cornell.pbrt --max-depth 1", "07_path_tracing $S/cornell.pbrt --max-depth 0",
                   "21_bidirectional $S/cornell.pbrt --max-depth 3", "20_light_tracing $S/caustic.pbrt"):
         add(f"$B/{words} --size 24x16 --spp 6 --out a.pfm --out a.png --out a.ppm --stats a.json")
@@ -93,7 +93,7 @@ def all_runs():
     for chapter in walks:
         smooth = "; s/.float roughness. [0-9.]*//" if chapter < "13" else ""
         no_points = "; /Source .point/d; /Source .distant/d" if chapter < "09" else ""
-        scene = "$M/everything.pbrt" if chapter[:2] in ("16", "19") else "still.pbrt"
+        scene = "$M/everything.pbrt" if chapter[:2] in ("18", "19") else "still.pbrt"
         add(still % (smooth + no_points) + f"$B/{chapter} {scene} --threads 1 --out a.pfm --stats a.json")
     return runs
 
