@@ -165,7 +165,6 @@ TEST_SUITE("surroundings") {
         const Scene plain = scene("Material \"conductor\"");
         CHECK(error(refuse_delta_lights, plain) == "");
         CHECK(error(refuse_glossy, plain) == "");
-        CHECK(error(refuse_distribution, plain) == "");
         for (const char* kind : {"point", "distant"}) {
             CHECK(error(refuse_delta_lights, scene("LightSource \"" + std::string(kind) + "\"")) ==
                   at + "a " + kind +
@@ -174,19 +173,6 @@ TEST_SUITE("surroundings") {
         }
         CHECK(error(refuse_glossy, scene("Material \"conductor\" \"float roughness\" 0.1")) ==
               at + "rough conductors are not supported before chapter 13");
-        CHECK(error(refuse_distribution,
-                    scene("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\""))
-                  .starts_with(at + "outside chapters 16 and 19 glass does not disperse: try "
-                                    "\"float eta\" 1.51"));
-        CHECK(error(refuse_distribution, scene("ActiveTransform EndTime Translate 1 0 0 "
-                                               "ActiveTransform All Shape \"sphere\""))
-                  .ends_with("error: outside chapters 16 and 19 nothing moves"));
-        Scene lens = scene_of(
-            "LookAt 0 0 -4 0 0 0 0 1 0\n   Camera \"perspective\" \"float lensradius\" 0.1\n"
-            "WorldBegin LightSource \"infinite\" Shape \"sphere\"");
-        CHECK(error(refuse_distribution, lens) ==
-              "test.pbrt:2:4: error: all chapters but 16 and 19 have a pinhole: lensradius must be "
-              "0");
     }
 
     TEST_CASE("truth: the pixels at edges of lamps are those that differ from a neighbour") {
