@@ -1,5 +1,5 @@
-// The other way to the pictures of chapters 16 to 18: a path tracer that never aims at light, written
-// anew.
+// The other way to the pictures of chapters 16 to 18: a path tracer that never aims at light,
+// written anew.
 #pragma once
 #include "common/material/bsdf.h"
 #include "common/material/ggx.h"
