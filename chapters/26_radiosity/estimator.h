@@ -28,18 +28,18 @@ enum class FormFactors : uint8_t { point, chance, contour };
 /// terms of a far polygon nearly cancel.
 /// source  Lambert 1760; Hottel, Sarofim 1967      tested by  "truth: form factors by contour ..."
 inline double point_to_polygon(Vec3 x, Vec3 n, std::span<const Vec3> polygon) {
-    Double3 normal = to_double3(n), o = to_double3(x), above[8];
+    Vec3d normal = Vec3d(n), o = Vec3d(x), above[8];
     size_t count = 0;
     for (size_t i = 0; i < polygon.size(); i++) {
-        Double3 a = to_double3(polygon[i]) - o;
-        Double3 b = to_double3(polygon[(i + 1) % polygon.size()]) - o;
+        Vec3d a = Vec3d(polygon[i]) - o;
+        Vec3d b = Vec3d(polygon[(i + 1) % polygon.size()]) - o;
         double da = dot(a, normal), db = dot(b, normal);
         if (da >= 0) above[count++] = a;
         if (da * db < 0) above[count++] = a + da / (da - db) * (b - a);
     }
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
-        Double3 a = above[i], b = above[(i + 1) % count], c = cross(b, a);
+        Vec3d a = above[i], b = above[(i + 1) % count], c = cross(b, a);
         double size = std::sqrt(dot(c, c));
         if (size > 0) sum += std::atan2(size, dot(a, b)) * dot(normal, c) / size;
     }

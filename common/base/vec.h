@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <numbers>
 
@@ -46,20 +47,34 @@ inline bool is_finite(Vec3 a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// A vector in double precision, for the few places where float loses too much.
+/// A vector in double precision, for where float loses too much.
 struct Vec3d {
-    double x, y, z;
+    double x = 0, y = 0, z = 0;
 
+    Vec3d() = default;
     Vec3d(double a, double b, double c) : x(a), y(b), z(c) {}
     explicit Vec3d(Vec3 a) : x(double{a.x}), y(double{a.y}), z(double{a.z}) {}
+    double& operator[](size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+    double operator[](size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+    bool operator==(const Vec3d&) const = default;
 };
 
+inline Vec3 to_vec3(Vec3d a) {
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
 inline Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3d operator*(double s, Vec3d a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3d operator*(double s, Vec3d a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Vec3d operator/(Vec3d a, double s) { return {a.x / s, a.y / s, a.z / s}; }
 inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3d cross(Vec3d a, Vec3d b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vec3d a) { return std::hypot(a.x, a.y, a.z); }
+/// A template, so that normalize({x, y, z}) is that of a Vec3.
+template <std::same_as<Vec3d> T>
+T normalize(T a) {
+    return a / length(a);
 }
 
 /// The point {r cos phi, r sin phi, z}, phi = 2 pi u: after the part u of a turn, 0 <= u <= 1.

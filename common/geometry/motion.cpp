@@ -60,8 +60,8 @@ Quaternion between(const Quaternion& a, const Quaternion& b, double t) {
 }
 
 Transform rotation(const Quaternion& q) {
-    auto turn = [&](const Double3& p) {
-        Double3 c = 2.0 * cross(q.v, p);
+    auto turn = [&](Vec3d p) {
+        Vec3d c = 2.0 * cross(q.v, p);
         return p + q.w * c + cross(q.v, c);
     };
     return {turn({1, 0, 0}), turn({0, 1, 0}), turn({0, 0, 1})};
@@ -86,7 +86,7 @@ Motion::Motion(const Transform& start, const Transform& end) {
 
 Transform Motion::at(double time) const {
     double t = std::clamp(time, 0.0, 1.0);
-    auto mix = [&](const Double3& a, const Double3& b) { return (1 - t) * a + t * b; };
+    auto mix = [&](Vec3d a, Vec3d b) { return (1 - t) * a + t * b; };
     Transform stretch = {mix(stretched_[0].x, stretched_[1].x),
                          mix(stretched_[0].y, stretched_[1].y),
                          mix(stretched_[0].z, stretched_[1].z)};

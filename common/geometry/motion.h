@@ -5,7 +5,7 @@
 /// A rotation: cos(angle / 2), and sin(angle / 2) times the axis.
 struct Quaternion {
     double w = 1;
-    Double3 v = {0, 0, 0};
+    Vec3d v = {0, 0, 0};
 };
 
 /// The transform from object to world at each time from 0 to 1, between two that are given.
@@ -24,7 +24,7 @@ public:
     bool turns() const { return turns_; }
 
 private:
-    Double3 moved_[2];
+    Vec3d moved_[2];
     Quaternion turned_[2];
     Transform stretched_[2];
     bool turns_ = false;

@@ -32,7 +32,7 @@ LightPoint sample_emitter_area(const Emitter& e, Vec2 u) {
     return {};
 }
 
-Double3 unit(const Double3& a) { return (1 / std::sqrt(dot(a, a))) * a; }
+Vec3d unit(Vec3d a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
 /// The number of the primitive under u of the light's running areas; u is stretched to [0,1) anew.
 uint32_t choose_by_area(const LightShape& shape, float& u) {
@@ -47,10 +47,10 @@ uint32_t choose_by_area(const LightShape& shape, float& u) {
 
 /// The corners of a disk's bounding square, from x; c: its centre, from x. One side faces x: who
 /// stands beside the disk then stands beside the square.
-void put_square_around(const Emitter& e, const Double3& c, Double3 (&p)[4]) {
-    Double3 n = unit(to_double3(e.n)), away = c - dot(c, n) * n;
+void put_square_around(const Emitter& e, Vec3d c, Vec3d (&p)[4]) {
+    Vec3d n = unit(Vec3d(e.n)), away = c - dot(c, n) * n;
     bool beside = dot(away, away) > 1e-12 * dot(c, c);
-    Double3 s = beside ? unit(away) : to_double3(Frame(e.n).s), t = cross(n, s);
+    Vec3d s = beside ? unit(away) : Vec3d(Frame(e.n).s), t = cross(n, s);
     s = double{e.r} * s, t = double{e.r} * t;
     p[0] = c - s - t, p[1] = c + s - t, p[2] = c + s + t, p[3] = c - s + t;
 }
@@ -62,7 +62,7 @@ enum class Way : uint8_t { area, triangle, parallelogram, disk };
 struct Plan {
     Way way = Way::area;
     Emitter e;             // the primitive, or the first of two
-    Double3 p[4], w[4];    // corners as seen from x, one after the other; w: unit
+    Vec3d p[4], w[4];      // corners as seen from x, one after the other; w: unit
     double omega[2] = {};  // sr: of the triangles of corners 0 1 2 and 0 3 2
     float pdf = 0;         // sr^-1
 };
@@ -80,7 +80,7 @@ void look(Plan& plan, Way way, float share) {
 }
 
 /// The point, from x, that lies in a direction drawn from a plan's triangles.
-Double3 sample_seen(const Plan& plan, Vec2 u) {
+Vec3d sample_seen(const Plan& plan, Vec2 u) {
     // Choose one of two by its solid angle; its corners are 0 1 2 or 0 3 2.
     float first = static_cast<float>(plan.omega[0] / (plan.omega[0] + plan.omega[1]));
     size_t i = u.x < first ? 1 : 3;
@@ -88,8 +88,8 @@ Double3 sample_seen(const Plan& plan, Vec2 u) {
     u.x = std::min(u.x, 0x1.fffffep-1f);
 
     const auto &p = plan.p, &w = plan.w;
-    Double3 to_y = sample_spherical_triangle(w[0], w[i], w[2], plan.omega[i / 2], u);
-    Double3 n = cross(p[i] - p[0], p[2] - p[0]);
+    Vec3d to_y = sample_spherical_triangle(w[0], w[i], w[2], plan.omega[i / 2], u);
+    Vec3d n = cross(p[i] - p[0], p[2] - p[0]);
     return dot(n, p[0]) / dot(n, to_y) * to_y;
 }
 
@@ -103,7 +103,7 @@ Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
     float off_plane = std::abs(dot(e.n, e.p0 - x));
     float eps = e.off_plane + rounding_error(dot(abs(e.n), abs(x)));
     if (!is_near(shape, x) || off_plane <= eps) return plan;  // far away, or on the light
-    auto from_x = [&](Vec3 p) { return to_double3(p) - to_double3(x); };
+    auto from_x = [&](Vec3 p) { return Vec3d(p) - Vec3d(x); };
     if (shape.parallelogram) {
         for (size_t i = 0; i < 4; i++) plan.p[i] = from_x(shape.corners[i]);
         look(plan, Way::parallelogram, 1);

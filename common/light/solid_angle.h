@@ -28,7 +28,7 @@ inline Vec2 invert_cone(float sin2, Vec3 w) {
 /// numbers are what counts.
 /// source  Van Oosterom, Strackee 1983
 /// tested by  "truth: solid angles of triangles and rectangles"
-inline double triangle_solid_angle(const Double3& a, const Double3& b, const Double3& c) {
+inline double triangle_solid_angle(Vec3d a, Vec3d b, Vec3d c) {
     double volume = std::abs(dot(b, cross(a, c)));
     return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(a, c));
 }
@@ -41,29 +41,27 @@ inline double triangle_solid_angle(const Double3& a, const Double3& b, const Dou
 /// pdf_w = 1 / omega. The corners must not lie on one great circle.
 /// source  Arvo 1995; c' from the spherical excess of two sides and the angle between them
 /// tested by  "density: spherical triangle"
-inline Double3 sample_spherical_triangle(const Double3& a, const Double3& b, const Double3& c,
-                                         double omega, Vec2 u) {
+inline Vec3d sample_spherical_triangle(Vec3d a, Vec3d b, Vec3d c, double omega, Vec2 u) {
     // The corner c' on the edge from a to c that leaves the wanted solid angle:
     // tan(|ac'| / 2) = y / x, both sides of the formula above times |ab| |ac|.
-    Double3 n_ac = cross(a, c), sum_ab = a + b;
+    Vec3d n_ac = cross(a, c), sum_ab = a + b;
     double volume = std::abs(dot(b, n_ac)), sin_ac = std::sqrt(dot(n_ac, n_ac)), cos_ac = dot(a, c);
     double half = double{u.x} * omega / 2, sine = std::sin(half), cosine = std::cos(half);
     double y = sine * sin_ac * dot(sum_ab, sum_ab) / 2;  // sum_ab^2 / 2 = 1 + cos |ab|
     double x = volume * cosine - (dot(b, c) - cos_ac * dot(a, b)) * sine;
-    Double3 towards_c = (1 / sin_ac) * (c - cos_ac * a);
-    Double3 c_cut = (1 / (x * x + y * y)) * ((x * x - y * y) * a + 2 * x * y * towards_c);
+    Vec3d towards_c = (1 / sin_ac) * (c - cos_ac * a);
+    Vec3d c_cut = (1 / (x * x + y * y)) * ((x * x - y * y) * a + 2 * x * y * towards_c);
 
     // A point between b and c', by the area of the cap around b.
-    Double3 b_to_c = c_cut - b, from_b = c_cut - dot(c_cut, b) * b;
+    Vec3d b_to_c = c_cut - b, from_b = c_cut - dot(c_cut, b) * b;
     double h = double{u.y} * dot(b_to_c, b_to_c) / 2, r2 = dot(from_b, from_b);
     if (r2 == 0) return b;
     return (1 - h) * b + std::sqrt(std::max(0.0, h * (2 - h)) / r2) * from_b;
 }
 inline double pdf_spherical_triangle(double omega) { return 1 / omega; }
-inline Vec2 invert_spherical_triangle(const Double3& a, const Double3& b, const Double3& c,
-                                      double omega, const Double3& w) {
+inline Vec2 invert_spherical_triangle(Vec3d a, Vec3d b, Vec3d c, double omega, Vec3d w) {
     // The corner c' in which the arc from b through w ends.
-    Double3 c_cut = normalize(cross(cross(b, w - b), cross(a, c - a)));
+    Vec3d c_cut = normalize(cross(cross(b, w - b), cross(a, c - a)));
     if (dot(c_cut, a + c) < 0) c_cut = -1 * c_cut;
     double u1 = triangle_solid_angle(a, b, c_cut) / omega;
     double u2 = dot(w - b, w - b) / dot(c_cut - b, c_cut - b);

@@ -19,16 +19,16 @@ bool meets(const Ray& ray, Vec3 low, Vec3 high) {
 /// The ray as the mover sees it, whose primitives stay where they are at time 0.
 Ray carried_back(const Ray& ray, const Transform& world_from_start) {
     Transform back = inverse(world_from_start);
-    return {to_vec3(transform_point(back, to_double3(ray.o))),
-            to_vec3(transform_vector(back, to_double3(ray.d))), ray.t_max, ray.time};
+    return {to_vec3(transform_point(back, Vec3d(ray.o))),
+            to_vec3(transform_vector(back, Vec3d(ray.d))), ray.t_max, ray.time};
 }
 
 /// What was met, carried to where it is at the ray's time.
 void carry_on(const Transform& t, Hit& x) {
     float before = max_component(abs(x.p));
-    x.p = to_vec3(transform_point(t, to_double3(x.p)));
-    x.n = to_vec3(normalize(transform_normal(t, to_double3(x.n))));
-    x.ng = to_vec3(normalize(transform_normal(t, to_double3(x.ng))));
+    x.p = to_vec3(transform_point(t, Vec3d(x.p)));
+    x.n = to_vec3(normalize(transform_normal(t, Vec3d(x.n))));
+    x.ng = to_vec3(normalize(transform_normal(t, Vec3d(x.ng))));
     double stretch = std::max({length(t.x), length(t.y), length(t.z)});
     x.eps = static_cast<float>(stretch) * (x.eps + rounding_error(before)) +
             rounding_error(max_component(abs(x.p)));
@@ -41,19 +41,19 @@ Box box_over_time(const Mover& mover) {
     // Where the corners of its box come to: along straight lines, or somewhere on a sphere, since
     // turning keeps a point at its distance from the object's origin, which goes straight.
     Box box = bounds_of(mover.geometry);
-    Double3 low = {1e30, 1e30, 1e30}, high = -1 * low;
-    auto add = [&](const Double3& p, double r) {
+    Vec3d low = {1e30, 1e30, 1e30}, high = -1 * low;
+    auto add = [&](Vec3d p, double r) {
         for (size_t i = 0; i < 3; i++) {
             low[i] = std::min(low[i], p[i] - r), high[i] = std::max(high[i], p[i] + r);
         }
     };
-    Double3 origins[] = {mover.motion.at(0).o, mover.motion.at(1).o};
+    Vec3d origins[] = {mover.motion.at(0).o, mover.motion.at(1).o};
     for (int corner = 0; corner < 8; corner++) {
-        Double3 p =
-            to_double3({corner & 1 ? box.low.x : box.high.x, corner & 2 ? box.low.y : box.high.y,
-                        corner & 4 ? box.low.z : box.high.z});
+        Vec3d p =
+            Vec3d(Vec3{corner & 1 ? box.low.x : box.high.x, corner & 2 ? box.low.y : box.high.y,
+                       corner & 4 ? box.low.z : box.high.z});
         for (int end = 0; end < 2; end++) {
-            Double3 moved = transform_point(mover.world_from_start(end), p);
+            Vec3d moved = transform_point(mover.world_from_start(end), p);
             double r = length(moved - origins[end]);
             if (!mover.motion.turns()) add(moved, 0);
             if (mover.motion.turns()) add(origins[0], r), add(origins[1], r);

@@ -141,14 +141,14 @@ float read_factor(Params& params, const std::string& name, float fallback) {
     return value;
 }
 
-Double3 read_point(Params& params, const std::string& name, Vec3 fallback) {
+Vec3d read_point(Params& params, const std::string& name, Vec3 fallback) {
     Vec3 p = params.point(name, fallback);
     return {p.x, p.y, p.z};
 }
 
 // Where a point light stands.
 Vec3 read_position(Params& params, const Transform& world_from_light) {
-    Double3 from = read_point(params, "from", {0, 0, 0});
+    Vec3d from = read_point(params, "from", {0, 0, 0});
     Vec3 p = to_vec3(transform_point(world_from_light, from));
     if (!(max_component(abs(p)) <= 1e9f)) fail(params.at("from"), "the light is farther than 1e9");
     return p;
@@ -156,7 +156,7 @@ Vec3 read_position(Params& params, const Transform& world_from_light) {
 
 // The unit vector towards a distant light.
 Vec3 read_direction(Params& params, const Transform& world_from_light) {
-    Double3 from = read_point(params, "from", {0, 0, 0}), to = read_point(params, "to", {0, 0, 1});
+    Vec3d from = read_point(params, "from", {0, 0, 0}), to = read_point(params, "to", {0, 0, 1});
     if (from == to) fail(params.at("to"), "\"from\" and \"to\" are the same point");
     return to_vec3(normalize(transform_vector(world_from_light, from - to)));
 }

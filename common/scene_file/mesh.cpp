@@ -47,7 +47,7 @@ uint32_t add_vertices(const Params& params, const TriangleMesh& mesh,
 
     geometry.normals.resize(first);
     for (Vec3 n : mesh.normals) {
-        Double3 world = transform_normal(world_from_object, {n.x, n.y, n.z});
+        Vec3d world = transform_normal(world_from_object, {n.x, n.y, n.z});
         // Keep lengths, by which pbrt weighs them, but not those whose square leaves float.
         double size = length(world);
         if (size > 0 && !(size > 1e-6 && size < 1e6)) world = normalize(world);

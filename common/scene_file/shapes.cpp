@@ -15,12 +15,11 @@ void check_radius(const Params& params, Vec3 c, float r) {
 }
 
 // The one factor by which the transform scales these axes; not supported where there is none.
-double uniform_scale(Params& params, const std::vector<Double3>& axes,
-                     const std::string& otherwise) {
+double uniform_scale(Params& params, const std::vector<Vec3d>& axes, const std::string& otherwise) {
     constexpr double tolerance = 1e-3;  // for numbers written with few digits
     double scale = length(axes[0]);
     for (size_t i = 0; i < axes.size(); i++) {
-        const Double3& next = axes[(i + 1) % axes.size()];
+        Vec3d next = axes[(i + 1) % axes.size()];
         bool same = std::abs(length(next) - scale) <= tolerance * scale;
         bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
         if (same && right_angle) continue;
@@ -62,7 +61,7 @@ void add_disk(Params& params, const ShapeState& state, Scene& scene) {
     const Transform& t = state.world_from_object;
     double scale = uniform_scale(params, {t.x, t.y},
                                  "a disk scaled differently along its axes is not supported");
-    Double3 normal = transform_normal(t, {0, 0, state.reverse_orientation ? -1.0 : 1.0});
+    Vec3d normal = transform_normal(t, {0, 0, state.reverse_orientation ? -1.0 : 1.0});
     Disk disk = {to_vec3(transform_point(t, {0, 0, params.number("height", 0)})),
                  to_vec3(normalize(normal)), static_cast<float>(radius * scale),
                  static_cast<uint32_t>(scene.shapes.size())};

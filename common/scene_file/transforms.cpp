@@ -2,9 +2,9 @@
 
 namespace {
 
-Double3 read_three(Lexer& lexer, const std::string& name) {
-    Double3 v;
-    for (double& x : v) x = lexer.number(lexer.next(), name);
+Vec3d read_three(Lexer& lexer, const std::string& name) {
+    Vec3d v;
+    for (double* x : {&v.x, &v.y, &v.z}) *x = lexer.number(lexer.next(), name);
     return v;
 }
 
@@ -31,8 +31,8 @@ Transform read_matrix(Lexer& lexer, const Token& directive) {
 
 bool is_usable(const Transform& t) {
     constexpr double largest = 1e30;
-    for (const Double3& v : {t.x, t.y, t.z, t.o}) {
-        for (double x : v) {
+    for (Vec3d v : {t.x, t.y, t.z, t.o}) {
+        for (double x : {v.x, v.y, v.z}) {
             if (!(std::abs(x) <= largest)) return false;
         }
     }
@@ -50,12 +50,12 @@ TransformStep read_transform(Lexer& lexer, const Token& directive) {
     if (name == "Scale") return {scaling(read_three(lexer, name))};
     if (name == "Rotate") {
         double degrees = lexer.number(lexer.next(), name);
-        Double3 axis = read_three(lexer, name);
+        Vec3d axis = read_three(lexer, name);
         if (length(axis) == 0) fail(lexer.at(directive), "Rotate needs an axis other than 0 0 0");
         return {rotation(degrees, axis)};
     }
-    Double3 eye = read_three(lexer, name), look = read_three(lexer, name);
-    Double3 up = read_three(lexer, name);
+    Vec3d eye = read_three(lexer, name), look = read_three(lexer, name);
+    Vec3d up = read_three(lexer, name);
     if (eye == look) fail(lexer.at(directive), "LookAt needs two different points");
     Transform world_from_camera = look_at(eye, look, up);
     if (!is_usable(world_from_camera)) {

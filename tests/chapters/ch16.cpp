@@ -318,8 +318,8 @@ TEST_SUITE("ch16 shutter") {
         for (double t : {0.0, 0.25, 0.5, 1.0}) {
             Transform expected = translation({1 + 2 * t, 2, 3 - 2 * t}) *
                                  rotation(90 * t, {0, 0, 1}) * scaling({1 + 2 * t, 1, 1});
-            for (const Double3& p : {Double3{1, 0, 0}, Double3{0.3, -2, 5}}) {
-                Double3 is = transform_point(motion.at(t), p);
+            for (Vec3d p : {Vec3d{1, 0, 0}, Vec3d{0.3, -2, 5}}) {
+                Vec3d is = transform_point(motion.at(t), p);
                 CHECK(length(is - transform_point(expected, p)) < 1e-12);
             }
         }
@@ -330,7 +330,7 @@ TEST_SUITE("ch16 shutter") {
         for (const Transform& m : {rotation(180, {1, 2, 3}), scaling({-1, 1, 1}),
                                    scaling({-2, -3, -4}) * rotation(77, {3, 1, 1}), Transform{}}) {
             Motion way({}, m);
-            for (const Double3& p : {Double3{1, 0, 0}, Double3{0.3, -2, 5}}) {
+            for (Vec3d p : {Vec3d{1, 0, 0}, Vec3d{0.3, -2, 5}}) {
                 CHECK(length(transform_point(way.at(1), p) - transform_point(m, p)) < 1e-12);
                 CHECK(length(transform_point(way.at(0), p) - p) < 1e-12);
             }
@@ -346,11 +346,11 @@ TEST_SUITE("ch16 shutter") {
             "Shape \"sphere\" \"float radius\" 0.4", "Shape \"disk\" \"float radius\" 0.6"};
         auto matrix = [](const Transform& t) {
             std::string text = "ConcatTransform [";
-            for (const Double3& c : {t.x, t.y, t.z}) {
-                for (double x : c) text += std::to_string(x) + " ";
+            for (Vec3d c : {t.x, t.y, t.z}) {
+                for (double x : {c.x, c.y, c.z}) text += std::to_string(x) + " ";
                 text += "0 ";
             }
-            for (double x : t.o) text += std::to_string(x) + " ";
+            for (double x : {t.o.x, t.o.y, t.o.z}) text += std::to_string(x) + " ";
             return text + "1]";
         };
         std::string move = "Translate 0.5 -0.2 0.3 Rotate 100 1 2 3 ";
@@ -396,7 +396,7 @@ TEST_SUITE("ch16 shutter") {
     TEST_CASE("identity: the box of what moves holds it at all times") {
         Sampler random = random_numbers(6);
         for (int i = 0; i < 200; i++) {
-            auto any = [&] { return to_double3(uniform_direction(random.u2())); };
+            auto any = [&] { return Vec3d(uniform_direction(random.u2())); };
             Transform start = translation(3.0 * any()) * rotation(360 * double{random.u1()}, any());
             Transform end = translation(3.0 * any()) * scaling({2, 0.5, 1});
             if (i % 2 == 0) end = end * rotation(360 * double{random.u1()}, any());
@@ -404,12 +404,12 @@ TEST_SUITE("ch16 shutter") {
             Mover mover(start, end);
             for (int k = 0; k < 8; k++) {
                 Vec3 p = 2 * uniform_direction(random.u2());
-                mover.geometry.positions.push_back(to_vec3(transform_point(start, to_double3(p))));
+                mover.geometry.positions.push_back(to_vec3(transform_point(start, Vec3d(p))));
             }
             Box box = box_over_time(mover);
             for (double t = 0; t <= 1; t += 1.0 / 64)
                 for (Vec3 p : mover.geometry.positions) {
-                    Vec3 q = to_vec3(transform_point(mover.world_from_start(t), to_double3(p)));
+                    Vec3 q = to_vec3(transform_point(mover.world_from_start(t), Vec3d(p)));
                     for (int axis = 0; axis < 3; axis++) {
                         CHECK(q[axis] >= box.low[axis]);
                         CHECK(q[axis] <= box.high[axis]);

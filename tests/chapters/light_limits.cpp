@@ -71,13 +71,13 @@ Ray onto_patch(const Scene& scene, double h) {
 ///   E = 1/2 sum over edges a b of  angle(a, b) n . (a x b) / |a x b|
 double irradiance_of_triangles(const Scene& scene, Vec3 x) {
     const Geometry& g = scene.geometry;
-    Double3 n = to_double3(up_of(scene)), from = to_double3(x);
+    Vec3d n = Vec3d(up_of(scene)), from = Vec3d(x);
     double E = 0;
     for (size_t i = 2; i < g.triangles.size(); i++) {  // 0 and 1: the patch
         for (size_t k = 0; k < 3; k++) {
-            Double3 a = to_double3(g.positions[g.triangles[i].v[k]]) - from;
-            Double3 b = to_double3(g.positions[g.triangles[i].v[(k + 1) % 3]]) - from;
-            Double3 side = cross(a, b);
+            Vec3d a = Vec3d(g.positions[g.triangles[i].v[k]]) - from;
+            Vec3d b = Vec3d(g.positions[g.triangles[i].v[(k + 1) % 3]]) - from;
+            Vec3d side = cross(a, b);
             double sine = std::sqrt(dot(side, side));
             if (sine > 0) E += std::atan2(sine, dot(a, b)) * dot(n, side) / sine / 2;
         }
@@ -93,7 +93,7 @@ double irradiance_of_disk(double h, double d) {
 
 /// The same for a ball of radius r with its centre at c, where the horizon may cut it: the sum over
 /// rings around its centre, of which the part above the horizon is known.
-double irradiance_of_ball(Double3 c, double r) {
+double irradiance_of_ball(Vec3d c, double r) {
     double d2 = dot(c, c), cos_w = c[1] / std::sqrt(d2), sin_w = std::sqrt(1 - cos_w * cos_w);
     double widest = std::atan2(r, std::sqrt(d2 - r * r)), E = 0;
     constexpr int rings = 20000;
@@ -201,7 +201,7 @@ void check_balls(const Effort& effort) {
             Vec3 c = {d * std::sin(a), d * std::cos(a), 0};
             Scene scene = patch_under("Translate " + digits(double{c.x}) + " " +
                                       digits(double{c.y}) + " 0 Shape \"sphere\"\n");
-            double E = irradiance_of_ball(to_double3(scene.geometry.spheres[0].c), 1);
+            double E = irradiance_of_ball(Vec3d(scene.geometry.spheres[0].c), 1);
             check_chapters(scene, onto_patch(scene, gap), E, effort);
         }
 }
@@ -212,7 +212,7 @@ void check_small_balls(const Effort& effort) {
         CAPTURE(e);
         std::string r = "1e-" + std::to_string(e);
         Scene scene = patch_under("Translate 7 25 -11 Shape \"sphere\" \"float radius\" " + r);
-        double d2 = dot(to_double3(c), to_double3(c)), radius = std::stod(r);
+        double d2 = dot(Vec3d(c), Vec3d(c)), radius = std::stod(r);
         double E = pi_exact * radius * radius / d2 * double{c.y} / std::sqrt(d2);
         check_chapters(scene, onto_patch(scene, 1), E, effort);
     }

@@ -14,7 +14,7 @@ namespace {
 constexpr double pi_exact = std::numbers::pi;
 constexpr float below_one = 0x1.fffffep-1f;
 
-Double3 unit(Vec3 a) { return normalize(to_double3(a)); }
+Vec3d unit(Vec3 a) { return normalize(Vec3d(a)); }
 double triangle_angle(Vec3 a, Vec3 b, Vec3 c) {
     return triangle_solid_angle(unit(a), unit(b), unit(c));
 }
@@ -170,7 +170,7 @@ TEST_SUITE("solid angle") {
                                {Vec3{-1, -1, 0.05f}, Vec3{1, -1, 0.05f}, Vec3{0, 1, 0.05f}},
                                {Vec3{-0.1f, 0, 2}, Vec3{0.1f, 0, 2}, Vec3{0.02f, 0.05f, 2}},
                                {Vec3{-0.01f, 0, 2}, Vec3{0.01f, 0, 2}, Vec3{0.002f, 0.005f, 2}}}) {
-            Double3 p = unit(a), q = unit(b), r = unit(c);
+            Vec3d p = unit(a), q = unit(b), r = unit(c);
             double omega = triangle_solid_angle(p, q, r);
             double chi2 = chi_square_of_triangle(a, b, c, [&](Vec2 u) {
                 return to_vec3(sample_spherical_triangle(p, q, r, omega, u));
@@ -190,7 +190,7 @@ TEST_SUITE("solid angle") {
 
     TEST_CASE("consistency: the warps run backwards") {
         Sampler random = random_numbers(1);
-        Double3 a = unit({-1, -1, 2}), b = unit({1, -1, 1}), c = unit({0, 1, 2});
+        Vec3d a = unit({-1, -1, 2}), b = unit({1, -1, 1}), c = unit({0, 1, 2});
         double omega = triangle_solid_angle(a, b, c);
         CHECK(relative_error(pdf_spherical_triangle(omega) * omega, 1) < 1e-15);
         for (int i = 0; i < 1000; i++) {
@@ -206,7 +206,7 @@ TEST_SUITE("solid angle") {
     }
 
     TEST_CASE("identity: the extreme random numbers give unit directions inside the shape") {
-        Double3 a = {1, 0, 0}, b = {0, 1, 0}, c = {0, 0, 1};
+        Vec3d a = {1, 0, 0}, b = {0, 1, 0}, c = {0, 0, 1};
         for (float u : {0.0f, below_one})
             for (float v : {0.0f, below_one}) {
                 Vec3 w = to_vec3(sample_spherical_triangle(a, b, c, pi_exact / 2, {u, v}));

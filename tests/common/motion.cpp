@@ -8,15 +8,15 @@
 
 namespace {
 
-Double3 any_direction(Sampler& random) { return to_double3(uniform_direction(random.u2())); }
+Vec3d any_direction(Sampler& random) { return Vec3d(uniform_direction(random.u2())); }
 Transform any_rotation(Sampler& random) {
     return rotation(360 * double{random.u1()}, any_direction(random));
 }
 
 /// An axis of space, or one next to it.
-Double3 any_axis(int i) {
+Vec3d any_axis(int i) {
     double next = i % 6 < 3 ? 0 : 1e-5;
-    Double3 axis = {next, next, next};
+    Vec3d axis = {next, next, next};
     axis[static_cast<size_t>(i % 3)] = 1;
     return axis;
 }
@@ -33,11 +33,11 @@ std::string as_text(const Transform& t) {
         std::snprintf(number, sizeof number, "%.17g ", x);
         text += number;
     };
-    for (const Double3& c : {t.x, t.y, t.z}) {
-        for (double x : c) put(x);
+    for (Vec3d c : {t.x, t.y, t.z}) {
+        for (double x : {c.x, c.y, c.z}) put(x);
         text += "0 ";
     }
-    for (double x : t.o) put(x);
+    for (double x : {t.o.x, t.o.y, t.o.z}) put(x);
     return "[" + text + "1] ";
 }
 
@@ -89,9 +89,9 @@ TEST_SUITE("motion") {
                       any_rotation(random);
             }
             Motion motion(ends[0], ends[1]);
-            Double3 p = 2.0 * any_direction(random);
+            Vec3d p = 2.0 * any_direction(random);
             for (double t : {-3.0, 0.0, 1.0, 2.0}) {
-                Double3 is = transform_point(motion.at(t), p);
+                Vec3d is = transform_point(motion.at(t), p);
                 CHECK(length(is - transform_point(ends[t > 0.5], p)) < 1e-9);
             }
         }
@@ -102,7 +102,7 @@ TEST_SUITE("motion") {
         int hits = 0;
         for (int i = 0; i < 12; i++) {
             CAPTURE(i);
-            Double3 stretch = {1, 0.6, i % 3 == 0 ? -1.5 : 1.5};
+            Vec3d stretch = {1, 0.6, i % 3 == 0 ? -1.5 : 1.5};
             Transform start = any_rotation(random) * scaling(stretch);
             Transform end = translation(any_direction(random)) * any_rotation(random) *
                             scaling({0.6, i % 2 == 0 ? 1.0 : 2.0, 1}) * start;
@@ -158,13 +158,12 @@ TEST_SUITE("motion") {
                 hits++;
                 double nearest = 1e30;
                 for (const Triangle& triangle : mover.geometry.triangles) {
-                    Double3 p[3];
+                    Vec3d p[3];
                     for (size_t v = 0; v < 3; v++) {
-                        p[v] = transform_point(now,
-                                               to_double3(mover.geometry.positions[triangle.v[v]]));
+                        p[v] = transform_point(now, Vec3d(mover.geometry.positions[triangle.v[v]]));
                     }
-                    Double3 n = normalize(cross(p[1] - p[0], p[2] - p[0]));
-                    nearest = std::min(nearest, std::abs(dot(n, to_double3(x->p) - p[0])));
+                    Vec3d n = normalize(cross(p[1] - p[0], p[2] - p[0]));
+                    nearest = std::min(nearest, std::abs(dot(n, Vec3d(x->p) - p[0])));
                 }
                 worst[i % 4] = std::max(worst[i % 4], nearest / double{x->eps});
             }

@@ -12,7 +12,7 @@
 namespace {
 
 /// Three numbers of a line, behind `word`.
-bool read(const std::string& line, const std::string& word, Double3& v) {
+bool read(const std::string& line, const std::string& word, Vec3d& v) {
     size_t at = line.find(word);
     if (at == std::string::npos) return false;
     return std::sscanf(line.c_str() + at + word.size(), " (%lf, %lf, %lf)", &v[0], &v[1], &v[2]) ==
@@ -28,14 +28,14 @@ struct Checked {
     int edges = 0, survivals = 0, lights = 0, met = 0;
 
     void check(const std::string& story) {
-        Double3 p = {}, n = {}, wi = {}, beta = {1, 1, 1}, v;
+        Vec3d p = {}, n = {}, wi = {}, beta = {1, 1, 1}, v;
         double x = 0, pdf_l = 0, pdf_b = 0, pdf_w = 0, mis = 0;
         bool first = true, aimed = false;
         std::istringstream lines(story);
         for (std::string line; std::getline(lines, line);) {
             CAPTURE(line);
             if (line.starts_with("vertex ")) {
-                Double3 before = p;
+                Vec3d before = p;
                 REQUIRE(read(line, " at", p));
                 REQUIRE(read(line, ", n", n));
                 REQUIRE(read(line, "distance", x));
@@ -63,7 +63,7 @@ struct Checked {
                 }
                 met += !of_light;
             } else if (line.find("goes on along") != std::string::npos) {
-                Double3 f;
+                Vec3d f;
                 REQUIRE(read(line, "along wi", wi));
                 REQUIRE(read(line, ": f", f));
                 REQUIRE(read(line, "pdf_w", pdf_w));
