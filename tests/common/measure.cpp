@@ -384,8 +384,9 @@ TEST_SUITE("measuring") {
         CHECK(v.known);
         CHECK(v.others_mean == doctest::Approx(11.6).epsilon(1e-12).scale(0));
         CHECK(v.z == doctest::Approx(1.4 / std::sqrt(1.8)).epsilon(1e-12).scale(0));
-        CHECK(!judge(e, 3).known);                       // too few lucky samples
-        CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);  // nothing to hold it against
+        CHECK(!judge(e, 3).known);                          // too few lucky samples
+        CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);     // nothing to hold it against
+        CHECK(!judge({{1, 1, 0}, {1, 1, 0, 2}}, 0).known);  // they missed more than their error
     }
 
     TEST_CASE("teeth: a bias of ten standard errors is seen, and in the right method") {

@@ -7,10 +7,11 @@
 /// What one method says of a quantity: the values of independent batches, summed up.
 struct Estimate {
     double mean = 0, se = 0, skewness = 0;
+    double missed = 0;  // that others have found of it, in classes of paths that were not met here
 
     /// Few batches with large values among many without say nothing of their spread: their error
-    /// comes out too small just when the mean does.
-    bool reliable() const { return se > 0 && std::abs(skewness) <= 1; }
+    /// comes out too small just when the mean does. So it does where none was met at all.
+    bool reliable() const { return se > 0 && std::abs(skewness) <= 1 && missed <= se; }
 };
 
 /// skewness  third central moment of the values over the 3/2th power of the second
