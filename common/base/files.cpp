@@ -236,7 +236,9 @@ bool same_file(const std::string& a, const std::string& b) {
 void make_folder(const std::string& path) {
     std::error_code error, none;
     fs::create_directories(path, error);
-    if (!fs::is_directory(path, none)) fail(path, "cannot make the folder", error.value());
+    bool is_file = error == std::errc::file_exists;  // as libc++ calls it
+    if (!fs::is_directory(path, none))
+        fail(path, "cannot make the folder", is_file ? ENOTDIR : error.value());
 }
 
 void check_outputs(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {

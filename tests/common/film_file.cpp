@@ -331,10 +331,10 @@ TEST_SUITE("film files") {
         };
         const std::string bad = "the film is damaged: its numbers contradict each other";
         CHECK(refusal_of_changed(bytes) == "");
-        for (size_t which : {0, 14, 15, 30, 59}) {
+        for (size_t which : {0u, 14u, 15u, 30u, 59u}) {
             CHECK(with(which, 0, HUGE_VAL) == bad);
             CHECK(with(which, 64, std::nan("")) == bad);  // one bin of three
-            for (size_t top : {96, 97}) {
+            for (size_t top : {96u, 97u}) {
                 CHECK(with(which, top, uint8_t{1}) == bad);
                 CHECK(with(which, top, uint8_t{29}) == bad);
             }
@@ -348,7 +348,7 @@ TEST_SUITE("film files") {
         CHECK(with(3, 99, uint8_t{0}) == bad);
         CHECK(with(15, 98, uint8_t{1}) == bad);
         std::string nan = bytes;
-        for (size_t bin : {0, 1, 2}) nan = with_number(nan, 4, 32 * bin, std::nan(""));
+        for (size_t bin : {0u, 1u, 2u}) nan = with_number(nan, 4, 32 * bin, std::nan(""));
         CHECK(refusal_of_changed(nan) == "");
 
         // Halves of a pixel may have any number of samples, batches what the pixels have.

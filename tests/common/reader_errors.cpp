@@ -157,7 +157,7 @@ TEST_SUITE("reader: malformed input") {
         }
         CHECK(said.ends_with("error: unknown directive \"Shap\": did you mean \"Shape\"?"));
         // Other errors are cut off as without them, and at some point it is enough.
-        for (int i = 0; i < 30; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
+        for (size_t i = 0; i < 30; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
         said = refuse(text);
         CHECK(std::count(said.begin(), said.end(), '\n') == 100);
         text = text.substr(0, text.find('\n') + 1);

@@ -334,8 +334,6 @@ TEST_SUITE("render loop") {
                 options.split = "unused";
                 if (!by_signal) options.time = 0.2;
                 auto begin = std::chrono::steady_clock::now();
-                Process signals([] { return 0; });
-                std::atomic<bool> ended = false;
                 std::thread sender([&] {
                     std::this_thread::sleep_for(std::chrono::milliseconds(200));
                     if (by_signal) ::kill(::getpid(), SIGINT);

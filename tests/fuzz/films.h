@@ -55,7 +55,7 @@ public:
         folder_ = ::mkdtemp(name.data());
         for (auto [kind, takes_splats] :
              {std::pair(0, false), {1, false}, {2, false}, {3, false}, {0, true}, {1, true}}) {
-            for (uint32_t first : {0, 3, 4}) {
+            for (uint32_t first : {0u, 3u, 4u}) {
                 films_.push_back(any_film(kind, takes_splats, first, first + 2));
                 bytes_.push_back(written(films_.back()));
             }
