@@ -66,9 +66,6 @@ inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int
     }
 }
 
-/// Whether the user wants the program to end.
-using Stopped = std::function<bool()>;
-
 /// Pass one: traces the light paths. The order of the vertices does not depend on threads.
 inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endpoints& endpoints,
                                                   const PhotonSettings& settings, uint32_t pass,

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -20,6 +21,9 @@ public:
 private:
     std::thread thread_;
 };
+
+/// Whether the user wants the program to end: asked by work that takes long.
+using Stopped = std::function<bool()>;
 
 /// Calls work(i) for i = 0 .. count-1 on `threads` threads, each taking the next i when it is free.
 /// What work throws stops it all, and is thrown on to the caller.

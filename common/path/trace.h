@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 
+#include "common/base/parallel.h"
 #include "common/path/sampler.h"
 #include "common/path/splats.h"
 #include "common/recording/recorder.h"
@@ -20,7 +21,7 @@ using SplatTrace = std::function<Rgb(const Scene&, Ray, Splats&, Sampler&, Recor
 struct PassTrace {
     /// Before sample number `pass` is taken of any pixel. Ends early when `stopped()`, and that
     /// pass is then not begun.
-    std::function<void(uint32_t pass, int threads, const std::function<bool()>& stopped)> prepare;
+    std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     Trace trace;
 };
 

@@ -1,6 +1,5 @@
 #include "common/radiosity/contacts.h"
 
-#include "common/base/parallel.h"
 #include "common/geometry/box_tree.h"
 
 namespace {

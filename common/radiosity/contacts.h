@@ -1,12 +1,9 @@
 // Triangles cut where others stand on them or pass through them.
 #pragma once
 #include <array>
-#include <functional>
 
+#include "common/base/parallel.h"
 #include "common/scene/scene.h"
-
-/// Asks whether work is to end early.
-using Stopped = std::function<bool()>;
 
 using Polygon = std::vector<Vec3>;  // convex; its corners, counter-clockwise
 

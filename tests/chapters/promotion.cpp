@@ -79,9 +79,7 @@ const std::vector<Promoted> promoted = {
      "common/path/photon_map.h",
      {"Photon", "PhotonMap", "LightVertex", "is_diffuse", "PhotonMaps", "build_maps"},
      "photon_map.h"},
-    {"23",
-     "common/path/photons.h",
-     {"PhotonSettings", "trace_light_path", "Stopped", "trace_light_paths"}},
+    {"23", "common/path/photons.h", {"PhotonSettings", "trace_light_path", "trace_light_paths"}},
 };
 
 /// The name that a definition gives which starts with this line.
