@@ -97,21 +97,22 @@ void judge_one(const std::string& scene, const std::string& key, Column& c, cons
                 ", the others " + row[5] + " +- " + row[6] + ", z " + row[7] + "\n";
 }
 
-/// What other methods have found in the classes of paths of which a method has too few samples to
-/// tell how much they vary, beyond what it has of them: per pixel of the picture.
+/// What other methods surely have found in the classes of paths of which a method has too few
+/// samples to tell how much they vary, beyond what it has of them: per pixel of the picture.
 double missed_by(const Column& c, const std::vector<Column>& all) {
     std::map<std::string, double> most;
     for (const Column& other : all) {
         for (const auto& [key, values] : other.batches) {
             if (!key.starts_with("class ")) continue;
-            most[key] = std::max(most[key], estimate_of(values).mean);
+            Estimate e = estimate_of(values);
+            most[key] = std::max(most[key], e.mean - 3 * e.se);
         }
     }
     double missed = 0;
-    for (const auto& [key, mean] : most) {
+    for (const auto& [key, at_least] : most) {
         auto found = c.batches.find(key);
         Estimate own = found == c.batches.end() ? Estimate{} : estimate_of(found->second);
-        if (!own.reliable()) missed += std::max(0.0, mean - own.mean);
+        if (!own.reliable()) missed += std::max(0.0, at_least - (own.mean + 3 * own.se));
     }
     return missed;
 }
