@@ -112,11 +112,11 @@ inline Path whole_path(const Scene& scene, const Path& light, int s, const Path&
     return path;
 }
 
-/// Whether strategy s can make a path: by connecting vertices s - 1 and s, or, if s = 0, because
-/// the path hits the light. The light itself is not connected to the camera: its rays hit it.
+/// Whether strategy s can make a path: it connects vertices s - 1 and s, or (s = 0) hits the light.
 inline bool can_make(const Path& path, size_t s) {
     if (s == 0) return can_be_hit(path[0].type);
-    return path.size() > 2 && (s == 1 || path[s - 1].connectible) && path[s].connectible;
+    if (s < 3 && s + 1 == path.size()) return false;  // to the camera: noisier than s = 0, 1
+    return (s == 1 || path[s - 1].connectible) && path[s].connectible;
 }
 
 /// The density, in sr^-1, of direction `to` at x, where the path came from `from`. Mirrors and

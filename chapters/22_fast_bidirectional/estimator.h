@@ -48,7 +48,8 @@ inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& wa
     }
 }
 
-/// Sum of p_i / p_s over the strategies that have fewer than n vertices of this walk.
+/// Sum of p_i / p_s over the strategies that have fewer than n vertices of this walk, and at least
+/// `fewest`.
 ///
 ///   r_n-1 (c_n-1 + r_n-2 sum_n-1)
 ///
@@ -56,8 +57,8 @@ inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& wa
 /// walk is connected to; behind_x: the one before x. Null where the other walk has none.
 /// tested by  "identity: without chances, each path brings what it brings in chapter 21"
 inline double sum_of_fewer(const Scene& scene, const Endpoints& endpoints, const Subpath& walk,
-                           size_t n, const Vertex* x, const Vertex* behind_x) {
-    if (n == 0 || (n == 1 && walk.sum[0] == 0)) return 0;
+                           size_t n, size_t fewest, const Vertex* x, const Vertex* behind_x) {
+    if (n <= fewest) return 0;
     bool other = !walk.from_light;
     const Vertex& y = walk.path[n - 1];
     double pdf =
@@ -66,6 +67,7 @@ inline double sum_of_fewer(const Scene& scene, const Endpoints& endpoints, const
     if (n == 1) return r;
     const Vertex& before = walk.path[n - 2];
     double c = before.connectible ? 1 : 0;
+    if (n - 1 <= fewest) return r * c;
     double r_before = pdf_next(scene, endpoints, other, x, y, before) / walk.pdf[n - 2];
     return r * (c + r_before * walk.sum[n - 1]);
 }
@@ -74,14 +76,15 @@ inline double sum_of_fewer(const Scene& scene, const Endpoints& endpoints, const
 ///
 ///   mis_s = p_s / sum over i of p_i = 1 / (1 + sum over i < s and i > s of p_i / p_s)
 ///
-/// 0 where vertices touch (0 / 0). The camera sees a light without noise: no other strategy then.
+/// 0 where vertices touch (0 / 0). What chapter 21 leaves out has no share: the light itself and
+/// direct light, connected to the camera.
 inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Subpath& light,
                         size_t s, const Subpath& eye, size_t t) {
-    if (s + t == 2) return 1;
     const Vertex *y = s > 0 ? &light.path[s - 1] : nullptr, *behind_y = s > 1 ? y - 1 : nullptr;
     const Vertex *z = &eye.path[t - 1], *behind_z = t > 1 ? z - 1 : nullptr;
-    double sum = 1 + sum_of_fewer(scene, endpoints, light, s, z, behind_z) +
-                 sum_of_fewer(scene, endpoints, eye, t, y, behind_y);
+    size_t fewest_s = !y || can_be_hit(light.path[0].type) ? 0 : 1, fewest_t = s + t < 4 ? 2 : 1;
+    double sum = 1 + sum_of_fewer(scene, endpoints, light, s, fewest_s, z, behind_z) +
+                 sum_of_fewer(scene, endpoints, eye, t, fewest_t, y, behind_y);
     return sum > 0 ? static_cast<float>(1 / sum) : 0;
 }
 
@@ -91,7 +94,7 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
     const Vertex& z = eye[t - 1];
     if (s == 0) return {Contribution::own_pixel, z.beta * z.Le};
     const Vertex& y = light[s - 1];
-    bool can_be_made = s + t > 2 && (s == 1 || y.connectible) && z.connectible;
+    bool can_be_made = (s == 1 || y.connectible) && z.connectible;
     if (!can_be_made) return {Contribution::own_pixel, {}};
     if (t == 1) return connect_to_camera(scene, endpoints.camera, y);
     return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
@@ -176,7 +179,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
     Rgb sum;
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
     for (size_t t = 1; t <= eye.path.size(); t++) {
-        for (size_t s = t == 1 ? 2 : 0; s <= light.path.size() && s + t <= longest; s++) {
+        for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
             if (s == 0 && settings.chances > 0 && has_chances(eye, t)) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
             if (s == 2) place_light(scene, light.path[0], light.path[1]);
