@@ -67,7 +67,7 @@ inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool fro
         recorder.scatter(s, beta);
 
         // Terminate with probability 1 - q, and divide by q to compensate.
-        float q = survival_probability(beta, depth - 1);
+        float q = survival_probability(2.5f * beta, depth - 1);  // 2.5: as in chapter 15
         if (sampler.u1() >= q) return path;
         beta /= q;
         recorder.roulette(q, beta);

@@ -16,15 +16,30 @@ inline Bidirectional prepare(const Scene& scene, int chances = 16) {
     return {endpoints_of(scene), chances};
 }
 
-/// A path from the eye or from a light, and for each of its vertices what the weights need.
+/// What a vertex keeps for the weights of all connections.
+struct Kept {
+    float pdf = 1;      // m^-2, of this vertex in this walk
+    double sum = 0;     // see add_sums()
+    float to_area = 0;  // cos / d^2 at the vertex before: turns sr^-1 here into m^-2 there
+    Vec3 back = {};     // unit, to the vertex before, by both points
+};
+
+/// A path from the eye or from a light, and what its vertices keep.
 struct Subpath {
     bool from_light;
     Path path;
-    std::vector<double> pdf = {};  // m^-2, of this vertex in this walk
-    std::vector<double> sum = {};  // see add_sums()
+    std::vector<Kept> kept = {};
 };
 
-/// Adds the sums of the ratios of densities to a subpath, once for all of its connections.
+/// The density, in sr^-1, with which this walk leaves its n-th vertex along w.
+inline float pdf_forward(const Scene& scene, const Endpoints& endpoints, const Subpath& walk,
+                         size_t n, Vec3 w) {
+    const Vertex& v = walk.path[n - 1];
+    if (n > 1) return pdf_onwards(scene, walk.from_light, v.x, walk.kept[n - 1].back, w);
+    return walk.from_light ? pdf_emission(v, w) : importance_cos(endpoints.camera, w);
+}
+
+/// Adds what the vertices of a walk keep, once for all of its connections.
 ///
 ///   r_j    density of vertex j in a walk from the other end / its density in this walk
 ///   c_j    1 if vertices j - 1 and j can be connected, else 0; c_0: if the light can be hit
@@ -34,58 +49,62 @@ struct Subpath {
 /// source  van Antwerpen 2011; Georgiev 2012
 inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& walk) {
     const Path& path = walk.path;
-    bool light = walk.from_light;
-    walk.pdf.resize(path.size());
-    walk.sum.resize(path.size(), !path.empty() && light && can_be_hit(path[0].type) ? 1 : 0);
-    for (size_t j = 0; j < path.size(); j++) {
-        const Vertex &x = path[j], *v = j > 0 ? &x - 1 : nullptr, *u = j > 1 ? v - 1 : nullptr;
-        if (!v) walk.pdf[j] = light ? static_cast<double>(x.pdf) : 1;
-        if (v) walk.pdf[j] = pdf_next(scene, endpoints, light, u, *v, x);
-        if (!u) continue;
-        double c = u->connectible && v->connectible ? 1 : 0;
-        double r = pdf_next(scene, endpoints, !light, &x, *v, *u) / walk.pdf[j - 2];
-        walk.sum[j] = c + r * walk.sum[j - 1];
+    walk.kept.resize(path.size());
+    if (walk.from_light && !path.empty())
+        walk.kept[0] = {.pdf = path[0].pdf, .sum = can_be_hit(path[0].type) ? 1.0 : 0.0};
+    for (size_t j = 1; j < path.size(); j++) {
+        const Vertex &v = path[j - 1], &x = path[j];
+        Vec3 w = direction(v, x);
+        float d2 = length_squared(x.x.p - v.x.p);
+        float pdf = pdf_forward(scene, endpoints, walk, j, w) * std::abs(dot(w, x.x.ng)) / d2;
+        walk.kept[j] = {pdf, walk.kept[j - 1].sum, std::abs(dot(w, v.x.ng)) / d2, -w};
+        if (j == 1) continue;
+        double c = path[j - 2].connectible && v.connectible ? 1 : 0;
+        float pdf_w = pdf_onwards(scene, !walk.from_light, v.x, w, walk.kept[j - 1].back);
+        float r = pdf_w * walk.kept[j - 1].to_area / walk.kept[j - 2].pdf;
+        walk.kept[j].sum = c + static_cast<double>(r) * walk.kept[j - 1].sum;
     }
 }
 
-/// Sum of p_i / p_s over the strategies that have fewer than n vertices of this walk, and at least
-/// `fewest`.
+/// Sum of p_i / p_s over strategies with fewer than n vertices of this walk, but at least `fewest`.
 ///
 ///   r_n-1 (c_n-1 + r_n-2 sum_n-1)
 ///
-/// A connection changes two ratios alone. x: the vertex of the other walk that the last one of this
-/// walk is connected to; behind_x: the one before x. Null where the other walk has none.
+/// A connection changes two ratios alone. pdf, in m^-2: of the n-th vertex in a walk from the other
+/// end; pdf_w, in sr^-1: with which that walk goes on to the vertex before.
 /// tested by  "identity: without chances, each path brings what it brings in chapter 21"
-inline double sum_of_fewer(const Scene& scene, const Endpoints& endpoints, const Subpath& walk,
-                           size_t n, size_t fewest, const Vertex* x, const Vertex* behind_x) {
+inline double sum_of_fewer(const Subpath& walk, size_t n, size_t fewest, float pdf, float pdf_w) {
     if (n <= fewest) return 0;
-    bool other = !walk.from_light;
-    const Vertex& y = walk.path[n - 1];
-    double pdf =
-        x ? pdf_next(scene, endpoints, other, behind_x, *x, y) : static_cast<double>(y.pdf);
-    double r = pdf / walk.pdf[n - 1];
-    if (n == 1) return r;
-    const Vertex& before = walk.path[n - 2];
-    double c = before.connectible ? 1 : 0;
-    if (n - 1 <= fewest) return r * c;
-    double r_before = pdf_next(scene, endpoints, other, x, y, before) / walk.pdf[n - 2];
-    return r * (c + r_before * walk.sum[n - 1]);
+    const Kept& last = walk.kept[n - 1];
+    double r = static_cast<double>(pdf / last.pdf);
+    double c = n == 1 || walk.path[n - 2].connectible ? 1 : 0;
+    if (n == fewest + 1) return r * c;
+    float r_before = pdf_w * last.to_area / walk.kept[n - 2].pdf;
+    return r * (c + static_cast<double>(r_before) * last.sum);
 }
 
 /// The weight of strategy (s, t): the balance heuristic, in the same time for every path.
 ///
 ///   mis_s = p_s / sum over i of p_i = 1 / (1 + sum over i < s and i > s of p_i / p_s)
-///
-/// 0 where vertices touch (0 / 0). What chapter 21 leaves out has no share: the light itself and
-/// direct light, connected to the camera.
 inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Subpath& light,
                         size_t s, const Subpath& eye, size_t t) {
-    const Vertex *y = s > 0 ? &light.path[s - 1] : nullptr, *behind_y = s > 1 ? y - 1 : nullptr;
-    const Vertex *z = &eye.path[t - 1], *behind_z = t > 1 ? z - 1 : nullptr;
-    size_t fewest_s = !y || can_be_hit(light.path[0].type) ? 0 : 1, fewest_t = s + t < 4 ? 2 : 1;
-    double sum = 1 + sum_of_fewer(scene, endpoints, light, s, fewest_s, z, behind_z) +
-                 sum_of_fewer(scene, endpoints, eye, t, fewest_t, y, behind_y);
-    return sum > 0 ? static_cast<float>(1 / sum) : 0;
+    const Vertex& z = eye.path[t - 1];
+    size_t fewest_t = s + t < 4 ? 2 : 1;  // 2: as in chapter 21, no splats of direct light
+    if (s == 0) {
+        float pdf_w = pdf_emission(z, eye.kept[t - 1].back);
+        return static_cast<float>(1 / (1 + sum_of_fewer(eye, t, fewest_t, z.pdf, pdf_w)));
+    }
+    const Vertex& y = light.path[s - 1];
+    size_t fewest_s = can_be_hit(light.path[0].type) ? 0 : 1;
+    Vec3 w = direction(y, z);
+    float d2 = length_squared(z.x.p - y.x.p);
+    float pdf_y = pdf_forward(scene, endpoints, eye, t, -w) * std::abs(dot(w, y.x.ng)) / d2;
+    float pdf_z = pdf_forward(scene, endpoints, light, s, w) * std::abs(dot(w, z.x.ng)) / d2;
+    float back_y = s > 1 ? pdf_onwards(scene, false, y.x, w, light.kept[s - 1].back) : 0;
+    float back_z = t > 1 ? pdf_onwards(scene, true, z.x, -w, eye.kept[t - 1].back) : 0;
+    double sum = 1 + sum_of_fewer(light, s, fewest_s, pdf_y, back_y) +
+                 sum_of_fewer(eye, t, fewest_t, pdf_z, back_z);
+    return sum > 0 ? static_cast<float>(1 / sum) : 0;  // 0 where vertices touch (0 / 0)
 }
 
 /// What strategy (s, t) brings, without its weight, and in which pixel. As in chapter 21.
@@ -94,8 +113,7 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
     const Vertex& z = eye[t - 1];
     if (s == 0) return {Contribution::own_pixel, z.beta * z.Le};
     const Vertex& y = light[s - 1];
-    bool can_be_made = (s == 1 || y.connectible) && z.connectible;
-    if (!can_be_made) return {Contribution::own_pixel, {}};
+    if ((s > 1 && !y.connectible) || !z.connectible) return {Contribution::own_pixel, {}};
     if (t == 1) return connect_to_camera(scene, endpoints.camera, y);
     return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
 }
@@ -104,7 +122,7 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
 /// chance: no two vertices of such a path can be connected.
 inline bool only_chance(const Subpath& eye, size_t t) {
     const Path& path = eye.path;
-    return t > 2 && path[t - 1].connectible && !path[t - 2].connectible && eye.sum[t - 1] == 0;
+    return t > 2 && path[t - 1].connectible && !path[t - 2].connectible && eye.kept[t - 1].sum == 0;
 }
 
 /// Whether the t-th vertex from the eye, a light, is one of those that through_mirrors() finds.
@@ -114,8 +132,7 @@ inline bool has_chances(const Subpath& eye, size_t t) {
     return z < t - 1 && only_chance(eye, z);
 }
 
-/// Light that comes to z, the t-th vertex from the eye, from a light by mirrors or glass alone: the
-/// mean of more samples than one.
+/// Light that mirrors or glass alone bring to z, the t-th vertex from the eye: a mean of samples.
 ///
 /// Unbiased: it replaces what the walk itself finds of these paths, which has the same mean.
 /// tested by  "agreement: with and without chances through mirrors, by length and class"
@@ -125,30 +142,30 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
     Rgb sum;
     for (int i = 0; i < chances; i++) {
         recorder.back_to(t);
-        Hit x = z.x;
-        Vec3 wo = z.back;
-        Rgb beta = z.beta;
+        Vertex v = z;
         for (int n = t + 1; n <= scene.max_depth + 2; n++) {
             // Sample the next direction; play roulette behind the first one.
             float u1 = sampler.u1();
-            BsdfSample s = sample_bsdf(x, wo, u1, sampler.u2());
+            BsdfSample s = sample_bsdf(v.x, v.back, u1, sampler.u2());
             float u_q = sampler.u1();
             if (s.pdf_w == 0) break;
-            beta *= s.f * (std::abs(dot(s.wi, x.n)) / s.pdf_w);
-            float q = n == t + 1 ? 1 : survival_probability(beta, n - 3);
-            if (is_black(beta) || u_q >= q) break;
-            beta /= q;
-            recorder.scatter(s, beta);
+            v.beta *= s.f * (std::abs(dot(s.wi, v.x.n)) / s.pdf_w);
+            float q = n == t + 1 ? 1 : survival_probability(2.5f * v.beta, n - 3);
+            if (is_black(v.beta) || u_q >= q) break;
+            v.beta /= q;
+            recorder.scatter(s, v.beta);
 
             // Count the light behind a mirror, the n-th vertex.
-            std::optional<Hit> y = intersect(scene, spawn_ray(x, s.wi));
+            std::optional<Hit> y = intersect(scene, spawn_ray(v.x, s.wi));
             recorder.vertex(y);
-            Rgb Le = y ? emission(scene, *y) : scene.sky;
-            Rgb L = beta * Le / static_cast<float>(chances);
-            if (n > t + 1) sum += L;
-            if (n > t + 1) recorder.connected(L, 0, n, 1.0f / static_cast<float>(chances));
+            if (n > t + 1) {
+                Rgb Le = y ? emission(scene, *y) : scene.sky;
+                Rgb L = v.beta * Le / static_cast<float>(chances);
+                sum += L;
+                recorder.connected(L, 0, n, 1.0f / static_cast<float>(chances));
+            }
             if (!y || !is_specular(*y->material)) break;
-            x = *y, wo = -s.wi;
+            v.x = *y, v.back = -s.wi;
         }
     }
     return sum;

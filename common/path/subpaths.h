@@ -64,7 +64,7 @@ inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool fro
         recorder.scatter(s, beta);
 
         // Terminate with probability 1 - q, and divide by q to compensate.
-        float q = survival_probability(beta, depth - 1);
+        float q = survival_probability(2.5f * beta, depth - 1);  // 2.5: as in chapter 15
         if (sampler.u1() >= q) return path;
         beta /= q;
         recorder.roulette(q, beta);
@@ -113,19 +113,6 @@ inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3
 /// The density, in sr^-1, of direction w at a light. Rays of far lights fill a disk: pi sr.
 inline float pdf_emission(const Vertex& light, Vec3 w) {
     return light.type == LightType::point ? 1 / (4 * pi) : std::abs(dot(w, light.x.ng)) / pi;
-}
-
-/// The density of vertex x, in m^-2, in a walk that came from `before` to v (null: it begins at v).
-///
-///   pdf_A = pdf_w cos / d^2,    pdf_w: of the direction in which the walk leaves v
-inline double pdf_next(const Scene& scene, const Endpoints& endpoints, bool from_light,
-                       const Vertex* before, const Vertex& v, const Vertex& x) {
-    Vec3 w = direction(v, x);
-    float pdf_w = before       ? pdf_onwards(scene, from_light, v.x, direction(v, *before), w)
-                  : from_light ? pdf_emission(v, w)
-                               : importance_cos(endpoints.camera, w);
-    float cos_x = std::abs(dot(w, x.x.ng)), d2 = length_squared(x.x.p - v.x.p);
-    return static_cast<double>(pdf_w * cos_x / d2);
 }
 
 /// t = 1: connects y, the last vertex from the light, to the camera.      flux f cos We V / d^2
