@@ -71,7 +71,7 @@ double chi_square_10x10(const std::vector<Vec2>& points) {
     return chi_square(counts);
 }
 
-struct Box {
+struct Rectangle {
     Vec2 low, high;
     double area() const {
         return (static_cast<double>(high.x) - static_cast<double>(low.x)) *
@@ -81,8 +81,8 @@ struct Box {
 
 /// The strata of a jitter, found by asking for their corners.
 template <class Jitter>
-std::vector<Box> strata(Jitter jitter, uint32_t n) {
-    std::vector<Box> boxes;
+std::vector<Rectangle> strata(Jitter jitter, uint32_t n) {
+    std::vector<Rectangle> boxes;
     constexpr float almost_1 = 0x1.fffffep-1f;
     for (uint32_t i = 0; i < n; i++)
         boxes.push_back({jitter(i, n, Vec2{0, 0}), jitter(i, n, Vec2{almost_1, almost_1})});
@@ -90,12 +90,12 @@ std::vector<Box> strata(Jitter jitter, uint32_t n) {
 }
 
 /// Whether the boxes cover the square once: equal areas of 1/n, and no two that overlap.
-bool are_equal_tiles(const std::vector<Box>& boxes) {
+bool are_equal_tiles(const std::vector<Rectangle>& boxes) {
     constexpr float rounding = 1e-6f;
     double n = static_cast<double>(boxes.size());
-    for (const Box& a : boxes) {
+    for (const Rectangle& a : boxes) {
         if (std::abs(a.area() * n - 1) > 1e-4) return false;
-        for (const Box& b : boxes)
+        for (const Rectangle& b : boxes)
             if (&a != &b && a.low.x + rounding < b.high.x && b.low.x + rounding < a.high.x &&
                 a.low.y + rounding < b.high.y && b.low.y + rounding < a.high.y)
                 return false;
@@ -544,7 +544,7 @@ TEST_SUITE("sampler: strata") {
         for (uint32_t spp : {1u, 2u, 3u, 5u, 7u, 16u, 36u, 61u})
             for (int pair : {0, 1, 5})
                 for (uint32_t pass : {0u, 1u}) {  // samples beyond spp start another set
-                    std::vector<Box> boxes = strata(jitter_in_stratum, spp);
+                    std::vector<Rectangle> boxes = strata(jitter_in_stratum, spp);
                     Sampler sampler(SamplerType::stratified, 1, spp);
                     std::set<size_t> filled;
                     for (uint32_t i = 0; i < spp; i++) {
