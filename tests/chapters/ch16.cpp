@@ -123,11 +123,11 @@ TEST_SUITE("ch16 pixel") {
                     sum += std::pow(double{image.at(x, y).g} - mean_of_pixel(x, y), 2);
             return sum / n;
         };
-        double independent = error_of(zone_plate(SamplerType::independent, 64));
-        double stratified = error_of(zone_plate(SamplerType::stratified, 64));
-        double sobol = error_of(zone_plate(SamplerType::sobol, 64));
+        double independent = error_of(zone_plate(SamplerType::independent, 16));
+        double stratified = error_of(zone_plate(SamplerType::stratified, 16));
+        double sobol = error_of(zone_plate(SamplerType::sobol, 16));
         CAPTURE(stratified);
-        CHECK(independent < 0.25 / 64);
+        CHECK(independent < 0.25 / 16);
         CHECK(stratified < 0.5 * independent);
         CHECK(sobol < 0.5 * independent);
     }

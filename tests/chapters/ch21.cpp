@@ -244,7 +244,7 @@ TEST_SUITE("ch21 bidirectional") {
             std::string classes = "L";
             classes.append(static_cast<size_t>(edges - 1), 'D');
             classes += "E";
-            constexpr int paths = 100000;
+            constexpr int paths = 50000;
             Measured truth =
                 census_of(scene, by_fifteen(scene), paths, 1, classes).all.measured(paths);
             for (const Form& form : forms) {
@@ -394,7 +394,7 @@ TEST_SUITE("ch21 bidirectional") {
         CHECK(a.se < 0.005 * a.mean);
         for (const Form& form : forms) {
             CAPTURE(form.name);
-            for (int spp : {1, 2, 3, 7}) {
+            for (int spp : {1, 3}) {
                 CAPTURE(spp);
                 CHECK(z_between(a, over_seeds(scene, form, spp, 100)) < 5);
             }

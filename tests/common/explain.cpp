@@ -120,6 +120,7 @@ TEST_SUITE("explain") {
             CAPTURE(program);
             Words render = words;
             render.insert(render.end(), {"--quiet", "--out", folder / "a.pfm"});
+            append(render, few_photons(program));
             REQUIRE(run(program, render).code == 0);
             Image image = read_image(folder / "a.pfm"), sum(3, 2);
             int seen = 0;
@@ -127,6 +128,7 @@ TEST_SUITE("explain") {
                 Words explain = words;
                 std::string pixel = std::to_string(i % 3) + "," + std::to_string(i / 3);
                 explain.insert(explain.end(), {"--explain", pixel, "--out", folder / "b.ppm"});
+                append(explain, few_photons(program));
                 Finished end = run(program, explain);
                 CHECK(end.code == 0);
                 CHECK(end.err == "");
@@ -311,6 +313,7 @@ TEST_SUITE("explain") {
             CAPTURE(program);
             Words words = {spheres, "--size", "9x8", "--spp", "4", "--out", folder / "a.ppm"};
             words.insert(words.end(), {"--max-depth", "6"});
+            append(words, few_photons(program));
             Words render = words, explain = words;
             render.insert(render.end(),
                           {"--quiet", "--stats", folder / "a.json", "--paths", "L.*D.*E"});

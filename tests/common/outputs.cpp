@@ -293,13 +293,9 @@ TEST_SUITE("outputs") {
         words = brief(spheres, {"--out", folder / "gone.ppm", "--out", folder / "b.ppm"});
         fs::create_symlink("/dev/fd/" + std::to_string(ends[1]), folder / "gone.ppm");
         if (!exists_here("/dev/fd/0")) return;
-        Process process([&] {
-            ::close(ends[0]);
-            return execute(path_tracer, words);
-        });
         ::close(ends[0]);
+        end = start(path_tracer, words).wait();
         ::close(ends[1]);
-        end = process.wait();
         CHECK(end.code == 1);
         CHECK(end.err == folder / "gone.ppm" + ": error: cannot write: Broken pipe\n");
         CHECK(read_image(folder / "b.ppm").width == 16);

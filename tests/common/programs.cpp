@@ -171,7 +171,7 @@ TEST_SUITE("programs") {
             for (const std::string& program : programs(render)) {
                 CAPTURE(program);
                 TemporaryFolder folder;
-                Words words = brief(render, {});
+                Words words = brief(render, few_photons(program));
                 std::set<std::string> files = {"a.ppm", "a.pfm", "a.png"};
                 if (!render) files.insert("a.tsv");
                 for (const std::string& file : files) {
@@ -234,6 +234,7 @@ TEST_SUITE("programs") {
                     std::string name = folder / threads, bytes;
                     Words words = small({"--threads", threads, "--sampler", sampler, "--quiet",
                                          "--stats", name + ".json"});
+                    append(words, few_photons(program));
                     for (const char* kind : {".pfm", ".ppm", ".png"})
                         words.insert(words.end(), {"--out", name + kind});
                     CHECK(run(program, words).code == 0);
@@ -256,6 +257,7 @@ TEST_SUITE("programs") {
                 std::string picture = folder / "a.pfm", bytes[3];
                 for (size_t i = 0; i < 3; i++) {
                     Words words = {"--seed", i == 2 ? "8" : "7", "--quiet", "--out", picture};
+                    append(words, few_photons(program));
                     CHECK(run(program, brief(render, words)).code == 0);
                     bytes[i] = read_file(picture);
                 }
@@ -287,6 +289,7 @@ TEST_SUITE("programs") {
                     return read_file(folder / name + ".ppm");
                 };
                 Words words = brief(render, {"--seed", "5"});
+                append(words, few_photons(program));
                 if (render) words.insert(words.end(), {"--sampler", "sobol", "--paths", "L.*D.*E"});
                 if (own.contains(program))
                     words.insert(words.end(), own.at(program).begin(), own.at(program).end());
@@ -464,9 +467,13 @@ TEST_SUITE("programs") {
     TEST_CASE("identity: a render that is stopped and goes on from its film has the same bytes") {
         TemporaryFolder folder;
         auto words = [&](const std::string& name, const char* sampler) {
-            return Words{spheres,     "--size",  "33x17",  "--spp",
-                         "3000",      "--quiet", "--film", folder / name + ".film",
-                         "--sampler", sampler,   "--out",  folder / name + ".pfm"};
+            return Words{spheres,     "--size",
+                         "33x17",     "--spp",
+                         "1000",      "--quiet",
+                         "--threads", "2",
+                         "--film",    folder / name + ".film",
+                         "--sampler", sampler,
+                         "--out",     folder / name + ".pfm"};
         };
         for (auto [program, sampler] : {std::pair(path_tracer, "independent"),
                                         {path_tracer, "stratified"},
@@ -641,6 +648,7 @@ TEST_SUITE("programs") {
             TemporaryFolder folder;
             Words words = {spheres,   "--size",  "24x24",      "--spp", "4",
                            "--quiet", "--split", folder / "d", "--out", folder / "a.pfm"};
+            append(words, few_photons(program));
             REQUIRE(run(program, words).code == 0);
             Image whole = read_image(folder / "a.pfm"), sum(24, 24);
             std::set<std::string> classes;

@@ -19,12 +19,13 @@ struct Reporter : doctest::ConsoleReporter {
         begun_ = seconds();
     }
     void test_case_end(const doctest::CurrentTestCaseStats& stats) override {
-        ConsoleReporter::test_case_end(stats);
-        double taken = seconds() - begun_;
-        if (is_slow_ || taken <= 10) return;
+        doctest::CurrentTestCaseStats of_processor = stats;  // --duration prints these seconds
+        of_processor.seconds = seconds() - begun_;
+        ConsoleReporter::test_case_end(of_processor);
+        if (is_slow_ || of_processor.seconds <= 10) return;
         std::printf(
             "'%s' takes %.0f s of processor time: beyond 10 s a test belongs into a slow suite\n",
-            name_.c_str(), taken);
+            name_.c_str(), of_processor.seconds);
     }
     void test_run_end(const doctest::TestRunStats& stats) override {
         ConsoleReporter::test_run_end(stats);

@@ -45,6 +45,16 @@ inline std::vector<std::string> programs(bool render) {
     return names;
 }
 
+inline void append(Words& words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+}
+
+/// For programs that trace photons: few, since these take most of the time of a brief render.
+inline Words few_photons(const std::string& program) {
+    if (program.find("photon") == std::string::npos) return {};
+    return {"--photons", "2000"};
+}
+
 inline bool begins_at_lights(const std::string& program) {
     return program > "20" && program < "23";
 }
