@@ -85,7 +85,7 @@ const std::vector<Rule> rules_of_paths = {
      "long paths by way of mirrors lose light, those by way of paint do not: roulette is not "
      "paid back (1/q) after mirrors and glass",
      [](const Case& c) {
-         return c.right("sphere", "LDDDDDE") && c.right("floor") &&
+         return c.right("sphere", "LDDDDDE") && c.right("floor") && !c.off("mirror", "LSDE") &&
                 c.ratio("corridor", "LSSSSSSE") < 0.97;
      }},
 };
