@@ -244,7 +244,7 @@ TEST_SUITE("ch21 bidirectional") {
             std::string classes = "L";
             classes.append(static_cast<size_t>(edges - 1), 'D');
             classes += "E";
-            constexpr int paths = 50000;
+            constexpr int paths = 100000;
             Measured truth =
                 census_of(scene, by_fifteen(scene), paths, 1, classes).all.measured(paths);
             for (const Form& form : forms) {
