@@ -82,11 +82,12 @@ inline LightTable build_light_table(const std::vector<double>& pmf) {
 ///
 /// u is a double, of 48 random bits: the 24 of a float are 17 numbers for each of a million
 /// columns.
-inline size_t pick_light(const LightTable& lights, double u) {
-    double at = u * static_cast<double>(lights.size());
-    size_t column = std::min(static_cast<size_t>(at), lights.size() - 1);
-    bool is_own = at - static_cast<double>(column) < double{lights[column].own};
-    return is_own ? column : lights[column].other;
+inline uint32_t pick_light(const LightTable& lights, double u) {
+    int N = static_cast<int>(lights.size());
+    double at = u * N;
+    uint32_t column = static_cast<uint32_t>(std::min(static_cast<int>(at), N - 1));
+    auto [own, other, pmf] = lights[column];
+    return at - column < double{own} ? column : other;
 }
 inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 

@@ -10,11 +10,8 @@
 namespace ch16 {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
-
-/// The lights, and M: candidates for one shadow ray, but no more than there are lights.
-inline ManyLights prepare(const Scene& scene, int M = 64) {
-    return many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
-}
+using many_lights::Candidates, many_lights::Lights, many_lights::choose_candidates;
+using many_lights::direct_light, many_lights::mis_emission, many_lights::prepare;
 
 /// Turns the pinhole's ray into one through a point of the lens that is sharp at the same place.
 ///
@@ -44,14 +41,14 @@ inline float sample_time(const Camera& camera, float u) {
 ///
 /// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
 /// source  Veach, Guibas 1995      tested by  "ch16 lens and shutter"
-inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler& sampler,
+inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
     // Choose a point of the lens, and a time.
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
     if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
-    Hit last;              // the vertex before
+    Candidates c;          // at the vertex before
     float pdf_b = 0;       // of the direction that was drawn there
     bool only_way = true;  // nothing but this path could find what shines next
     for (int depth = 0;; depth++) {
@@ -62,7 +59,7 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = only_way ? 1 : mis_emission(scene, lights, last, ray.d, pdf_b, x);
+            float mis_b = only_way ? 1 : mis_emission(scene, lights, c, ray.d, pdf_b, x);
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -78,16 +75,12 @@ inline Rgb trace(const Scene& scene, const ManyLights& lights, Ray ray, Sampler&
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
 
         // Aim at lights.
-        bool choose = scene.lights.size() > 1;
-        LightNumbers u = {choose ? to_unit_double(sampler.u2()) : 0, sampler.u2()};
-        L += beta * direct_light(scene, lights, *x, wo, u, recorder);
-        if (choose) {
-            ResamplingNumbers v = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
-            L += beta * best_light(scene, lights, *x, wo, v, recorder);
-        }
+        TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
+        choose_candidates(scene, lights, *x, wo, u.candidates, c);
+        L += beta * direct_light(scene, lights, c, u, recorder);
 
         // Go on in that direction, and count it for all those that were not taken.
-        last = *x, pdf_b = s.pdf_w, only_way = s.specular;
+        pdf_b = s.pdf_w, only_way = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;

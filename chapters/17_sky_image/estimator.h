@@ -11,6 +11,8 @@
 namespace ch17 {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
+using many_lights::Candidates, many_lights::choose_candidates;
+using many_lights::direct_light, many_lights::mis_emission;
 
 /// The probability that light sampling chooses one of the pixels before pixel i, for each i, and
 /// at the end 1.      All are 0 for an image of one colour: no pixel is brighter than the mean.
@@ -37,11 +39,11 @@ inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
 }
 
 /// The lights of chapter 15, and the sky's image as one more: what chooses its pixels.
-struct LightsAndSky : ManyLights {
+struct LightsAndSky : many_lights::Lights {
     std::vector<double> image_cdf;
 };
 inline LightsAndSky prepare(const Scene& scene, int M = 64, bool compensate = true) {
-    ManyLights lights = many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
+    many_lights::Lights lights = many_lights::prepare(scene, M);
     if (!scene.sky_image) return {lights, {}};
     return {lights, image_cdf(*scene.sky_image, compensate)};
 }
@@ -88,14 +90,12 @@ inline Rgb image_emission(const Scene& scene, const LightsAndSky& lights, Vec3 w
 
 /// The random numbers of all light samples of one vertex.
 struct DirectNumbers {
-    LightNumbers any;
-    std::optional<ResamplingNumbers> best;
+    TwoLightNumbers lights;
     std::optional<LightNumbers> image;
 };
-inline DirectNumbers draw_numbers(const Scene& scene, Sampler& sampler) {
-    bool choose = scene.lights.size() > 1;
-    DirectNumbers u = {{choose ? to_unit_double(sampler.u2()) : 0, sampler.u2()}, {}, {}};
-    if (choose) u.best = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
+inline DirectNumbers draw_numbers(const Scene& scene, const LightsAndSky& lights,
+                                  Sampler& sampler) {
+    DirectNumbers u = {two_light_numbers(sampler, scene.lights.size(), lights.M), {}};
     if (scene.sky_image) u.image = {to_unit_double(sampler.u2()), sampler.u2()};
     return u;
 }
@@ -113,7 +113,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, Ray ray, Sample
     if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
-    Hit last;                // the vertex before
+    Candidates c;            // at the vertex before
     float pdf_b = infinity;  // of the direction drawn there; infinite: no light sample can be it
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
@@ -123,7 +123,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, Ray ray, Sample
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = pdf_b < infinity ? mis_emission(scene, lights, last, ray.d, pdf_b, x) : 1;
+            float mis_b = pdf_b < infinity ? mis_emission(scene, lights, c, ray.d, pdf_b, x) : 1;
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -138,14 +138,14 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, Ray ray, Sample
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
 
-        // Aim at any light, at the best of M candidates, and at the image.
-        DirectNumbers u = draw_numbers(scene, sampler);
-        L += beta * direct_light(scene, lights, *x, wo, u.any, recorder);
-        if (u.best) L += beta * best_light(scene, lights, *x, wo, *u.best, recorder);
+        // Aim at two lights, and at the image.
+        DirectNumbers u = draw_numbers(scene, lights, sampler);
+        choose_candidates(scene, lights, *x, wo, u.lights.candidates, c);
+        L += beta * direct_light(scene, lights, c, u.lights, recorder);
         if (u.image) L += beta * image_light(scene, lights, *x, wo, *u.image, recorder);
 
         // Go on in that direction, and count it for all those that were not taken.
-        last = *x, pdf_b = s.specular ? infinity : s.pdf_w;
+        pdf_b = s.specular ? infinity : s.pdf_w;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;

@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
         Option candidates = {
             "m", "M", "light candidates, at most one per light (default 64)",
             [&](const std::string& text) {
-                M = static_cast<int>(parse_integer("m", text, 1, Candidates::most));
+                M = static_cast<int>(parse_integer("m", text, 1, ch18::Candidates::most));
             },
             "64"};
         RenderOptions options =

@@ -3,27 +3,43 @@
 #pragma once
 #include "common/light/light_table.h"
 
-/// p_hat: what light i could send by way of x if nothing were in between, from its centre alone.
+/// A light as its target needs it: the same numbers for lights of every type.
+struct LightBounds {
+    Vec3 centre;          // m; unit, towards a light without a place
+    float has_place = 1;  // 0: distant and infinite lights
+    Vec3 n;               // unit, of a flat light; else 0
+    float back = 1;       // -1: a flat light that shines to both sides
+    float radius = 0;     // m, of a sphere around it; 1: the sky, which is around x
+    float least_cos = 1;  // of the angle at the light; 0: a flat light
+    float power = 0;      // area: L A;  point and distant: L;  sky: pi L
+};
+inline LightBounds light_bounds(const Scene& scene, size_t i) {
+    const Light& light = scene.lights[i];
+    const LightShape& y = scene.light_shapes[i];
+    float L = average(light.L), back = light.two_sided ? -1 : 1;
+    if (light.type == LightType::point) return {light.p, 1, {}, 1, 0, 1, L};
+    if (light.type == LightType::distant) return {light.p, 0, {}, 1, 0, 1, L};
+    if (light.type == LightType::infinite) return {{0, 0, 1}, 0, {}, 1, 1, 1, pi * L};
+    if (!y.flat) return {y.centre, 1, {}, 1, y.radius, 1, L * y.area};
+    return {y.centre, 1, y.first.n, back, y.radius, 0, L * y.area};
+}
+
+/// p_hat: what a light could send by way of x if nothing were in between, from its centre alone.
 ///
-///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
+///   p_hat = power cos_x cos_y / d^2;   cos_y = 1 and d = 1 for lights that have none
 ///
 /// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
 /// count as radius / d at least, and d as its radius, unless all of it lies behind the surface or
 /// turns its back. So p_hat is 0 only where the light gives nothing, and no point gives much more.
-inline float target(const Scene& scene, size_t i, const Hit& x) {
-    const Light& light = scene.lights[i];
-    const LightShape& shape = scene.light_shapes[i];
-    float L = average(light.L);
-    if (light.type == LightType::infinite) return pi * L;
-    if (light.type == LightType::distant) return L * std::max(0.0f, dot(light.p, x.n));
-    Vec3 to_y = (light.type == LightType::area ? shape.centre : light.p) - x.p;
-    float d = std::max({length(to_y), shape.radius, 1e-15f});  // not 0, even in a point light
-    float cos_x = dot(to_y, x.n) / d, cos_y = 1, least = shape.radius / d;
-    if (light.type == LightType::point) return L * std::max(0.0f, cos_x) / (d * d);
-    if (shape.flat) cos_y = -dot(to_y, shape.first.n) / d;
-    if (light.two_sided) cos_y = std::abs(cos_y);
-    if (cos_x < -least || cos_y < -least) return 0;
-    return L * shape.area * std::max(least, cos_x) * std::max(least, cos_y) / (d * d);
+inline float target(const LightBounds& y, const Hit& x) {
+    Vec3 to_y = y.centre - y.has_place * x.p;
+    float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));
+    float inv_d = 1 / std::sqrt(d2), least = y.radius * inv_d, least_cos = y.least_cos;
+    float cos_x = dot(to_y, x.n) * inv_d, cos_y = -dot(to_y, y.n) * inv_d;
+    cos_y = std::max(cos_y, y.back * cos_y);
+    float seen = ((cos_x < -1.00001f * least) | (cos_y < -least)) ? 0.0f : 1.0f;
+    cos_x = std::max(cos_x, least), cos_y = std::max(cos_y, std::max(least, least_cos));
+    return seen * y.power * cos_x * cos_y / d2;
 }
 
 /// The light kept among the candidates so far.
@@ -50,7 +66,7 @@ struct Reservoir {
     float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
 };
 
-/// Where candidates come from: the table that they are drawn from, and how many for one sample.
+/// Where candidates come from: a table of the lights by power, and how many for one sample.
 struct Proposal {
     LightTable lights;
     int M;
@@ -64,7 +80,7 @@ inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hi
     Reservoir kept;
     for (int i = 0; i < p.M; i++) {
         size_t light = pick_light(p.lights, (i + u) / p.M);
-        float p_hat = target(scene, light, x);
+        float p_hat = target(light_bounds(scene, light), x);
         kept.offer(light, p_hat, p_hat / pmf_light(p.lights, light), u1);
     }
     return kept;

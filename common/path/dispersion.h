@@ -11,6 +11,8 @@
 namespace dispersion {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
+using many_lights::Candidates, many_lights::choose_candidates;
+using many_lights::direct_light, many_lights::mis_emission;
 using sky_light::DirectNumbers, sky_light::LightsAndSky;
 using sky_light::draw_numbers, sky_light::image_emission, sky_light::prepare;
 
@@ -54,7 +56,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
     if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
-    Hit last;                // the vertex before
+    Candidates c;            // at the vertex before
     float pdf_b = infinity;  // of the direction drawn there; infinite: no light sample can be it
     std::optional<Wavelength> light;  // none before glass that disperses
     for (int depth = 0;; depth++) {
@@ -65,7 +67,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = pdf_b < infinity ? mis_emission(scene, lights, last, ray.d, pdf_b, x) : 1;
+            float mis_b = pdf_b < infinity ? mis_emission(scene, lights, c, ray.d, pdf_b, x) : 1;
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -86,14 +88,14 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
 
-        // Aim at any light, at the best of M candidates, and at the image.
-        DirectNumbers u = draw_numbers(scene, sampler);
-        L += beta * direct_light(scene, lights, *x, wo, u.any, recorder);
-        if (u.best) L += beta * best_light(scene, lights, *x, wo, *u.best, recorder);
+        // Aim at two lights, and at the image.
+        DirectNumbers u = draw_numbers(scene, lights, sampler);
+        choose_candidates(scene, lights, *x, wo, u.lights.candidates, c);
+        L += beta * direct_light(scene, lights, c, u.lights, recorder);
         if (u.image) L += beta * image_light(scene, lights, *x, wo, *u.image, recorder);
 
         // Go on in that direction, and count it for all those that were not taken.
-        last = *x, pdf_b = s.specular ? infinity : s.pdf_w;
+        pdf_b = s.specular ? infinity : s.pdf_w;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;

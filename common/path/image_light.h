@@ -5,6 +5,8 @@
 
 namespace sky_light {
 
+using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf;
+
 /// The probability that light sampling chooses one of the pixels before pixel i, for each i, and
 /// at the end 1.      All are 0 for an image of one colour: no pixel is brighter than the mean.
 ///
@@ -30,11 +32,11 @@ inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
 }
 
 /// The lights of chapter 15, and the sky's image as one more: what chooses its pixels.
-struct LightsAndSky : ManyLights {
+struct LightsAndSky : many_lights::Lights {
     std::vector<double> image_cdf;
 };
 inline LightsAndSky prepare(const Scene& scene, int M = 64, bool compensate = true) {
-    ManyLights lights = many_lights(scene, build_light_table(light_pmf(scene, 0)), M);
+    many_lights::Lights lights = many_lights::prepare(scene, M);
     if (!scene.sky_image) return {lights, {}};
     return {lights, image_cdf(*scene.sky_image, compensate)};
 }
@@ -81,14 +83,12 @@ inline Rgb image_emission(const Scene& scene, const LightsAndSky& lights, Vec3 w
 
 /// The random numbers of all light samples of one vertex.
 struct DirectNumbers {
-    LightNumbers any;
-    std::optional<ResamplingNumbers> best;
+    TwoLightNumbers lights;
     std::optional<LightNumbers> image;
 };
-inline DirectNumbers draw_numbers(const Scene& scene, Sampler& sampler) {
-    bool choose = scene.lights.size() > 1;
-    DirectNumbers u = {{choose ? to_unit_double(sampler.u2()) : 0, sampler.u2()}, {}, {}};
-    if (choose) u.best = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
+inline DirectNumbers draw_numbers(const Scene& scene, const LightsAndSky& lights,
+                                  Sampler& sampler) {
+    DirectNumbers u = {two_light_numbers(sampler, scene.lights.size(), lights.M), {}};
     if (scene.sky_image) u.image = {to_unit_double(sampler.u2()), sampler.u2()};
     return u;
 }

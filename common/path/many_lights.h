@@ -1,106 +1,141 @@
 // taught by chapter 15
-// Aiming at lights in two ways, each with its MIS weight.
+// Aiming at two lights of many, each with its MIS weight.
 #pragma once
-#include "common/light/fast_resampling.h"
 #include "common/light/pdf_one_light.h"
+#include "common/light/resampling.h"
 #include "common/material/ggx.h"
 #include "common/path/mis.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
 
+namespace many_lights {
+
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 
-/// Chapter 14's weight for three ways: a^2 / (a^2 + b^2 + c^2). Those of one direction sum to 1.
-/// tested by  "identity: the three weights sum to 1"
-inline float mis_weight(float a, float b, float c) {
-    return 1 / (1 + (b / a) * (b / a) + (c / a) * (c / a));
+/// The lights, and M: as many are candidates at each vertex, or all if there are no more.
+struct Lights {
+    LightTable table;
+    std::vector<LightBounds> bounds;  // power: divided by candidates
+    std::vector<float> candidates;    // how often each light is a candidate, on average
+    int M;
+    bool all() const { return table.size() <= static_cast<size_t>(M); }
+};
+inline Lights prepare(const Scene& scene, int M = 64) {
+    Lights lights = {build_light_table(light_pmf(scene, 0)), {}, {}, M};
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        float drawn = static_cast<float>(M) * pmf_light(lights.table, i);
+        lights.candidates.push_back(lights.all() ? 1 : drawn);
+        lights.bounds.push_back(light_bounds(scene, i));
+        lights.bounds[i].power /= std::max(lights.candidates[i], 1e-30f);
+    }
+    return lights;
 }
 
-/// The densities towards `light` of the ways that aim: at any light, all alike, and at the best.
-///
-/// min(1, M pmf) is a heuristic: nobody knows how likely a light is to be the best of M candidates.
-/// It does not touch the mean: whatever positive numbers stand here, the three weights sum to 1 for
-/// each direction. Only the variance depends on how good they are. 0: one light needs no choice.
-inline float pdf_any(const ManyLights& lights, float pdf_one) {
-    return pdf_one / static_cast<float>(lights.table.size());
-}
-inline float pdf_best(const ManyLights& lights, size_t light, float pdf_one) {
-    if (lights.table.size() == 1) return 0;
-    float M = static_cast<float>(lights.M);
-    return std::min(1.0f, M * pmf_light(lights.table, light)) * pdf_one;
-}
-
-/// Estimates what all lights send by way of x to wo, from one point of any light.
-///
-///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pdf_one / N
-///
-/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
-inline Rgb direct_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                        LightNumbers u, Recorder& recorder) {
-    if (is_specular(*x.material) || scene.lights.empty()) return {};
-    size_t N = scene.lights.size();
-    size_t light = std::min(static_cast<size_t>(u.light * static_cast<double>(N)), N - 1);
-    LightSample y = sample_one_light(scene, light, x, u.point);
-    if (y.pdf_w == 0) return {};
-    float pdf_l = pdf_any(lights, y.pdf_w);
-    float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
-    float mis_l = mis_weight(pdf_l, pdf_best(lights, light, y.pdf_w), pdf_b);
-    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
-    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
-    recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
-    return Ld;
-}
+/// The candidates at x, seen along wo, and how likely each is to be included in the two lights.
+struct Candidates {
+    static constexpr int most = 128;
+    Hit x;
+    Vec3 wo;
+    int size = 0;
+    uint32_t light[most];
+    float inclusion[most];
+};
 
 /// How much of a light's target rough metal turns to wo, and the BSDF does not find by itself:
 /// mis_l f, both towards the light's centre. + 0.05: a heuristic, as its other points may differ.
-inline float lobe_share(const Scene& scene, const ManyLights& lights, size_t light, const Hit& x,
-                        Vec3 wo) {
+inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo) {
     if (scene.lights[light].type != LightType::area) return 1;
     const LightShape& shape = scene.light_shapes[light];
     Vec3 to_y = shape.centre - x.p;
     float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
     Vec3 wi = to_y / std::sqrt(d2);
     float pdf_one = std::min(d2 / shape.area, densest), pdf_b = pdf_bsdf(x, wo, wi);
-    float pdf_l = pdf_best(lights, light, pdf_one);
-    return power_heuristic(pdf_l, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
+    return power_heuristic(pdf_one, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
-/// Draws M lights by power, and keeps one in proportion to its target at x, with the MIS weight
-/// inside: candidates of which the BSDF takes care are not chosen.
-inline Kept resample_lights(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                            double u, float u1) {
-    Candidates c = draw_candidates(lights, x, u);
-    if (is_rough(*x.material)) {
-        for (int i = 0; i < c.M; i++) {
-            if (c.p_hat[i] == 0) continue;
-            float share = lobe_share(scene, lights, static_cast<size_t>(c.light[i]), x, wo);
-            c.p_hat[i] *= share, c.weight[i] *= share;
-        }
-    }
-    return keep_one(c, u1);
+/// Chooses the candidates, and works out how likely each is to be included.
+///
+///   inclusion = min(1, c (w + mean w / 9)),    w = p_hat / candidates,    c: they sum to 2
+///
+/// mean w / 9: a defensive share of 10 %, as no target sees walls. One or two lights: 1.
+inline void choose_candidates(const Scene& scene, const Lights& lights, const Hit& x, Vec3 wo,
+                              double u, Candidates& c) {
+    int N = static_cast<int>(lights.table.size());
+    c.x = x, c.wo = wo, c.size = is_specular(*x.material) ? 0 : std::min(N, lights.M);
+    for (int i = 0; i < c.size; i++) c.light[i] = static_cast<uint32_t>(i), c.inclusion[i] = 1;
+    for (int i = 0; i < c.size && !lights.all(); i++)
+        c.light[i] = pick_light(lights.table, (i + u) / c.size);
+    if (c.size <= 2) return;
+
+    // Weigh each by its target.
+    for (int i = 0; i < c.size; i++) c.inclusion[i] = target(lights.bounds[c.light[i]], x);
+    for (int i = 0; i < c.size && is_rough(*x.material); i++)
+        c.inclusion[i] *= lobe_share(scene, c.light[i], x, wo);
+
+    // Scale the weights to a sum of 2. A light that would have more than 1 leaves 1 to the others.
+    float sum = 0, largest = 0;
+    for (int i = 0; i < c.size; i++)
+        sum += c.inclusion[i], largest = std::max(largest, c.inclusion[i]);
+    if (!(sum > 0)) c.size = 0;
+    float share = sum / (9 * static_cast<float>(c.size));
+    sum += sum / 9, largest += share;
+    float scale = 2 * largest < sum ? 2 / sum : 1 / (sum - largest);
+    for (int i = 0; i < c.size; i++)
+        c.inclusion[i] = std::min(scale * (c.inclusion[i] + share), 1.0f);
 }
 
-/// The same from one point of the best light.      Ld = mis_l f Le V cos / pdf_one W
-/// source  Talbot et al. 2005      tested by  "truth: irradiance of all lights"
-inline Rgb best_light(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wo,
-                      ResamplingNumbers u, Recorder& recorder) {
-    if (is_specular(*x.material)) return {};
-    Kept best = resample_lights(scene, lights, x, wo, u.candidates, u.choice);
-    LightSample y = sample_one_light(scene, best.light, x, u.point);
-    if (y.pdf_w == 0 || best.W == 0) return {};
-    float pdf_l = pdf_best(lights, best.light, y.pdf_w);
+/// The density of the two samples together in the direction of a light: inclusion pdf_one.
+///
+/// If candidates are drawn, nobody knows how likely a light is to be included: min(1, candidates)
+/// is a heuristic in its place. Any positive number keeps the mean.
+inline float pdf_aimed(const Lights& lights, const Candidates& c, size_t light, float pdf_one) {
+    return (lights.all() ? c.inclusion[light] : std::min(1.0f, lights.candidates[light])) * pdf_one;
+}
+
+/// Estimates what candidate number i sends by way of x to wo, from one point of it.
+///
+///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = candidates inclusion pdf_one
+inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidates& c, int i,
+                        Vec2 u, Recorder& recorder) {
+    const Hit& x = c.x;
+    Vec3 wo = c.wo;
+    size_t light = c.light[i];
+    LightSample y = sample_one_light(scene, light, x, u);
+    if (y.pdf_w == 0) return {};
+    float pdf_l = lights.candidates[light] * c.inclusion[i] * y.pdf_w;
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
-    float mis_l = mis_weight(pdf_l, pdf_any(lights, y.pdf_w), pdf_b);
-    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w * best.W);
+    float mis_l = power_heuristic(pdf_aimed(lights, c, light, y.pdf_w), pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
     recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
     return Ld;
 }
 
+/// Estimates what all lights send by way of x to wo, from two of them.
+///
+/// Systematic sampling: the inclusions lie end to end on a line of length 2; u and u + 1 choose.
+/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+/// source  Madow 1949      tested by  "truth: irradiance of all lights"
+inline Rgb direct_light(const Scene& scene, const Lights& lights, const Candidates& c,
+                        const TwoLightNumbers& u, Recorder& recorder) {
+    Rgb Ld;
+    float up_to = 0, mark = u.choice;
+    for (int i = 0; i < c.size; i++) {
+        up_to += c.inclusion[i];
+        if (up_to <= mark) continue;
+        Ld += light_sample(scene, lights, c, i, mark < 1 ? u.first : u.second, recorder);
+        mark += 1;
+    }
+    return Ld;
+}
+
 /// The weight of emission that the BSDF's direction wi from x has met: at y, or else in the sky.
-inline float mis_emission(const Scene& scene, const ManyLights& lights, const Hit& x, Vec3 wi,
+inline float mis_emission(const Scene& scene, const Lights& lights, const Candidates& c, Vec3 wi,
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
+    const Hit& x = c.x;
     float pdf_one = y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi);
-    return mis_weight(pdf_b, pdf_any(lights, pdf_one), pdf_best(lights, light, pdf_one));
+    return power_heuristic(pdf_b, pdf_aimed(lights, c, light, pdf_one));
 }
+
+}  // namespace many_lights

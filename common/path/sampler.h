@@ -39,6 +39,12 @@ struct ResamplingNumbers {
     float choice;
     Vec2 point;
 };
+/// Those that draw candidates, include two of them, and a point on each.
+struct TwoLightNumbers {
+    double candidates;
+    float choice;
+    Vec2 first, second;
+};
 
 inline uint32_t reverse_bits(uint32_t x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
@@ -206,3 +212,9 @@ private:
     uint64_t key_ = 0, state_ = 0;
     float sobol_x_[at_once], sobol_y_[at_once];
 };
+
+/// As many numbers as there is to choose for two of N lights, by way of M candidates.
+inline TwoLightNumbers two_light_numbers(Sampler& sampler, size_t N, int M) {
+    return {N > static_cast<size_t>(M) ? to_unit_double(sampler.u2()) : 0, N > 2 ? sampler.u1() : 0,
+            sampler.u2(), N > 1 ? sampler.u2() : Vec2{}};
+}

@@ -258,7 +258,8 @@ TEST_SUITE("ch12 target") {
             CAPTURE(light);
             Scene scene = floor_under(light);
             double E = irradiance(scene, trace_12(scene), 4000).mean();
-            double target = static_cast<double>(ch12::target(scene, 0, origin_of(scene)));
+            double target =
+                static_cast<double>(ch12::target(ch12::light_bounds(scene, 0), origin_of(scene)));
             CHECK(target == doctest::Approx(E).epsilon(0.15).scale(0));
         }
     }
@@ -288,7 +289,7 @@ TEST_SUITE("ch12 target") {
                         dot(to_y, x.n) > 0 && (scene.lights[0].two_sided ? cos_y != 0 : cos_y > 0);
                     if (!gives) continue;
                     gave++;
-                    CHECK(ch12::target(scene, 0, x) > 0);
+                    CHECK(ch12::target(ch12::light_bounds(scene, 0), x) > 0);
                     Vec3 to_centre = shape_of_light.centre - x.p;
                     not_by_centre += dot(to_centre, x.n) <= 0;
                 }

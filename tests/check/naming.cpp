@@ -198,15 +198,17 @@ const std::vector<Rule> rules_of_lights = {
      "N equal lamps give N times too much: the chance of choosing a light counts twice",
      [](const Case& c) { return c.right("floor") && c.is("three", "LDE", 3); }},
     {"three", "LDE",
-     "of the three ways the one that takes the best of M lights counts too little: its W, "
-     "which stands for the lights that were not chosen, is forgotten",
-     [](const Case& c) { return c.chapter == 15 && c.right("floor") && c.ratio("three") < 0.6; }},
-    {"three", "LDE",
-     "of the three ways the one that takes any light counts 1/N: the chance of choosing this "
-     "light is forgotten there",
+     "of three equal lamps two are included, and each counts once: the sample is not divided by its "
+     "inclusion probability, 2/3",
      [](const Case& c) {
-         return c.chapter == 15 && c.right("floor") && c.ratio("three") > 0.85 &&
-                c.ratio("three") < 0.97;
+         return c.chapter == 15 && c.right("floor") && c.ratio("three") > 0.6 &&
+                c.ratio("three") < 0.75;
+     }},
+    {"crowd", "LDE",
+     "of a thousand lamps only a few are candidates, and each counts for itself alone: the sample "
+     "is not divided by how often its light is a candidate",
+     [](const Case& c) {
+         return c.chapter == 15 && c.right("three") && c.right("unequal") && c.ratio("crowd") < 0.5;
      }},
     {"crowd", "LDE",
      "among a thousand lamps the light of weak ones is lost: lights of a small probability are "

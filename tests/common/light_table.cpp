@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "common/light/fast_resampling.h"
+#include "common/path/many_lights.h"
 #include "common/path/sampler.h"
 
 namespace {
@@ -61,20 +61,25 @@ TEST_SUITE("light table") {
         CHECK(std::abs(static_cast<double>(low) * 0x1p-48 / 1e-10 - 1) < 1e-4);
     }
 
-    TEST_CASE("identity: of a million lights, candidates all at once are those one by one") {
+    TEST_CASE("identity: of a million lights each candidate comes from its slice of the table") {
         constexpr int N = 1000003;
         std::vector<double> pmf;
         double sum = 0;
         for (uint32_t i = 0; i < N; i++) sum += pmf.emplace_back(1 + hash32(i) % 1000);
         for (double& p : pmf) p /= sum;
-        ManyLights lights{build_light_table(pmf), std::vector<LightBounds>(N), 64};
+        many_lights::Lights lights{build_light_table(pmf), std::vector<LightBounds>(N),
+                                   std::vector<float>(N, 1.0f), 64};
+        const Material paint{};
+        Hit x{};
+        x.material = &paint;
         Sampler random(SamplerType::independent, 1, 1);
         random.start(0, 0);
+        many_lights::Candidates c;
         for (int k = 0; k < 1000; k++) {
             double u = to_unit_double(random.u2());
-            Candidates c = draw_candidates(lights, Hit(), u);
-            for (int i = 0; i < c.M; i++)
-                REQUIRE(c.light[i] == static_cast<int>(pick_light(lights.table, (i + u) / c.M)));
+            many_lights::choose_candidates(Scene(), lights, x, {0, 0, 1}, u, c);
+            for (int i = 0; i < 64; i++)
+                REQUIRE(c.light[i] == pick_light(lights.table, (i + u) / 64));
         }
     }
 }

@@ -10,7 +10,7 @@ static Method method(const char* name, const char* label, const char* color, int
             .label = label,
             .color = color,
             .finds_light = "both ways",
-            .scenes = {"thousand-lights", "hidden-light", "veach-mis"},
+            .scenes = {"thousand-lights", "two-lights", "hidden-light", "veach-mis"},
             .render = by_trace([=](const Scene& scene) { return with_candidates(scene, M); })};
 }
 

@@ -192,7 +192,26 @@ StabilityCase two_points(bool hidden) {
              {{"12-m2"}, of_ris(2)},
              {{"12"}, of_ris(16)},
              {{"12-m32"}, of_ris(32)},
-             {{"15", "15-m16"}, {variance_of(two_opinions(other, near, 2))}}},
+             {{"15", "15-m16"}, {relvar(0)}}},
+            {"07", "08", "13-bsdf"}};
+}
+
+/// The point light of before, and two of 1000 times its power, both behind a plate. Of three lights
+/// chapter 15 aims at two, the likelier the more they could give: seldom at the one that is seen.
+StabilityCase two_hidden_points() {
+    double power[] = {1, 1000, 1000}, w[] = {1, 250, 250};
+    double mean = (w[0] + w[1] + w[2]) / 3, inclusion = 2 * (w[0] + mean / 9) / (3 * mean * 10 / 9);
+    double pmf = 0.75 * power[0] / 2001 + 0.25 / 3;
+    std::string bright = "LightSource \"point\" \"rgb I\" [1000 1000 1000] \"point3 from\" ";
+    return {"two bright lights behind a wall",
+            look("0 0.5 -1  0 0 0  0 1 0") + ground +
+                "LightSource \"point\" \"point3 from\" [0 1 0]\n" + bright + "[0 2 0]\n" + bright +
+                "[0 2 0]\n" + black + disk(1, 1.5),
+            0.5 / pi,
+            N,
+            {{{"09", "10"}, {relvar(2)}},
+             {{"11", "13", "14"}, {relvar(1 / pmf - 1)}},
+             {{"15", "15-m16", "16"}, {relvar(1 / inclusion - 1)}}},
             {"07", "08", "13-bsdf"}};
 }
 
@@ -442,6 +461,7 @@ std::vector<StabilityCase> stability_cases() {
             light_behind_glass(),
             two_points(false),
             two_points(true),
+            two_hidden_points(),
             horizon(0.1),
             horizon(0.01),
             sky_in_metal(0.1),

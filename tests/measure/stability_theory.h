@@ -93,42 +93,21 @@ inline double relative_moment(const Outcomes& all, int n) {
     for (const Outcome& o : all) sum += o.chance * std::pow(o.x / m - 1, n);
     return sum;
 }
-/// The values of the sum of two independent samples.
-inline Outcomes sum_of(const Outcomes& a, const Outcomes& b) {
-    Outcomes sum;
-    for (const Outcome& p : a)
-        for (const Outcome& q : b) sum.push_back({p.chance * q.chance, p.x + q.x});
-    return sum;
-}
-
-/// One light out of two; share_a, share_b: MIS weights.
-inline Outcomes chosen(Choice a, Choice b, double share_a = 1, double share_b = 1) {
-    return {{a.pmf, share_a * a.f / a.pmf}, {b.pmf, share_b * b.f / b.pmf}};
-}
+/// One light out of two.
+inline Outcomes chosen(Choice a, Choice b) { return {{a.pmf, a.f / a.pmf}, {b.pmf, b.f / b.pmf}}; }
 
 /// RIS over two lights, M candidates from M slices of the table: k of them are the light b, M pmf_b
 /// rounded up or down.
-inline Outcomes resampled(Choice a, Choice b, int M, double share_a = 1, double share_b = 1) {
+inline Outcomes resampled(Choice a, Choice b, int M) {
     Outcomes all;
     double least = std::floor(M * b.pmf);
     for (double k : {least, least + 1}) {
         double chance = 1 - std::abs(M * b.pmf - k);
         double sum_a = (M - k) * a.p_hat / a.pmf, sum_b = k * b.p_hat / b.pmf, sum = sum_a + sum_b;
-        all.push_back({chance * sum_a / sum, share_a * a.f * sum / (M * a.p_hat)});
-        all.push_back({chance * sum_b / sum, share_b * b.f * sum / (M * b.p_hat)});
+        all.push_back({chance * sum_a / sum, a.f * sum / (M * a.p_hat)});
+        all.push_back({chance * sum_b / sum, b.f * sum / (M * b.p_hat)});
     }
     return all;
-}
-
-/// That plus one light out of two evenly, by the power heuristic (chapter 15).
-inline Outcomes two_opinions(Choice a, Choice b, int M) {
-    auto share = [&](const Choice& light) {  // of RIS
-        double d = std::min(1.0, M * light.pmf);
-        return d * d / (d * d + 0.25);
-    };
-    Choice even_a{0.5, 0, a.f}, even_b{0.5, 0, b.f};
-    return sum_of(resampled(a, b, M, share(a), share(b)),
-                  chosen(even_a, even_b, 1 - share(a), 1 - share(b)));
 }
 
 /// How often the 95 % interval of N samples, each 1 with probability p and else 0, holds p.

@@ -16,6 +16,28 @@ inline const std::vector<std::pair<std::string, double>> lights_without_size = {
     {"LightSource \"point\" \"point3 from\" [1 2 0]", 0.1788854382},
     {"LightSource \"distant\" \"point3 from\" [0 3 4] \"point3 to\" [0 0 0]", 0.6}};
 
+/// Chapter 12's target by a formula for each type of light, in double precision.
+///
+///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
+inline double p_hat_by_type(const Scene& scene, size_t i, const Hit& x) {
+    const Light& light = scene.lights[i];
+    const LightShape& shape = scene.light_shapes[i];
+    auto dot_of = [](Vec3 a, Vec3 b) {
+        return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z};
+    };
+    double L = double{average(light.L)}, radius = double{shape.radius};
+    if (light.type == LightType::infinite) return pi_exact * L;
+    if (light.type == LightType::distant) return L * std::max(0.0, dot_of(light.p, x.n));
+    Vec3 to_y = (light.type == LightType::area ? shape.centre : light.p) - x.p;
+    double d = std::max(std::sqrt(dot_of(to_y, to_y)), radius), least = radius / d;
+    double cos_x = dot_of(to_y, x.n) / d, cos_y = 1;
+    if (light.type == LightType::point) return L * std::max(0.0, cos_x) / (d * d);
+    if (shape.flat) cos_y = -dot_of(to_y, shape.first.n) / d;
+    if (light.two_sided) cos_y = std::abs(cos_y);
+    if (cos_x < -least || cos_y < -least) return 0;
+    return L * double{shape.area} * std::max(least, cos_x) * std::max(least, cos_y) / (d * d);
+}
+
 /// A mirror ball of 0.9 that shows a light behind the camera; without noise by every way.
 inline Scene light_before_mirror() {
     return world_of("Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] Shape \"sphere\"\n" +
