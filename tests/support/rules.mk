@@ -1,12 +1,13 @@
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 # Most tests run for less time than it takes to compile them by -O3.
-$(filter-out %/exact_hits.o,$(tests)): own_flags += $(if $(filter -O3,$(OPT)),-O1)
+brief := $(filter-out %/exact_hits.o $(BUILD)/obj/tests/check/%,$(tests))
+$(brief): own_flags += $(if $(filter -O3,$(OPT)),-O1)
 
 # g++ compiles what most tests include once: a test then compiles in three quarters of the time. With such a file,
 # g++ 12 warns of arrays and copies in std::string by mistake. ccache needs to be told that it may be used.
 ifneq ($(findstring Free Software,$(shell $(CXX) --version)),)
-advance  := $(filter-out %/main.o %/exact_hits.o,$(tests))
+advance  := $(filter-out %/main.o,$(brief))
 included := $(BUILD)/obj/tests/included.h
 CCACHE_SLOPPINESS ?= pch_defines,time_macros
 export CCACHE_SLOPPINESS
