@@ -1300,8 +1300,7 @@ TEST_SUITE("ch26 slow") {
     TEST_CASE("agreement: the final gather with chapter 15, block by block within 2 %") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 60);
         Film film = film_of(scene, by_radiosity(scene, 2000, Show::gather), 2048, 1).film;
-        Film paths =
-            film_of(scene, trace_with<ch15::trace>(ch15::prepare(scene)), 2048, 1).film;
+        Film paths = film_of(scene, trace_with<ch15::trace>(ch15::prepare(scene)), 2048, 1).film;
         for (int y = 0; y < 32; y += 8)
             for (int x = 0; x < 32; x += 8) {
                 Measured a = block_of(film, x, y, 8), b = block_of(paths, x, y, 8);

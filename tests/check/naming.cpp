@@ -198,7 +198,8 @@ const std::vector<Rule> rules_of_lights = {
      "N equal lamps give N times too much: the chance of choosing a light counts twice",
      [](const Case& c) { return c.right("floor") && c.is("three", "LDE", 3); }},
     {"three", "LDE",
-     "of three equal lamps two are included, and each counts once: the sample is not divided by its "
+     "of three equal lamps two are included, and each counts once: the sample is not divided by "
+     "its "
      "inclusion probability, 2/3",
      [](const Case& c) {
          return c.chapter == 15 && c.right("floor") && c.ratio("three") > 0.6 &&
@@ -208,7 +209,8 @@ const std::vector<Rule> rules_of_lights = {
      "of a thousand lamps only a few are candidates, and each counts for itself alone: the sample "
      "is not divided by how often its light is a candidate",
      [](const Case& c) {
-         return c.chapter == 15 && c.right("three") && c.right("unequal") && c.ratio("crowd") < 0.5;
+         return c.chapter == 15 && c.right("three") && c.right("unequal") &&
+                c.ratio("crowd") > 0.02 && c.ratio("crowd") < 0.5;
      }},
     {"crowd", "LDE",
      "among a thousand lamps the light of weak ones is lost: lights of a small probability are "
