@@ -394,7 +394,7 @@ TEST_SUITE("ch21 bidirectional") {
         CHECK(a.se < 0.005 * a.mean);
         for (const Form& form : forms) {
             CAPTURE(form.name);
-            for (int spp : {1, 3}) {
+            for (int spp : {1, 2, 3, 7}) {
                 CAPTURE(spp);
                 CHECK(z_between(a, over_seeds(scene, form, spp, 100)) < 5);
             }

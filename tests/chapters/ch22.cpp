@@ -112,8 +112,8 @@ TEST_SUITE("ch22 fast bidirectional") {
         for (std::string name : {"cornell-spheres", "light-in-glass", "caustic"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            CHECK(check_classes(scene, by_22(scene, 0), scene, by_22(scene, 16), 300000) >= 8);
-            CHECK(check_classes(scene, by_22(scene, 1), scene, by_22(scene, 5), 150000) >= 8);
+            CHECK(check_classes(scene, by_22(scene, 0), scene, by_22(scene, 16), 400000) >= 8);
+            CHECK(check_classes(scene, by_22(scene, 1), scene, by_22(scene, 5), 200000) >= 8);
         }
     }
 
