@@ -16,25 +16,6 @@
 
 namespace ch06 {
 
-/// A box with sides along the axes; empty until something is added.
-struct Box {
-    Vec3 low = {infinity, infinity, infinity}, high = {-infinity, -infinity, -infinity};
-
-    void add(Vec3 p) {
-        low = min(low, p);
-        high = max(high, p);
-    }
-    void add(const Box& b) {
-        low = min(low, b.low);
-        high = max(high, b.high);
-    }
-    Vec3 centre() const { return 0.5f * (low + high); }
-    float area() const {
-        Vec3 d = high - low;
-        return d.x < 0 ? 0 : 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
-    }
-};
-
 /// The box around a ball of radius r around c.
 inline Box box_of_ball(Vec3 c, float r) {
     Box box;
@@ -431,7 +412,8 @@ inline Finder make_finder(const Scene& scene, Step step) {
     return {};
 }
 
-/// The same hit for every step, bit for bit; `wide` works in float, and differs in the last digits.
+/// The first primitive that the ray hits, as the step finds it. All steps find the same hit, bit
+/// for bit, but for `wide`: it works in float, and its t and weights differ in the last digits.
 inline PrimHit find(const Finder& f, const Geometry& g, const Ray& ray, Work& work) {
     switch (f.step) {
         case Step::linear: work.prims += g.size(); return linear_scan(g, ray);

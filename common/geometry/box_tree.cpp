@@ -18,12 +18,10 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) : boxes_(boxes), order_(boxes.si
 void BoxTree::build(uint32_t first, uint32_t last) {
     size_t number = nodes_.size();
     Box box, middles;
-    auto middle = [&](uint32_t i) { return boxes_[i].low / 2 + boxes_[i].high / 2; };
     for (uint32_t k = first; k < last; k++) {
         const Box& b = boxes_[order_[k]];
-        Vec3 m = middle(order_[k]);
-        box = {min(box.low, b.low), max(box.high, b.high)};
-        middles = {min(middles.low, m), max(middles.high, m)};
+        box.add(b);
+        middles.add(b.centre());
     }
     nodes_.push_back({box, first, last, 0});
     if (last - first <= in_leaf) return;
@@ -33,7 +31,9 @@ void BoxTree::build(uint32_t first, uint32_t last) {
     int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     uint32_t half = (first + last) / 2;
     std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
-                     [&](uint32_t i, uint32_t j) { return middle(i)[axis] < middle(j)[axis]; });
+                     [&](uint32_t i, uint32_t j) {
+                         return boxes_[i].centre()[axis] < boxes_[j].centre()[axis];
+                     });
     build(first, half);
     nodes_[number].right = static_cast<uint32_t>(nodes_.size());
     build(half, last);

@@ -57,7 +57,7 @@ float next_above(float t) { return std::bit_cast<float>(std::bit_cast<uint32_t>(
     return found;
 }
 
-/// The same, with a copy of `best`, so that the caller can keep it in registers.
+/// Calls test_in_double() on a copy of `best`, so that the caller can keep its own in registers.
 bool in_double(const BvhBlock& block, uint32_t hits, const Ray& ray, const Shear& shear,
                PrimHit& best) {
     PrimHit nearer = best;

@@ -52,9 +52,9 @@ struct BvhCount {
 /// 2^-50 length^2 / height of it. Beyond coordinates of 1e9 float overflows.
 /// tested by  "truth: every hit as in double precision", "truth: no ray meets the triangle that"
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
-/// The same, and adds to `count`.
+/// Finds the same hit, and adds to `count` what it looks at.
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);
-/// Whether the ray hits anything.
+/// Whether the ray hits anything: stops at the first hit that it finds.
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
-/// The same, and adds to `count`.
+/// Gives the same answer, and adds to `count` what it looks at.
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);

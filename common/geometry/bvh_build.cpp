@@ -22,12 +22,12 @@ constexpr int cost_levels = 64;            // below that, halve by number: the d
 
 Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
 
-/// A box with its lower ends negated, so that both ends grow by a maximum.
-struct Box {
+/// A box as four floats at a time: its lower ends are negated, so that both ends grow by a maximum.
+struct NegatedBox {
     Float4 neg_lo = {-infinity, -infinity, -infinity};
     Float4 hi = {-infinity, -infinity, -infinity};
 
-    void grow(const Box& b) {
+    void grow(const NegatedBox& b) {
         neg_lo = max(neg_lo, b.neg_lo);
         hi = max(hi, b.hi);
     }
@@ -41,7 +41,7 @@ struct Box {
 };
 
 /// Cuts a box in the middle of its longest side.
-void cut_in_halves(const Box& box, Box (&halves)[2]) {
+void cut_in_halves(const NegatedBox& box, NegatedBox (&halves)[2]) {
     Float4 size = box.neg_lo + box.hi;
     int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
     float middle = box.center()[axis] / 2;
@@ -52,10 +52,10 @@ void cut_in_halves(const Box& box, Box (&halves)[2]) {
 
 /// The box of a primitive, with its number in the place of neg_lo[3].
 struct Ref {
-    Box box;
+    NegatedBox box;
 
     uint32_t prim() const { return std::bit_cast<uint32_t>(box.neg_lo[3]); }
-    void set_box(Box other) {
+    void set_box(NegatedBox other) {
         other.neg_lo[3] = box.neg_lo[3];
         box = other;
     }
@@ -65,10 +65,10 @@ using Refs = std::vector<Ref, PageAllocator<Ref>>;
 /// References begin .. end-1, the box around them, and the box around twice their centres.
 struct Range {
     uint32_t begin = 0, end = 0;
-    Box box = {}, centers = {};
+    NegatedBox box = {}, centers = {};
 
     uint32_t size() const { return end - begin; }
-    void grow(const Box& b) {
+    void grow(const NegatedBox& b) {
         box.grow(b);
         centers.grow({-b.center(), b.center()});
     }
@@ -82,8 +82,7 @@ struct Range {
 /// The middle of it all. Boxes are relative to it, so that far from the origin they are no wider
 /// than near it.
 Vec3 centre_of(const Geometry& g) {
-    auto [low, high] = bounds_of(g);
-    Vec3 centre = 0.5f * low + 0.5f * high;
+    Vec3 centre = bounds_of(g).centre();
     return is_finite(centre) ? centre : Vec3{};
 }
 
@@ -128,7 +127,7 @@ struct Part {
     size_t corners = 3;           // 0: not known
     float pad;                    // of the whole
 
-    Part(const Geometry& g, Vec3 centre, uint32_t prim, const Box& box) {
+    Part(const Geometry& g, Vec3 centre, uint32_t prim, const NegatedBox& box) {
         for (size_t k = 0; k < 3; k++) corner[k] = g.positions[g.triangles[prim].v[k]] - centre;
         pad = pad_of(min(min(corner[0], corner[1]), corner[2]),
                      max(max(corner[0], corner[1]), corner[2]));
@@ -156,12 +155,12 @@ struct Part {
     }
 
     /// The box around it, padded.
-    Box box() const {
-        Box box;
+    NegatedBox box() const {
+        NegatedBox box;
         for (size_t k = 0; k < corners; k++) {
             Vec3 p = corner[k];
-            box.grow(Box{Float4{pad - p.x, pad - p.y, pad - p.z},
-                         Float4{pad + p.x, pad + p.y, pad + p.z}});
+            box.grow(NegatedBox{Float4{pad - p.x, pad - p.y, pad - p.z},
+                                Float4{pad + p.x, pad + p.y, pad + p.z}});
         }
         return box;
     }
@@ -181,12 +180,12 @@ struct Part {
 struct Binning {
     Float4 neg_first, per_length;
 
-    explicit Binning(const Box& centers)
+    explicit Binning(const NegatedBox& centers)
         : neg_first(centers.neg_lo),
           per_length(bins * (1 - 0x1p-20f) / (centers.neg_lo + centers.hi)) {}
 
     /// The slice on each axis. Where all centres are the same, 0 * infinity is NaN: slice 0.
-    Int4 operator()(const Box& box) const {
+    Int4 operator()(const NegatedBox& box) const {
         Float4 x = max((box.center() + neg_first) * per_length, Float4{});
         constexpr float last = bins - 1;
         return __builtin_convertvector(x < last ? x : Float4{} + last, Int4);
@@ -200,7 +199,7 @@ struct Split {
 
 /// What is in the slices: the box around it, and how much it is.
 struct Bins {
-    Box box[3][bins];
+    NegatedBox box[3][bins];
     uint32_t count[3][bins] = {};
 
     void add(const Refs& refs, uint32_t begin, uint32_t end, const Binning& bin_of) {
@@ -235,7 +234,7 @@ Split find_split(const Bins& binned, uint32_t size) {
     Split best;
     for (int axis = 0; axis < 3; axis++) {
         float right_cost[bins];
-        Box part;
+        NegatedBox part;
         uint32_t n = 0;
         for (int bin = bins - 1; bin > 0; bin--) {
             part.grow(binned.box[axis][bin]);
@@ -257,7 +256,7 @@ Split find_split(const Bins& binned, uint32_t size) {
 /// A node with two children, or none. A wide node is made of some of those below it: given a
 /// number of its places, `share` says how to fill them.
 struct Node {
-    Box box;
+    NegatedBox box;
     Node* children = nullptr;  // two, side by side
     uint32_t begin, end;       // its references
     uint8_t axis = 0;          // of the split: the left child is on the lower side
@@ -426,10 +425,10 @@ private:
             uint32_t i = worst.top().ref;
             worst.pop();
             refs_.push_back(refs_[i]);
-            Box halves[2];
+            NegatedBox halves[2];
             cut_in_halves(refs_[i].box, halves);
             for (uint32_t at : {i, all.end++}) {
-                const Box& half = halves[at == i ? 0 : 1];
+                const NegatedBox& half = halves[at == i ? 0 : 1];
                 Part part(g_, bvh_.centre, refs_[at].prim(), half);
                 refs_[at].set_box(part.corners > 0 ? part.box() : half);
                 all.grow(refs_[at].box);
@@ -537,7 +536,7 @@ private:
     template <typename GoesLeft>
     void partition(uint32_t begin, uint32_t end, GoesLeft goes_left, Range& left, Range& right) {
         uint32_t front = begin;
-        Box box[2], centers[2];
+        NegatedBox box[2], centers[2];
         for (uint32_t i = begin; i < end; i++) {
             Ref ref = refs_[i];
             bool to_left = goes_left(ref, i);
@@ -584,7 +583,7 @@ private:
         Gathered children = by_worth(root);
         for (uint32_t i = 0; i < lanes; i++) {
             const Node* child = i < children.size ? children.node[i] : nullptr;
-            Box box = child ? child->box : Box{};
+            NegatedBox box = child ? child->box : NegatedBox{};
             for (int axis = 0; axis < 3; axis++) {
                 node.plane[2 * axis][i] = -box.neg_lo[axis];
                 node.plane[2 * axis + 1][i] = box.hi[axis];

@@ -3,5 +3,6 @@
 #include "common/base/report.h"
 #include "common/geometry/bvh.h"
 
-/// The same hierarchy for any number of threads. `report` hears how far it is.
+/// Builds the hierarchy over all primitives. It does not depend on the number of threads, to the
+/// last bit. `report` hears how far it is.
 Bvh build_bvh(const Geometry& geometry, int threads, const Report& report = {});

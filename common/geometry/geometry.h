@@ -44,8 +44,24 @@ struct Geometry {
     }
 };
 
+/// A box with sides along the axes; empty until something is added.
 struct Box {
     Vec3 low = {infinity, infinity, infinity}, high = {-infinity, -infinity, -infinity};
+
+    void add(Vec3 p) {
+        low = min(low, p);
+        high = max(high, p);
+    }
+    void add(const Box& b) {
+        low = min(low, b.low);
+        high = max(high, b.high);
+    }
+    Vec3 centre() const { return 0.5f * low + 0.5f * high; }
+    /// m^2, of all six sides.
+    float area() const {
+        Vec3 d = high - low;
+        return d.x < 0 ? 0 : 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
+    }
 };
 
 /// The box around all vertices, spheres and disks (with all of the sphere around a disk).
@@ -72,3 +88,13 @@ struct PrimHit {
 
 /// How far off a point computed from numbers of this size may lie: some units in the last place.
 inline float rounding_error(float size) { return size * 8 * 0x1p-24f; }
+
+/// How far a shadow ray goes from a point to a lamp, a ball of this radius around p (0: a point or
+/// a flat lamp) at this distance: so short of it that the ray does not meet the lamp itself.
+///
+/// The points at both ends are off by up to eps and by the rounding of p; a lamp that is seen at an
+/// angle, with this cosine, is nearer along the ray by 1 / cos of that.
+inline float just_short_of(Vec3 p, float radius, float dist, float cos, float eps) {
+    eps += rounding_error(max_component(abs(p)) + radius);
+    return dist - radius - 2 * eps / cos;
+}

@@ -176,7 +176,7 @@ TEST_SUITE("ch06 bvh") {
                 }
                 REQUIRE(node.size == 4);  // else there would have been room for its own children
                 // The box of an inner child is the one around its own children.
-                ch06::Box around;
+                Box around;
                 const ch06::FourNode& below = four.nodes[child.first];
                 for (size_t k = 0; k < below.size; k++) around.add(below.child[k].box);
                 REQUIRE(around.low == child.box.low);
@@ -193,7 +193,7 @@ TEST_SUITE("ch06 bvh") {
         // A root of two inner nodes, the second of which is larger, and has an inner child again.
         ch06::Hierarchy h;
         auto box = [](float size) {
-            ch06::Box b;
+            Box b;
             b.add(Vec3{0, 0, 0});
             b.add(Vec3{size, size, size});
             return b;
@@ -217,7 +217,7 @@ TEST_SUITE("ch06 bvh") {
 
     TEST_CASE("truth: the SAH cost of a root parted into two cubes is 1 + 12/10") {
         ch06::Hierarchy h;
-        ch06::Box root, left, right;
+        Box root, left, right;
         left.add(Vec3{0, 0, 0}), left.add(Vec3{1, 1, 1});
         right.add(Vec3{1, 0, 0}), right.add(Vec3{2, 1, 1});
         root.add(left), root.add(right);
@@ -226,7 +226,7 @@ TEST_SUITE("ch06 bvh") {
     }
 
     TEST_CASE("truth: a box in its sphere is met by 2 / pi of the lines") {
-        ch06::Box cube;
+        Box cube;
         cube.add(Vec3{-1, -1, -1}), cube.add(Vec3{1, 1, 1});
         Sampler sampler(SamplerType::independent, 7, 1);
         constexpr uint32_t n = 1000000;
@@ -241,21 +241,21 @@ TEST_SUITE("ch06 bvh") {
             float radius = std::sqrt(3 * v.x), angle = 2 * pi * v.y;
             Vec3 across = radius * std::cos(angle) * frame.s + radius * std::sin(angle) * frame.t;
             Ray ray{across - 4 * d, d};
-            met.add(enter(cube, ray, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity ? 1 : 0);
+            met.add(ch06::enter(cube, ray, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity ? 1 : 0);
         }
         double p = 2 / std::numbers::pi;
         check_mean(met, p, p * (1 - p), 0.005);
     }
 
     TEST_CASE("truth: the box test takes rays in the plane of a side") {
-        ch06::Box box;
+        Box box;
         box.add(Vec3{0, 0, 0}), box.add(Vec3{1, 1, 1});
         // A ray that starts at (a, b, c) and goes along +z, with the axes turned by `turns`.
         auto hit = [&](float a, float b, float c, float zero, int turns) {
             Vec3 o, d;
             o[turns] = a, o[(turns + 1) % 3] = b, o[(turns + 2) % 3] = c;
             d[turns] = d[(turns + 1) % 3] = zero, d[(turns + 2) % 3] = 1;
-            return enter(box, {o, d}, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity;
+            return ch06::enter(box, {o, d}, {1 / d.x, 1 / d.y, 1 / d.z}) < infinity;
         };
         for (int turns = 0; turns < 3; turns++) {
             for (float zero : {0.0f, -0.0f}) {

@@ -141,6 +141,23 @@ TEST_SUITE("intersect shapes") {
         }
     }
 
+    TEST_CASE("truth: a ray that leaves a thin trim does not meet it, and misses what is far off") {
+        // In float t is 3.2e-5, in double precision -3.7e-6.
+        Vec3 corner = {0x1.3fbe76p+1f, 0x1.656e6ap+1f, -0x1.f024c4p+0f};
+        Vec3 d = {0x1.abdbp-1f, -0x1.8f5e66p-2f, 0x1.8c079p-2f};
+        Ray leaves = {{-0x1.3a5396p+0f, 0x1.656e5ep+1f, -0x1.f026ccp+0f}, d};
+        CHECK_FALSE(intersect_triangle(leaves, shear_to_ray(d), corner,
+                                       {-corner.x, corner.y, corner.z},
+                                       {-corner.x, corner.y, -0x1.f0506ap+0f}));
+        // This one passes 28 units from a triangle of size 0.0008, and two of its areas round to 0.
+        d = {0x1.71f122p-2f, 0x1.4f03fcp-2f, -0x1.c7eca4p-1f};
+        Ray passes = {{-0x1.2bbb02p+5f, -0x1.3a7f9ap-1f, 0x1.00fa7ep+5f}, d};
+        CHECK_FALSE(intersect_triangle(passes, shear_to_ray(d),
+                                       {0x1.7306p+1f, 0x1.185154p+1f, -0x1.3df352p+0f},
+                                       {0x1.7304acp+1f, 0x1.1855dap+1f, -0x1.3e031cp+0f},
+                                       {0x1.72ecdp+1f, 0x1.185692p+1f, -0x1.3de4f8p+0f}));
+    }
+
     TEST_CASE("truth: edges and corners belong to the triangle, and what is edge-on is not hit") {
         Vec3 p0 = {0, 0, 0}, p1 = {1, 0, 0}, p2 = {0, 1, 0};
         auto hit = [&](Vec3 o, Vec3 d) {
