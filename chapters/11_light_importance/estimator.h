@@ -1,7 +1,7 @@
-// Chapter 11: light importance. Choose lights by what they can give, in a time that does not depend
-// on how many there are.
+// Chapter 11: light importance. Choose lights by power, and keep a defensive share of the choices
+// for all lights alike, since power knows nothing of distance and walls.
 //
-//   pmf_i = (1 - d) power_i / sum power + d / N      a share d for all alike: no light has pmf 0
+//   pmf_i = (1 - d) power_i / sum power + d / N      in a time that does not depend on N
 #pragma once
 #include "common/light/lights.h"
 #include "common/material/basic_bsdf.h"
@@ -29,7 +29,9 @@ inline float light_power(const Scene& scene, size_t i) {
     return 0;
 }
 
-/// The probability of each light: in proportion to its power, but for the share d.
+/// The probability of each light: by its power, and a defensive share d for all lights alike.
+///
+///   pmf_i = (1 - d) power_i / sum power + d / N >= d / N
 inline std::vector<double> light_pmf(const Scene& scene, double d) {
     std::vector<double> pmf;
     double sum = 0, N = static_cast<double>(scene.lights.size());
@@ -37,7 +39,10 @@ inline std::vector<double> light_pmf(const Scene& scene, double d) {
         pmf.push_back(static_cast<double>(light_power(scene, i)));
         sum += pmf.back();
     }
-    for (double& p : pmf) p = sum > 0 ? (1 - d) * p / sum + d / N : 1 / N;
+    for (double& p : pmf) {
+        double by_power = (1 - d) * p / sum, defensive = d / N;
+        p = sum > 0 ? by_power + defensive : 1 / N;
+    }
     return pmf;
 }
 
@@ -91,7 +96,7 @@ inline uint32_t pick_light(const LightTable& lights, double u) {
 }
 inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 
-/// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
+/// Chooses a light by light_pmf(), and a point on it.      pdf_w = pmf pdf_one
 inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
                                 double u, Vec2 u2) {
     if (lights.empty()) return {};
@@ -101,8 +106,12 @@ inline LightSample sample_light(const Scene& scene, const LightTable& lights, co
     return y;
 }
 
-/// The table that trace() chooses lights from; a quarter of all choices is even, d = 1/4.
-inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
+inline constexpr double defensive_share = 0.25;  // the d of light_pmf()
+
+/// The table that trace() chooses lights from.
+inline LightTable prepare(const Scene& scene) {
+    return build_light_table(light_pmf(scene, defensive_share));
+}
 
 /// Estimates what all lights send by way of x to wo, from one point of one light.
 ///

@@ -19,7 +19,9 @@ inline float light_power(const Scene& scene, size_t i) {
     return 0;
 }
 
-/// The probability of each light: in proportion to its power, but for the share d.
+/// The probability of each light: by its power, and a defensive share d for all lights alike.
+///
+///   pmf_i = (1 - d) power_i / sum power + d / N >= d / N
 inline std::vector<double> light_pmf(const Scene& scene, double d) {
     std::vector<double> pmf;
     double sum = 0, N = static_cast<double>(scene.lights.size());
@@ -27,7 +29,10 @@ inline std::vector<double> light_pmf(const Scene& scene, double d) {
         pmf.push_back(static_cast<double>(light_power(scene, i)));
         sum += pmf.back();
     }
-    for (double& p : pmf) p = sum > 0 ? (1 - d) * p / sum + d / N : 1 / N;
+    for (double& p : pmf) {
+        double by_power = (1 - d) * p / sum, defensive = d / N;
+        p = sum > 0 ? by_power + defensive : 1 / N;
+    }
     return pmf;
 }
 
@@ -81,7 +86,7 @@ inline uint32_t pick_light(const LightTable& lights, double u) {
 }
 inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 
-/// Chooses a light by its power, and a point on it.      pdf_w = pmf pdf_one
+/// Chooses a light by light_pmf(), and a point on it.      pdf_w = pmf pdf_one
 inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
                                 double u, Vec2 u2) {
     if (lights.empty()) return {};
