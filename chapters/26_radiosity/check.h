@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdio>
 
-#include "chapters/26_radiosity/estimator.h"
+#include "chapters/26_radiosity/show.h"
 #include "common/base/parallel.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
@@ -11,8 +11,24 @@
 
 namespace ch26 {
 
+/// Throws InputError for a closed room that absorbs nothing: its light grows for ever.
+/// tested by  "input: a closed room that reflects all light is refused, an open one is not"
+inline void refuse_no_loss(const Scene& scene, const Patches& patches) {
+    if (!patches.closed) return;
+    Rgb least = {1, 1, 1};
+    for (const Patch& p : patches.patch) {
+        least = {std::min(least.r, p.rho.r), std::min(least.g, p.rho.g),
+                 std::min(least.b, p.rho.b)};
+    }
+    if (max_component(least) < 1) return;
+    fail({scene.file},
+         "a closed room whose surfaces reflect all light has no solution: it would "
+         "grow with each bounce");
+}
+
 /// Throws InputError for radiosity that is not finite, or negative.
-inline void check_numbers(const Scene& scene, const std::vector<Patch>& patch, const Solution& s) {
+inline void check_numbers(const std::string& file, const std::vector<Patch>& patch,
+                          const Solution& s) {
     for (size_t i = 0; i < patch.size(); i++) {
         Rgb B = to_rgb(radiosity_of(patch[i], s.H[i]));
         bool good = is_finite(B) && std::min({B.r, B.g, B.b}) >= 0;
@@ -23,7 +39,7 @@ inline void check_numbers(const Scene& scene, const std::vector<Patch>& patch, c
                       "picture can show",
                       double{patch[i].centre.x}, double{patch[i].centre.y},
                       double{patch[i].centre.z}, double{B.r}, double{B.g}, double{B.b});
-        fail({scene.file}, text);
+        fail({file}, text);
     }
 }
 
@@ -37,19 +53,16 @@ inline void check_balance(const std::string& file, const Balance& b) {
 }
 
 /// The light that surfaces reflect to the camera, W m^-2 sr^-1, mean of the picture: by patches,
-/// and by paths. error: standard error of their difference; emitted: what the camera sees of lamps.
+/// and by paths. emitted: what the camera sees of lamps.
 struct Comparison {
-    double patches = 0, paths = 0, error = 0, emitted = 0;
-    /// Whether the two differ by more than 5 %, than noise explains, and than rounding does.
-    bool differ() const {
-        return std::abs(patches - paths) > 0.05 * paths + 2 * error + 1e-5 * emitted;
-    }
-};
-
-/// Sums over camera rays.
-struct RaySums {
     RunningStats patches, paths, difference, emitted;
 
+    double error() const { return difference.standard_error(); }
+    /// Whether the two differ by more than 5 %, than noise explains, and than rounding does.
+    bool differ() const {
+        return std::abs(patches.mean() - paths.mean()) >
+               0.05 * paths.mean() + 2 * error() + 1e-5 * emitted.mean();
+    }
     void add(const Scene& scene, const Shown& shown, Ray ray, Sampler& sampler) {
         constexpr int bounces = 16;
         double by_patches = 0, by_paths = 0, Le = 0;
@@ -63,7 +76,7 @@ struct RaySums {
         patches.add(by_patches), paths.add(by_paths), emitted.add(Le);
         difference.add(by_patches - by_paths);
     }
-    void merge(const RaySums& b) {
+    void merge(const Comparison& b) {
         patches.merge(b.patches), paths.merge(b.paths), emitted.merge(b.emitted);
         difference.merge(b.difference);
     }
@@ -73,13 +86,14 @@ struct RaySums {
 /// More paths until the error is below 1 %, at most 64 x 64 x 128; the same for any number of
 /// threads.
 /// tested by  "failure: patches wider than a light is far show too much light, and a warning"
-inline Comparison compare_with_paths(const Scene& scene, const Shown& shown, int threads) {
+inline Comparison compare_with_paths(const Scene& scene, const Shown& shown, int threads,
+                                     const Stopped& stopped = {}) {
     constexpr int side = 64, most = 128;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     float dx = static_cast<float>(scene.width) / side, dy = static_cast<float>(scene.height) / side;
-    RaySums all;
+    Comparison all;
     for (uint32_t sample = 0;; sample++) {
-        std::vector<RaySums> rows(side);
+        std::vector<Comparison> rows(side);
         parallel_for(side, threads, [&](int y) {
             Sampler sampler(SamplerType::independent, 0, most);
             for (int x = 0; x < side; x++) {
@@ -90,51 +104,11 @@ inline Comparison compare_with_paths(const Scene& scene, const Shown& shown, int
                 rows[static_cast<size_t>(y)].add(scene, shown, camera_ray(view, film), sampler);
             }
         });
-        for (const RaySums& row : rows) all.merge(row);
-        Comparison c = {all.patches.mean(), all.paths.mean(), all.difference.standard_error(),
-                        all.emitted.mean()};
-        bool is_known = c.error <= 0.01 * c.paths + 1e-5 * c.emitted;
-        if (sample + 1 == most || (sample > 2 && is_known)) return c;
+        for (const Comparison& row : rows) all.merge(row);
+        bool is_known = all.error() <= 0.01 * all.paths.mean() + 1e-5 * all.emitted.mean();
+        bool is_enough = is_known || (stopped && stopped());
+        if (sample + 1 == most || (sample > 2 && is_enough)) return all;
     }
-}
-
-/// A patch that is wide compared with its distance to a light, both m.
-struct NearLight {
-    double width = 0, distance = infinity;
-};
-
-/// The patch that is widest compared with its distance to a lamp's patch before it.
-inline NearLight nearest_to_light(const std::vector<Patch>& patch) {
-    NearLight worst;
-    for (const Patch& lamp : patch) {
-        if (is_black(lamp.E)) continue;
-        for (const Patch& p : patch) {
-            if (!faces(p, lamp) || !faces(lamp, p)) continue;
-            // From the middle of the lamp's patch to the plane of p, and beyond the edge of p.
-            Vec3 d = lamp.centre - p.centre;
-            float up = dot(d, p.n), along = length(d - up * p.n);
-            float width = std::sqrt(longest_edge2(p.p));
-            double distance = std::hypot(double{up}, double{std::max(0.0f, along - width / 2)});
-            if (double{width} * worst.distance > worst.width * distance)
-                worst = {double{width}, distance};
-        }
-    }
-    return worst;
-}
-
-/// What to say of a picture that is not what paths find.
-inline std::string warning_of(const Comparison& c, const std::vector<Patch>& patch) {
-    NearLight near = nearest_to_light(patch);
-    char text[300], where[120] = "";
-    if (near.width > 0.5 * near.distance) {
-        std::snprintf(where, sizeof where, "; a patch is %.3g wide, and a light is %.3g from it",
-                      near.width, near.distance);
-    }
-    std::snprintf(text, sizeof text,
-                  "the light that surfaces reflect is wrong: %.4g by patches, %.4g +- %.2g by "
-                  "paths%s: take more patches, or chapter 15",
-                  c.patches, c.paths, c.error, where);
-    return text;
 }
 
 }  // namespace ch26

@@ -1,31 +1,45 @@
-// Chapter 26: radiosity. No rays for the light at all: the surfaces are cut into patches, and what
-// each sends to each is worked out once. The solution belongs to the room; the camera comes last.
+// Chapter 26: radiosity. No rays carry the light: the surfaces are cut into patches, and the light
+// that each patch sends to each other is computed once. The solution belongs to the room; the
+// camera comes last.
 //
 //   B_i = E_i + rho_i sum over j of F_ij B_j
 //
-// F_ij is the form factor: which share of what leaves patch i arrives at j.
+// F_ij is the form factor: the share of the light leaving patch i that arrives at patch j.
 //
 //   F_ij = 1 / A_i  integral over i, j of  V cos_i cos_j / (pi r^2)
 //
-// Kept is  G_ij = A_i F_ij = A_j F_ji,  m^2, which is the same from both ends.
+// The code keeps  G_ij = A_i F_ij = A_j F_ji,  m^2, which is the same from both ends.
 #pragma once
-#include "common/geometry/transform.h"
-#include "common/radiosity/display.h"
-#include "common/radiosity/rows.h"
-#include "common/radiosity/solution.h"
+#include "chapters/26_radiosity/final_gather.h"
+#include "chapters/26_radiosity/rows.h"
+#include "chapters/26_radiosity/solution.h"
 #include "common/recording/recorder.h"
 
 namespace ch26 {
 
-enum class FormFactors : uint8_t { point, chance, contour };
+// 1. Form factors.
+
+/// The formula that is often shown: G_ij, m^2, from the value of the integrand between one point x
+/// of patch p and one point y of patch q.
+///
+///   G = A_p A_q cos_p cos_q / (pi r^2)
+///
+/// With the centres as points it is wrong where patches are close for their size: by 59 % for unit
+/// squares at distance 1.
+/// tested by  "failure: the form factor by centres is 59 % off at distance 1, and exceeds 1 at 0.1"
+inline double by_centres(const Patch& p, const Patch& q, Vec3 x, Vec3 y) {
+    Vec3 d = y - x;
+    double r2 = double{dot(d, d)}, cos = double{dot(d, p.n)} * double{-dot(d, q.n)};
+    return double{p.area} * double{q.area} * cos / (std::numbers::pi * r2 * r2);
+}
 
 /// The form factor from a point x with normal n to a polygon that nothing hides.
 ///
 ///   F = 1 / (2 pi)  sum over edges of  gamma n . (b x a) / |b x a|,   a, b: x to the edge's ends,
 ///   gamma: the angle between them
 ///
-/// What lies below the horizon of x is cut off; 0 for a polygon seen from behind. In double: the
-/// terms of a far polygon nearly cancel.
+/// The part of the polygon below the horizon of x is cut off; 0 for a polygon seen from behind. In
+/// double: the terms of a far polygon nearly cancel.
 /// source  Lambert 1760; Hottel, Sarofim 1967      tested by  "truth: form factors by contour ..."
 inline double point_to_polygon(Vec3 x, Vec3 n, std::span<const Vec3> polygon) {
     Vec3d normal = Vec3d(n), o = Vec3d(x), above[8];
@@ -46,18 +60,10 @@ inline double point_to_polygon(Vec3 x, Vec3 n, std::span<const Vec3> polygon) {
     return std::max(0.0, sum / (2 * std::numbers::pi));
 }
 
-/// (a) As often shown: the whole integral by its value between two points, the centres. Wrong where
-/// patches are near each other for their size: of unit squares at distance 1 by 59 %.
-inline double by_centres(const Patch& p, const Patch& q, Vec3 x, Vec3 y) {
-    Vec3 d = y - x;
-    double r2 = double{dot(d, d)}, cos = double{dot(d, p.n)} * double{-dot(d, q.n)};
-    return double{p.area} * double{q.area} * cos / (std::numbers::pi * r2 * r2);
-}
-
-/// (c) The mean over triangle t, with normal n, of the form factor from its points to q.
+/// The mean over triangle t, with normal n, of the form factor from its points to q.
 ///
-/// Far for both sizes: from the centre. Nearer: from three points, which makes the mean of any
-/// square polynomial right. Nearer still: from its quarters, and so on.
+/// Far away for both sizes: from the centre of t. Nearer: from three points, with which the mean of
+/// any quadratic polynomial is exact. Nearer still: the mean over the quarters of t, and so on.
 inline double mean_to_polygon(const std::array<Vec3, 3>& t, Vec3 n, const Patch& q, int depth) {
     Vec3 centre = (t[0] + t[1] + t[2]) / 3;
     float size2 = longest_edge2(t) + longest_edge2(q.p), d2 = length_squared(centre - q.centre);
@@ -71,56 +77,35 @@ inline double mean_to_polygon(const std::array<Vec3, 3>& t, Vec3 n, const Patch&
     return sum / 4;
 }
 
-/// How much two patches exchange: G, m^2; (b) by chance: the mean over four pairs of points. Rays
-/// between these say what is visible, in (c) too: found from the smaller patch, since seen from the
-/// larger one it may be a spike between few points. key: of the random numbers.
-inline double exchange(const Scene& scene, const Patch& p, const Patch& q, FormFactors way,
-                       uint32_t key) {
-    if (!faces(p, q) || !faces(q, p)) return 0;
-    if (way == FormFactors::point) {
-        if (!sees(scene, p.centre + p.eps * p.n, q.centre + q.eps * q.n)) return 0;
-        return std::max(0.0, by_centres(p, q, p.centre, q.centre));
-    }
+/// Four pairs of points: one point of each quarter of p, and one of some quarter of q.
+inline std::array<std::array<Vec3, 2>, 4> pairs_of_points(const Patch& p, const Patch& q,
+                                                          uint32_t key) {
     auto x = points_on(p, key), y = points_on(q, hash32(key) + 4);
     size_t shift = hash32(key + 9) % 4;  // pairs each quarter of p with any of q
-    double visible = 0, sum = 0;
-    for (size_t i = 0; i < 4; i++) {
-        Vec3 z = y[(i + shift) % 4];
-        if (!sees(scene, x[i], z)) continue;
+    std::array<std::array<Vec3, 2>, 4> pairs;
+    for (size_t i = 0; i < 4; i++) pairs[i] = {x[i], y[(i + shift) % 4]};
+    return pairs;
+}
+
+/// What two patches exchange: G, m^2. The share of four rays between them that nothing stops, times
+/// the form factor without walls. That is computed from the smaller patch: seen from the larger
+/// one, the smaller may be a spike between few points. key: of the random numbers.
+/// tested by  "truth: form factors by contour of squares and disks",
+///            "truth: a small patch and a large one at decades of size and distance"
+inline double exchange(const Scene& scene, const Patch& p, const Patch& q, uint32_t key) {
+    if (!faces(p, q) || !faces(q, p)) return 0;
+    double visible = 0;
+    for (auto [x, y] : pairs_of_points(p, q, key)) {
+        if (!sees(scene, x, y)) continue;
         visible += 0.25;
-        sum += std::max(0.0, by_centres(p, q, x[i], z)) / 4;
     }
-    if (way == FormFactors::chance) return sum;
     if (visible == 0) return 0;
     constexpr int deepest = 4;
     const Patch &small = p.area <= q.area ? p : q, &large = p.area <= q.area ? q : p;
     return visible * double{small.area} * mean_to_polygon(small.p, small.n, large, deepest);
 }
 
-/// Makes the rows' sums right, and keeps G_ij = G_ji: each row and column is multiplied by d_i.
-///
-///   sum over j of d_i G_ij d_j = A_i        in a closed room; in an open one only where it is more
-///
-/// tested by  "identity: repaired rows sum to 1, and both ends agree"
-inline void repair(Matrix& G, const std::vector<Patch>& patch, bool closed) {
-    std::vector<double> d(G.size(), 1), sum(G.size());
-    for (int round = 0; round < 1000; round++) {
-        double off = 0;
-        for (size_t i = 0; i < G.size(); i++) {
-            sum[i] = 0;
-            for (size_t j = 0; j < G.size(); j++) sum[i] += double{G[i][j]} * d[j];
-            sum[i] *= d[i] / double{patch[i].area};
-            if (sum[i] == 0 || (!closed && sum[i] < 1)) sum[i] = 1;  // right, for all we know
-            off = std::max(off, std::abs(sum[i] - 1));
-        }
-        if (off < 1e-7) break;
-        for (size_t i = 0; i < G.size(); i++) d[i] /= std::sqrt(sum[i]);
-    }
-    for (size_t i = 0; i < G.size(); i++) {
-        for (size_t j = 0; j < G.size(); j++)
-            G[i][j] = static_cast<float>(double{G[i][j]} * (d[i] * d[j]));
-    }
-}
+// 2. Gathering: each patch takes light from all others.
 
 /// The equation.      B_i = E_i + rho_i H_i,      H_i = sum over j of F_ij B_j,  both W m^-2
 inline Radiosity radiosity_of(const Patch& p, Radiosity H) { return p.E + p.rho * H; }
@@ -164,6 +149,8 @@ inline void solve(const Matrix& G, const std::vector<Patch>& patch, Sweep kind, 
         if (change == 0 || to_come <= wanted * largest || (stopped && stopped())) return;
     }
 }
+
+// 3. Shooting: the brightest patch sends its light to all others.
 
 /// Begins progressive refinement (Southwell): all that lamps emit is unshot.
 inline void start(const std::vector<Patch>& patch, Solution& s) {
@@ -225,16 +212,7 @@ inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s,
     return ratio(keep * unshot, all - min(keep * rho, most * all));
 }
 
-/// What is shown of a solution: B of each patch, with that estimate for what is to come.
-inline Shown show(const Scene& scene, std::shared_ptr<const Patches> patches, const Solution& s,
-                  Show how, int threads) {
-    const std::vector<Patch>& patch = patches->patch;
-    Radiosity more = ambient(patch, s);
-    std::vector<Rgb> B;
-    for (size_t i = 0; i < patch.size(); i++)
-        B.push_back(to_rgb(radiosity_of(patch[i], s.H[i] + more)));
-    return make_shown(scene, patches, B, how, threads);
-}
+// 4. The picture.
 
 /// The radiance that arrives along the ray: that of the patch it meets.      L = B / pi
 ///

@@ -11,10 +11,10 @@ int main(int argc, char** argv) {
                                   "stats", "film", "film-every", "quiet"});
         ch26::check_together(options, settings);
         Scene scene = load(options);
-        bool has_noise = settings.show == Show::gather;
+        bool has_noise = settings.show == ch26::Show::gather;
         if (options.spp == 0 && !has_noise) scene.spp = std::min(scene.spp, 16);  // for edges alone
         refuse(scene);
-        settings.patches += tessellate(scene, options.threads);
+        settings.patches += ch26::tessellate(scene, options.threads);
         ch26::check_all_outputs(scene, options, settings);
         return ch26::Run(scene, options, settings).run();
     });

@@ -5,6 +5,8 @@
 
 #include "chapters/26_radiosity/check.h"
 #include "chapters/26_radiosity/settings.h"
+#include "chapters/26_radiosity/tessellate.h"
+#include "chapters/26_radiosity/variants.h"
 #include "common/path/trace.h"
 #include "common/picture/notes.h"
 #include "common/program/code_hash.h"
@@ -15,18 +17,8 @@
 #include "common/program/tile_renderer.h"
 #include "common/radiosity/files.h"
 #include "common/radiosity/refuse.h"
-#include "common/radiosity/tessellate.h"
 
 namespace ch26 {
-
-/// The rows of G, each worked out when it is asked for.
-inline Rows form_factors(const Scene& scene, const Patches& patches, FormFactors way, uint32_t seed,
-                         int threads) {
-    return Rows(patches.patch, threads, [=, &scene, &patches](uint32_t i, uint32_t j) {
-        uint32_t key = hash32(i, hash32(j, seed));
-        return exchange(scene, patches.patch[i], patches.patch[j], way, key);
-    });
-}
 
 /// What a film of radiosity is of: all that decides the solution, but not how far it is.
 inline std::string film_label(const Scene& scene, const RenderOptions& options,
@@ -57,6 +49,13 @@ inline double share_to_come(const std::vector<Patch>& patch, const Solution& s) 
     return waits / area;
 }
 
+/// The numbers of a solution, for its film.
+inline Pieces numbers_of(Solution& s) {
+    return {std::as_writable_bytes(std::span(&s.steps, 1)),
+            std::as_writable_bytes(std::span(&s.escaped, 1)),
+            std::as_writable_bytes(std::span(s.H)), std::as_writable_bytes(std::span(s.unshot))};
+}
+
 /// What leaves the room, W, by the rows of a matrix.
 inline Radiosity escaped_by(const Matrix& m, const std::vector<Patch>& patch, const Solution& s) {
     Radiosity escaped;
@@ -77,38 +76,43 @@ public:
           settings_(settings),
           limit_(options.time),
           patches_(std::make_shared<Patches>(make_patches(scene, settings.patches, options.threads,
-                                                          [&] { return limit_.interrupted(); }))),
+                                                          [&] { return limit_.reached(); }))),
           rows_(form_factors(scene, *patches_, settings.way, options.seed, options.threads)) {
         refuse_no_loss(scene, *patches_);
-        options_.film.clear(), options_.time = 0;  // they are of the solution, not of a picture
+        options_.film.clear();  // it is of the solution, not of a picture
         film_ = options.film;
     }
 
     int run() {
         tell_costs();
         settings_.solver == Solver::southwell ? refine() : sweep();
-        check_numbers(scene_, patches_->patch, solution_);
+        check_numbers(scene_.file, patches_->patch, solution_);
         tell_result();
         double seconds = limit_.elapsed();
-        bool stopped = limit_.take_interruption();
-        Shown shown = shown_now(settings_.show);
-        std::vector<std::string> warnings;
-        if (!stopped && n() > 0) warnings = compare_paths(shown);
+        bool over = limit_.reached(), stopped = limit_.take_interruption();
+        Stopped hurry = [&] { return over && limit_.elapsed() > seconds + 0.5; };
+        Shown shown = shown_now(settings_.show, hurry);
+        if (!stopped && n() > 0) compare_paths(shown, [&] { return over; });
+        if (n() == 0) warnings_.push_back("the time was over before there were patches");
         double missing = n() > 0 ? -balance_of(patches_->patch, solution_).error() : 0;
         if (missing > 0.001) {
-            warnings.push_back("sweeps ended before " + percent(missing) +
-                               " of the light had arrived");
+            warnings_.push_back("sweeps ended before " + percent(missing) +
+                                " of the light had arrived");
         }
         stopped |= limit_.take_interruption();
-        if (stopped) options_.time = 0.5;  // s: a picture soon
+        if (stopped || options_.time > 0) {  // a picture soon
+            options_.time = stopped ? 0.5 : std::max(0.5, options_.time - limit_.elapsed());
+            options_.spp = scene_.spp;  // else as many as there is time for
+        }
         Rendering picture = render_film(scene_, options_, trace_with<trace>(shown));
         picture.stats.seconds += seconds;
         if (stopped) picture.stats.interrupted = true;
-        picture.warnings = warnings;
+        picture.warnings = warnings_;
         if (!film_.empty() && n() > 0) picture.files.push_back({film_, [&] { save_film(); }});
         if (!settings_.mesh.empty()) {
             picture.files.push_back(
-                {settings_.mesh, [&] { write_mesh(settings_.mesh, patches_->patch, shown.B); }});
+                {settings_.mesh,
+                 [&] { write_mesh(settings_.mesh, triangles_of(patches_->patch), shown.B); }});
         }
         int code = write_results(scene_, options_, picture);
         return code == 0 && failed_ ? 1 : code;
@@ -116,8 +120,8 @@ public:
 
 private:
     size_t n() const { return patches_->patch.size(); }
-    Shown shown_now(Show how) const {
-        return show(scene_, patches_, solution_, how, options_.threads);
+    Shown shown_now(Show how, const Stopped& stopped = {}) const {
+        return show(scene_, patches_, solution_, how, options_.threads, stopped);
     }
 
     /// Says what memory and time all form factors take, before they are worked out.
@@ -125,7 +129,7 @@ private:
         if (n() == 0) return;
         auto begin = limit_.elapsed();
         constexpr size_t tried = 3;
-        for (size_t i = 0; i < tried && (i == 0 || !limit_.interrupted()); i++)
+        for (size_t i = 0; i < tried && (i == 0 || !limit_.reached()); i++)
             rows_.row(i * (n() - 1) / tried);
         double seconds = (limit_.elapsed() - begin) / tried * static_cast<double>(n());
         if (rows_.keeps()) seconds /= 2;  // each pair once
@@ -148,10 +152,11 @@ private:
         if (n() == 0) return;  // interrupted before there were patches
         const std::vector<Patch>& patch = patches_->patch;
         start(patch, solution_);
-        check_numbers(scene_, patch, solution_);
+        check_numbers(scene_.file, patch, solution_);
         std::error_code none;
         if (!film_.empty() && std::filesystem::exists(film_, none)) {
-            read_solution(film_, label(), solution_);
+            read_numbers(film_, label(), numbers_of(solution_));
+            check_numbers(film_, patch, solution_);
             check_balance(film_, balance_of(patch, solution_));
         }
         Progress progress(options_.quiet);
@@ -189,10 +194,10 @@ private:
         }
     }
     std::string label() const { return film_label(scene_, options_, settings_, n()); }
-    void save_film() const { save_solution(film_, label(), solution_); }
+    void save_film() { save_numbers(film_, label(), numbers_of(solution_)); }
     void write_picture() {
         RenderOptions quiet = options_;
-        quiet.quiet = true;
+        quiet.quiet = true, quiet.time = 0;
         Rendering r = render_film(scene_, quiet, trace_with<trace>(shown_now(Show::smooth)));
         Notes notes = notes_of(label_of(scene_, quiet, r), r.film.spp());
         write_image(numbered(options_.out[0], solution_.steps), r.film.image(),
@@ -211,21 +216,23 @@ private:
         solution_.H.resize(n());
         if (limit_.reached()) return;
         Matrix G = rows_.take_all();
-        repair(G, patch, patches_->closed);
+        Stopped stopped = [&] { return limit_.reached(); };
+        repair(G, patch, patches_->closed, stopped);
         Sweep kind = settings_.solver == Solver::jacobi ? Sweep::jacobi : Sweep::gauss_seidel;
-        solve(G, patch, kind, 1e-10, solution_, [&] { return limit_.reached(); });
+        solve(G, patch, kind, 1e-10, solution_, stopped);
         solution_.escaped = escaped_by(G, patch, solution_);
     }
 
-    /// Says what paths find in the place of patches. Returns warnings.
-    std::vector<std::string> compare_paths(const Shown& shown) const {
-        Comparison c = compare_with_paths(scene_, shown, options_.threads);
-        if (!options_.quiet) {
-            std::printf("surfaces reflect %.4g by patches, %.4g +- %.2g by paths\n", c.patches,
-                        c.paths, c.error);
-        }
-        if (!c.differ()) return {};
-        return {warning_of(c, patches_->patch)};
+    /// Says what paths find in the place of patches, and warns where that is something else.
+    void compare_paths(const Shown& shown, const Stopped& stopped) {
+        Comparison c = compare_with_paths(scene_, shown, options_.threads, stopped);
+        char text[100];
+        std::snprintf(text, sizeof text, "%.4g by patches, %.4g +- %.2g by paths", c.patches.mean(),
+                      c.paths.mean(), c.error());
+        if (!options_.quiet) std::printf("surfaces reflect %s\n", text);
+        if (!c.differ()) return;
+        warnings_.push_back("the light that surfaces reflect is wrong: " + std::string(text) +
+                            ": take more patches, or chapter 15");
     }
 
     void tell_result() const {
@@ -251,6 +258,7 @@ private:
     std::shared_ptr<Patches> patches_;
     Rows rows_;
     Solution solution_;
+    std::vector<std::string> warnings_;
     bool failed_ = false;  // to write a picture on the way
 };
 

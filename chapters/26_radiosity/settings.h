@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "chapters/26_radiosity/estimator.h"
+#include "chapters/26_radiosity/variants.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/program/command_line.h"

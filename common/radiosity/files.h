@@ -1,20 +1,24 @@
 // A radiosity solution on disk: to go on from, and to walk through.
 #pragma once
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include "common/radiosity/display.h"
-#include "common/radiosity/solution.h"
 
-/// Writes the state of the shots: label, numbers, checksum. Throws InputError.
+/// The numbers of a solution, piece by piece, as they lie in memory.
+using Pieces = std::vector<std::span<std::byte>>;
+
+/// Writes label, numbers, checksum. Throws InputError.
 /// label: lines that say what the solution is of, the last one empty.
-void save_solution(const std::string& path, const std::string& label, const Solution& s);
+void save_numbers(const std::string& path, const std::string& label, const Pieces& numbers);
 
-/// Reads it into a solution of as many patches. Throws InputError for what is of something else, or
+/// Reads as many numbers as there is room for. Throws InputError for what is of something else, or
 /// damaged.
 /// tested by  "input: a film of radiosity of something else, or damaged, is refused"
-void read_solution(const std::string& path, const std::string& label, Solution& s);
+void read_numbers(const std::string& path, const std::string& label, const Pieces& numbers);
 
-/// Writes the patches as a mesh with a colour at each corner: .ply, binary, sRGB. Throws
-/// InputError. tested by  "files: radiosity says its costs first, writes pictures on the way, and a
-/// mesh"
-void write_mesh(const std::string& path, const std::vector<Patch>& patch, const CornerB& B);
+/// Writes triangles with their radiosity at each corner, W m^-2, as a mesh whose colours are the
+/// radiance: .ply, binary, sRGB. Throws InputError.
+/// tested by  "files: radiosity says its costs first, writes pictures on the way, and a mesh"
+void write_mesh(const std::string& path, const Triangles& triangles, const CornerColours& B);

@@ -27,16 +27,3 @@ void refuse(const Scene& scene) {
     for (const Sphere& s : g.spheres) refuse_material(s.shape);
     for (const Disk& d : g.disks) refuse_material(d.shape);
 }
-
-void refuse_no_loss(const Scene& scene, const Patches& patches) {
-    if (!patches.closed) return;
-    Rgb least = {1, 1, 1};
-    for (const Patch& p : patches.patch) {
-        least = {std::min(least.r, p.rho.r), std::min(least.g, p.rho.g),
-                 std::min(least.b, p.rho.b)};
-    }
-    if (max_component(least) < 1) return;
-    fail({scene.file},
-         "a closed room whose surfaces reflect all light has no solution: it would "
-         "grow with each bounce");
-}

@@ -9,6 +9,8 @@
 
 namespace {
 
+using ch26::Show, ch26::Shown;
+
 /// Radiosity of one number of patches: how long it took, and how far off its pictures are.
 struct Solved {
     size_t patches;
@@ -20,12 +22,12 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
                          const MeasureOptions& o) {
     Stopwatch watch;
     int threads = o.threads;
-    auto patches = std::make_shared<Patches>(make_patches(scene, wanted, threads));
-    const std::vector<Patch>& patch = patches->patch;
-    Rows rows = ch26::form_factors(scene, *patches, ch26::FormFactors::contour, 0, threads);
-    Matrix G = rows.take_all();
+    auto patches = std::make_shared<ch26::Patches>(ch26::make_patches(scene, wanted, threads));
+    const std::vector<ch26::Patch>& patch = patches->patch;
+    ch26::Rows rows = ch26::form_factors(scene, *patches, ch26::FormFactors::contour, 0, threads);
+    ch26::Matrix G = rows.take_all();
     ch26::repair(G, patch, patches->closed);
-    Solution s;
+    ch26::Solution s;
     ch26::solve(G, patch, ch26::Sweep::gauss_seidel, 1e-6, s);
     Solved result{patch.size(), watch.seconds() / threads, 0, 0};
     auto error = [&](Show how) {
@@ -76,7 +78,7 @@ int main(int argc, char** argv) {
         std::string name = scene_name(path);
         Scene scene = load_scene_for(path, o);
         refuse(scene);
-        tessellate(scene, o.threads);
+        ch26::tessellate(scene, o.threads);
         Method fifteen = methods_named({"15"})[0];
         Work work("radiosity: patches of chapter 26 beside paths of 15, " + name, 10);
         work.next("reference");

@@ -1,6 +1,8 @@
-// The state of a radiosity solution, and where the light went.
+// The state of a solution, and where the light went.
 #pragma once
-#include "common/radiosity/patches.h"
+#include "chapters/26_radiosity/patches.h"
+
+namespace ch26 {
 
 /// W m^-2 in red, green and blue. In double: a thousand sweeps must not lose energy.
 struct Radiosity {
@@ -15,7 +17,7 @@ inline Radiosity operator-(Radiosity x, Radiosity y) { return {x.r - y.r, x.g - 
 inline Radiosity operator*(Radiosity x, Radiosity y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
 inline Radiosity operator*(double s, Radiosity x) { return {s * x.r, s * x.g, s * x.b}; }
 inline Radiosity& operator+=(Radiosity& x, Radiosity y) { return x = x + y; }
-/// x / y; 0 where y is none.
+/// x / y; 0 where y is 0.
 inline Radiosity ratio(Radiosity x, Radiosity y) {
     return {y.r > 0 ? x.r / y.r : 0, y.g > 0 ? x.g / y.g : 0, y.b > 0 ? x.b / y.b : 0};
 }
@@ -30,10 +32,10 @@ inline Rgb to_rgb(Radiosity x) {
     return {static_cast<float>(x.r), static_cast<float>(x.g), static_cast<float>(x.b)};
 }
 
-/// What each patch receives so far.
+/// What each patch has received so far.
 struct Solution {
     std::vector<Radiosity> H;       // W m^-2
-    std::vector<Radiosity> unshot;  // of B: what others have not received; progressive alone
+    std::vector<Radiosity> unshot;  // W m^-2, of B: not yet sent on; progressive refinement alone
     uint64_t steps = 0;             // sweeps, or shots
     Radiosity escaped;              // W, out of the room
 };
@@ -44,4 +46,16 @@ struct Balance {
     double emitted = 0, absorbed = 0, escaped = 0, unshot = 0;
     double error() const { return (absorbed + escaped + unshot) / emitted - 1; }
 };
-Balance balance_of(const std::vector<Patch>& patch, const Solution& s);
+inline Balance balance_of(const std::vector<Patch>& patch, const Solution& s) {
+    Balance b;
+    for (size_t i = 0; i < patch.size(); i++) {
+        double A = double{patch[i].area};
+        b.emitted += A * sum_of(patch[i].E);
+        b.absorbed += A * sum_of(s.H[i] - patch[i].rho * s.H[i]);
+        if (!s.unshot.empty()) b.unshot += A * sum_of(s.unshot[i]);
+    }
+    b.escaped = sum_of(s.escaped);
+    return b;
+}
+
+}  // namespace ch26

@@ -1,13 +1,40 @@
-#include "common/radiosity/patches.h"
-
-#include "common/base/parallel.h"
+// The patches of radiosity: small triangles, each with one radiosity.
+#pragma once
+#include "chapters/26_radiosity/contacts.h"
 #include "common/material/cosine.h"
 #include "common/path/sampler.h"
+#include "common/scene/intersect.h"
 
-namespace {
+namespace ch26 {
+
+/// One side of a small triangle.
+struct Patch {
+    std::array<Vec3, 3> p;  // corners, counter-clockwise seen from this side
+    Vec3 n, centre;
+    float area = 0;  // m^2
+    float eps = 0;   // m: how far points may be off the surface
+    Rgb E, rho;      // W m^-2 that it emits; the share that it reflects
+};
+
+/// A triangle of the scene, or a part of one, cut into k x k patches on each side that has light.
+struct Piece {
+    std::array<Vec3, 3> p;
+    uint32_t prim = 0;  // into Scene::geometry
+    uint32_t k = 0;
+    std::array<uint32_t, 2> first = {none, none};  // front, back: the first patch
+    static constexpr uint32_t none = ~0u;
+};
+
+/// All patches, and where those of a triangle are.
+struct Patches {
+    std::vector<Patch> patch;
+    std::vector<Piece> pieces;
+    std::vector<uint32_t> first_piece;  // of each triangle, and one more
+    bool closed = false;                // no light gets out of the room
+};
 
 /// The triangles' pieces; they have no patches yet.
-Patches make_pieces(const Scene& scene, int threads, const Stopped& stopped) {
+inline Patches make_pieces(const Scene& scene, int threads, const Stopped& stopped) {
     std::vector<std::vector<Polygon>> polygons = cut_at_contacts(scene, threads, stopped);
     Patches result;
     for (uint32_t prim = 0; prim < polygons.size(); prim++) {
@@ -28,7 +55,7 @@ struct PiecePlace {
 };
 
 /// The piece that x lies in, or nearest to: where its least weight is largest.
-PiecePlace find_piece(const Patches& patches, const Hit& x) {
+inline PiecePlace find_piece(const Patches& patches, const Hit& x) {
     PiecePlace found;
     float best = -infinity;
     for (uint32_t i = patches.first_piece[x.prim]; i < patches.first_piece[x.prim + 1]; i++) {
@@ -42,24 +69,19 @@ PiecePlace find_piece(const Patches& patches, const Hit& x) {
 }
 
 /// What a side of triangle number `prim` emits, W m^-2, and reflects.
-Rgb emitted(const Scene& scene, uint32_t prim, bool front) {
+inline Rgb emitted(const Scene& scene, uint32_t prim, bool front) {
     const Shape& shape = scene.shapes[scene.geometry.triangles[prim].shape];
     if (shape.light < 0) return {};
     const Light& light = scene.lights[static_cast<size_t>(shape.light)];
     return front || light.two_sided ? pi * light.L : Rgb{};
 }
-Rgb reflectance(const Scene& scene, uint32_t prim) {
+inline Rgb reflectance(const Scene& scene, uint32_t prim) {
     return scene.materials[scene.shapes[scene.geometry.triangles[prim].shape].material].reflectance;
 }
 
-/// Which sides light can reach: 2 i for the front of piece i, 2 i + 1 for its back.
-struct Sides {
-    std::vector<char> lit;
-    bool closed = true;
-};
-
-/// The sides that rays from this side meet; Piece::none when one meets nothing.
-std::vector<uint32_t> sides_seen(const Scene& scene, const Patches& pieces, uint32_t side) {
+/// The sides that rays from this side meet, 2 i for the front of piece i, 2 i + 1 for its back;
+/// Piece::none when one meets nothing.
+inline std::vector<uint32_t> sides_seen(const Scene& scene, const Patches& pieces, uint32_t side) {
     constexpr uint32_t rays = 256;
     const Piece& piece = pieces.pieces[side / 2];
     Vec3 n = scene.geometry.facet_normals[piece.prim];
@@ -82,9 +104,10 @@ std::vector<uint32_t> sides_seen(const Scene& scene, const Patches& pieces, uint
     return seen;
 }
 
-/// Spreads from the lamps to what they see, and on from all that reflects.
-Sides find_lit_sides(const Scene& scene, const Patches& pieces, int threads,
-                     const Stopped& stopped) {
+/// Which sides light can reach: spreads from the lamps to what they see, and on from all that
+/// reflects. Finds also whether the room is closed.
+inline std::vector<char> find_lit_sides(const Scene& scene, Patches& pieces, int threads,
+                                        const Stopped& stopped) {
     size_t count = 2 * pieces.pieces.size();
     std::vector<std::vector<uint32_t>> seen(count), also(count);
     parallel_for(static_cast<int>(count), threads, [&](int side) {
@@ -95,12 +118,13 @@ Sides find_lit_sides(const Scene& scene, const Patches& pieces, int threads,
         for (uint32_t b : seen[a])
             if (b != Piece::none) also[b].push_back(static_cast<uint32_t>(a));
     }
-    Sides sides{std::vector<char>(count)};
+    std::vector<char> lit(count);
+    pieces.closed = true;
     std::vector<uint32_t> next;
     auto reach = [&](uint32_t side) {
-        if (side == Piece::none) sides.closed = false;
-        if (side == Piece::none || sides.lit[side]) return;
-        sides.lit[side] = 1;
+        if (side == Piece::none) pieces.closed = false;
+        if (side == Piece::none || lit[side]) return;
+        lit[side] = 1;
         next.push_back(side);
     };
     auto shines = [&](uint32_t side) {
@@ -117,11 +141,11 @@ Sides find_lit_sides(const Scene& scene, const Patches& pieces, int threads,
         for (uint32_t other : seen[side]) reach(other);
         for (uint32_t other : also[side]) reach(other);
     }
-    return sides;
+    return lit;
 }
 
 /// The k x k patches of one side of a piece, row by row.
-void add_patches(const Piece& piece, Patch patch, bool front, std::vector<Patch>& patches) {
+inline void add_patches(const Piece& piece, Patch patch, bool front, std::vector<Patch>& patches) {
     float k = static_cast<float>(piece.k);
     auto at = [&](uint32_t i, uint32_t j) {
         return piece.p[0] + static_cast<float>(i) / k * (piece.p[1] - piece.p[0]) +
@@ -143,17 +167,28 @@ void add_patches(const Piece& piece, Patch patch, bool front, std::vector<Patch>
     }
 }
 
-/// Divides the sides that have light: no edge of a patch is longer than h.
-void divide(const Scene& scene, const Sides& sides, float h, Patches& patches) {
-    patches.patch.clear();
-    for (size_t i = 0; i < patches.pieces.size(); i++) {
-        Piece& piece = patches.pieces[i];
+/// Chooses k of each piece: no edge of a patch is longer than h. Returns how many patches that
+/// makes on the sides that have light.
+inline size_t choose_k(const std::vector<char>& lit, float h, std::vector<Piece>& pieces) {
+    size_t count = 0;
+    for (size_t i = 0; i < pieces.size(); i++) {
+        Piece& piece = pieces[i];
         float longest = 0;
         for (size_t e = 0; e < 3; e++)
             longest = std::max(longest, length(piece.p[e] - piece.p[(e + 1) % 3]));
         piece.k = static_cast<uint32_t>(std::ceil(std::clamp(longest / h, 1.0f, 4096.0f)));
+        for (size_t side : {2 * i, 2 * i + 1})
+            if (lit[side]) count += size_t{piece.k} * piece.k;
+    }
+    return count;
+}
+
+/// Divides the sides that have light.
+inline void divide(const Scene& scene, const std::vector<char>& lit, Patches& patches) {
+    for (size_t i = 0; i < patches.pieces.size(); i++) {
+        Piece& piece = patches.pieces[i];
         for (size_t back : {size_t{0}, size_t{1}}) {
-            if (!sides.lit[2 * i + back]) continue;
+            if (!lit[2 * i + back]) continue;
             piece.first[back] = static_cast<uint32_t>(patches.patch.size());
             Patch patch;
             patch.E = emitted(scene, piece.prim, back == 0);
@@ -163,23 +198,32 @@ void divide(const Scene& scene, const Sides& sides, float h, Patches& patches) {
     }
 }
 
-}  // namespace
-
-Patches make_patches(const Scene& scene, size_t wanted, int threads, const Stopped& stopped) {
+/// At least `wanted` patches, all about alike in size, where light can reach; a triangle that
+/// others touch is cut there. None when `stopped()` before they are made.
+/// The scene consists of triangles alone (see tessellate.h).
+/// tested by  "identity: patches cover what has light, and each point finds its patch",
+///            "input: what makes patches ends when it is asked to"
+inline Patches make_patches(const Scene& scene, size_t wanted, int threads,
+                            const Stopped& stopped = {}) {
     Patches patches = make_pieces(scene, threads, stopped);
-    Sides sides = find_lit_sides(scene, patches, threads, stopped);
-    if (stopped && stopped()) return patches;
-    patches.closed = sides.closed;
-    float h = 2 * scene.radius;
-    divide(scene, sides, h, patches);
-    while (patches.patch.size() < wanted && !patches.patch.empty()) {
-        h *= 0.97f;
-        divide(scene, sides, h, patches);
+    std::vector<char> lit = find_lit_sides(scene, patches, threads, stopped);
+    if (stopped && stopped()) {
+        patches.closed = false;  // nobody knows
+        return patches;
     }
+    float h = 2 * scene.radius;
+    size_t count = choose_k(lit, h, patches.pieces);
+    while (count < wanted && count > 0) count = choose_k(lit, h *= 0.97f, patches.pieces);
+    divide(scene, lit, patches);
     return patches;
 }
 
-Place place_of(const Patches& patches, const Hit& x) {
+/// Where a point lies: its patch (Piece::none: on a side without light), and its weights there.
+struct Place {
+    uint32_t patch = Piece::none;
+    std::array<float, 3> b = {1, 0, 0};
+};
+inline Place place_of(const Patches& patches, const Hit& x) {
     PiecePlace in = find_piece(patches, x);
     size_t back = x.front ? 0 : 1;
     if (in.piece == Piece::none) return {};
@@ -201,7 +245,20 @@ Place place_of(const Patches& patches, const Hit& x) {
     return place;
 }
 
-std::array<Vec3, 4> points_on(const Patch& p, uint32_t key) {
+/// Parts of a triangle, each half as long as the whole.
+inline std::array<std::array<Vec3, 3>, 4> quarters(const std::array<Vec3, 3>& t) {
+    Vec3 a = (t[1] + t[2]) / 2, b = (t[2] + t[0]) / 2, c = (t[0] + t[1]) / 2;
+    return {{{t[0], c, b}, {c, t[1], a}, {b, a, t[2]}, {a, b, c}}};
+}
+
+/// The square of a triangle's longest edge, m^2.
+inline float longest_edge2(const std::array<Vec3, 3>& t) {
+    return std::max(
+        {length_squared(t[1] - t[0]), length_squared(t[2] - t[1]), length_squared(t[0] - t[2])});
+}
+
+/// A point of each quarter of the patch, chosen by chance, just off the surface.
+inline std::array<Vec3, 4> points_on(const Patch& p, uint32_t key) {
     std::array<Vec3, 4> points;
     auto parts = quarters(p.p);
     for (uint32_t i = 0; i < 4; i++) {
@@ -212,3 +269,15 @@ std::array<Vec3, 4> points_on(const Patch& p, uint32_t key) {
     }
     return points;
 }
+
+/// Whether some of q lies before p.
+inline bool faces(const Patch& p, const Patch& q) {
+    for (Vec3 y : q.p)
+        if (dot(y - p.centre, p.n) > 2 * (p.eps + q.eps)) return true;
+    return false;
+}
+
+/// Whether nothing is between x and y.
+inline bool sees(const Scene& scene, Vec3 x, Vec3 y) { return !occluded(scene, {x, y - x, 1}); }
+
+}  // namespace ch26

@@ -1,0 +1,53 @@
+// A solution made ready for the picture.
+#pragma once
+#include "chapters/26_radiosity/estimator.h"
+#include "common/radiosity/display.h"
+
+namespace ch26 {
+
+/// Whether one surface goes on from p to q: alike, about in one plane, and no wall in between.
+inline bool goes_on(const Scene& scene, const Patch& p, const Patch& q) {
+    if (!(p.rho == q.rho && p.E == q.E) || dot(p.n, q.n) < 0.9f) return false;
+    return sees(scene, p.centre + 0.1f * std::sqrt(p.area) * p.n,
+                q.centre + 0.1f * std::sqrt(q.area) * q.n);
+}
+
+/// The corners of all patches.
+inline Triangles triangles_of(const std::vector<Patch>& patch) {
+    Triangles triangles;
+    for (const Patch& p : patch) triangles.push_back(p.p);
+    return triangles;
+}
+
+/// Shows one radiosity for each patch, W m^-2: the same at all of its corners, or smooth. Patches
+/// that are not yet smooth when `stopped()` stay as they are.
+inline Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patches,
+                        const std::vector<Rgb>& B, Show how, int threads,
+                        const Stopped& stopped = {}) {
+    Shown shown{patches, {}, how, build_light_table(light_pmf(scene, 0.25))};
+    const std::vector<Patch>& patch = patches->patch;
+    if (how == Show::constant) {
+        for (Rgb b : B) shown.B.push_back({b, b, b});
+    } else {
+        shown.B = smooth_corners(
+            triangles_of(patch), B, 4e-5f * scene.radius,
+            [&](uint32_t i, uint32_t j) {
+                return !(stopped && stopped()) && goes_on(scene, patch[i], patch[j]);
+            },
+            threads);
+    }
+    return shown;
+}
+
+/// What is shown of a solution: B of each patch, with an estimate of the light still to come.
+inline Shown show(const Scene& scene, std::shared_ptr<const Patches> patches, const Solution& s,
+                  Show how, int threads, const Stopped& stopped = {}) {
+    const std::vector<Patch>& patch = patches->patch;
+    Radiosity more = ambient(patch, s);
+    std::vector<Rgb> B;
+    for (size_t i = 0; i < patch.size(); i++)
+        B.push_back(to_rgb(radiosity_of(patch[i], s.H[i] + more)));
+    return make_shown(scene, patches, B, how, threads, stopped);
+}
+
+}  // namespace ch26
