@@ -106,7 +106,7 @@ inline LightSample sample_light(const Scene& scene, const LightTable& lights, co
     return y;
 }
 
-inline constexpr double defensive_share = 0.25;  // the d of light_pmf()
+inline constexpr double defensive_share = 0.25;  // d: a quarter of all choices
 
 /// The table that trace() chooses lights from.
 inline LightTable prepare(const Scene& scene) {

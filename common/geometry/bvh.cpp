@@ -104,23 +104,14 @@ Floats farthest(const Floats (&a)[3]) { return max_abs(max_abs(a[0], a[1]), a[2]
     return splat(32 * 0x1p-24f) * (m + max_abs(low, high)) * m * (high - low);
 }
 
-/// No less than error_of(), for less work, where that is below |z_t| and no triangle is farther
-/// away than 2^16 of its sides. L is the longest side: m is 1.45 L at most, since a corner is no
-/// farther from the ray than from another corner, sheared; D is L, and Z is |z_t / det| + L, but
-/// for rounding: 48 u L^2 (2.5 L + |z_t / det|).
-Floats error_by_sides(const BvhSides& sides, const Floats& t_z) {
-    return load(sides.factor) * (load(sides.offset) + abs(t_z));
-}
-
 /// intersect_triangle() on a whole block: the edges of all triangles at once, with the same bits.
 /// Hits up to best.t count, that included; of those at best.t only ones with a lower number.
 ///
 /// t and the weights are worked out in float first. Where they may be wrong by more than
-/// float_error, in double precision, as intersect_triangle() does. sides: may be null.
+/// float_error, in double precision, as intersect_triangle() does.
 template <bool any>
-[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, const BvhSides* sides,
-                                                  const Ray& ray, const Shear& shear,
-                                                  PrimHit& best) {
+[[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, const Ray& ray,
+                                                  const Shear& shear, PrimHit& best) {
     // Leave out the triangles that the ray passes by, and what has no corners.
     Corners c(block, ray, shear);
     Floats e[3] = {c.x[2] * c.y[1] - c.y[2] * c.x[1], c.x[0] * c.y[2] - c.y[0] * c.x[2],
@@ -134,11 +125,9 @@ template <bool any>
     // In float is only known what is off by little. An e_i of 0 may be so by rounding alone, and
     // the triangle elsewhere.
     Floats z_t = e[0] * c.z[0] + e[1] * c.z[1] + e[2] * c.z[2], det = e[0] + e[1] + e[2];
-    Floats t_z = z_t / det, t = t_z * scale, size = abs(z_t), enough = size * splat(float_error);
-    uint32_t strictly = inside & (less(zero, low) | less(high, zero)), in_float = 0;
-    if (sides) in_float = strictly & less(error_by_sides(*sides, t_z), enough);
-    if (in_float != inside) [[unlikely]]
-        in_float = strictly & less(error_of(c), enough);
+    Floats t = z_t / det * scale, size = abs(z_t), error = error_of(c);
+    uint32_t strictly = inside & (less(zero, low) | less(high, zero));
+    uint32_t in_float = strictly & less(error, size * splat(float_error));
     uint32_t sure = in_float & less(zero, t) & less_equal(t, reach);
     bool found = sure != 0;
     if (any && found) return true;
@@ -162,7 +151,7 @@ template <bool any>
     if (unsure != 0) [[unlikely]] {
         Floats ends[2] = {min3(c.z) * scale, max3(c.z) * scale};
         Floats near = min(ends[0], ends[1]), far = max(ends[0], ends[1]);
-        unsure &= ~(less(t, zero) & less(error_of(c), size));
+        unsure &= ~(less(t, zero) & less(error, size));
         unsure &= less(zero, far) & less_equal(near, reach);
         if (unsure != 0) found |= in_double(block, unsure, ray, shear, best);
     }
@@ -201,11 +190,11 @@ void prefetch(const Bvh& bvh, uint32_t child) {
 /// What ray and block have in common becomes the best hit. Returns whether any was asked for, and
 /// is found.
 template <bool any, bool counting>
-[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, const BvhSides* sides,
-                                              bool mixed, const Geometry& g, const Ray& ray,
-                                              const Shear& shear, PrimHit& best, BvhCount* count) {
+[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, bool mixed, const Geometry& g,
+                                              const Ray& ray, const Shear& shear, PrimHit& best,
+                                              BvhCount* count) {
     if (counting) count->blocks++;
-    bool found = test_triangles<any>(block, sides, ray, shear, best);
+    bool found = test_triangles<any>(block, ray, shear, best);
     if (mixed && !(any && found)) {
         PrimHit other = best;  // a copy, so that `best` can stay in registers
         found |= test_others(block, g, ray, other);
@@ -220,12 +209,9 @@ PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count)
     Shear shear = shear_to_ray(ray.d);
     PrimHit best;
     best.t = next_below(ray.t_max);
-    bool near = max_component(abs(ray.o - bvh.centre)) <= bvh.sides_reach;
     for (size_t i = 0; i < bvh.blocks.size(); i++) {
         bool mixed = i >= (bvh.root & BvhNode::index);
-        const BvhSides* sides = near ? &bvh.sides[i] : nullptr;
-        if (test_block<any, counting>(bvh.blocks[i], sides, mixed, g, ray, shear, best, count))
-            return {0};
+        if (test_block<any, counting>(bvh.blocks[i], mixed, g, ray, shear, best, count)) return {0};
     }
     return best.prim == PrimHit::none ? PrimHit{} : best;
 }
@@ -306,8 +292,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
 
         const BvhBlock& block = bvh.blocks[current & BvhNode::index];
         bool mixed = current & BvhNode::mixed;
-        if (test_block<any, counting>(block, nullptr, mixed, g, ray, shear, best, count))
-            return {0};
+        if (test_block<any, counting>(block, mixed, g, ray, shear, best, count)) return {0};
         reach = best.t * scale * slack;
         current = pop();
     }

@@ -25,11 +25,6 @@ struct alignas(64) BvhBlock {
     uint32_t prim[lanes];    // PrimHit::none: unused, as all lanes behind it
 };
 
-/// What bounds the error of t for the triangles of a block without nodes: see error_by_sides().
-struct alignas(64) BvhSides {
-    float offset[lanes], factor[lanes];
-};
-
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.
 struct Bvh {
     uint32_t root = 0;  // as BvhNode::child; or leaf | number of blocks of triangles alone, which
@@ -37,8 +32,6 @@ struct Bvh {
     Vec3 centre;        // of the geometry: the boxes are relative to it
     std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
-    std::vector<BvhSides> sides;  // of the blocks, when there are no nodes
-    float sides_reach = 0;        // m: they hold for rays that begin no farther from the centre
 };
 
 /// What traversals looked at: nodes, and blocks of primitives.

@@ -354,7 +354,6 @@ public:
                 }
             }
         });
-        if (nodes == 0) fill_sides();
         return std::move(bvh_);
     }
 
@@ -652,28 +651,6 @@ private:
             }
             lane++;
         }
-    }
-
-    /// What bounds the error of t without nodes: the longest side of each triangle, NaN for spheres
-    /// and disks. It holds where nothing is farther away than 2^15 of the shortest of these.
-    void fill_sides() {
-        float least = infinity;
-        for (const BvhBlock& block : bvh_.blocks) {
-            BvhSides& sides = bvh_.sides.emplace_back();
-            for (uint32_t lane = 0; lane < lanes; lane++) {
-                auto corner = [&](size_t k) {
-                    const auto* v = &block.vertex[3 * k];
-                    return Vec3{v[0][lane], v[1][lane], v[2][lane]};
-                };
-                Vec3 p0 = corner(0), p1 = corner(1), p2 = corner(2);
-                float L = 1.0001f * std::max({length(p1 - p0), length(p2 - p1), length(p0 - p2)});
-                sides.offset[lane] = 2.5f * L;
-                sides.factor[lane] = 48 * 0x1p-24f * L * L;
-                least = std::min(least, L);
-            }
-        }
-        auto [low, high] = bounds_of(g_);
-        bvh_.sides_reach = 0x1p15f * least - max_component(high - low);
     }
 
     const Geometry& g_;

@@ -145,38 +145,6 @@ TEST_SUITE("ch06 exact hits") {
         }
     }
 
-    TEST_CASE("identity: bounded by sides, triangles are hit as when bounded by corners") {
-        // So few that they have no nodes: there the sides come first.
-        for (const Mesh& mesh : meshes()) {
-            CAPTURE(mesh.name);
-            MeshRandom random(9);
-            Geometry few;
-            few.positions = mesh.g.positions;
-            auto last = static_cast<float>(mesh.g.triangles.size()) - 0.5f;
-            for (int i = 0; i < 40; i++) {
-                auto number = static_cast<size_t>(random.between(0, last));
-                few.triangles.push_back(mesh.g.triangles[number]);
-            }
-            Bvh by_sides = build_bvh(few, 1), by_corners = by_sides;
-            REQUIRE(by_sides.nodes.empty());
-            by_corners.sides_reach = -1;
-            int hits = 0, others = 0;
-            for (int i = 0; i < 20000; i++) {
-                // From as near as 2^-10 of the way to as far as 2^20 of it.
-                Vec3 to = on_triangle(few, random), from = on_triangle(few, random);
-                Vec3 o = from + std::exp2(random.between(-10, 20)) * (from - to);
-                Ray ray = {o, to - o};
-                PrimHit a = closest_hit(by_sides, few, ray), b = closest_hit(by_corners, few, ray);
-                hits += a.prim != PrimHit::none;
-                others += !(a.prim == b.prim && a.t == b.t && a.b1 == b.b1 && a.b2 == b.b2);
-                ray.t_max = random.between(0, 2);
-                others += any_hit(by_sides, few, ray) != any_hit(by_corners, few, ray);
-            }
-            CHECK(hits > 5000);
-            CHECK(others == 0);
-        }
-    }
-
     TEST_CASE("truth: no ray meets the triangle that it leaves") {
         for (const Mesh& mesh : meshes()) {
             CAPTURE(mesh.name);
