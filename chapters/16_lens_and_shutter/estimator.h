@@ -59,7 +59,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = only_way ? 1 : mis_emission(scene, lights, c, ray.d, pdf_b, x);
+            float mis_b = only_way ? 1 : mis_emission(scene, lights, c, pdf_b, x);
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }

@@ -69,7 +69,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = pdf_b < infinity ? mis_emission(scene, lights, c, ray.d, pdf_b, x) : 1;
+            float mis_b = pdf_b < infinity ? mis_emission(scene, lights, c, pdf_b, x) : 1;
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }

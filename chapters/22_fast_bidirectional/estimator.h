@@ -1,8 +1,9 @@
 // Chapter 22: fast bidirectional path tracing. The weights of chapter 21 in constant time, by a sum
-// that each vertex keeps; then more samples of the paths that only chance can find.
+// that each vertex keeps; direct light as in chapter 15; more samples of what chance alone finds.
 //
 //   sum over i < s of p_i / p_s  =  r_s-1 (c_s-1 + r_s-2 (c_s-2 + r_s-3 (c_s-3 + ...)))
 #pragma once
+#include "common/path/many_lights.h"
 #include "common/path/subpaths.h"
 
 namespace ch22 {
@@ -10,10 +11,12 @@ namespace ch22 {
 /// What is prepared for a scene, and how many samples replace one that only chance can find.
 struct Bidirectional {
     Endpoints endpoints;
+    many_lights::Lights lights;
     int chances;  // 0: none, as in chapter 21
+    bool aims;    // direct light is that of chapter 15; no: of chapter 21
 };
-inline Bidirectional prepare(const Scene& scene, int chances = 16) {
-    return {endpoints_of(scene), chances};
+inline Bidirectional prepare(const Scene& scene, int chances = 16, bool aims = true) {
+    return {endpoints_of(scene), many_lights::prepare(scene), chances, aims};
 }
 
 /// What a vertex keeps for the weights of all connections.
@@ -72,7 +75,7 @@ inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& wa
 ///
 /// A connection changes two ratios alone. pdf, in m^-2: of the n-th vertex in a walk from the other
 /// end; pdf_w, in sr^-1: with which that walk goes on to the vertex before.
-/// tested by  "identity: without chances, each path brings what it brings in chapter 21"
+/// tested by  "identity: by the weights alone, each path brings what it brings in chapter 21"
 inline double sum_of_fewer(const Subpath& walk, size_t n, size_t fewest, float pdf, float pdf_w) {
     if (n <= fewest) return 0;
     const Kept& last = walk.kept[n - 1];
@@ -116,6 +119,29 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
     if ((s > 1 && !y.connectible) || !z.connectible) return {Contribution::own_pixel, {}};
     if (t == 1) return connect_to_camera(scene, endpoints.camera, y);
     return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
+}
+
+/// Light that reaches the eye by way of its path's first vertex, neither mirror nor glass: as in
+/// chapter 15, from two lights aimed at and what the next ray meets.
+/// tested by  "variance: direct light has the error of chapter 15"
+inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, const Path& eye,
+                        Sampler& sampler, Recorder& recorder) {
+    sampler.jump(1 << 11);
+    TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
+    const Vertex& x = eye[1];
+    many_lights::Candidates c;
+    many_lights::choose_candidates(scene, lights, x.x, x.back, u.candidates, c);
+    Rgb L;
+    if (eye.size() > 2 && !is_black(eye[2].Le)) {
+        const Vertex& y = eye[2];
+        std::optional<Hit> hit = y.type == LightType::area ? std::optional(y.x) : std::nullopt;
+        float pdf_b = pdf_onwards(scene, false, x.x, x.back, -y.back);
+        float mis_b = many_lights::mis_emission(scene, lights, c, pdf_b, hit);
+        L = y.beta * y.Le * mis_b;
+        recorder.connected(L, 0, 3, mis_b);
+    }
+    recorder.back_to(2);
+    return L + many_lights::direct_light(scene, lights, c, u, recorder);
 }
 
 /// Whether light that mirrors or glass bring to the t-th vertex from the eye is found only by
@@ -175,7 +201,7 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
 ///
 ///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
 ///
-/// Unbiased up to scene.max_depth scattering events. Without chances: that of chapter 21.
+/// Unbiased up to scene.max_depth scattering events. By the weights alone: chapter 21.
 /// tested by  "ch22 fast bidirectional"
 inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
@@ -194,10 +220,12 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
 
     // Connect each number of vertices of one path with each number of the other.
     Rgb sum;
+    bool aims = settings.aims && scene.max_depth > 0 && eye.path[1].connectible;
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
     for (size_t t = 1; t <= eye.path.size(); t++) {
         for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
             if (s == 0 && settings.chances > 0 && has_chances(eye, t)) continue;
+            if (aims && s + t == 3) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
             if (s == 2) place_light(scene, light.path[0], light.path[1]);
             Splat splat = unweighted(scene, endpoints, light.path, s, eye.path, t);
@@ -216,7 +244,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
         int number = static_cast<int>(t);
         sum += through_mirrors(scene, eye.path[t - 1], number, settings.chances, sampler, recorder);
     }
-    return sum;
+    return aims ? sum + direct_light(scene, settings.lights, eye.path, sampler, recorder) : sum;
 }
 
 }  // namespace ch22

@@ -5,16 +5,25 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         int chances = 16;
-        Option option = {"chances", "N",
-                         "samples where mirrors and glass leave only chance; 0: as in chapter 21",
-                         [&](const std::string& text) {
-                             chances = static_cast<int>(parse_integer("chances", text, 0, 1000));
-                         },
-                         "16"};
-        RenderOptions options = parse_render_options(argc, argv, "22_fast_bidirectional",
-                                                     "scenes/cornell-spheres.pbrt", {option});
+        bool aims = true;
+        Option chances_option = {
+            "chances", "N", "samples where mirrors and glass leave only chance; 0: none",
+            [&](const std::string& text) {
+                chances = static_cast<int>(parse_integer("chances", text, 0, 1000));
+            },
+            "16"};
+        Option direct_by = {"direct-by", "CHAPTER",
+                            "how direct light is found, as in chapter 15 or 21",
+                            [&](const std::string& text) {
+                                aims = parse_choice("direct-by", text, {"15", "21"}) == 0;
+                            },
+                            "15"};
+        RenderOptions options =
+            parse_render_options(argc, argv, "22_fast_bidirectional", "scenes/cornell-spheres.pbrt",
+                                 {chances_option, direct_by});
         options.search = LightSearch::both_ends;
         Scene scene = load(options);
-        return render(scene, options, splat_trace_with<ch22::trace>(ch22::prepare(scene, chances)));
+        return render(scene, options,
+                      splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, aims)));
     });
 }

@@ -67,7 +67,8 @@ const chapters = {
     },
     '22_fast_bidirectional': {
         kind: 'film', scene: 'cornell-spheres', against: '21_bidirectional',
-        own: [number('chances', 'chances through mirrors', 16)]
+        own: [number('chances', 'chances through mirrors', 16),
+              choice('direct-by', 'direct light as in chapter', '15', '21')]
     },
     '23_photon_mapping': {
         kind: 'film', scene: 'pool', against: '22_fast_bidirectional', spp: 8,

@@ -100,7 +100,7 @@ inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidat
     const Hit& x = c.x;
     Vec3 wo = c.wo;
     size_t light = c.light[i];
-    LightSample y = sample_one_light(scene, light, x, u);
+    LightSample y = sample_beside_bsdf(scene, light, x, u);
     if (y.pdf_w == 0) return {};
     float pdf_l = lights.candidates[light] * c.inclusion[i] * y.pdf_w;
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
@@ -129,12 +129,11 @@ inline Rgb direct_light(const Scene& scene, const Lights& lights, const Candidat
     return Ld;
 }
 
-/// The weight of emission that the BSDF's direction wi from x has met: at y, or else in the sky.
-inline float mis_emission(const Scene& scene, const Lights& lights, const Candidates& c, Vec3 wi,
+/// The weight of emission that the BSDF's direction from x has met: at y, or else in the sky.
+inline float mis_emission(const Scene& scene, const Lights& lights, const Candidates& c,
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
-    const Hit& x = c.x;
-    float pdf_one = y ? pdf_one_light(scene, light, x, *y) : pdf_sky(x, wi);
+    float pdf_one = pdf_beside_bsdf(scene, light, c.x, y);
     return power_heuristic(pdf_b, pdf_aimed(lights, c, light, pdf_one));
 }
 

@@ -1,6 +1,7 @@
 // Chapter 14: the weights of multiple importance sampling, and all strategies.
 #include <doctest/doctest.h>
 
+#include "chapters/10_cosine_sampling/estimator.h"
 #include "chapters/13_glossy/estimator.h"
 #include "chapters/14_mis/estimator.h"
 #include "tests/support/known_lights.h"
@@ -273,6 +274,14 @@ TEST_SUITE("ch14 mis") {
             check_light_before_mirror(mirror, by({strategy}, mirror));
     }
 
+    TEST_CASE("variance: a sky at the horizon: a third of the error of chapter 10") {
+        Scene scene = scene_from("scenes/horizon-sky.pbrt", 32, 8);
+        Film ten = film_of(scene, ch10::trace, 512).film;
+        Film both = film_of(scene, by({}, scene), 256, 2).film;
+        CHECK(rel_mse(both) < rel_mse(ten) * 2 / 3);
+        check_agreement(hold_against(ten, both), 0.02);
+    }
+
     TEST_CASE("failure: without lights the picture is black") {
         Scene none = floor_without_lights();
         CHECK(irradiance(none, by({}, none), 100).mean() == 0);
@@ -289,16 +298,16 @@ TEST_SUITE("ch14 mis") {
         Sampler random = random_numbers(1);
         int met[3] = {};
         for (int i = 0; i < 20000; i++) {
-            float u1 = random.u1();
-            LightSample y = sample_light(scene, lights.table, x, u1, random.u2());
+            size_t light = pick_light(lights.table, random.u1());
+            LightSample y = ch14::sample_beside_bsdf(scene, light, x, random.u2());
             if (y.pdf_w == 0 || y.wi.y < 1e-3f) continue;
+            y.pdf_w *= pmf_light(lights.table, light);
             std::optional<Hit> hit = intersect(scene, spawn_ray(x, y.wi));
-            size_t light = pick_light(lights.table, u1);
             int met_light = hit ? hit->light : scene.sky_light;
             if (met_light != static_cast<int>(light)) continue;  // behind another
             met[light]++;
             // Of two ways with the same density each gets half.
-            float mis_b = ch14::mis_emission(scene, lights, x, y.wi, y.pdf_w, hit);
+            float mis_b = ch14::mis_emission(scene, lights, x, y.pdf_w, hit);
             CHECK(mis_b == doctest::Approx(0.5).epsilon(1e-3).scale(0));
         }
         for (int n : met) CHECK(n > 100);

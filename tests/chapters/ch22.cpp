@@ -2,6 +2,7 @@
 // What holds for both chapters is in ch21.cpp.
 #include <doctest/doctest.h>
 
+#include "chapters/15_mis_ris/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "tests/support/light_paths.h"
@@ -34,14 +35,14 @@ double relative(Rgb a, Rgb b) {
     return largest(d) / std::max({largest(a), largest(b), 1e-20});
 }
 
-SplatTrace by_22(const Scene& scene, int chances) {
-    return splat_trace_with<ch22::trace>(ch22::prepare(scene, chances));
+SplatTrace by_22(const Scene& scene, int chances, bool aims = true) {
+    return splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, aims));
 }
 
 }  // namespace
 
 TEST_SUITE("ch22 fast bidirectional") {
-    TEST_CASE("identity: without chances, each path brings what it brings in chapter 21") {
+    TEST_CASE("identity: by the weights alone, each path brings what it brings in chapter 21") {
         struct {
             std::string name, how;
         } cases[] = {
@@ -54,7 +55,7 @@ TEST_SUITE("ch22 fast bidirectional") {
             Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
             change(scene, c.how);
             SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
-            SplatTrace fast = by_22(scene, 0);
+            SplatTrace fast = by_22(scene, 0, false);
             int compared = 0, others = 0;
             double worst = 0, worst_mis = 0;
             for (uint32_t i = 0; i < 20000; i++) {
@@ -114,6 +115,30 @@ TEST_SUITE("ch22 fast bidirectional") {
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, by_22(scene, 0), scene, by_22(scene, 16), 400000) >= 8);
             CHECK(check_classes(scene, by_22(scene, 1), scene, by_22(scene, 5), 200000) >= 8);
+        }
+    }
+
+    TEST_CASE("agreement: direct light as in chapter 15 and as in 21, by length and class") {
+        for (std::string name : {"cornell-spheres", "two-lights", "horizon-sky", "veach-mis"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 4);
+            CHECK(check_classes(scene, by_22(scene, 16, false), scene, by_22(scene, 16), 200000) >=
+                  2);
+        }
+    }
+
+    TEST_CASE("variance: direct light has the error of chapter 15") {
+        for (std::string name : {"cornell-spheres", "thousand-lights", "near-light"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 4);
+            auto error_of = [&](const auto& trace) {
+                BlockMeans m = blocks_of(scene, trace, 16, 16, 1, "LDE");
+                double sum = 0;
+                for (const RunningStats& s : m.blocks) sum += s.variance();
+                return sum;
+            };
+            double fifteen = error_of(trace_with<ch15::trace>(ch15::prepare(scene)));
+            CHECK(error_of(by_22(scene, 16)) < 1.3 * fifteen);
         }
     }
 

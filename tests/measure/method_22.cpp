@@ -1,7 +1,7 @@
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, int chances,
+static Method method(const char* name, const char* label, const char* color, int chances, bool aims,
                      SamplerType sampler) {
     return {.name = name,
             .label = label,
@@ -11,13 +11,17 @@ static Method method(const char* name, const char* label, const char* color, int
             .render = [=](const Scene& scene, RenderOptions options) {
                 options.search = LightSearch::both_ends;
                 if (sampler != SamplerType::independent) options.sampler = sampler;
-                return render_film(scene, options,
-                                   splat_trace_with<ch22::trace>(ch22::prepare(scene, chances)));
+                return render_film(
+                    scene, options,
+                    splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, aims)));
             }};
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("22", "22 fast bidirectional", "#e377c2", 16, SamplerType::independent)),
-    add_method(method("22-weights", "22, no chances", "#c49c94", 0, SamplerType::independent)),
-    add_method(method("22-sobol", "22, Sobol", "#f7b6d2", 16, SamplerType::sobol)),
+    add_method(
+        method("22", "22 fast bidirectional", "#e377c2", 16, true, SamplerType::independent)),
+    add_method(
+        method("22-weights", "22, weights alone", "#c49c94", 0, false, SamplerType::independent)),
+    add_method(method("22-direct", "22, no chances", "#c7c7c7", 0, true, SamplerType::independent)),
+    add_method(method("22-sobol", "22, Sobol", "#f7b6d2", 16, true, SamplerType::sobol)),
 };
