@@ -39,21 +39,18 @@ inline float pdf_beside_bsdf(const Scene& scene, size_t light, const Hit& x,
     return y ? pdf_one_light(scene, light, x, *y) : 1 / (2 * pi);
 }
 
-/// The lights that paths aim at, and how aiming and the BSDF share. One-sample: a coin at each
-/// vertex takes one of them, which counts twice.
+/// The lights that paths aim at, and how aiming and the BSDF share.
 struct Lights {
     LightTable table;
-    float (*heuristic)(float a, float b) = power_heuristic;
-    bool one_sample = false;
+    float (*heuristic)(float a, float b);
 };
-inline Lights prepare(const Scene& scene, float (*heuristic)(float, float) = power_heuristic,
-                      bool one_sample = false) {
-    return {build_light_table(light_pmf(scene, 0.25)), heuristic, one_sample};
+inline Lights prepare(const Scene& scene, float (*heuristic)(float, float) = power_heuristic) {
+    return {build_light_table(light_pmf(scene, 0.25)), heuristic};
 }
 
 /// Estimates what all lights send by way of x to wo, from one point of one light.
 ///
-///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pmf pdf_one, and half of that where a coin decides
+///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pmf pdf_one
 ///
 /// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
 inline Rgb direct_light(const Scene& scene, const Lights& lights, const Hit& x, Vec3 wo,
@@ -62,9 +59,8 @@ inline Rgb direct_light(const Scene& scene, const Lights& lights, const Hit& x, 
     size_t light = pick_light(lights.table, u.light);
     LightSample y = sample_beside_bsdf(scene, light, x, u.point);
     if (y.pdf_w == 0) return {};
-    float chance = lights.one_sample ? 0.5f : 1;
-    float pdf_l = chance * pmf_light(lights.table, light) * y.pdf_w;
-    float pdf_b = y.delta ? 0 : chance * pdf_bsdf(x, wo, y.wi);
+    float pdf_l = pmf_light(lights.table, light) * y.pdf_w;
+    float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
     float mis_l = lights.heuristic(pdf_l, pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
@@ -91,7 +87,6 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
     Rgb L, beta = {1, 1, 1};
     Hit last;              // the vertex before
     float pdf_b = 0;       // of the direction that was drawn there
-    float count_b = 1;     // how often what it meets counts
     bool only_way = true;  // nothing but this path could find what shines next
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
@@ -101,8 +96,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         // Add what shines there, as far as it is this way's share.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = only_way ? 1 : count_b;
-            if (!only_way) mis_b *= mis_emission(scene, lights, last, pdf_b, x);
+            float mis_b = only_way ? 1 : mis_emission(scene, lights, last, pdf_b, x);
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -118,10 +112,8 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
 
         // Aim at lights.
-        bool aims = !lights.one_sample || sampler.u1() < 0.5f;
-        count_b = !lights.one_sample ? 1 : aims ? 0 : 2;
         LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
-        if (aims) L += beta * direct_light(scene, lights, *x, wo, u, recorder);
+        L += beta * direct_light(scene, lights, *x, wo, u, recorder);
 
         // Go on in that direction, and count it for all those that were not taken.
         last = *x, pdf_b = s.pdf_w, only_way = s.specular;

@@ -5,24 +5,16 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         auto* heuristic = ch14::power_heuristic;
-        bool one_sample = false;
-        std::vector<Option> extra = {
-            {"heuristic", "KIND", "power (default) or balance",
-             [&](const std::string& text) {
-                 bool power = parse_choice("heuristic", text, {"balance", "power"}) == 1;
-                 heuristic = power ? ch14::power_heuristic : ch14::balance_heuristic;
-             },
-             "power"},
-            {"ways", "N", "at each vertex: both (default), or one-sample: one of them, by a coin",
-             [&](const std::string& text) {
-                 one_sample = parse_choice("ways", text, {"both", "one-sample"}) == 1;
-             },
-             "both"},
-        };
+        Option kind = {"heuristic", "KIND", "power (default) or balance",
+                       [&](const std::string& text) {
+                           bool power = parse_choice("heuristic", text, {"balance", "power"}) == 1;
+                           heuristic = power ? ch14::power_heuristic : ch14::balance_heuristic;
+                       },
+                       "power"};
         RenderOptions options =
-            parse_render_options(argc, argv, "14_mis", "scenes/veach-mis.pbrt", extra);
+            parse_render_options(argc, argv, "14_mis", "scenes/veach-mis.pbrt", {kind});
         Scene scene = load(options);
-        auto lights = ch14::prepare(scene, heuristic, one_sample);
+        auto lights = ch14::prepare(scene, heuristic);
         return render(scene, options, trace_with<ch14::trace>(lights));
     });
 }

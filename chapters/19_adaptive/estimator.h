@@ -111,7 +111,7 @@ inline SamplesOf samples_of(std::shared_ptr<const Shares> s, int half, uint32_t 
     };
 }
 
-/// The same for the loop that renders. A pixel is then  (mean of half 0 + mean of half 1) / 2.
+/// For the loop that renders. A pixel is then  (mean of half 0 + mean of half 1) / 2.
 inline Allocation allocation(const Shares& wanted) {
     auto s = std::make_shared<Shares>(wanted);
     return {wanted.pilot, [s](const auto&... decided) { share_out(*s, decided...); },

@@ -50,7 +50,7 @@ struct CameraImportance {
     float We_cos;  // sr^-1
 };
 
-/// The same for a point `away` from the pinhole; none outside of the picture.
+/// Where the camera sees a point `away` from its pinhole; nothing outside of the picture.
 ///
 /// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
 inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, Vec3 away) {

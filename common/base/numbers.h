@@ -9,5 +9,5 @@
 /// tested by  "truth: numbers are rounded to the nearest double, halves to the even one"
 std::optional<double> to_number(std::string_view text);
 
-/// The same for a whole number without point or exponent that fits an int.
+/// The whole number that `text` writes, without point or exponent; empty if it does not fit an int.
 std::optional<int> to_integer(std::string_view text);

@@ -34,8 +34,7 @@ const chapters = {
     },
     '14_mis': {
         kind: 'film', scene: 'veach-mis', against: '13_glossy',
-        own: [choice('heuristic', 'heuristic', 'power', 'balance'),
-              choice('ways', 'ways at a vertex', 'both', 'one-sample')]
+        own: [choice('heuristic', 'heuristic', 'power', 'balance')]
     },
     '15_mis_ris': {
         kind: 'film', scene: 'thousand-lights', against: '14_mis',

@@ -7,7 +7,7 @@
 inline float pdf_one_light(const Scene& scene, size_t light, const Hit& x, const Hit& y) {
     return pdf_solid_angle(scene, light, x.p, y);
 }
-/// The same for a direction wi from x in which a ray met nothing, and saw the sky.
+/// The density of the direction wi from x in which a ray met nothing, and saw the sky.
 inline float pdf_sky(const Hit& x, Vec3 wi) {
     return pdf_cosine_hemisphere(std::max(0.0f, dot(wi, x.n)));
 }

@@ -15,7 +15,7 @@ inline uint32_t hash32(uint32_t x) {
 }
 inline uint32_t hash32(uint32_t a, uint32_t b) { return hash32(a ^ hash32(b + 0x9e3779b9u)); }
 
-/// The same for 64 bits.      source  Stafford 2011, "Mix13"; Steele, Lea, Flood 2014
+/// Scrambles 64 bits; a bijection.      source  Stafford 2011, "Mix13"; Steele, Lea, Flood 2014
 inline uint64_t hash64(uint64_t x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;

@@ -10,13 +10,13 @@
 /// A chapter's estimator: one sample of the radiance that arrives along the ray.
 using Trace = std::function<Rgb(const Scene&, Ray, Sampler&, Recorder&)>;
 
-/// The same for a chapter whose paths also begin at lights: what they bring to whatever pixels they
-/// meet goes into the splats, that of the ray's own pixel is returned.
+/// The estimator of a chapter whose paths also begin at lights: what they bring to whatever pixels
+/// they meet goes into the splats; the radiance along the ray itself is returned.
 using SplatTrace = std::function<Rgb(const Scene&, Ray, Splats&, Sampler&, Recorder&)>;
 
-/// The same for a chapter that prepares something anew for each sample: the samples of all pixels
-/// that have the same number make a pass, and depend on each other by what was prepared. So that
-/// passes do not, paths from the eye have independent numbers here: --sampler is for what is
+/// The estimator of a chapter that prepares something anew for each sample: the samples of all
+/// pixels that have the same number make a pass, and depend on each other by what was prepared. So
+/// that passes do not, paths from the eye have independent numbers here: --sampler is for what is
 /// prepared.
 struct PassTrace {
     /// Before sample number `pass` is taken of any pixel. Ends early when `stopped()`, and that
@@ -43,7 +43,7 @@ Trace trace_with(Own... own) {
     };
 }
 
-/// The same for a chapter whose trace() also adds splats.
+/// trace_with for a chapter whose trace() also adds splats.
 template <auto trace, class... Own>
 SplatTrace splat_trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Splats& splats,

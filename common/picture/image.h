@@ -45,7 +45,7 @@ bool is_image_path(const std::string& path);
 /// either byte order, times its scale). Throws InputError for anything else, and for a file that is
 /// damaged: with a byte too few or too many for its size, or, in a .png, with a wrong checksum.
 Image read_image(const std::string& path);
-/// The same from the bytes of the file `path`.
+/// What read_image reads, from the bytes of the file `path`.
 Image decode_image(const std::string& path, const std::string& bytes);
 /// The comment that write_image put into a .ppm or .png; empty where there is none.
 std::string decode_comment(const std::string& path, const std::string& bytes);

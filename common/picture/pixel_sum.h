@@ -102,7 +102,7 @@ private:
             M *= 0x1p-26;
         }
     }
-    /// The same for numbers that may not fit, or not be finite.
+    /// Adds numbers that may not fit, or not be finite.
     void add_large(double r, double g, double b, double y2);
     /// Makes the bins of one sum begin higher.
     void raise(Sum sum, int by);

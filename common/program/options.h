@@ -45,8 +45,7 @@ struct RenderOptions {
     /// The chapter's own options, with their values.
     std::vector<std::pair<std::string, std::string>> own = {};
     bool quiet = false;
-    bool pixel_centre = false;  // chapter 16: see camera_sample.h
-    std::string map;            // chapter 19: picture of how many samples each pixel has
+    std::string map;  // chapter 19: picture of how many samples each pixel has
 };
 
 /// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.

@@ -51,7 +51,8 @@ struct Rendering {
 /// share the samples out as the whole does.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation = {});
-/// The same into a film that takes splats, and with what is prepared for each pass.
+/// Renders a chapter that also splats into other pixels, and one that prepares something for each
+/// pass.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
 Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
 

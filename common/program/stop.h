@@ -14,7 +14,8 @@ public:
     StopOnSignal& operator=(const StopOnSignal&) = delete;
 
     bool requested() const;
-    /// The same, once: a signal ends one part of the work, and the next one begins anew.
+    /// Whether a signal came, and forgets it: it ends one part of the work, and the next begins
+    /// anew.
     bool take_request();
 
 private:

@@ -19,7 +19,7 @@ public:
     explicit Limit(double seconds) : seconds_(seconds) {}
     bool reached() const { return signal_.requested() || (seconds_ > 0 && elapsed() >= seconds_); }
     bool interrupted() const { return signal_.requested(); }
-    /// The same, once: what comes next has a limit of its own.
+    /// Whether it was interrupted, and forgets it: what comes next has a limit of its own.
     bool take_interruption() { return signal_.take_request(); }
     /// Whether overdue() has seen it reached: asked often, and never wrong by more than some rays.
     bool seen() const { return reached_at_ != 0; }
@@ -182,7 +182,7 @@ private:
         start_sample(with.sampler, at.pixel, half, at.sample);
         with.recorder.start();
         with.splats.clear();
-        Ray ray = camera_sample(view_, at.x, at.y, with.sampler, options_.pixel_centre).ray;
+        Ray ray = camera_sample(view_, at.x, at.y, with.sampler).ray;
         Rgb L;
         if constexpr (has_splats) {
             L = trace_(scene_, ray, with.splats, with.sampler, with.recorder);

@@ -38,7 +38,7 @@ void Recorder::note_vertex(const Hit& x) {
 /// The number, from 1, of the vertex that the path from the eye has come to; 0: none.
 int Recorder::current_vertex() const { return eye_vertex(scattered_.size()); }
 
-/// The same after so many scattering events; the last one there is, if the sky lies behind it.
+/// The number of the vertex after so many scattering events; the last one, if the sky follows it.
 int Recorder::eye_vertex(size_t events) const {
     size_t depth = std::min(events + 1, latest_.size());
     return depth == 0 ? 0 : latest_[depth - 1] + 1;

@@ -102,7 +102,8 @@ inline bool any(const Scene& scene, const Ray& ray) {
     return !scene.movers.empty() && occluded_by_movers(scene, ray);
 }
 
-/// The same, and keep the ray: apart, so that they cost nothing when nobody asks.
+/// nearest() and any() that keep the ray as well: apart, so that they cost nothing when nobody
+/// asks.
 [[gnu::noinline]] inline std::optional<Hit> nearest_kept(const Scene& scene, Ray ray) {
     std::optional<Hit> x = nearest(scene, ray);
     rays_kept->push_back({ray, false, x.has_value(), x ? x->t : infinity});

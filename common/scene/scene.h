@@ -45,7 +45,8 @@ struct Camera {
     float focal_distance =
         1e6f;  // to the plane that is sharp, along the axis; both in camera units
     float shutter_open = 0, shutter_close = 1;  // s; shapes move from 0 to 1
-    int line = 0, column = 0;                   // where the scene file sets it up, for messages
+    bool pixel_centre = false;  // rays through the middles of pixels alone: a mistake (chapter 16)
+    int line = 0, column = 0;   // where the scene file sets it up, for messages
 };
 
 struct Scene {

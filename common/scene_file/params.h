@@ -40,7 +40,7 @@ public:
     Rgb illuminant(const std::string& name, Rgb fallback);
     /// The parameter of this type and name; null if not given.
     const Param* find(const std::string& type, const std::string& name);
-    /// The same with exactly `count` values.
+    /// The parameter of this type and name; an error unless it has exactly `count` values.
     const Param* find_exactly(const std::string& type, const std::string& name, size_t count);
     /// Accepts parameters that have no effect on what we render.
     void ignore(const std::string& type, const std::vector<std::string>& names);

@@ -19,6 +19,6 @@
 Scene load_scene(const std::string& path, std::vector<std::string>* notes,
                  const Report& report = {});
 
-/// The same for a scene file that is already in memory; `path` says where it belongs.
+/// Reads a scene file that is already in memory, as load_scene does; `path` says where it belongs.
 Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes,
                   const Report& report = {}, const Limits& limits = {});

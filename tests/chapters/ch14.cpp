@@ -13,10 +13,9 @@ namespace {
 
 using Heuristic = float (*)(float a, float b);
 
-/// Either way alone, which is chapter 13; both; or one of them by a coin.
-enum class Strategy { bsdf, light, mis, one_sample };
-constexpr Strategy all_strategies[] = {Strategy::bsdf, Strategy::light, Strategy::mis,
-                                       Strategy::one_sample};
+/// Either way alone, which is chapter 13; or both.
+enum class Strategy { bsdf, light, mis };
+constexpr Strategy all_strategies[] = {Strategy::bsdf, Strategy::light, Strategy::mis};
 struct Choice {
     Strategy strategy = Strategy::mis;
     Heuristic heuristic = power_heuristic;
@@ -27,8 +26,7 @@ Trace by(Choice choice, const Scene& scene) {
         return trace_with<ch13::trace>(lights, ch13::Strategy::bsdf);
     if (choice.strategy == Strategy::light)
         return trace_with<ch13::trace>(lights, ch13::Strategy::light);
-    bool one_sample = choice.strategy == Strategy::one_sample;
-    return trace_with<ch14::trace>(ch14::prepare(scene, choice.heuristic, one_sample));
+    return trace_with<ch14::trace>(ch14::prepare(scene, choice.heuristic));
 }
 
 constexpr Heuristic both_heuristics[] = {balance_heuristic, power_heuristic};
@@ -247,7 +245,7 @@ TEST_SUITE("ch14 mis") {
             for (Strategy strategy : all_strategies)
                 for (Heuristic heuristic : both_heuristics) {
                     CAPTURE(static_cast<int>(strategy));
-                    bool rare = strategy == Strategy::bsdf || strategy == Strategy::one_sample;
+                    bool rare = strategy == Strategy::bsdf;
                     Trace trace = by({strategy, heuristic}, scene);
                     check_bounded(irradiance(scene, trace, rare ? 60000 : 20000), E, 0.025);
                 }
@@ -262,9 +260,6 @@ TEST_SUITE("ch14 mis") {
                 CHECK(s.mean() == doctest::Approx(E).epsilon(1e-5).scale(0));
                 CHECK(s.variance() < 1e-10);
             }
-            // One sample: twice, or nothing.
-            RunningStats s = irradiance(scene, by({Strategy::one_sample}, scene), 40000);
-            check_mean(s, E, E * E, 0.05);
         }
     }
 
@@ -349,7 +344,7 @@ TEST_SUITE("ch14 mis") {
     TEST_CASE("agreement: classes of path by each strategy on Veach's plates") {
         Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
         PathCensus mis = census_of(scene, by({}, scene), 60000, 1);
-        for (Strategy strategy : {Strategy::bsdf, Strategy::light, Strategy::one_sample}) {
+        for (Strategy strategy : {Strategy::bsdf, Strategy::light}) {
             PathCensus census = census_of(scene, by({strategy}, scene), 100000, 2);
             CHECK(census.worst_sum < 1e-5);
             for (auto& [name_here, part] : mis.by_class) {
@@ -379,17 +374,6 @@ TEST_SUITE("ch14 plates") {
                 CHECK(variance({Strategy::mis, power_heuristic}) < better + 0.5);
                 CHECK(variance({Strategy::mis, power_heuristic}) < 0.3);
             }
-    }
-
-    TEST_CASE("failure: one sample in place of two: where one way is all, half of them are lost") {
-        // A coin gives twice the truth or nothing: variance 1 of the squared mean.
-        for (auto [plate, lamp] : {std::pair<size_t, size_t>{0, 0}, {3, 3}}) {
-            PlateAndLamp view(plate, lamp);
-            Trace trace = by({Strategy::one_sample}, view.scene);
-            double variance = relative_variance(view.sample(trace, 40000));
-            CHECK(variance > 0.8);
-            CHECK(variance < 1.2);
-        }
     }
 
     TEST_CASE("agreement: MIS with the way that is sure, on each plate with each lamp") {

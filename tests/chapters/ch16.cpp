@@ -110,7 +110,7 @@ TEST_SUITE("ch16 pixel") {
         scene.spp = spp;
         RenderOptions options;
         options.sampler = type, options.threads = 2, options.quiet = true;
-        options.pixel_centre = centre;
+        scene.camera.pixel_centre = centre;
         return render_film(scene, options, by_sixteen(scene)).film.image();
     }
 

@@ -233,7 +233,7 @@ int main(int argc, char** argv) {
             {.spp = 0, .runs = 64, .width = 64, .height = 64, .seconds = 300});
         if (o.words.empty()) o.words = all_scenes();
         bool all = o.methods.empty();
-        if (all) o.methods = {"all", "13-bsdf", "14-one-sample"};
+        if (all) o.methods = {"all", "13-bsdf"};
         std::vector<Method> methods = methods_named(o.methods);
         // Photons blur light: with these few passes their picture is meant to be another one.
         if (all) std::erase_if(methods, [](const Method& m) { return m.biased; });

@@ -46,7 +46,7 @@ def all_runs():
 
     # Ways of a chapter, and what programs can do besides a picture.
     for words in ("09_light_sampling $S/near-light.pbrt --light-by area", "13_glossy $S/veach-mis.pbrt --strategy bsdf",
-                  "14_mis $S/veach-mis.pbrt --heuristic balance", "14_mis $S/veach-mis.pbrt --ways one-sample",
+                  "14_mis $S/veach-mis.pbrt --heuristic balance",
                   "15_mis_ris $S/two-lights.pbrt --m 2", "16_lens_and_shutter $S/bokeh.pbrt --pixel centre",
                   "19_adaptive $S/cornell.pbrt --judge own --map b.pfm", "22_fast_bidirectional $S/cornell-spheres.pbrt --chances 4",
                   "21_bidirectional $S/cornell-spheres.pbrt --strategy 2,2",

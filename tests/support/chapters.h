@@ -25,8 +25,6 @@ inline std::vector<Chapter> glossy_chapters(const Scene& scene) {
     return {{"13 by the BSDF", trace_with<ch13::trace>(lights, ch13::Strategy::bsdf), true},
             {"13 by lights", trace_with<ch13::trace>(lights, ch13::Strategy::light)},
             {"14", trace_with<ch14::trace>(ch14::prepare(scene))},
-            {"14, one sample",
-             trace_with<ch14::trace>(ch14::prepare(scene, ch14::power_heuristic, true)), true},
             {"15", trace_with<ch15::trace>(ch15::prepare(scene))}};
 }
 /// 07 to 15.
