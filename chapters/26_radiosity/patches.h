@@ -167,15 +167,19 @@ inline void add_patches(const Piece& piece, Patch patch, bool front, std::vector
     }
 }
 
+/// The square of a triangle's longest edge, m^2.
+inline float longest_edge2(const std::array<Vec3, 3>& t) {
+    return std::max(
+        {length_squared(t[1] - t[0]), length_squared(t[2] - t[1]), length_squared(t[0] - t[2])});
+}
+
 /// Chooses k of each piece: no edge of a patch is longer than h. Returns how many patches that
 /// makes on the sides that have light.
 inline size_t choose_k(const std::vector<char>& lit, float h, std::vector<Piece>& pieces) {
     size_t count = 0;
     for (size_t i = 0; i < pieces.size(); i++) {
         Piece& piece = pieces[i];
-        float longest = 0;
-        for (size_t e = 0; e < 3; e++)
-            longest = std::max(longest, length(piece.p[e] - piece.p[(e + 1) % 3]));
+        float longest = std::sqrt(longest_edge2(piece.p));
         piece.k = static_cast<uint32_t>(std::ceil(std::clamp(longest / h, 1.0f, 4096.0f)));
         for (size_t side : {2 * i, 2 * i + 1})
             if (lit[side]) count += size_t{piece.k} * piece.k;
@@ -249,12 +253,6 @@ inline Place place_of(const Patches& patches, const Hit& x) {
 inline std::array<std::array<Vec3, 3>, 4> quarters(const std::array<Vec3, 3>& t) {
     Vec3 a = (t[1] + t[2]) / 2, b = (t[2] + t[0]) / 2, c = (t[0] + t[1]) / 2;
     return {{{t[0], c, b}, {c, t[1], a}, {b, a, t[2]}, {a, b, c}}};
-}
-
-/// The square of a triangle's longest edge, m^2.
-inline float longest_edge2(const std::array<Vec3, 3>& t) {
-    return std::max(
-        {length_squared(t[1] - t[0]), length_squared(t[2] - t[1]), length_squared(t[0] - t[2])});
 }
 
 /// A point of each quarter of the patch, chosen by chance, just off the surface.

@@ -19,11 +19,9 @@ inline Triangles triangles_of(const std::vector<Patch>& patch) {
     return triangles;
 }
 
-/// Shows one radiosity for each patch, W m^-2: the same at all of its corners, or smooth. Patches
-/// that are not yet smooth when `stopped()` stay as they are.
+/// Shows one radiosity for each patch, W m^-2: the same at all of its corners, or smooth.
 inline Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patches,
-                        const std::vector<Rgb>& B, Show how, int threads,
-                        const Stopped& stopped = {}) {
+                        const std::vector<Rgb>& B, Show how, int threads) {
     Shown shown{patches, {}, how, build_light_table(light_pmf(scene, 0.25))};
     const std::vector<Patch>& patch = patches->patch;
     if (how == Show::constant) {
@@ -31,23 +29,20 @@ inline Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patch
     } else {
         shown.B = smooth_corners(
             triangles_of(patch), B, 4e-5f * scene.radius,
-            [&](uint32_t i, uint32_t j) {
-                return !(stopped && stopped()) && goes_on(scene, patch[i], patch[j]);
-            },
-            threads);
+            [&](uint32_t i, uint32_t j) { return goes_on(scene, patch[i], patch[j]); }, threads);
     }
     return shown;
 }
 
 /// What is shown of a solution: B of each patch, with an estimate of the light still to come.
 inline Shown show(const Scene& scene, std::shared_ptr<const Patches> patches, const Solution& s,
-                  Show how, int threads, const Stopped& stopped = {}) {
+                  Show how, int threads) {
     const std::vector<Patch>& patch = patches->patch;
     Radiosity more = ambient(patch, s);
     std::vector<Rgb> B;
     for (size_t i = 0; i < patch.size(); i++)
         B.push_back(to_rgb(radiosity_of(patch[i], s.H[i] + more)));
-    return make_shown(scene, patches, B, how, threads, stopped);
+    return make_shown(scene, patches, B, how, threads);
 }
 
 }  // namespace ch26
