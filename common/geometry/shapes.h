@@ -87,7 +87,7 @@ inline std::optional<TriangleHit> intersect_triangle(const Ray& ray, const Shear
 /// The nearest t at which the ray meets the sphere from outside or from inside.
 ///
 ///   |o + t d - c|^2 = r^2, with the discriminant taken from the point of the line that is nearest
-///   to the centre, and in double precision: a ball of a millionth of its distance is still met.
+///   to the centre, and in double precision: a ball of a billionth of its distance is still met.
 ///
 /// source  Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection"
 inline std::optional<float> intersect_sphere(const Ray& ray, Vec3 c, float r) {
