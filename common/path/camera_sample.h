@@ -17,11 +17,13 @@ struct CameraSample {
 
 /// A ray through a random point of pixel (x, y), by the first two numbers of a sample. All points
 /// are equally likely: the mean of what comes along the rays is the pixel of a box filter.
+/// `centre`: always through the middle, a mistake that chapter 16 shows.
 ///
 /// tested by  "identity: a camera sample is the ray through its pixel, at the next two numbers"
-inline CameraSample camera_sample(const CameraView& view, int x, int y, Sampler& sampler) {
+inline CameraSample camera_sample(const CameraView& view, int x, int y, Sampler& sampler,
+                                  bool centre = false) {
     Vec2 u = sampler.u2();
-    if (view.pixel_centre) u = {0.5f, 0.5f};
+    if (centre) u = {0.5f, 0.5f};
     Vec2 film = {static_cast<float>(x) + u.x, static_cast<float>(y) + u.y};
     return {camera_ray(view, film), film};
 }

@@ -100,7 +100,7 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     PathStory story(scene.max_depth, options.search == LightSearch::photons);
     Recorder recorder(true, &story);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    auto [ray, film] = camera_sample(view, x, y, sampler);
+    auto [ray, film] = camera_sample(view, x, y, sampler, scene.camera.pixel_centre);
     Splats splats;
     Limit limit(0);
     std::optional<Rgb> L;  // none: the path was longer than the user would wait

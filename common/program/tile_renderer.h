@@ -182,7 +182,8 @@ private:
         start_sample(with.sampler, at.pixel, half, at.sample);
         with.recorder.start();
         with.splats.clear();
-        Ray ray = camera_sample(view_, at.x, at.y, with.sampler).ray;
+        bool centre = scene_.camera.pixel_centre;
+        Ray ray = camera_sample(view_, at.x, at.y, with.sampler, centre).ray;
         Rgb L;
         if constexpr (has_splats) {
             L = trace_(scene_, ray, with.splats, with.sampler, with.recorder);

@@ -7,7 +7,6 @@
 /// is seen along corner + px dx + py dy.
 struct CameraView {
     Vec3 o, corner, dx, dy;
-    bool pixel_centre = false;
 };
 
 /// Lays the film at distance 1 in front of the camera.
@@ -27,7 +26,7 @@ inline CameraView camera_view(const Camera& camera, int width, int height) {
     Vec3 right = half * camera.right, up = half * camera.up;
     return {camera.o, camera.forward + x0 * right + y1 * up,
             (x1 - x0) / static_cast<float>(width) * right,
-            (y0 - y1) / static_cast<float>(height) * up, camera.pixel_centre};
+            (y0 - y1) / static_cast<float>(height) * up};
 }
 
 /// The ray from the pinhole through the film point, in pixels.
