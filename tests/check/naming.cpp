@@ -134,8 +134,8 @@ const std::vector<Rule> rules_of_factors = {
                 c.is("turned", "LDE", 2);
      }},
     {"slant", "LDE",
-     "too bright aslant and too dark overhead: the cosine at the surface is replaced by its "
-     "average, 1/2",
+     "too bright for light from the side and too dark for light from overhead: the cosine at the "
+     "surface is replaced by its average, 1/2",
      [](const Case& c) {
          return c.ratio("floor") > 0.45 && c.ratio("floor") < 0.6 && c.ratio("slant") > 0.9 &&
                 c.ratio("slant") < 1.15 && c.right("sky");
