@@ -13,11 +13,14 @@ $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "compile $<"; $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -x c++-header $< -o $@
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
-#: make check CH=09      is it right? one line for each claim, and the name of the mistake (15 s)
+#: make check CH=09      is it right? one line for each claim, and the name of the mistake (a minute)
 check: checkers $(made) \
        $(if $(wildcard tests/measure/method_$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
+#: make verdicts     does make check say of right, wrong and endless files what they are? (20 s)
+verdicts: checkers $(BUILD)/01_monte_carlo_pi $(BUILD)/compare
+	@tests/check/verdicts $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))
 # All chapters in one, for the references that make check compares with (2 minutes): build/names --references
 $(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp)) $$(patsubst %.cpp,$$(BUILD)/obj/%.o,$$(methods)) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
