@@ -1,5 +1,5 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check checkers names
+.PHONY: exercise check checkers names verdicts
 
 #: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
 exercise:
