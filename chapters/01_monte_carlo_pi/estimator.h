@@ -1,4 +1,4 @@
-// Chapter 01: an average over random points, and how far to trust it.
+// Chapter 01: the average over random points, and its estimated error.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@ inline double score_dart(Vec2 x) {
     return double{x.x} * double{x.x} + double{x.y} * double{x.y} <= 1 ? 4 : 0;
 }
 
-/// Mean and variance in one pass and without cancellation.
+/// Running mean and variance of the samples added so far, in one pass and without cancellation.
 ///
 ///   delta = x - mean;   mean += delta / n;   m2 += delta (x - mean)
 ///
@@ -39,9 +39,9 @@ public:
     }
     uint64_t count() const { return n_; }
     double mean() const { return mean_; }
-    /// Of one sample, unbiased; 0 for fewer than two.
+    /// Variance of a single sample (an unbiased estimate); 0 for fewer than two samples.
     double variance() const { return n_ < 2 ? 0 : m2_ / static_cast<double>(n_ - 1); }
-    /// Of the mean of independent samples.
+    /// Standard error of the mean, if the samples are independent.
     double standard_error() const {
         return n_ == 0 ? 0 : std::sqrt(variance() / static_cast<double>(n_));
     }
@@ -55,8 +55,8 @@ private:
 ///
 ///   E[X] ~ (1/N) sum X_i,        standard error sqrt(Var X / N)
 ///
-/// bias 0; a dart is a function of seed and number, so that any range can be thrown on its own and
-/// merged.      tested by  "truth: mean and variance of a dart"
+/// bias 0; each dart depends only on seed and number, so ranges of darts can be thrown separately
+/// and merged.      tested by  "truth: mean and variance of a dart"
 template <class Score>
 RunningStats throw_darts(Score score, uint64_t first, uint64_t last, uint32_t seed) {
     RunningStats stats;
@@ -68,7 +68,7 @@ RunningStats throw_darts(Score score, uint64_t first, uint64_t last, uint32_t se
     return stats;
 }
 
-/// The standard error, measured: how far the estimates of `runs` experiments of n darts lie apart.
+/// The measured standard error: the spread of the estimates of `runs` experiments of n darts each.
 template <class Score>
 double measured_standard_error(Score score, uint64_t n, uint32_t runs, uint32_t seed) {
     RunningStats estimates;
@@ -77,9 +77,9 @@ double measured_standard_error(Score score, uint64_t n, uint32_t runs, uint32_t 
     return std::sqrt(estimates.variance());
 }
 
-/// n times x, added one by one in float: right only until the sum is 2^24 times x or so.
+/// The sum n x, by adding x to a float n times. It stops growing at about 2^24 x.
 ///
-/// From 2^24 on the neighbours of a float are 2 apart, and 2^24 + 1 rounds back to 2^24.
+/// From 2^24 on, neighbouring floats are 2 apart, and 2^24 + 1 rounds back to 2^24.
 /// tested by  "failure: a float counter stops at 2^24"
 inline float sum_in_float(float x, uint64_t n) {
     float sum = 0;
@@ -87,7 +87,7 @@ inline float sum_in_float(float x, uint64_t n) {
     return sum;
 }
 
-// A dart board: the rings of a disc of radius 1, and the density with which a player hits it.
+// A dart board of radius 1 with rings, and the probability density of a player's hits.
 
 struct Ring {
     double radius, score;
@@ -95,7 +95,7 @@ struct Ring {
 inline constexpr Ring board[] = {{0.1, 10}, {0.3, 5}, {0.6, 2}, {1, 1}};
 inline constexpr double aim = 0.5;  // standard deviation of a hit, in x and in y
 
-/// f(x), the score of a hit at x; 0 beside the board.
+/// f(x), the score of a hit at x; 0 off the board.
 inline double score_board(Vec2 x) {
     double r = std::hypot(double{x.x}, double{x.y});
     for (Ring ring : board)
@@ -103,7 +103,7 @@ inline double score_board(Vec2 x) {
     return 0;
 }
 
-/// Where a hit lands: a normal distribution around the centre.
+/// Samples the point of a hit: normally distributed around the centre.
 ///
 ///   r = aim sqrt(-2 ln(1 - u.x)),  angle = 2 pi u.y
 ///
@@ -115,7 +115,7 @@ inline Vec2 sample_hit(Vec2 u) {
     return {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle))};
 }
 
-/// The density of sample_hit per area.
+/// The density of sample_hit per unit area.
 inline double pdf_hit(Vec2 x) {
     double r2 = std::pow(double{x.x}, 2) + std::pow(double{x.y}, 2);
     return std::exp(-r2 / (2 * aim * aim)) / (2 * std::numbers::pi * aim * aim);

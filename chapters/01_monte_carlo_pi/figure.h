@@ -19,7 +19,7 @@ inline Table darts_table(uint64_t n, uint32_t seed) {
         Stopwatch watch;
         stats.merge(throw_darts(score_dart, stats.count(), N, seed));
         seconds += watch.seconds();
-        // "0 +- 0" is not certainty: equal darts say nothing about their spread.
+        // If all darts are equal, the estimated error is 0, but the true error is unknown.
         bool known = stats.variance() > 0, cheap = N <= 1 << 16;
         table.rows.push_back(
             {std::to_string(N), digits(stats.mean(), 7),
@@ -30,7 +30,7 @@ inline Table darts_table(uint64_t n, uint32_t seed) {
     return table;
 }
 
-/// The dart board, and the float that cannot count.
+/// The average score of the dart board, and the float sum that stops growing.
 inline std::string darts_notes(uint64_t n, uint32_t seed) {
     auto score_u = [](Vec2 u) { return score_board(sample_hit(u)); };
     auto place_u = [](Vec2 u) { return static_cast<double>(sample_hit(u).x); };

@@ -10,17 +10,17 @@ namespace ch02 {
 
 using Points = std::vector<Vec2>;  // on the unit square
 
-/// Pair number i of the independent random numbers of `seed`.
+/// Pair number i of a sequence of independent random numbers; each `seed` has its own sequence.
 inline Vec2 random_pair(uint32_t seed, uint32_t i) {
     Sampler sampler(SamplerType::independent, seed, 1);
     sampler.start(0, i);
     return sampler.u2();
 }
 
-/// Point u jittered inside stratum i of n: strata of equal area 1/n for any n.
+/// A point of stratum i of n, at position u in it. Strata have equal area 1/n, for any n.
 ///
-///   the square is cut into about sqrt(n) columns, as wide as the number of cells in each, so that
-///   n = k^2 gives the k x k grid, and no other n has to drop or repeat a sample
+///   the square is cut into about sqrt(n) columns, each as wide as its share of the n cells;
+///   n = k^2 gives the k x k grid
 inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
     uint32_t columns = static_cast<uint32_t>(std::rint(std::sqrt(static_cast<double>(n))));
     uint64_t c = (uint64_t{i + 1} * columns - 1) / n;
@@ -32,18 +32,18 @@ inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
     return {std::min(x, 0x1.fffffep-1f), std::min(y, 0x1.fffffep-1f)};
 }
 
-/// The largest float below 1 for what rounding took to 1.
+/// x, or the largest float below 1 where rounding made it 1: keeps coordinates in [0,1).
 inline float below_1(float x) { return std::min(x, 0x1.fffffep-1f); }
 
-/// The number u jittered inside interval i of n: strata in one dimension.
+/// A number in interval i of n, at position u in it: strata in one dimension.
 inline float jitter_in_interval(uint32_t i, uint32_t n, float u) {
     return below_1((static_cast<float>(i) + u) / static_cast<float>(n));
 }
 
 /// N-rooks (Latin hypercube): point i of n has column i, and a row that no other point has.
 ///
-/// Each axis by itself is stratified n times, for any n. The order of the rows is random: without
-/// that, all points are on the diagonal.
+/// Each axis by itself has n strata, for any n. The rows are in random order; in ascending order
+/// all points would be on the diagonal.
 /// source  Shirley 1991      tested by  "variance: for xy n x n strata fall as n^-4, N-rooks keep"
 inline Vec2 jitter_rook(uint32_t i, uint32_t n, uint32_t seed, Vec2 u) {
     uint32_t row = permute(i, n, hash32(seed));
@@ -52,7 +52,7 @@ inline Vec2 jitter_rook(uint32_t i, uint32_t n, uint32_t seed, Vec2 u) {
 
 enum class PointSet { uniform, jittered, rooks };
 
-/// n points; another seed gives others, and over all seeds each kind is uniform on the square.
+/// n points. Each seed gives other points; averaged over all seeds they are uniform on the square.
 inline Points make_points(PointSet set, uint32_t n, uint32_t seed) {
     Points points;
     for (uint32_t i = 0; i < n; i++) {
@@ -68,8 +68,8 @@ inline Points make_points(PointSet set, uint32_t n, uint32_t seed) {
 
 /// The estimate of the integral of f over the square: (1/N) sum f(x_i).
 ///
-/// bias 0 for points that are uniform on the square. Points of one set are not independent: s^2/N
-/// is NOT the variance of the estimate. The spread of the estimates of many sets is.
+/// bias 0 for points that are uniform on the square. Points of one set may depend on each other, so
+/// s^2/N is NOT the variance of the estimate: measure that from the estimates of many sets.
 /// tested by  "failure: s^2/N is 4.7 times the variance of 6 x 6 strata"
 template <class Function>
 double estimate(const Points& points, Function f) {
@@ -84,8 +84,8 @@ inline double quarter_circle(Vec2 x) {
 }
 inline double product(Vec2 x) { return double{x.x} * double{x.y}; }  // integral 1/4
 
-/// A penumbra: a square light above a screen with a straight, slanted edge. A point on the floor,
-/// p beyond the full shadow, sees the part of the light that is above the edge.
+/// A penumbra: a screen with a straight, slanted edge hides part of a square light. A point on the
+/// floor, at distance p from the full shadow, sees the part of the light above the edge.
 ///
 ///   V(u) = [a u.x + b u.y < p],   u: a point of the light, uniform on the square
 ///   fraction seen = (p^2 - (p-a)^2 - (p-b)^2 + (p-a-b)^2) / (2ab), squares of positive bases only

@@ -12,7 +12,7 @@ namespace ch02 {
 
 struct Kind {
     PointSet set;
-    const char *name, *edge, *smooth;  // slopes of the error in theory
+    const char *name, *edge, *smooth;  // expected slopes of the errors
 };
 inline constexpr Kind kinds[] = {
     {PointSet::uniform, "uniform", "-0.50", "-0.50"},
@@ -26,7 +26,7 @@ struct Measurement {
     double seconds = 0;     // for one set
 };
 
-/// Estimates from `runs` sets of n points, against the truth.
+/// The errors of the estimates from `runs` sets of n points.
 inline Measurement measure(PointSet set, uint32_t n, uint32_t runs, uint32_t seed) {
     RunningStats pi_estimate, squares[3];
     Stopwatch watch;

@@ -1,4 +1,4 @@
-// Chapter 03: point sets that are more even than strata, and how they fill many dimensions.
+// Chapter 03: point sets that are more evenly spread than strata, in two and more dimensions.
 #pragma once
 #include <cmath>
 #include <utility>
@@ -8,23 +8,23 @@
 
 namespace ch03 {
 
-/// From b to a the short way round the torus, on which opposite sides of the square meet.
+/// The shortest vector from b to a on the torus: the unit square with opposite sides joined.
 inline Vec2 torus_difference(Vec2 a, Vec2 b) {
     float x = a.x - b.x, y = a.y - b.y;
     return {x - std::floor(x + 0.5f), y - std::floor(y + 0.5f)};
 }
 
-/// The point of the square that p is on the torus.
+/// The point of the unit square that is p on the torus.
 inline Vec2 wrap(Vec2 p) {
     return {below_1(p.x - std::floor(p.x)), below_1(p.y - std::floor(p.y))};
 }
 
 enum class Rim { open, torus };
 
-/// Poisson disc by dart throwing: random points, none nearer than r to another.
+/// Poisson disc samples by dart throwing: random points, no two of them nearer than r.
 ///
-/// Ends after `max_misses` darts in a row that were too near. The number of points is random:
-/// divide by that number. On the open square points crowd at the rim: a bias; the torus has none.
+/// Ends after `max_misses` rejected darts in a row. The number of points is random, and estimates
+/// divide by it. Biased on the open square, where points crowd at the rim; unbiased on the torus.
 /// source  Cook 1986      tested by  "failure: Poisson discs on the open square crowd at its rim"
 inline Points poisson_disc_points(float r, uint32_t max_misses, uint32_t seed,
                                   Rim rim = Rim::torus) {
@@ -43,12 +43,12 @@ inline Points poisson_disc_points(float r, uint32_t max_misses, uint32_t seed,
     return points;
 }
 
-/// The largest distance that n points on the torus can all keep: the hexagonal lattice.
+/// The largest distance that n points on the torus can keep from each other: a hexagonal lattice.
 inline float hexagonal_distance(uint32_t n) {
     return std::sqrt(2 / (std::sqrt(3.0f) * static_cast<float>(n)));
 }
 
-/// The sum of the pushes that p gets from all points nearer than `reach`: 1 - distance / reach.
+/// The sum of the repulsions of p by all points nearer than `reach`, each 1 - distance / reach.
 inline Vec2 repulsion(const Points& points, Vec2 p, float reach) {
     Vec2 push;
     for (Vec2 other : points) {
@@ -62,7 +62,7 @@ inline Vec2 repulsion(const Points& points, Vec2 p, float reach) {
 
 /// Relaxation: random points push each other away until none moves, or `max_steps` times.
 ///
-/// This is not Poisson disc: the points tend to a hexagonal lattice, which aliases.
+/// This is not Poisson disc sampling: the points tend to a hexagonal lattice, which aliases.
 /// tested by  "failure: points that repel each other become a lattice"
 inline Points repelled_points(uint32_t n, int max_steps, uint32_t seed) {
     Points points, moved(n);
@@ -83,8 +83,8 @@ inline Points repelled_points(uint32_t n, int max_steps, uint32_t seed) {
 
 /// The digits of i in `base`, mirrored at the point: 6 = 110 becomes 0.011 = 3/8 in base 2.
 ///
-/// seed  0: the digits as they are; else each is permuted by a random function of the digits
-///       before it, which is Owen's scrambling in any base
+/// seed  0: plain digits; else a random permutation of each digit that depends on the digits
+///       before it: Owen scrambling in any base
 /// source  van der Corput 1935; Halton 1960
 /// tested by  "truth: radical inverses", "failure: Halton in bases 17 and 19 starts on a line"
 inline float radical_inverse(uint32_t base, uint32_t i, uint32_t seed = 0) {
@@ -99,7 +99,7 @@ inline float radical_inverse(uint32_t base, uint32_t i, uint32_t seed = 0) {
 }
 
 /// n Halton points: bases 2 and 3 for the first pair of dimensions, 5 and 7 for the second. All
-/// are shifted by the same random vector, around the torus, so that each is uniform.
+/// are shifted by one random vector on the torus, which makes each of them uniform.
 /// tested by  "variance: shifted Halton points, pi and xy"
 inline Points halton_points(uint32_t pair, uint32_t n, uint32_t seed) {
     constexpr uint32_t base[] = {2, 3, 5, 7};
@@ -116,7 +116,7 @@ inline Points halton_points(uint32_t pair, uint32_t n, uint32_t seed) {
 ///
 ///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
 ///
-/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: a step for each size of block.
+/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: one step of code per block size.
 /// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points"
 inline uint32_t sobol_second(uint32_t index) {
     uint32_t x = reverse_bits(index);
@@ -128,8 +128,8 @@ inline uint32_t sobol_second(uint32_t index) {
     return x;
 }
 
-/// Owen's scrambling of a 32-bit fraction: each bit is flipped or not by a random function of the
-/// bits above it. The points stay as evenly spread as they were, and each becomes uniform.
+/// Owen scrambling of a 32-bit fraction: a random function of the bits above it decides whether a
+/// bit is flipped. Points stay as evenly spread as before, and each becomes uniform.
 /// source  Laine, Karras 2011; constants: Vegdahl 2021
 inline uint32_t scramble_reversed(uint32_t x, uint32_t seed) {  // x: bits reversed
     x ^= x * 0x3d20adeau;
@@ -155,8 +155,8 @@ inline Points sobol_points(uint32_t n, uint32_t seed) {
 
 enum class PointSet { uniform, jittered, poisson, repelled, halton, sobol };
 
-/// n points of a kind (Poisson disc: about n); another seed gives others, and over all seeds the
-/// points of each kind are uniform on the square.
+/// n points of a kind (Poisson disc: about n). Each seed gives other points; averaged over all
+/// seeds they are uniform on the square.
 inline Points make_points(PointSet set, uint32_t n, uint32_t seed) {
     if (set == PointSet::poisson)
         return poisson_disc_points(std::sqrt(0.65f / static_cast<float>(n)), 1000, seed);
@@ -183,9 +183,9 @@ inline Points shuffled(Points points, uint32_t seed) {
 
 /// The second pair of dimensions, z and w, of points in four.
 ///
-/// Halton has bases of its own for them. All others are a set of points for z and w in a random
-/// order, so that which (z, w) meets which (x, y) is random: in the same order, both pairs would
-/// fill their strata at the same time, and z would follow x.
+/// Halton uses two more bases. The other kinds take a second set of points in a random order, so
+/// that (x, y) and (z, w) are paired at random. In the same order, both pairs would fill their
+/// strata in step, and z would be correlated with x.
 /// tested by  "variance: two pairs in a random order have the variance of random matching",
 ///            "failure: two Sobol sets in the same order have a variance of 1/248 for any N"
 inline Points second_pair(PointSet set, uint32_t n, uint32_t seed) {

@@ -33,7 +33,7 @@ struct Kind {
     PointSet set;
     const char* name;
     std::array<const char*, 6> theory;  // slopes of the errors; "": not known
-    uint32_t runs, largest;             // sets, and N, that it can afford
+    uint32_t runs, largest;             // number of sets, and N, limited by run time
 };
 inline constexpr Kind kinds[] = {
     {PointSet::uniform,
@@ -62,7 +62,7 @@ struct Measurement {
     double seconds = 0;                 // for one set in two dimensions, and its estimate of pi
 };
 
-/// Estimates from `runs` sets of about n points, against the truth.
+/// The errors of the estimates from `runs` sets of about n points.
 inline Measurement measure(PointSet set, uint32_t n, uint32_t runs, uint32_t seed) {
     RunningStats count, pi_estimate;
     std::array<RunningStats, 6> squared_errors;
@@ -167,7 +167,7 @@ inline Image sets_picture(uint32_t seed) {
         std::vector<Points> pool;
         for (uint32_t i = 0; i < sets; i++)
             pool.push_back(make_points(kinds[k].set, 16, hash32(seed, i)));
-        uint32_t pixel = 0;  // each takes a random set of the pool
+        uint32_t pixel = 0;  // each uses a random set of the pool
         Panel zone_plate{image, left, size + gap, size, size, {0, 0}, {size, size}};
         zone_plate.fill([&](Vec2 x) {  // rings whose period shrinks to one pixel at the border
             auto ring = [&](Vec2 u) {

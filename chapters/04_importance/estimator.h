@@ -1,4 +1,4 @@
-// Chapter 04: draw where it matters, and divide by the density you drew from.
+// Chapter 04: importance sampling. Sample where the integrand is large; divide by the density.
 #pragma once
 #include <cmath>
 #include <vector>
@@ -12,7 +12,7 @@ namespace ch04 {
 /// Chooses i with probability pmf[i]: the first i at which the running sum exceeds u.
 ///
 /// u     in [0,1)
-/// zero  an i of probability 0 is never chosen, not even by u = 0 or by rounding at the end
+/// zero  an i of probability 0 is never chosen, not even if u = 0 or after rounding at the end
 /// tested by  "density: choices by chance"
 inline size_t sample_pmf(const std::vector<double>& pmf, double u) {
     size_t last = 0;
@@ -29,7 +29,7 @@ inline size_t sample_pmf(const std::vector<double>& pmf, double u) {
 ///
 ///   X = f[i] / pmf[i],  i chosen by pmf
 ///
-/// bias      0 if pmf[i] > 0 wherever f[i] != 0; else the missed terms are lost
+/// bias      0 if pmf[i] > 0 wherever f[i] != 0; other terms are missing from the mean
 /// variance  exact_variance: 0 for pmf = f / sum f
 inline double estimate_sum(const std::vector<double>& f, const std::vector<double>& pmf, double u) {
     size_t i = sample_pmf(pmf, u);
@@ -70,7 +70,7 @@ inline std::vector<double> normalized(std::vector<double> weights) {
 
 // Integrals over [0,1].
 
-/// A way to draw x: sample(u) has the density pdf(x), and invert(x) is the u that gives x.
+/// A density on [0,1]: sample(u) is distributed with pdf(x), and invert(x) is the u that gives x.
 struct Density {
     const char* name;
     double (*sample)(double u);  // u in (0,1)
@@ -97,7 +97,7 @@ inline constexpr Density rising = {"(2/3)(1+x)", [](double u) { return std::sqrt
 inline constexpr Density left_half = {"2 on [0,1/2]", [](double u) { return u / 2; },
                                       [](double x) { return x < 0.5 ? 2.0 : 0.0; },
                                       [](double x) { return 2 * x; }};
-/// Proportional to |x - 1/4|, the best for the signed x - 1/4.
+/// Proportional to |x - 1/4|: the best density for the integrand x - 1/4, which changes sign.
 inline constexpr Density distance = {
     "(16/5)|x-1/4|",
     [](double u) {
@@ -111,17 +111,17 @@ inline constexpr Density distance = {
 ///
 ///   X = f(x) / pdf(x),  x drawn from pdf
 ///
-/// zero      where the density is 0 or infinite there is nothing to divide by: X = 0
+/// zero      X = 0 where the density is 0 or infinite: it cannot be divided by
 /// bias      0 if pdf(x) > 0 wherever f(x) != 0
 /// variance  integral of f^2 / pdf, minus the square of the mean: 0 for pdf ~ f >= 0, least for
-///           pdf ~ |f|, and infinite when pdf falls too fast where f does not
+///           pdf ~ |f|, infinite if pdf falls to 0 too fast where f does not
 template <class Function>
 double estimate_integral(Function f, const Density& density, double u) {
     double x = density.sample(u), pdf = density.pdf(x);
     return pdf > 0 && std::isfinite(pdf) ? f(x) / pdf : 0;
 }
 
-/// A number in (0,1), both ends excluded, with 48 random bits: 1/sqrt(x) must never see 0.
+/// A number in (0,1), both ends excluded, with 48 random bits: 1/sqrt(x) is infinite at 0.
 inline double open_unit(Vec2 u) { return double{u.x} + (double{u.y} + 0x1p-25) * 0x1p-24; }
 
 }  // namespace ch04

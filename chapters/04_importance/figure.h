@@ -94,7 +94,7 @@ inline std::vector<Experiment> integrals() {
 
 struct Outcome {
     RunningStats stats;
-    double largest_share = 0;  // of the largest X^2 in their sum: stays high if Var X is infinite
+    double largest_share = 0;  // of the largest term in sum X^2: stays high if Var X is infinite
 };
 
 inline Outcome run(const Experiment& experiment, uint64_t n, uint32_t seed) {

@@ -1,4 +1,4 @@
-// Chapter 07: path tracing. The rendering equation, solved by a random walk from the eye.
+// Chapter 07: path tracing. The rendering equation, solved by random walks from the camera.
 //
 //   Lo(x, wo) = Le(x, wo) + integral f(x, wo, wi) Li(x, wi) cos(wi) dwi
 //             ~ Le(x, wo) + f(x, wo, wi) Li(x, wi) cos(wi) / pdf_w(wi)      one wi, drawn by pdf_w
@@ -10,10 +10,10 @@
 
 namespace ch07 {
 
-/// A direction drawn from a BSDF. pdf_w == 0: no sample, the path ends.
+/// A direction sampled from a BSDF. pdf_w == 0: no sample, the path ends.
 ///
-/// specular: wi is the only direction there is. f and pdf_w are then both infinite, and hold only
-/// the factors in front, which are all that f cos / pdf_w needs.
+/// specular: light leaves in one direction only. f and pdf_w are then Dirac deltas, and these
+/// fields hold only the factors before the deltas, which cancel in f cos / pdf_w.
 struct BsdfSample {
     Vec3 wi;          // unit
     Rgb f;            // sr^-1, without the cosine
@@ -21,7 +21,7 @@ struct BsdfSample {
     bool specular = false;
 };
 
-/// A direction of the hemisphere around +z, all equally likely.
+/// A uniformly distributed direction of the hemisphere around +z.
 ///
 ///   z = 1 - u1,  phi = 2 pi u2;      pdf_w = 1 / (2 pi)
 ///
@@ -36,19 +36,19 @@ inline Vec2 invert_uniform_hemisphere(Vec3 w) {
     return {1 - w.z, (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// A mirror has one direction to go on in.      f cos = F, the share that the metal reflects
+/// The mirror direction.      f cos = F, the share of light that the metal reflects (Fresnel)
 inline BsdfSample sample_mirror(const Hit& x, Vec3 wo) {
     float cos_o = dot(wo, x.n);
     Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
     return {reflect(wo, x.n), F / cos_o, 1, true};
 }
 
-/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
+/// Samples reflection or refraction by glass: one of them at random, so the path does not branch.
 ///
 ///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
 ///
-/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
-/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
+/// eta: refractive index beyond the surface over the index on wo's side. Radiance over index^2 is
+/// conserved, hence 1 / eta^2.      source  Veach 1997, sec. 5.2
 inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
     float eta = x.front ? x.material->ior : 1 / x.material->ior;
     float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);
@@ -62,7 +62,7 @@ inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
     return {*wi, {f, f, f}, 1 - R, true};
 }
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+/// The BSDF f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass (Dirac deltas).
 ///
 ///   diffuse:  f = reflectance / pi  on wo's side of the surface
 inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
@@ -71,14 +71,14 @@ inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     return x.material->reflectance / pi;
 }
 
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+/// The density of sample_bsdf for wi, in sr^-1; 0 for mirrors and glass (Dirac deltas).
 inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     if (x.material->type != MaterialType::diffuse) return 0;
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
     return pdf_uniform_hemisphere();
 }
 
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+/// Samples the next direction of the path. u1 chooses reflection or refraction, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
         case MaterialType::diffuse: {
@@ -91,12 +91,12 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     return {};
 }
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = sum over the path's vertices x_k of  beta_k Le(x_k),   beta_k = product of f cos / pdf_w
 ///
-/// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
-/// only when it happens to hit some.
+/// Unbiased up to scene.max_depth scattering events. The variance is large: a path contributes
+/// only if it happens to hit a light.
 /// source  Kajiya 1986      tested by  "ch07 path tracing"
 inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
@@ -105,7 +105,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there.
+        // Add the light emitted there.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         L += beta * Le;
         recorder.emitted(Le);
@@ -115,7 +115,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
             return L;
         }
 
-        // Go on in one direction, and count it for all those that were not taken.
+        // Sample the next direction, and divide by its density.
         Vec3 wo = -ray.d;
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());

@@ -1,4 +1,4 @@
-// Chapter 08: Russian roulette. End a path by chance, and let the survivors count for all.
+// Chapter 08: Russian roulette. Terminate paths at random; give the survivors a larger weight.
 //
 //   E[q (X / q) + (1 - q) 0] = E[X]      for any survival probability q in (0,1]
 //   its variance:  Var[X] / q + E[X]^2 (1 - q) / q
@@ -9,7 +9,7 @@
 
 namespace ch08 {
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+/// The BSDF f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass (Dirac deltas).
 ///
 ///   diffuse:  f = reflectance / pi  on wo's side of the surface
 inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
@@ -18,14 +18,14 @@ inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     return x.material->reflectance / pi;
 }
 
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+/// The density of sample_bsdf for wi, in sr^-1; 0 for mirrors and glass (Dirac deltas).
 inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     if (x.material->type != MaterialType::diffuse) return 0;
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
     return pdf_uniform_hemisphere();
 }
 
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+/// Samples the next direction of the path. u1 chooses reflection or refraction, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
         case MaterialType::diffuse: {
@@ -38,24 +38,24 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     return {};
 }
 
-/// The probability with which a path of throughput beta goes on.
+/// The probability q that a path of throughput beta continues.
 ///
 ///   q = max(beta), within [0.05, 0.95];  1 for the first few vertices
 ///
-/// From the largest channel: no channel of beta / q is above 1, or beta / 0.95. Below 1, so that a
-/// path that loses nothing (mirrors, total reflection) ends as well; not below 0.05, so that no
-/// path ever counts for more than 20.
+/// The largest channel: so no channel of beta / q exceeds 1 (or beta / 0.95). At most 0.95, so that
+/// paths that lose nothing (mirrors, total reflection) end too; at least 0.05, so that one survival
+/// multiplies the weight by at most 20.
 inline float survival_probability(Rgb beta, int depth) {
     if (depth < 3) return 1;
     return std::clamp(max_component(beta), 0.05f, 0.95f);
 }
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = sum over the path's vertices x_k of  beta_k Le(x_k),   beta_k = product of f cos / pdf_w
 ///
-/// Unbiased up to scene.max_depth scattering events. The variance is large: a path brings light
-/// only when it happens to hit some.
+/// Unbiased up to scene.max_depth scattering events. The variance is large: a path contributes
+/// only if it happens to hit a light.
 /// source  Kajiya 1986; roulette: Arvo, Kirk 1990      tested by  "ch08 russian roulette"
 inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
@@ -64,7 +64,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there.
+        // Add the light emitted there.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         L += beta * Le;
         recorder.emitted(Le);
@@ -74,7 +74,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
             return L;
         }
 
-        // Go on in one direction, and count it for all those that were not taken.
+        // Sample the next direction, and divide by its density.
         Vec3 wo = -ray.d;
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
@@ -83,7 +83,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
         if (is_black(beta)) return L;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;

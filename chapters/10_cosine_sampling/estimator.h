@@ -1,4 +1,4 @@
-// Chapter 10: cosine sampling. Draw directions in proportion to the cosine they are weighed with.
+// Chapter 10: cosine sampling. Sample directions in proportion to the cosine in the integrand.
 //
 //   f cos / pdf_w = (albedo / pi) cos / (cos / pi) = albedo
 #pragma once
@@ -10,11 +10,11 @@
 
 namespace ch10 {
 
-/// A direction of the hemisphere around +z, likelier the higher it stands.
+/// A direction of the hemisphere around +z, with density proportional to its cosine z.
 ///
 ///   r = sqrt(u1),  phi = 2 pi u2,  z = sqrt(1 - u1);      pdf_w = cos / pi
 ///
-/// A uniform point of the unit disk, lifted to the sphere. u in [0,1)^2; z in (0,1].
+/// A uniform point of the unit disk, projected up to the sphere. u in [0,1)^2; z in (0,1].
 /// source  Malley 1988      tested by  "density: cosine hemisphere"
 inline Vec3 sample_cosine_hemisphere(Vec2 u) {
     return from_cylindrical(std::sqrt(u.x), u.y, std::sqrt(1 - u.x));
@@ -25,7 +25,7 @@ inline Vec2 invert_cosine_hemisphere(Vec3 w) {
     return {1 - w.z * w.z, (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+/// The BSDF f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass (Dirac deltas).
 ///
 ///   diffuse:  f = reflectance / pi  on wo's side of the surface
 inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
@@ -34,14 +34,14 @@ inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     return x.material->reflectance / pi;
 }
 
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+/// The density of sample_bsdf for wi, in sr^-1; 0 for mirrors and glass (Dirac deltas).
 inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     if (x.material->type != MaterialType::diffuse) return 0;
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
     return pdf_cosine_hemisphere(dot(wi, x.n));
 }
 
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+/// Samples the next direction of the path. u1 chooses reflection or refraction, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
         case MaterialType::diffuse: {
@@ -54,19 +54,19 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     return {};
 }
 
-/// Light that was aimed at. pdf_w == 0: no sample, it contributes nothing.
+/// A sampled point or direction of a light, seen from x. pdf_w == 0: no sample, no contribution.
 struct LightSample {
     Vec3 wi;             // unit, from x to the light
     Rgb Le;              // W m^-2 sr^-1: without f, cosine and visibility
-    float dist = 0;      // m: how far the shadow ray goes, just short of the light
+    float dist = 0;      // m: length of the shadow ray, which ends just before the light
     float pdf_w = 0;     // sr^-1; for a point or distant light the probability of choosing it
-    bool delta = false;  // a point or distant light: no path meets it by chance
+    bool delta = false;  // a point or distant light: no path can hit it
 };
 
-/// A point y of an area light, and the density of its direction at x.
+/// Samples a point y of an area light; pdf_w is the density of its direction seen from x.
 ///
-/// zero    where y faces away, is edge-on, or is x itself (cos_y is then not a number)
-/// error   unbiased, Var < E^2 / 3 however near the light
+/// zero    if y faces away, is edge-on, or is x itself (cos_y is then not a number)
+/// error   unbiased; Var < E^2 / 3, however near the light is
 /// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);
@@ -100,7 +100,7 @@ inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, 
     return {};
 }
 
-/// Chooses one of the N lights, all alike, and a point on it.      pdf_w = pdf_one / N
+/// Chooses one of the N lights uniformly, and a point on it.      pdf_w = pdf_one / N
 inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
     size_t N = scene.lights.size();
     if (N == 0) return {};
@@ -110,11 +110,11 @@ inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2
     return y;
 }
 
-/// Estimates what all lights send by way of x to wo, from one point of one light.
+/// Estimates the direct light that x scatters to wo, from one point of one light.
 ///
 ///   Ld = f Le V cos / pdf_w
 ///
-/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+/// Mirrors and glass: 0, since their f is 0 for every direction that light sampling finds.
 inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, LightNumbers u,
                         Recorder& recorder) {
     if (x.material->type != MaterialType::diffuse) return {};
@@ -126,12 +126,12 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, LightNumbers 
     return Ld;
 }
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
-/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
-/// glass. Anywhere else it was Ld of the vertex before.
+/// Emission that the path hits counts only directly from the camera and after mirrors and glass.
+/// Elsewhere it is already part of Ld at the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Kajiya 1986, importance sampling      tested by  "ch10 cosine sampling"
 inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
@@ -142,7 +142,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there, unless the vertex before has aimed at it.
+        // Add the light emitted there, unless the vertex before has sampled it.
         Rgb Le = !count_emission ? Rgb{} : x ? emission(scene, *x) : scene.sky;
         L += beta * Le;
         recorder.emitted(Le);
@@ -152,12 +152,12 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
             return L;
         }
 
-        // Aim at a light.
+        // Sample a light.
         Vec3 wo = -ray.d;
         LightNumbers u = {sampler.u1(), sampler.u2()};
         L += beta * direct_light(scene, *x, wo, u, recorder);
 
-        // Go on in one direction, and count it for all those that were not taken.
+        // Sample the next direction, and divide by its density.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
@@ -166,7 +166,7 @@ inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& record
         if (is_black(beta)) return L;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;

@@ -1,7 +1,7 @@
-// Chapter 11: light importance. Choose lights by power, and keep a defensive share of the choices
-// for all lights alike, since power knows nothing of distance and walls.
+// Chapter 11: light importance. Choose lights by power, mixed with a uniform (defensive) choice,
+// since power ignores distance and walls.
 //
-//   pmf_i = (1 - d) power_i / sum power + d / N      in a time that does not depend on N
+//   pmf_i = (1 - d) power_i / sum power + d / N      chosen in O(1), whatever N is
 #pragma once
 #include "common/light/lights.h"
 #include "common/material/basic_bsdf.h"
@@ -13,7 +13,7 @@ namespace ch11 {
 
 using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
 
-/// The power of a light, in W: radiance times area times pi, and what corresponds to it.
+/// The power of a light, in W.
 ///
 ///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  R: radius of the scene
 inline float light_power(const Scene& scene, size_t i) {
@@ -29,7 +29,7 @@ inline float light_power(const Scene& scene, size_t i) {
     return 0;
 }
 
-/// The probability of each light: by its power, and a defensive share d for all lights alike.
+/// The probability of each light: proportional to power, mixed with a uniform (defensive) share d.
 ///
 ///   pmf_i = (1 - d) power_i / sum power + d / N >= d / N
 inline std::vector<double> light_pmf(const Scene& scene, double d) {
@@ -46,17 +46,17 @@ inline std::vector<double> light_pmf(const Scene& scene, double d) {
     return pmf;
 }
 
-/// One column of the alias table that lights are chosen from.
+/// Column i of the alias table: it holds light i and at most one other light.
 struct AliasColumn {
-    float own;       // share of the column that is the light of the same number
-    uint32_t other;  // the light that the rest of the column is
-    float pmf;       // of the light of the same number, over the whole table
+    float own;       // share of the column that belongs to light i
+    uint32_t other;  // the light that the rest of the column belongs to
+    float pmf;       // probability of light i, over the whole table
 };
 using LightTable = std::vector<AliasColumn>;
 
-/// Cuts N probabilities into N columns of equal width, with at most two lights in each.
+/// Builds the alias table: N probabilities in N columns of equal height, at most two in each.
 ///
-///   a column that is too low is filled up from one that is too high, which so gets lower
+///   each column that is too low is filled up with a part of one that is too high
 ///
 /// source  Walker 1974; Vose 1991      tested by  "identity: the alias table keeps every pmf"
 inline LightTable build_light_table(const std::vector<double>& pmf) {
@@ -83,10 +83,10 @@ inline LightTable build_light_table(const std::vector<double>& pmf) {
     return table;
 }
 
-/// Chooses a light in O(1): a column, and one of the two lights in it.
+/// Chooses a light in O(1): first a column, then one of the two lights in it.
 ///
-/// u is a double, of 48 random bits: the 24 of a float are 17 numbers for each of a million
-/// columns.
+/// u is a double with 48 random bits: a float's 24 bits would give each of a million columns only
+/// 17 different numbers.
 inline uint32_t pick_light(const LightTable& lights, double u) {
     int N = static_cast<int>(lights.size());
     double at = u * N;
@@ -113,11 +113,11 @@ inline LightTable prepare(const Scene& scene) {
     return build_light_table(light_pmf(scene, defensive_share));
 }
 
-/// Estimates what all lights send by way of x to wo, from one point of one light.
+/// Estimates the direct light that x scatters to wo, from one point of one light.
 ///
 ///   Ld = f Le V cos / pdf_w
 ///
-/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+/// Mirrors and glass: 0, since their f is 0 for every direction that light sampling finds.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
                         LightNumbers u, Recorder& recorder) {
     if (x.material->type != MaterialType::diffuse) return {};
@@ -129,12 +129,12 @@ inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit&
     return Ld;
 }
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
-/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
-/// glass. Anywhere else it was Ld of the vertex before.
+/// Emission that the path hits counts only directly from the camera and after mirrors and glass.
+/// Elsewhere it is already part of Ld at the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Shirley et al. 1996      tested by  "ch11 light importance"
 inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler& sampler,
@@ -146,7 +146,7 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler&
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there, unless the vertex before has aimed at it.
+        // Add the light emitted there, unless the vertex before has sampled it.
         Rgb Le = !count_emission ? Rgb{} : x ? emission(scene, *x) : scene.sky;
         L += beta * Le;
         recorder.emitted(Le);
@@ -156,12 +156,12 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler&
             return L;
         }
 
-        // Aim at a light.
+        // Sample a light.
         Vec3 wo = -ray.d;
         LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, lights, *x, wo, u, recorder);
 
-        // Go on in one direction, and count it for all those that were not taken.
+        // Sample the next direction, and divide by its density.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
@@ -170,7 +170,7 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Ray ray, Sampler&
         if (is_black(beta)) return L;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;

@@ -1,5 +1,5 @@
-// Chapter 12: resampled importance sampling. Draw M cheap candidates and keep one by chance: the
-// more it gives, the likelier.
+// Chapter 12: resampled importance sampling (RIS). Draw M cheap candidates, and keep one of them
+// with a probability proportional to its weight.
 //
 //   w_i = p_hat(y_i) / p(y_i);   keep y = y_i with probability w_i / weight_sum;
 //   Ld = f Le V cos W,   W = weight_sum / (M p_hat(y))
@@ -14,14 +14,14 @@ namespace ch12 {
 
 using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
 
-/// A light as its target needs it: the same numbers for lights of every type.
+/// What the target function needs to know about a light: the same fields for every type.
 struct LightBounds {
-    Vec3 centre;          // m; unit, towards a light without a place
+    Vec3 centre;          // m; unit, towards a distant light
     float has_place = 1;  // 0: distant and infinite lights
-    Vec3 n;               // unit, of a flat light; else 0
-    float back = 1;       // -1: a flat light that shines to both sides
-    float radius = 0;     // m, of a sphere around it; 1: the sky, which is around x
-    float least_cos = 1;  // of the angle at the light; 0: a flat light
+    Vec3 n;               // normal of a flat light, unit; else 0
+    float back = 1;       // -1: a flat light that emits on both sides
+    float radius = 0;     // m, of its bounding sphere; 1: the sky, which surrounds x
+    float least_cos = 1;  // least cosine at the light; 0: a flat light
     float power = 0;      // area: L A;  point and distant: L;  sky: pi L
 };
 inline LightBounds light_bounds(const Scene& scene, size_t i) {
@@ -35,13 +35,13 @@ inline LightBounds light_bounds(const Scene& scene, size_t i) {
     return {y.centre, 1, y.first.n, back, y.radius, 0, L * y.area};
 }
 
-/// p_hat: what a light could send by way of x if nothing were in between, from its centre alone.
+/// The target p_hat: the light that x would receive from the light's centre without shadows.
 ///
-///   p_hat = power cos_x cos_y / d^2;   cos_y = 1 and d = 1 for lights that have none
+///   p_hat = power cos_x cos_y / d^2;   cos_y = 1 and d = 1 for lights without them
 ///
-/// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
-/// count as radius / d at least, and d as its radius, unless all of it lies behind the surface or
-/// turns its back. So p_hat is 0 only where the light gives nothing, and no point gives much more.
+/// Other points of an area light may be nearer than its centre, or seen less edge-on. So cosines
+/// are at least radius / d, and d is at least radius, unless the whole light is behind x or faces
+/// away. Then p_hat is 0 only where the light contributes nothing, and it is never far too small.
 inline float target(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
     float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));
@@ -53,15 +53,15 @@ inline float target(const LightBounds& y, const Hit& x) {
     return seen * y.power * cos_x * cos_y / d2;
 }
 
-/// The light kept among the candidates so far.
+/// The candidate kept so far, and the sum of all weights.
 struct Reservoir {
     size_t light = 0;
     float p_hat = 0;       // of that light
     float weight_sum = 0;  // of all candidates
 
-    /// Takes the candidate with probability weight / weight_sum.
+    /// Keeps this candidate instead with probability weight / weight_sum.
     ///
-    /// u in [0,1) decides, and is made uniform again for the next candidate.
+    /// u in [0,1) decides, and is then rescaled to [0,1) for the next candidate.
     void offer(size_t candidate, float p_hat_candidate, float weight, float& u) {
         if (!(weight > 0)) return;
         weight_sum += weight;
@@ -73,19 +73,19 @@ struct Reservoir {
             u = (u - share) / (1 - share);
         }
     }
-    /// W: what the kept light counts for all others, in place of 1 / probability.
+    /// The weight W of the kept light, which replaces 1 / probability.
     float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
 };
 
-/// Where candidates come from: a table of the lights by power, and how many for one sample.
+/// The source of candidates: a table of lights by power, and the number M of candidates.
 struct Proposal {
     LightTable lights;
     int M;
 };
 
-/// Draws M lights by power, and keeps one in proportion to its target at x.
+/// Draws M lights by power, and keeps one with probability proportional to w = p_hat / p at x.
 ///
-/// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
+/// u: draws all candidates, one from each of M slices of the table; u1: chooses among them.
 inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hit& x, double u,
                                  float u1) {
     Reservoir kept;
@@ -101,12 +101,12 @@ inline Proposal prepare(const Scene& scene, int M) {
     return {build_light_table(light_pmf(scene, 0.25)), M};
 }
 
-/// Estimates what all lights send by way of x to wo, by one of M candidates.
+/// Estimates the direct light that x scatters to wo, from one of M candidate lights.
 ///
 ///   Ld = f Le V cos / pdf_one W      one point on the light that was kept
 ///
-/// Unbiased where p_hat > 0 wherever the light counts.
-/// Var = Var_p / M + (1 - 1/M) Var_q: what the shadows leave, Var_q, no M takes away.
+/// Unbiased if p_hat > 0 wherever the light contributes.
+/// Var = Var_p / M + (1 - 1/M) Var_q: Var_q, caused by shadows, remains however large M is.
 /// source  Talbot, Cline, Egbert 2005      tested by  "truth: RIS on four lights, all tuples"
 inline Rgb direct_light(const Scene& scene, const Proposal& p, const Hit& x, Vec3 wo,
                         ResamplingNumbers u, Recorder& recorder) {
@@ -121,12 +121,12 @@ inline Rgb direct_light(const Scene& scene, const Proposal& p, const Hit& x, Vec
     return Ld;
 }
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
-/// Emission met by chance counts only where nothing was aimed at: after the camera, mirror and
-/// glass. Anywhere else it was Ld of the vertex before.
+/// Emission that the path hits counts only directly from the camera and after mirrors and glass.
+/// Elsewhere it is already part of Ld at the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
 /// source  Talbot et al. 2005      tested by  "ch12 ris"
 inline Rgb trace(const Scene& scene, const Proposal& p, Ray ray, Sampler& sampler,
@@ -138,7 +138,7 @@ inline Rgb trace(const Scene& scene, const Proposal& p, Ray ray, Sampler& sample
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there, unless the vertex before has aimed at it.
+        // Add the light emitted there, unless the vertex before has sampled it.
         Rgb Le = !count_emission ? Rgb{} : x ? emission(scene, *x) : scene.sky;
         L += beta * Le;
         recorder.emitted(Le);
@@ -148,12 +148,12 @@ inline Rgb trace(const Scene& scene, const Proposal& p, Ray ray, Sampler& sample
             return L;
         }
 
-        // Aim at one of M lights.
+        // Sample one of M candidate lights.
         Vec3 wo = -ray.d;
         ResamplingNumbers u = {to_unit_double(sampler.u2()), sampler.u1(), sampler.u2()};
         L += beta * direct_light(scene, p, *x, wo, u, recorder);
 
-        // Go on in one direction, and count it for all those that were not taken.
+        // Sample the next direction, and divide by its density.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular;
@@ -162,7 +162,7 @@ inline Rgb trace(const Scene& scene, const Proposal& p, Ray ray, Sampler& sample
         if (is_black(beta)) return L;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;

@@ -1,4 +1,4 @@
-// Chapter 13: glossy metal. Rough metal is many small mirrors: draw the one that turns the light.
+// Chapter 13: glossy metal. Rough metal consists of tiny mirrors: sample the normal of one of them.
 //
 //   f = D(h) F(wo.h) G(wo, wi) / (4 cos_o cos_i),    pdf_w(wi) = pdf(h) / (4 wo.h)
 #pragma once
@@ -10,20 +10,20 @@
 
 namespace ch13 {
 
-/// How normals of microfacets spread, in the frame where z is the normal (GGX):
+/// The GGX distribution of microfacet normals, in the frame where z is the surface normal:
 /// D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2)
 /// source  Walter et al. 2007      tested by  "density: GGX normals"
 inline float ggx_D(Vec3 h, float alpha) {
     float a2 = alpha * alpha, d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
     return a2 / (pi * d * d);
 }
-/// By which facets hide each other: G1(w) = 1 / (1 + Lambda(w)).     source  Smith 1967; Heitz 2014
+/// Lambda of Smith's shadowing G1(w) = 1 / (1 + Lambda(w)).     source  Smith 1967; Heitz 2014
 inline float ggx_lambda(Vec3 w, float alpha) {
     float tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
     return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
 }
-/// A microfacet normal among those that wo sees: pdf(h) = G1(wo) D(h) wo.h / cos_o. Stretched to
-/// alpha = 1, it is drawn from a cap of the sphere.
+/// Samples a microfacet normal visible from wo: pdf(h) = G1(wo) D(h) wo.h / cos_o. Stretched to
+/// alpha = 1, the visible normals follow from a uniform point on a cap of the sphere.
 /// source  Heitz 2018; Dupuy, Benyoub 2023
 inline Vec3 sample_ggx_normal(Vec3 wo, float alpha, Vec2 u) {
     Vec3 w = normalize({alpha * wo.x, alpha * wo.y, wo.z});
@@ -42,7 +42,7 @@ inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
     return {1 - (c.z + w.z) / (1 + w.z), (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// f of a rough conductor on wo's side, in sr^-1, and the density of its samples; h = wo + wi.
+/// The BSDF of a rough conductor, in sr^-1; next, its sampling density and sample; h ~ wo + wi.
 inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), i = frame.to_local(wi), h = normalize(o + i);
@@ -66,21 +66,21 @@ inline BsdfSample sample_rough_conductor(const Hit& x, Vec3 wo, Vec2 u) {
     return {wi, eval_rough_conductor(x, wo, wi), pdf_rough_conductor(x, wo, wi)};
 }
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+/// The BSDF f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass (Dirac deltas).
 inline Rgb eval_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
     if (!is_rough(*x.material)) return basic_bsdf::eval_bsdf(x, wo, wi);
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
     return eval_rough_conductor(x, wo, wi);
 }
 
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+/// The density of sample_bsdf for wi, in sr^-1; 0 for mirrors and glass (Dirac deltas).
 inline float pdf_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
     if (!is_rough(*x.material)) return basic_bsdf::pdf_bsdf(x, wo, wi);
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
     return pdf_rough_conductor(x, wo, wi);
 }
 
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+/// Samples the next direction of the path. u1 chooses reflection or refraction, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     if (!is_rough(*x.material)) return basic_bsdf::sample_bsdf(x, wo, u1, u2);
     return sample_rough_conductor(x, wo, u2);
@@ -89,11 +89,11 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
 /// The table that lights are chosen from.
 inline LightTable prepare(const Scene& scene) { return build_light_table(light_pmf(scene, 0.25)); }
 
-/// Estimates what all lights send by way of x to wo, from one point of one light.
+/// Estimates the direct light that x scatters to wo, from one point of one light.
 ///
 ///   Ld = f Le V cos / pdf_w
 ///
-/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+/// Mirrors and glass: 0, since their f is 0 for every direction that light sampling finds.
 inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
                         LightNumbers u, Recorder& recorder) {
     if (is_specular(*x.material)) return {};
@@ -105,16 +105,16 @@ inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit&
     return Ld;
 }
 
-/// How paths find light: by following the BSDF alone, or by aiming alone.
+/// How paths find light: by sampling the BSDF only, or by sampling lights only.
 enum class Strategy : uint8_t { bsdf, light };
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
 ///
-/// By the BSDF alone, all emission counts that the path meets, and nothing is aimed at. By aiming
-/// alone, it counts only where nothing was aimed at: after the camera, mirror and glass.
-/// Unbiased; each way has lights that it hardly finds.      source  Veach, Guibas 1995, fig. 2
+/// bsdf: all emission that the path hits counts, and no light is sampled. light: emission counts
+/// only directly from the camera and after mirrors and glass.
+/// Unbiased; each strategy has lights that it hardly finds.      source  Veach, Guibas 1995, fig. 2
 /// tested by  "ch13 glossy"
 inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
@@ -125,7 +125,7 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there, unless the vertex before has aimed at it.
+        // Add the light emitted there, unless the vertex before has sampled it.
         Rgb Le = !count_emission ? Rgb{} : x ? emission(scene, *x) : scene.sky;
         L += beta * Le;
         recorder.emitted(Le);
@@ -135,14 +135,14 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy
             return L;
         }
 
-        // Aim at a light, if that is the way.
+        // Sample a light, if that is the strategy.
         Vec3 wo = -ray.d;
         LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         if (strategy == Strategy::light) {
             L += beta * direct_light(scene, lights, *x, wo, u, recorder);
         }
 
-        // Go on in one direction, and count it for all those that were not taken.
+        // Sample the next direction, and divide by its density.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         count_emission = s.specular || strategy == Strategy::bsdf;
@@ -151,7 +151,7 @@ inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy
         if (is_black(beta)) return L;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(beta, depth);
         if (sampler.u1() >= q) return L;
         beta /= q;

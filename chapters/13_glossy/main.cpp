@@ -6,7 +6,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         auto strategy = ch13::Strategy::light;
         Option ways = {
-            "strategy", "KIND", "how to find light: by aiming at light (default) or by bsdf",
+            "strategy", "KIND", "how to find light: sample light (default) or sample bsdf",
             [&](const std::string& text) {
                 strategy =
                     static_cast<ch13::Strategy>(parse_choice("strategy", text, {"bsdf", "light"}));

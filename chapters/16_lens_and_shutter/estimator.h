@@ -1,5 +1,5 @@
-// Chapter 16: the lens and the shutter. A pixel is a mean over its area, the lens and the time that
-// the shutter is open: each path draws one point of all three.
+// Chapter 16: the lens and the shutter. A pixel is the average over its area, the lens and the time
+// that the shutter is open: each path samples one point of all three.
 //
 //   pixel = 1 / (|A| |lens| |T|)  integral over A, lens and T of  L(path)
 #pragma once
@@ -13,11 +13,11 @@ using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 using many_lights::Candidates, many_lights::Lights, many_lights::choose_candidates;
 using many_lights::direct_light, many_lights::mis_emission, many_lights::prepare;
 
-/// Turns the pinhole's ray into one through a point of the lens that is sharp at the same place.
+/// Replaces the pinhole's ray by one through a random point of the lens, with the same focus point.
 ///
 ///   focus = o + F d / (depth of d);   o' = o + R sqrt(u1) (cos, sin)(2 pi u2);   d' = focus - o'
 ///
-/// F and depths count along the camera's axis: what is sharp is a plane, not a sphere.
+/// F and depths are measured along the camera's axis: the points in focus form a plane.
 /// source  Cook, Porter, Carpenter 1984      tested by  "truth: circles of confusion"
 inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
     Vec3 axis = cross(camera.right, camera.up);
@@ -28,35 +28,35 @@ inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
     return {o, normalize(focus - o)};
 }
 
-/// A time at which the shutter is open, in s; all of them are equally likely.
+/// A uniformly distributed time at which the shutter is open, in s.
 ///
 /// tested by  "truth: how long what moves covers a point"
 inline float sample_time(const Camera& camera, float u) {
     return std::lerp(camera.shutter_open, camera.shutter_close, u);
 }
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
-/// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
+/// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
 /// source  Veach, Guibas 1995      tested by  "ch16 lens and shutter"
 inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
-    // Choose a point of the lens, and a time.
+    // Sample a point of the lens and a time.
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
     if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
-    Candidates c;          // at the vertex before
-    float pdf_b = 0;       // of the direction that was drawn there
-    bool only_way = true;  // nothing but this path could find what shines next
+    Candidates c;          // at the previous vertex
+    float pdf_b = 0;       // of the direction that was sampled there
+    bool only_way = true;  // light sampling cannot find the light hit next
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there, as far as it is this way's share.
+        // Add the light emitted there, times its MIS weight.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
             float mis_b = only_way ? 1 : mis_emission(scene, lights, c, pdf_b, x);
@@ -69,24 +69,24 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
             return L;
         }
 
-        // Draw the direction to go on in.
+        // Sample the next direction.
         Vec3 wo = -ray.d;
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
 
-        // Aim at lights.
+        // Sample lights.
         TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
         choose_candidates(scene, lights, *x, wo, u.candidates, c);
         L += beta * direct_light(scene, lights, c, u, recorder);
 
-        // Go on in that direction, and count it for all those that were not taken.
+        // Continue in that direction, and divide by its density.
         pdf_b = s.pdf_w, only_way = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 08
         if (sampler.u1() >= q) return L;
         beta /= q;

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
             },
             "64"};
         Option pixel = {"pixel", "area|centre",
-                        "mean over each pixel (default), or its middle alone",
+                        "average over each pixel (default), or only its centre",
                         [&](const std::string& text) {
                             centre = parse_choice("pixel", text, {"area", "centre"}) == 1;
                         },

@@ -1,5 +1,5 @@
-// Chapter 17: light from an image of the sky. Its pixels are lights: a table draws those that are
-// brighter than the mean, in proportion to by how much, and leaves all others to the BSDF.
+// Chapter 17: light from an image of the sky. Its pixels are lights: each is sampled in proportion
+// to how much it is brighter than the mean; all others are left to BSDF sampling.
 //
 //   pmf_i = max(0, L_i - mean L) w_i / sum of those,    w_i: solid angle of pixel i
 #pragma once
@@ -14,13 +14,13 @@ using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 using many_lights::Candidates, many_lights::choose_candidates;
 using many_lights::direct_light, many_lights::mis_emission;
 
-/// The probability that light sampling chooses one of the pixels before pixel i, for each i, and
-/// at the end 1.      All are 0 for an image of one colour: no pixel is brighter than the mean.
+/// The cumulative distribution (CDF) of light sampling: entry i is the probability of the pixels
+/// before i, the last entry is 1. All are 0 for an image of one colour: no pixel exceeds the mean.
 ///
 ///   pmf_i = max(0, L_i - mean L) w_i / sum,    mean L = sum of L_i w_i / sum of w_i
 ///
-/// To subtract the mean is MIS compensation: BSDF sampling finds light that comes from everywhere
-/// anyway, so light sampling is left for what is brighter. 1e-6: as the mean is rounded.
+/// Subtracting the mean is MIS compensation: BSDF sampling finds even light well, so light sampling
+/// concentrates on what is brighter. 1e-6: allows for rounding of the mean.
 /// source  Karlik et al. 2019      tested by  "density: the image's density sums to 1, or is 0"
 inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
     double light = 0, sphere = 0;
@@ -38,7 +38,7 @@ inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
     return cdf;
 }
 
-/// The lights of chapter 15, and the sky's image as one more: what chooses its pixels.
+/// The lights of chapter 15, and the CDF that chooses pixels of the sky's image.
 struct LightsAndSky : many_lights::Lights {
     std::vector<double> image_cdf;
 };
@@ -48,14 +48,14 @@ inline LightsAndSky prepare(const Scene& scene, int M = 64, bool compensate = tr
     return {lights, image_cdf(*scene.sky_image, compensate)};
 }
 
-/// The density at uv, in pixel i.      pdf_w = pmf_i pixels / (solid angle per area at uv)
+/// The density of direction uv, in pixel i.     pdf_w = pmf_i pixels / (solid angle per area at uv)
 inline float pdf_image(const SkyImage& image, const std::vector<double>& cdf, size_t i, Vec2 uv) {
     double pmf = cdf[i + 1] - cdf[i], pixels = static_cast<double>(image.pixels.size());
     return static_cast<float>(pmf * pixels) / solid_angle_per_area(image, uv);
 }
 
-/// Estimates what the image sends by way of x to wo, from a point of one pixel. By rounding the
-/// point may lie in the next pixel, which may be black: the pixel drawn tells Le and density.
+/// Estimates the image's light that x scatters to wo, from a point of one pixel. Rounding may move
+/// the point into the next pixel, which may be black: Le and pdf are those of the sampled pixel.
 ///
 ///   Ld = mis_l f Le V cos / pdf_l      0 for an image of one colour
 /// tested by  "truth: skies of known irradiance"
@@ -76,8 +76,8 @@ inline Rgb image_light(const Scene& scene, const LightsAndSky& lights, const Hit
     return Ld;
 }
 
-/// The image in direction wi, in which the path has left the scene, times mis_b. pdf_b: with which
-/// wi was drawn; infinite where light sampling cannot draw it, so that mis_b = 1.
+/// The image's radiance in direction wi, in which the path left the scene, times mis_b. pdf_b: the
+/// density of wi; infinite if light sampling cannot sample wi, so that mis_b = 1.
 inline Rgb image_emission(const Scene& scene, const LightsAndSky& lights, Vec3 wi, float pdf_b,
                           Recorder& recorder) {
     if (!scene.sky_image) return {};
@@ -100,27 +100,27 @@ inline DirectNumbers draw_numbers(const Scene& scene, const LightsAndSky& lights
     return u;
 }
 
-/// Estimates Li along the ray from one path.
+/// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
-/// Unbiased up to scene.max_depth scattering events. Nowhere much worse than the best way.
+/// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
 /// source  Veach, Guibas 1995      tested by  "ch17 sky image"
 inline Rgb trace(const Scene& scene, const LightsAndSky& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
-    // Choose a point of the lens, and a time.
+    // Sample a point of the lens and a time.
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
     if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
-    Candidates c;            // at the vertex before
-    float pdf_b = infinity;  // of the direction drawn there; infinite: no light sample can be it
+    Candidates c;            // at the previous vertex
+    float pdf_b = infinity;  // of its sampled direction; infinite if light sampling cannot find it
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
         recorder.vertex(x);
 
-        // Add what shines there, as far as it is this way's share.
+        // Add the light emitted there, times its MIS weight.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
             float mis_b = pdf_b < infinity ? mis_emission(scene, lights, c, pdf_b, x) : 1;
@@ -133,25 +133,25 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, Ray ray, Sample
             return L;
         }
 
-        // Draw the direction to go on in.
+        // Sample the next direction.
         Vec3 wo = -ray.d;
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
 
-        // Aim at two lights, and at the image.
+        // Sample two lights and the image.
         DirectNumbers u = draw_numbers(scene, lights, sampler);
         choose_candidates(scene, lights, *x, wo, u.lights.candidates, c);
         L += beta * direct_light(scene, lights, c, u.lights, recorder);
         if (u.image) L += beta * image_light(scene, lights, *x, wo, *u.image, recorder);
 
-        // Go on in that direction, and count it for all those that were not taken.
+        // Continue in that direction, and divide by its density.
         pdf_b = s.specular ? infinity : s.pdf_w;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(2.5f * beta, depth);  // 2.5: an exercise of chapter 08
         if (sampler.u1() >= q) return L;
         beta /= q;

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
             },
             "64"};
         Option sky = {"compensation", "on|off",
-                      "pixels of the sky's image by what they have above its mean, or by all",
+                      "sample pixels of the sky's image by their excess over its mean, or by all",
                       [&](const std::string& text) {
                           compensate = parse_choice("compensation", text, {"on", "off"}) == 0;
                       },

@@ -1,9 +1,9 @@
-// Chapter 19: adaptive sampling. A few samples of each pixel tell where the error is; the others
-// go there. Chapter 18 traces the paths.
+// Chapter 19: adaptive sampling. A few pilot samples of each pixel estimate its error; the other
+// samples go where it is large. Chapter 18 traces the paths.
 //
 //   error^2 = sum over the pixels of  v_i / n_i   is least, for a given sum of n_i c_i, where
 //   n_i is proportional to sqrt(v_i / c_i)        v_i: the variance of a pixel's samples
-//                                                 c_i: what a sample costs, in rays
+//                                                 c_i: the cost of a sample, in rays
 #pragma once
 #include <memory>
 #include <numeric>
@@ -16,8 +16,8 @@ namespace ch19 {
 
 using dispersion::trace, dispersion::prepare;
 
-/// How much a pixel's samples vary, in the measure in which pictures are compared here: that of
-/// relMSE, in which what is dark counts as much as what is bright.
+/// The relative variance of a pixel's samples, as in relMSE, which compares pictures here: errors
+/// in dark pixels count as much as errors in bright ones.
 ///
 ///   v = average over the channels of  variance / (mean^2 + 0.01)      0 for fewer than two samples
 /// tested by  "truth: a pixel varies as relMSE measures it, channel by channel"
@@ -27,8 +27,8 @@ inline double relative_variance(const PilotPixel& p) {
     return v / std::max(p.n - 1.0, 1.0);
 }
 
-/// The mean of s over the 5 pixels of a row around each, rows turned to columns: twice, the mean
-/// over 5 x 5. A few samples of one pixel alone tell little.
+/// Averages s over 5 neighbours in each row, and transposes: applied twice, it averages 5 x 5
+/// pixels, since the few samples of one pixel give a noisy variance.
 inline std::vector<double> smooth(const std::vector<double>& s, int width) {
     int height = static_cast<int>(s.size()) / width;
     std::vector<double> result;
@@ -43,7 +43,7 @@ inline std::vector<double> smooth(const std::vector<double>& s, int width) {
     return result;
 }
 
-/// The share of each pixel in all samples, on the mean 1, from equally many of each and their rays.
+/// Each pixel's share of the samples (average 1), from the pilot's variances and numbers of rays.
 ///
 ///   share = s / (mean of s),    s = sqrt(v / c), smooth
 ///
@@ -60,15 +60,15 @@ inline std::vector<double> shares(const std::vector<PilotPixel>& pixels, int wid
     return s;
 }
 
-/// Who decides how many samples a half of a pixel gets: the other half's pilot, or its own.
+/// Which pilot decides how many samples a half of a pixel gets: the other half's, or its own.
 ///
-/// other  the mean is right: the samples that are averaged have no say in how many they are
-/// own    it is too dark: where a pilot missed the light, few samples follow that could find it
+/// other  unbiased: the number of samples does not depend on the samples that are averaged
+/// own    biased, too dark: where a pilot missed the light, few samples follow that could find it
 enum class Judge { other, own };
 
 /// What the user asks for, and what the pilot has decided: the shares of both halves.
 struct Shares {
-    uint32_t pilot = 16;  // samples of each pixel, of both halves
+    uint32_t pilot = 16;  // samples of each pixel, both halves together
     Judge judge = Judge::other;
     std::vector<double> of_half[2] = {};
 };
@@ -79,8 +79,8 @@ inline void share_out(Shares& s, const Pilot& pilot, int threads) {
     });
 }
 
-/// The level at which max(least, level share) is `wanted` on the mean: lowered from above as long
-/// as further pixels come to have enough already, and leave less for the others.
+/// The level at which the average of max(least, level share) is `wanted`. Lowered step by step, as
+/// pixels that get `least` leave less for the others.
 inline double level_of(const std::vector<double>& shares, double least, double wanted) {
     for (double level = infinity;;) {
         double sum = 0, left = 0;
@@ -93,12 +93,12 @@ inline double level_of(const std::vector<double>& shares, double least, double w
     }
 }
 
-/// How many samples a half of each pixel has when there are `spp` a pixel on the mean.
+/// The number of samples in a half of each pixel, for `spp` samples per pixel on average.
 ///
 ///   n = floor(max(least, level share) + u),    least = pilot / 2 + 0.05 (spp - pilot) / 2
 ///
-/// 0.05: what looks even so far may not be so. None has over 16 times the mean, for the same
-/// reason. u in [0,1) is another for each pixel and half, so that rounding favours none.
+/// 0.05: pixels that look even so far may not be. For the same reason none gets more than 16 times
+/// the average. u in [0,1) differs for each pixel and half, so that rounding is unbiased.
 /// tested by  "identity: samples are as many as the shares say"
 inline SamplesOf samples_of(std::shared_ptr<const Shares> s, int half, uint32_t spp) {
     uint32_t pilot = std::min(spp, s->pilot), first = (pilot + (half == 0)) / 2;
@@ -111,7 +111,7 @@ inline SamplesOf samples_of(std::shared_ptr<const Shares> s, int half, uint32_t 
     };
 }
 
-/// For the loop that renders. A pixel is then  (mean of half 0 + mean of half 1) / 2.
+/// The allocation for the render loop. A pixel is  (mean of half 0 + mean of half 1) / 2.
 inline Allocation allocation(const Shares& wanted) {
     auto s = std::make_shared<Shares>(wanted);
     return {wanted.pilot, [s](const auto&... decided) { share_out(*s, decided...); },

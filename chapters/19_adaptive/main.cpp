@@ -6,21 +6,21 @@ int main(int argc, char** argv) {
     return run_program([&] {
         ch19::Shares shares;
         std::string map;
-        Option pilot = {"pilot", "N", "samples of each pixel before any is shared out (default 16)",
+        Option pilot = {"pilot", "N", "samples of each pixel in the pilot (default 16)",
                         [&](const std::string& text) {
                             auto n = parse_integer("pilot", text, 4, 1 << 16);
                             shares.pilot = static_cast<uint32_t>(n);
                         },
                         "16"};
         Option judge = {"judge", "other|own",
-                        "which half of the pilot decides for a half; own is biased",
+                        "which half's pilot decides about a half; own is biased",
                         [&](const std::string& text) {
                             auto i = parse_choice("judge", text, {"other", "own"});
                             shares.judge = static_cast<ch19::Judge>(i);
                         },
                         "other"};
         Option counts = {"map", "FILE",
-                         "picture of how many samples each pixel has (.pfm: numbers)",
+                         "picture of the number of samples of each pixel (.pfm: numbers)",
                          [&](const std::string& text) { map = parse_picture("map", text); }};
         RenderOptions options = parse_render_options(
             argc, argv, "19_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});

@@ -1,4 +1,4 @@
-// Chapter 20: light tracing. Paths begin at the lights, and each of their vertices is connected to
+// Chapter 20: light tracing. Paths start at the lights, and each of their vertices is connected to
 // the camera:
 //
 //   pixel = mean over paths of  sum over their points of  flux f cos We V / d^2
@@ -16,11 +16,11 @@ namespace ch20 {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::sample_bsdf;
 
-/// The camera as light sees it.
+/// The camera, as connections from light paths need it.
 struct Pinhole {
     CameraView view;
-    Vec3 n, axis;       // dx x dy, the area of a pixel; unit, the way the camera looks
-    float depth, area;  // of the film from the pinhole; the film's at distance 1
+    Vec3 n, axis;       // dx x dy, the area of a pixel; viewing direction, unit
+    float depth, area;  // distance of the film; its area at distance 1
     int width, height;
 };
 inline Pinhole pinhole_of(const Scene& scene) {
@@ -32,12 +32,12 @@ inline Pinhole pinhole_of(const Scene& scene) {
     return {view, n, axis, depth, pixels * length(n) / (depth * depth), scene.width, scene.height};
 }
 
-/// The importance of light from the direction of `away`, times its cosine, in sr^-1.
+/// The importance We of light from direction `away`, times the cosine, in sr^-1.
 ///
 ///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos over A: 1
 ///
-/// A patch dA of the film is seen under dw = dA cos^3 / d^2, at distance d in front. A picture
-/// weighs all of its film alike, so a direction weighs dA / dw / A = 1 / (A cos^3) = We cos.
+/// From the pinhole, a patch dA of the film at distance d has solid angle dw = dA cos^3 / d^2. All
+/// points of the film have the same weight, so We cos = dA / dw / A = 1 / (A cos^3) with d = 1.
 /// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright as it should be"
 inline float importance_cos(const Pinhole& camera, Vec3 away) {
     float cos_c = dot(away, camera.axis) / length(away);
@@ -50,7 +50,7 @@ struct CameraImportance {
     float We_cos;  // sr^-1
 };
 
-/// Where the camera sees a point `away` from its pinhole; nothing outside of the picture.
+/// The pixel in which the camera sees the point at `away` from its pinhole; nothing if outside.
 ///
 /// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
 inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, Vec3 away) {
@@ -66,7 +66,7 @@ inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, 
     return CameraImportance{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
 }
 
-/// Where paths begin: a distribution of the lights, three in four by power; and the camera.
+/// The ends of paths: the camera, and the table of lights (3/4 by power, 1/4 uniform).
 struct Endpoints {
     LightTable lights;
     Vec3 centre;  // of the scene
@@ -78,16 +78,16 @@ inline Endpoints endpoints_of(const Scene& scene) {
     return {lights, (box.low + box.high) / 2, pinhole_of(scene)};
 }
 
-/// A ray that leaves a light: where from, where to, and how likely.
+/// A ray that leaves a light: its origin, direction, densities and radiance.
 struct Emission {
     LightType type;
-    LightPoint y;  // its normal on the side that shines here; pdf per area
+    LightPoint y;  // its normal is on the ray's side; pdf per area
     Vec3 d;
     float pmf = 0, pdf_w = 0;  // of the light; sr^-1
-    Rgb Le;                    // W m^-2 sr^-1, or what the light has in its place
+    Rgb Le;                    // W m^-2 sr^-1; W sr^-1 of a point light, W m^-2 of a distant one
 };
 
-/// A direction of the sphere, all equally likely.      pdf_w = 1 / (4 pi)
+/// A uniformly distributed direction of the sphere.      pdf_w = 1 / (4 pi)
 inline Vec3 sample_sphere(Vec2 u) {
     float z = 1 - 2 * u.x;
     return from_cylindrical(std::sqrt(std::max(0.0f, 1 - z * z)), u.y, z);
@@ -98,7 +98,7 @@ inline Vec3 sample_sphere(Vec2 u) {
 ///   area     any point, cosine direction:   pdf = 1 / A, cos / pi       (both sides: 1 / 2A)
 ///   point    any direction:                 pdf = 1, 1 / (4 pi)
 ///   distant  a point of the scene's disk:   pdf = 1 / (pi R^2), 1
-///   sky      the same, from any direction:  pdf = 1 / (pi R^2), 1 / (4 pi)
+///   sky      such a point, any direction:   pdf = 1 / (pi R^2), 1 / (4 pi)
 ///
 /// tested by  "identity: each light sends out its power"
 inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, double u, Vec2 u_y,
@@ -125,7 +125,7 @@ inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, 
     return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
 }
 
-/// Connects the light itself to the camera, where it has a size.
+/// Connects the point on the light itself to the camera; nothing for point and distant lights.
 ///
 ///   area: Le / (pmf pdf_A) cos_y We cos_c V / d^2;    sky: Le / (pmf pdf_w) We cos_c V
 inline std::optional<Splat> connect_light(const Scene& scene, const Pinhole& camera,
@@ -142,20 +142,20 @@ inline std::optional<Splat> connect_light(const Scene& scene, const Pinhole& cam
     return Splat{importance->pixel, L};
 }
 
-/// x as the ray finds it that comes along w: with its normals on that side.
+/// x with its normals turned to the side of direction w.
 inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
     x.n = smooth_normal(scene, x);
     if (dot(w, x.ng) < 0) x.n = -x.n, x.ng = -x.ng, x.front = !x.front;
-    if (dot(w, x.n) <= 0) x.n = x.ng;  // one that looks away cannot be used
+    if (dot(w, x.n) <= 0) x.n = x.ng;  // a smoothed normal that faces away cannot be used
     return x;
 }
 
-/// The adjoint BSDF times its cosine: the factor of flux that arrives from wi and leaves to wo.
+/// The adjoint BSDF times the cosine: the factor of flux that arrives from wi and leaves to wo.
 ///
-///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, if wo sees its front
+///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, ng if that faces away from wo
 ///
-/// For a path from the eye the cosine is that of wi and n. Flux arrives in proportion to |wi.ng|
-/// and leaves to |wo.ng|: where n is ng, the cosine is that of wo.
+/// A path from the eye multiplies by |wi.n|. Flux arrives in proportion to |wi.ng|, and leaves in
+/// proportion to |wo.ng|. Where n = ng, only the cosine |wo.ng| is left.
 /// source  Veach 1997, sec. 5.3      tested by  "agreement: smoothed normals"
 inline Rgb adjoint_bsdf(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     Hit seen = seen_from(scene, x, wo);
@@ -164,7 +164,7 @@ inline Rgb adjoint_bsdf(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
 
 /// Connects x, where flux arrives from wi, to the camera.      flux f cos We V / d^2
 ///
-/// Mirrors and glass: nothing, since the pinhole lies not in the one direction that counts.
+/// Mirrors and glass: nothing, since their f is 0 in the direction of the pinhole.
 inline std::optional<Splat> connect_to_camera(const Scene& scene, const Pinhole& camera,
                                               const Hit& x, Vec3 wi, Rgb flux) {
     Vec3 away = x.p - camera.view.o;
@@ -177,13 +177,13 @@ inline std::optional<Splat> connect_to_camera(const Scene& scene, const Pinhole&
     return Splat{importance->pixel, L};
 }
 
-/// Draws where light goes on that arrives at x from wi, and f cos of it; s.f is that.
+/// Samples the direction in which light from wi leaves x; s.f holds f cos of the adjoint BSDF.
 ///
-/// Refracted radiance is squeezed by 1 / eta^2, flux is not: its factor is taken out again.
+/// Refraction scales radiance by 1 / eta^2, but not flux: that factor is removed again.
 /// source  Veach 1997, sec. 5.2      tested by  "agreement: a light in glass"
 inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, float u1, Vec2 u2) {
     Hit y = x;
-    if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // so that all of wo is drawn
+    if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // to sample every possible wo
     BsdfSample s = sample_bsdf(y, wi, u1, u2);
     if (s.pdf_w == 0) return s;
     if (!s.specular) {
@@ -196,10 +196,10 @@ inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, f
     return s;
 }
 
-/// One path from a light: adds to the splats what it brings to each pixel that sees a part of it.
+/// Traces one path from a light, and splats the contribution of each vertex to its pixel.
 ///
-/// Unbiased up to scene.max_depth scattering events, but for what it cannot see: where mirror or
-/// glass is all that lies before the pinhole. Var ~ 1 / d^2 of what is near to it.
+/// Unbiased up to scene.max_depth scattering events, except that what the camera sees in mirrors or
+/// through glass is missing. Var ~ 1 / d^2 for surfaces at a small distance d from the pinhole.
 /// source  Arvo 1986; Dutre, Willems 1995      tested by  "ch20 light tracing"
 inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& splats,
                         Sampler& sampler, Recorder& recorder) {
@@ -230,7 +230,7 @@ inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& 
             return;
         }
 
-        // Go on, with what does not depend on the light but on the path alone.
+        // Sample the next direction. beta leaves out the light: so does roulette.
         float u1 = sampler.u1();
         BsdfSample s = sample_light_bsdf(scene, *x, wi, u1, sampler.u2());
         if (s.pdf_w == 0) return;
@@ -238,7 +238,7 @@ inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& 
         if (is_black(beta)) return;
         recorder.scatter(s, beta);
 
-        // Play roulette: stop with probability 1 - q, else stand in for those that stopped.
+        // Russian roulette: stop with probability 1 - q, else divide by q to compensate.
         float q = survival_probability(beta, depth - 1);
         if (sampler.u1() >= q) return;
         beta /= q;

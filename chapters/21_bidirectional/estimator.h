@@ -1,4 +1,4 @@
-// Chapter 21: bidirectional path tracing. All connections of two paths, each with its weight:
+// Chapter 21: bidirectional path tracing. All connections of two paths, each with its MIS weight:
 //
 //   strategy (s, t): s vertices from the light, t from the eye;   mis_s = p_s / sum over i of p_i
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace ch21 {
 
-/// A vertex of a path: on a surface, on a light, in the sky; or the pinhole.
+/// A vertex of a path: on a surface, on a light, in the sky, or at the pinhole.
 struct Vertex {
     Hit x = {};
     Vec3 back;                         // unit, to the vertex before
@@ -26,7 +26,7 @@ inline bool is_far(LightType t) { return t == LightType::distant || t == LightTy
 inline bool can_be_hit(LightType t) { return t == LightType::area || t == LightType::infinite; }
 inline Vec3 direction(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
 
-/// The vertex where a ray hits x, or that of the sky where it hits nothing.
+/// The vertex where a ray hits x, or a vertex in the sky if it hits nothing.
 inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const std::optional<Hit>& x,
                         const Ray& ray, Rgb beta) {
     Vertex v{x ? *x : Hit{}, -ray.d, beta, x && !is_specular(*x->material), {}};
@@ -40,7 +40,7 @@ inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const st
     return v;
 }
 
-/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. path[0] stays empty.
+/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. Leaves path[0] empty.
 inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool from_light, Ray ray,
                         Sampler& sampler, Recorder& recorder) {
     Path path(1);
@@ -96,15 +96,15 @@ inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sample
     return path;
 }
 
-/// Places y, the point of a light, for the vertex x that it lights.
+/// Sets position or normal of y, the point of a light, as seen from the vertex x that it lights.
 ///
-/// Far lights stand on a sphere of the scene's radius around x; lights without a size face x.
+/// Distant lights and skies: at the scene's radius from x. Point lights: facing x.
 inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
     if (is_far(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
     if (y.type == LightType::point) y.x.ng = direction(y, x);
 }
 
-/// The path of s vertices from the light and t from the eye, from the light on.
+/// The whole path in order from the light: s vertices of the light path, t of the eye path.
 inline Path whole_path(const Scene& scene, const Path& light, int s, const Path& eye, int t) {
     Path path(light.begin(), light.begin() + s);
     path.insert(path.end(), eye.rend() - t, eye.rend());
@@ -112,22 +112,22 @@ inline Path whole_path(const Scene& scene, const Path& light, int s, const Path&
     return path;
 }
 
-/// Whether strategy s can make a path: it connects vertices s - 1 and s, or (s = 0) hits the light.
+/// Whether strategy s can make a path: by connecting vertices s - 1 and s, or by a hit (s = 0).
 inline bool can_make(const Path& path, size_t s) {
     if (s == 0) return can_be_hit(path[0].type);
     if (s < 3 && s + 1 == path.size()) return false;  // to the camera: noisier than s = 0, 1
     return (s == 1 || path[s - 1].connectible) && path[s].connectible;
 }
 
-/// The density, in sr^-1, of direction `to` at x, where the path came from `from`. Mirrors and
-/// glass: 1, as both directions have the same probability there.
+/// The density, in sr^-1, with which a path that came from `from` leaves x in direction `to`.
+/// Mirrors and glass: 1, as walks from both ends choose the direction with the same probability.
 inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3 from, Vec3 to) {
     if (is_specular(*x.material)) return 1;
     Hit y = seen_from(scene, x, from);
     if (from_light && x.material->type == MaterialType::diffuse) y.n = y.ng;
     return glossy_bsdf::pdf_bsdf(y, from, to);
 }
-/// The density, in sr^-1, of direction w at a light. Rays of far lights fill a disk: pi sr.
+/// The density, in sr^-1, with which a light emits along w. Far lights: 1 / pi, for a disk of rays.
 inline float pdf_emission(const Vertex& light, Vec3 w) {
     return light.type == LightType::point ? 1 / (4 * pi) : std::abs(dot(w, light.x.ng)) / pi;
 }
@@ -160,8 +160,8 @@ inline std::vector<double> densities(const Scene& scene, const Endpoints& endpoi
 ///
 ///   mis_s = p_s / sum over i of p_i,    p_i = light_0 ... light_i-1  eye_i ... eye_k-1
 ///
-/// light, eye: the density of each vertex from either side. Only factors of p_i / p_s that differ
-/// are multiplied: none overflows. 0 where vertices touch (0 / 0).   source  Veach 1997, sec. 10.2
+/// light, eye: densities of each vertex from either end. Only factors in which p_i and p_s differ
+/// are multiplied: no overflow. 0 if vertices coincide (0 / 0).   source  Veach 1997, sec. 10.2
 /// tested by  "identity: weights are p_s / sum p_i over the densities of whole paths"
 inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Path& path,
                         size_t s) {
@@ -206,7 +206,7 @@ inline Rgb connect(const Scene& scene, const Vertex& y, const Vertex& z, int s) 
     return is_black(L) || occluded(scene, spawn_ray(z.x, wi, t_max)) ? Rgb{} : L;
 }
 
-/// Estimates Li along the ray; adds to the splats what light brings to other pixels.
+/// Estimates Li along the ray; splats the light path's contributions to other pixels.
 ///
 ///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
 ///
@@ -214,7 +214,7 @@ inline Rgb connect(const Scene& scene, const Vertex& y, const Vertex& z, int s) 
 /// source  Lafortune, Willems 1993; Veach, Guibas 1994      tested by  "ch21 bidirectional"
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
-    // Walk from a light, with numbers that have their own dimensions, and from the eye.
+    // Walk from a light (with sampler dimensions of its own) and from the eye.
     sampler.jump(1 << 12);
     Path light = light_subpath(scene, endpoints, sampler, recorder);
     sampler.jump(8);
@@ -222,7 +222,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats
     Path eye = random_walk(scene, endpoints, false, ray, sampler, recorder);
     eye[0].x.p = ray.o;
 
-    // Connect each number of vertices of one path with each number of the other.
+    // Connect every vertex of one path to every vertex of the other.
     Rgb sum;
     for (int t = 1; t <= static_cast<int>(eye.size()); t++) {
         for (int s = 0; s <= static_cast<int>(light.size()); s++) {
@@ -236,7 +236,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats
             if (t == 1) splat = connect_to_camera(scene, endpoints.camera, path[i - 1]);
             if (is_black(splat.L)) continue;
 
-            // Weight it by how likely this strategy was to make the path.
+            // Multiply by the MIS weight of this strategy.
             float mis = mis_weight(scene, endpoints, path, i);
             splat.L *= mis;
             recorder.connected(splat.L, s, t, mis, splat.pixel);

@@ -1,4 +1,4 @@
-// The pyramid of strategies: a picture of each, alone and weighed, as one sheet.
+// The pyramid of strategies: a picture of each, without and with its MIS weight, as one sheet.
 #pragma once
 #include "chapters/21_bidirectional/estimator.h"
 #include "common/picture/sheet.h"

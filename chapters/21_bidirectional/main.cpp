@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         std::string alone, sheet;
         Option strategy = {
-            "strategy", "S,T", "one alone, without a weight: S vertices from the light, T the eye",
+            "strategy", "S,T", "only one, without weight: S vertices from the light, T the eye",
             [&](const std::string& text) {
                 size_t comma = std::min(text.find(','), text.size() - 1);
                 alone = ch21::strategy_name(

@@ -1,5 +1,5 @@
-// Chapter 22: fast bidirectional path tracing. The weights of chapter 21 in constant time, by a sum
-// that each vertex keeps; direct light as in chapter 15; more samples of what chance alone finds.
+// Chapter 22: fast bidirectional path tracing. The weights of chapter 21 in constant time, from a
+// sum stored at each vertex; direct light as in chapter 15; more samples of light in mirrors.
 //
 //   sum over i < s of p_i / p_s  =  r_s-1 (c_s-1 + r_s-2 (c_s-2 + r_s-3 (c_s-3 + ...)))
 #pragma once
@@ -8,18 +8,18 @@
 
 namespace ch22 {
 
-/// What is prepared for a scene, and how many samples replace one that only chance can find.
+/// What is prepared for a scene, and the number of samples that through_mirrors() takes.
 struct Bidirectional {
     Endpoints endpoints;
     many_lights::Lights lights;
     int chances;  // 0: none, as in chapter 21
-    bool aims;    // direct light is that of chapter 15; no: of chapter 21
+    bool aims;    // direct light as in chapter 15; false: as in chapter 21
 };
 inline Bidirectional prepare(const Scene& scene, int chances = 16, bool aims = true) {
     return {endpoints_of(scene), many_lights::prepare(scene), chances, aims};
 }
 
-/// What a vertex keeps for the weights of all connections.
+/// What a vertex stores for the weights of all its connections.
 struct Kept {
     float pdf = 1;      // m^-2, of this vertex in this walk
     double sum = 0;     // see add_sums()
@@ -27,7 +27,7 @@ struct Kept {
     Vec3 back = {};     // unit, to the vertex before, by both points
 };
 
-/// A path from the eye or from a light, and what its vertices keep.
+/// A path from the eye or from a light, and what its vertices store.
 struct Subpath {
     bool from_light;
     Path path;
@@ -42,7 +42,7 @@ inline float pdf_forward(const Scene& scene, const Endpoints& endpoints, const S
     return walk.from_light ? pdf_emission(v, w) : importance_cos(endpoints.camera, w);
 }
 
-/// Adds what the vertices of a walk keep, once for all of its connections.
+/// Computes what the vertices of a walk store, once for all its connections.
 ///
 ///   r_j    density of vertex j in a walk from the other end / its density in this walk
 ///   c_j    1 if vertices j - 1 and j can be connected, else 0; c_0: if the light can be hit
@@ -73,8 +73,8 @@ inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& wa
 ///
 ///   r_n-1 (c_n-1 + r_n-2 sum_n-1)
 ///
-/// A connection changes two ratios alone. pdf, in m^-2: of the n-th vertex in a walk from the other
-/// end; pdf_w, in sr^-1: with which that walk goes on to the vertex before.
+/// A connection changes only two ratios. pdf, in m^-2: of the n-th vertex in a walk from the other
+/// end; pdf_w, in sr^-1: with which that walk continues to the vertex before.
 /// tested by  "identity: by the weights alone, each path brings what it brings in chapter 21"
 inline double sum_of_fewer(const Subpath& walk, size_t n, size_t fewest, float pdf, float pdf_w) {
     if (n <= fewest) return 0;
@@ -86,7 +86,7 @@ inline double sum_of_fewer(const Subpath& walk, size_t n, size_t fewest, float p
     return r * (c + static_cast<double>(r_before) * last.sum);
 }
 
-/// The weight of strategy (s, t): the balance heuristic, in the same time for every path.
+/// The weight of strategy (s, t): the balance heuristic, in constant time.
 ///
 ///   mis_s = p_s / sum over i of p_i = 1 / (1 + sum over i < s and i > s of p_i / p_s)
 inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Subpath& light,
@@ -107,10 +107,10 @@ inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Su
     float back_z = t > 1 ? pdf_onwards(scene, true, z.x, -w, eye.kept[t - 1].back) : 0;
     double sum = 1 + sum_of_fewer(light, s, fewest_s, pdf_y, back_y) +
                  sum_of_fewer(eye, t, fewest_t, pdf_z, back_z);
-    return sum > 0 ? static_cast<float>(1 / sum) : 0;  // 0 where vertices touch (0 / 0)
+    return sum > 0 ? static_cast<float>(1 / sum) : 0;  // 0 if vertices coincide (0 / 0)
 }
 
-/// What strategy (s, t) brings, without its weight, and in which pixel. As in chapter 21.
+/// The contribution of strategy (s, t) without its weight, and its pixel, as in chapter 21.
 inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Path& light, size_t s,
                         const Path& eye, size_t t) {
     const Vertex& z = eye[t - 1];
@@ -121,8 +121,8 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
     return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
 }
 
-/// Light that reaches the eye by way of its path's first vertex, neither mirror nor glass: as in
-/// chapter 15, from two lights aimed at and what the next ray meets.
+/// Direct light at the first vertex from the eye (neither mirror nor glass), as in chapter 15: from
+/// two sampled lights and from the emission that the next ray hits.
 /// tested by  "variance: direct light has the error of chapter 15"
 inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, const Path& eye,
                         Sampler& sampler, Recorder& recorder) {
@@ -144,8 +144,8 @@ inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, c
     return L + many_lights::direct_light(scene, lights, c, u, recorder);
 }
 
-/// Whether light that mirrors or glass bring to the t-th vertex from the eye is found only by
-/// chance: no two vertices of such a path can be connected.
+/// Whether light that reaches the t-th vertex from the eye via mirrors or glass is found only by
+/// random hits: no two vertices of such a path can be connected.
 inline bool only_chance(const Subpath& eye, size_t t) {
     const Path& path = eye.path;
     return t > 2 && path[t - 1].connectible && !path[t - 2].connectible && eye.kept[t - 1].sum == 0;
@@ -158,9 +158,9 @@ inline bool has_chances(const Subpath& eye, size_t t) {
     return z < t - 1 && only_chance(eye, z);
 }
 
-/// Light that mirrors or glass alone bring to z, the t-th vertex from the eye: a mean of samples.
+/// Light that reaches z, the t-th vertex from the eye, via mirrors or glass only: mean of samples.
 ///
-/// Unbiased: it replaces what the walk itself finds of these paths, which has the same mean.
+/// Unbiased: it replaces the eye path's own estimate of this light, which has the same mean.
 /// tested by  "agreement: with and without chances through mirrors, by length and class"
 inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chances,
                            Sampler& sampler, Recorder& recorder) {
@@ -181,7 +181,7 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
             v.beta /= q;
             recorder.scatter(s, v.beta);
 
-            // Count the light behind a mirror, the n-th vertex.
+            // Add the light seen in a mirror, the n-th vertex.
             std::optional<Hit> y = intersect(scene, spawn_ray(v.x, s.wi));
             recorder.vertex(y);
             if (n > t + 1) {
@@ -197,7 +197,7 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
     return sum;
 }
 
-/// Estimates Li along the ray; adds to the splats what light brings to other pixels.
+/// Estimates Li along the ray; splats the light path's contributions to other pixels.
 ///
 ///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
 ///
@@ -218,7 +218,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
     add_sums(scene, endpoints, light);
     add_sums(scene, endpoints, eye);
 
-    // Connect each number of vertices of one path with each number of the other.
+    // Connect every vertex of one path to every vertex of the other.
     Rgb sum;
     bool aims = settings.aims && scene.max_depth > 0 && eye.path[1].connectible;
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
@@ -238,7 +238,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
         }
     }
 
-    // Take more samples of what only chance can find.
+    // Take more samples of light that only random hits find.
     for (size_t t = eye.path.size(); t > 2 && settings.chances > 0; t--) {
         if (!only_chance(eye, t)) continue;
         int number = static_cast<int>(t);

@@ -7,13 +7,13 @@ int main(int argc, char** argv) {
         int chances = 16;
         bool aims = true;
         Option chances_option = {
-            "chances", "N", "samples where mirrors and glass leave only chance; 0: none",
+            "chances", "N", "extra samples of light that only random hits find; 0: none",
             [&](const std::string& text) {
                 chances = static_cast<int>(parse_integer("chances", text, 0, 1000));
             },
             "16"};
         Option direct_by = {"direct-by", "CHAPTER",
-                            "how direct light is found, as in chapter 15 or 21",
+                            "how direct light is found: as in chapter 15 or 21",
                             [&](const std::string& text) {
                                 aims = parse_choice("direct-by", text, {"15", "21"}) == 0;
                             },

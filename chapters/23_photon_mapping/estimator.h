@@ -25,10 +25,10 @@ struct PhotonSettings {
     uint32_t seed = 0;
     int light_paths = 100000;  // in each pass
     bool final_gathering = true;
-    float radius = 0;  // m, of the disk around a point in which photons count; 0: by the scene
+    float radius = 0;  // m, of the disk in which photons count; 0: by the scene's size
 };
 
-/// Traces one of so many light paths, and stores the flux that arrives at each diffuse vertex.
+/// Traces one of `paths` light paths, and stores the flux that arrives at each diffuse vertex.
 ///
 ///   flux = Le cos_y / (pmf pdf_A pdf_w paths) beta
 ///
@@ -53,7 +53,7 @@ inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int
         float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
         vertices.push_back({x->p, x->ng, flux * beta * cosines, depth, x->material});
 
-        // Go on as in chapter 20.
+        // Sample the next direction as in chapter 20.
         float u1 = sampler.u1();
         BsdfSample s = sample_light_bsdf(scene, *x, wi, u1, sampler.u2());
         float u_q = sampler.u1();
@@ -86,16 +86,16 @@ inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endp
     return vertices;
 }
 
-/// The weight of a photon at distance d, by Epanechnikov: 1 on average over the disk.
+/// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.
 inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
 
-/// Estimates the light that x reflects from the photons of a map that are near to x.
+/// Estimates the light that x reflects, from the photons of a map that are near to x.
 ///
 ///   Lo = rho / pi  sum over photons nearer than r of  K(d / r) flux / (pi r^2)
 ///
 /// Photons count only if they lie on the same surface: their normal is within 45 degrees, and they
 /// are in a disk that is an eighth as thick as it is wide. `depth`: scattering events that are
-/// left. Biased: the mean over the disk. At the edge of a surface half of the disk is empty.
+/// left. Biased: an average over the disk, which is half empty at an edge.
 /// source  Jensen 1996      tested by  "truth: light at an edge and in a corner"
 inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, int depth,
                   Recorder& recorder) {
@@ -142,16 +142,16 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
     return power_heuristic(pdf_b, pmf_light(endpoints.lights, light) * pdf_one);
 }
 
-/// Pass two: estimates Li along the ray. The path goes on over mirrors, glass and rough metal to a
+/// Pass two: estimates Li along the ray. The path continues via mirrors, glass and rough metal to a
 /// diffuse vertex, and gathers photons there or (final gathering) at the next one.
 ///
-/// Biased, as photons count near a point and not at it: the bias stays, however many passes.
+/// Biased, since it uses photons near a point and not at it; more passes do not reduce the bias.
 /// source  Jensen 1996      tested by  "ch23 photon mapping"
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMaps& maps, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     std::optional<Hit> last;  // the last vertex that is neither mirror nor glass
-    float pdf_b = infinity;   // of the ray's direction: a mirror and the camera draw no other
+    float pdf_b = infinity;   // of the ray's direction; infinite after a mirror or the camera
     bool is_last = !maps.final_gathering;  // the next diffuse vertex ends the path
     for (int depth = 0;; depth++) {
         // Find the next vertex, and the light that it emits.
@@ -169,7 +169,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
             return L;
         }
 
-        // Gather photons: of all light, where the path ends; else of caustics.
+        // Gather photons: all where the path ends, else those of caustics.
         if (is_diffuse(*x->material)) {
             const PhotonMap& map = is_last ? maps.global : maps.caustic;
             L += beta * gather(maps, map, *x, scene.max_depth - depth, recorder);
@@ -182,7 +182,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
         LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, endpoints, *x, wo, u, recorder);
 
-        // Sample the BSDF, and go on.
+        // Sample the BSDF for the next direction.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         float u_q = sampler.u1();

@@ -12,13 +12,13 @@ int main(int argc, char** argv) {
              },
              "100000"},
             {"gather", "final|direct",
-             "photons: one diffuse bounce behind what the camera sees, or right there",
+             "gather photons after one more diffuse bounce, or at the visible point",
              [&](const std::string& text) {
                  s.final_gathering = parse_choice("gather", text, {"direct", "final"}) == 1;
              },
              "final"},
             {"radius", "METRES",
-             "radius of the disk in which photons count (default 0: by the scene)",
+             "radius of the disk in which photons count (default 0: by the scene's size)",
              [&](const std::string& text) {
                  s.radius = text == "0" ? 0 : static_cast<float>(parse_positive("radius", text));
              },

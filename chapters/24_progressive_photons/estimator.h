@@ -1,5 +1,5 @@
-// Chapter 24: progressive photon mapping. The radius shrinks from pass to pass, slowly enough that
-// the photons in it, of all passes together, grow without end: bias and noise both go to 0.
+// Chapter 24: progressive photon mapping. The radius shrinks from pass to pass, but so slowly that
+// the number of photons in it, over all passes, keeps growing: bias and noise both go to 0.
 //
 //   (r_i+1 / r_i)^2 = (i + alpha) / (i + 1),    i = 1, 2, ...:    r_i ~ i^((alpha - 1) / 2)
 #pragma once
@@ -14,16 +14,16 @@ namespace ch24 {
 
 using glossy_bsdf::pdf_bsdf;
 
-/// The weight of a photon at distance d, by Epanechnikov: 1 on average over the disk.
+/// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.
 inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
 
-/// Estimates the light that x reflects from the photons of a map that are near to x.
+/// Estimates the light that x reflects, from the photons of a map that are near to x.
 ///
 ///   Lo = rho / pi  sum over photons nearer than r of  K(d / r) flux / (pi r^2)
 ///
 /// Photons count only if they lie on the same surface: their normal is within 45 degrees, and they
 /// are in a disk that is an eighth as thick as it is wide. `depth`: scattering events that are
-/// left. Biased: the mean over the disk. At the edge of a surface half of the disk is empty.
+/// left. Biased: an average over the disk, which is half empty at an edge.
 /// source  Jensen 1996      tested by  "truth: light at an edge and in a corner"
 inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, int depth,
                   Recorder& recorder) {
@@ -70,17 +70,17 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
     return power_heuristic(pdf_b, pmf_light(endpoints.lights, light) * pdf_one);
 }
 
-/// Pass two: estimates Li along the ray. The path goes on over mirrors, glass and rough metal to a
+/// Pass two: estimates Li along the ray. The path continues via mirrors, glass and rough metal to a
 /// diffuse vertex, and gathers photons there or (final gathering) at the next one.
 ///
-/// Biased, as photons count near a point and not at it: the bias of the mean of all passes goes
-/// to 0 as the radius does.
+/// Biased, since it uses photons near a point and not at it. The bias of the mean of all passes
+/// goes to 0 with the radius.
 /// source  Knaus, Zwicker 2011      tested by  "ch24 progressive photons"
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMaps& maps, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     std::optional<Hit> last;  // the last vertex that is neither mirror nor glass
-    float pdf_b = infinity;   // of the ray's direction: a mirror and the camera draw no other
+    float pdf_b = infinity;   // of the ray's direction; infinite after a mirror or the camera
     bool is_last = !maps.final_gathering;  // the next diffuse vertex ends the path
     for (int depth = 0;; depth++) {
         // Find the next vertex, and the light that it emits.
@@ -98,7 +98,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
             return L;
         }
 
-        // Gather photons: of all light, where the path ends; else of caustics.
+        // Gather photons: all where the path ends, else those of caustics.
         if (is_diffuse(*x->material)) {
             const PhotonMap& map = is_last ? maps.global : maps.caustic;
             L += beta * gather(maps, map, *x, scene.max_depth - depth, recorder);
@@ -111,7 +111,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
         LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, endpoints, *x, wo, u, recorder);
 
-        // Sample the BSDF, and go on.
+        // Sample the BSDF for the next direction.
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, wo, u1, sampler.u2());
         float u_q = sampler.u1();
@@ -129,8 +129,8 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
     }
 }
 
-/// The radius of a pass, of all points alike. The first one: what the user asks for, or a share of
-/// the scene's radius.
+/// The radius of a pass, the same for all points. The first is what the user asks for, or a share
+/// of the scene's radius.
 ///
 ///   (r_i+1 / r_i)^2 = (i + alpha) / (i + 1),    alpha = 2/3:    r_i ~ i^(-1/6)
 ///

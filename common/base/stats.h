@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-/// Mean and variance in one pass and without cancellation.
+/// Running mean and variance of the samples added so far, in one pass and without cancellation.
 ///
 ///   delta = x - mean;   mean += delta / n;   m2 += delta (x - mean)
 ///
@@ -27,9 +27,9 @@ public:
     }
     uint64_t count() const { return n_; }
     double mean() const { return mean_; }
-    /// Of one sample, unbiased; 0 for fewer than two.
+    /// Variance of a single sample (an unbiased estimate); 0 for fewer than two samples.
     double variance() const { return n_ < 2 ? 0 : m2_ / static_cast<double>(n_ - 1); }
-    /// Of the mean of independent samples.
+    /// Standard error of the mean, if the samples are independent.
     double standard_error() const {
         return n_ == 0 ? 0 : std::sqrt(variance() / static_cast<double>(n_));
     }

@@ -34,7 +34,7 @@ LightPoint sample_emitter_area(const Emitter& e, Vec2 u) {
 
 Vec3d unit(Vec3d a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
-/// The number of the primitive under u of the light's running areas; u is stretched to [0,1) anew.
+/// Chooses a primitive of the light in proportion to its area; u is then rescaled to [0,1).
 uint32_t choose_by_area(const LightShape& shape, float& u) {
     if (shape.area_up_to.empty()) return 0;
     float target = u * shape.area;
@@ -45,8 +45,8 @@ uint32_t choose_by_area(const LightShape& shape, float& u) {
     return static_cast<uint32_t>(i);
 }
 
-/// The corners of a disk's bounding square, from x; c: its centre, from x. One side faces x: who
-/// stands beside the disk then stands beside the square.
+/// The corners of a disk's bounding square, relative to x; c: its centre, relative to x. One side
+/// faces x, so that an x in the disk's plane beside the disk is also beside the square.
 void put_square_around(const Emitter& e, Vec3d c, Vec3d (&p)[4]) {
     Vec3d n = unit(Vec3d(e.n)), away = c - dot(c, n) * n;
     bool beside = dot(away, away) > 1e-12 * dot(c, c);
@@ -55,19 +55,19 @@ void put_square_around(const Emitter& e, Vec3d c, Vec3d (&p)[4]) {
     p[0] = c - s - t, p[1] = c + s - t, p[2] = c + s + t, p[3] = c - s + t;
 }
 
-/// How x can draw from the light by solid angle; `area` where it cannot, or need not.
+/// How to sample the light by solid angle from x; `area`: by area, if not possible or not needed.
 enum class Way : uint8_t { area, triangle, parallelogram, disk };
 
-/// A triangle, or a quadrangle of two, from which directions are drawn as from one piece.
+/// A triangle, or a quadrangle of two triangles, to sample directions from.
 struct Plan {
     Way way = Way::area;
     Emitter e;             // the primitive, or the first of two
-    Vec3d p[4], w[4];      // corners as seen from x, one after the other; w: unit
+    Vec3d p[4], w[4];      // corners relative to x, in order; w: unit
     double omega[2] = {};  // sr: of the triangles of corners 0 1 2 and 0 3 2
     float pdf = 0;         // sr^-1
 };
 
-/// Looks at all corners; `share` of all points come from here.
+/// Computes solid angles and density; `share`: the probability of sampling this piece.
 void look(Plan& plan, Way way, float share) {
     auto& w = plan.w;
     for (size_t i = 0; i < (way == Way::triangle ? 3 : 4); i++) w[i] = unit(plan.p[i]);
@@ -79,7 +79,7 @@ void look(Plan& plan, Way way, float share) {
     plan.pdf = std::min(static_cast<float>(double{share} / omega), densest);
 }
 
-/// The point, from x, that lies in a direction drawn from a plan's triangles.
+/// The point, relative to x, in a direction sampled from a plan's triangles.
 Vec3d sample_seen(const Plan& plan, Vec2 u) {
     // Choose one of two by its solid angle; its corners are 0 1 2 or 0 3 2.
     float first = static_cast<float>(plan.omega[0] / (plan.omega[0] + plan.omega[1]));
@@ -93,9 +93,9 @@ Vec3d sample_seen(const Plan& plan, Vec2 u) {
     return dot(n, p[0]) / dot(n, to_y) * to_y;
 }
 
-/// Chooses the way for the light as a whole, or for one primitive (`index`) of a larger mesh.
+/// Chooses how to sample the whole light, or primitive number `index` of a larger mesh.
 ///
-/// Seen from x, and in double: neither what is near nor what is seen edge-on loses digits.
+/// Coordinates relative to x, in double: shapes that are near or seen edge-on lose no digits.
 Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
     const LightShape& shape = scene.light_shapes[light];
     Plan plan;
@@ -133,12 +133,12 @@ LightPoint light_shape_details::sample_pieces(const Scene& scene, size_t light, 
 LightPoint light_shape_details::sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u) {
     Vec3 to_centre = e.p0 - x, w = sample_cone(sin2, u);
     float d2 = length_squared(to_centre), d = std::sqrt(d2);
-    // Where it enters: from sines, of which a narrow cone loses no digits.
+    // Where the ray enters the sphere: from sines, which lose no digits for a narrow cone.
     float sin2_y = std::min((w.x * w.x + w.y * w.y) / sin2, 1.0f), cos_y = std::sqrt(1 - sin2_y);
     float t = (d2 - e.r * e.r) / (d * w.z + e.r * cos_y);
     Frame frame(to_centre / d);
     Vec3 n = {t / e.r * w.x, t / e.r * w.y, -(w.z * cos_y + sin2_y * e.r / d)};
-    float eps = e.eps + rounding_error(d);  // as far as t and the direction are rounded
+    float eps = e.eps + rounding_error(d);  // rounding errors of t and of the direction
     return {x + t * frame.to_world(w), frame.to_world(n), eps, pdf_cone(sin2)};
 }
 

@@ -1,39 +1,40 @@
-// Points on the surface of a light, drawn by area or by the solid angle under which x sees it.
+// Points on the surface of a light, sampled by area or by the solid angle seen from x.
 #pragma once
 #include "common/scene/intersect.h"
 #include "common/scene/scene.h"
 
 /// A point of a light.
 struct LightPoint {
-    Vec3 p, n;      // m; n: unit, on the side that shines
-    float eps = 0;  // m: how far p may be off the surface
+    Vec3 p, n;      // m; n: unit, on the side that emits
+    float eps = 0;  // m: largest distance of p from the surface, by rounding
     float pdf = 0;  // m^-2 by area, sr^-1 by solid angle; 0: no point
 };
 
-/// A point of the light's surface, all equally likely.      pdf_A = 1 / area
+/// A uniformly distributed point of the light's surface.      pdf_A = 1 / area
 inline LightPoint sample_area(const Scene& scene, size_t light, Vec2 u);
 float pdf_area(const Scene& scene, size_t light);
 
-/// A point of the light, its directions from x (nearly) all equally likely. pdf in sr^-1.
+/// A point of the light, (nearly) uniformly distributed in solid angle seen from x. pdf in sr^-1.
 ///
 ///   sphere         the cone that it fills
 ///   two triangles  the two spherical triangles, one chosen by its solid angle
 ///   more           a triangle chosen by area, then its spherical triangle
-///   disk           its bounding square, one side towards x; no point where that misses the disk
+///   disk           its bounding square, one side towards x; no sample where it misses the disk
 ///
-/// Where x is farther away than two radii, and inside a sphere: by area, which is then as good.
-/// Where x is on the light, but for rounding, nobody knows on which side: by area, hardly anything.
+/// If x is farther away than two radii, or inside a sphere: by area, which is then as good. If x is
+/// on the light within rounding, its side is unknown: by area, which contributes almost nothing.
 /// source  cone: Shirley, Wang 1991; triangle: Arvo 1995
 /// tested by  "consistency: a light's samples agree with its density", "truth: squares from near"
 inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);
 
-/// The density, in sr^-1, with which sample_solid_angle finds the point y that a ray from x met.
+/// The density of sample_solid_angle, in sr^-1, for the point y that a ray from x hit.
 float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y);
 
-/// The largest density, in sr^-1. What is smaller than 1e-36 sr is drawn as if it were that large.
+/// The largest density, in sr^-1: solid angles below 1e-36 sr count as 1e-36 sr.
 inline constexpr float densest = 1e36f;
 
-/// The same density per solid angle at x:  pdf_w = pdf_A d^2 / cos_y.      0 where y is edge-on.
+/// Turns a density per area into one per solid angle at x:  pdf_w = pdf_A d^2 / cos_y; 0 if
+/// edge-on.
 inline float area_to_solid_angle(float pdf_A, Vec3 x, Vec3 y, Vec3 n_y) {
     Vec3 to_y = y - x;
     float d2 = dot(to_y, to_y), d_cos = std::abs(dot(to_y, n_y));
@@ -45,15 +46,15 @@ namespace light_shape_details {
 inline bool is_near(const LightShape& shape, Vec3 x) {
     return length_squared(x - shape.centre) < 4 * shape.radius * shape.radius;
 }
-/// By area, from any light but a parallelogram.
+/// Samples any light except a parallelogram, by area.
 LightPoint sample_pieces(const Scene& scene, size_t light, Vec2 u);
-/// By area, with the density that this has at x.
+/// Samples by area, and returns the density per solid angle at x.
 inline LightPoint sample_far(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
     LightPoint y = sample_area(scene, light, u);
     y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
     return y;
 }
-/// sin^2 of the half angle under which x sees a sphere; 1 for all that cannot be drawn so.
+/// sin^2 of the half angle of the cone in which x sees a sphere; 1 for inside and other shapes.
 inline float sin2_of_cone(const LightShape& shape, Vec3 x) {
     const Emitter& e = shape.first;
     bool one_sphere = e.kind == Emitter::sphere && !e.inward && shape.area_up_to.empty();
@@ -61,9 +62,9 @@ inline float sin2_of_cone(const LightShape& shape, Vec3 x) {
     if (!one_sphere || d2 <= touching * touching) return 1;
     return std::max(e.r * e.r / d2, 1 / densest);
 }
-/// The point of the sphere that x sees in a direction of its cone.
+/// Samples a direction of the cone in which x sees the sphere; returns the point seen there.
 LightPoint sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u);
-/// By solid angle, from any other light that is near.
+/// Samples any other light that is near x, by solid angle.
 LightPoint sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u);
 
 }  // namespace light_shape_details

@@ -3,7 +3,7 @@
 #pragma once
 #include "common/light/lights.h"
 
-/// The power of a light, in W: radiance times area times pi, and what corresponds to it.
+/// The power of a light, in W.
 ///
 ///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  R: radius of the scene
 inline float light_power(const Scene& scene, size_t i) {
@@ -19,7 +19,7 @@ inline float light_power(const Scene& scene, size_t i) {
     return 0;
 }
 
-/// The probability of each light: by its power, and a defensive share d for all lights alike.
+/// The probability of each light: proportional to power, mixed with a uniform (defensive) share d.
 ///
 ///   pmf_i = (1 - d) power_i / sum power + d / N >= d / N
 inline std::vector<double> light_pmf(const Scene& scene, double d) {
@@ -36,17 +36,17 @@ inline std::vector<double> light_pmf(const Scene& scene, double d) {
     return pmf;
 }
 
-/// One column of the alias table that lights are chosen from.
+/// Column i of the alias table: it holds light i and at most one other light.
 struct AliasColumn {
-    float own;       // share of the column that is the light of the same number
-    uint32_t other;  // the light that the rest of the column is
-    float pmf;       // of the light of the same number, over the whole table
+    float own;       // share of the column that belongs to light i
+    uint32_t other;  // the light that the rest of the column belongs to
+    float pmf;       // probability of light i, over the whole table
 };
 using LightTable = std::vector<AliasColumn>;
 
-/// Cuts N probabilities into N columns of equal width, with at most two lights in each.
+/// Builds the alias table: N probabilities in N columns of equal height, at most two in each.
 ///
-///   a column that is too low is filled up from one that is too high, which so gets lower
+///   each column that is too low is filled up with a part of one that is too high
 ///
 /// source  Walker 1974; Vose 1991      tested by  "identity: the alias table keeps every pmf"
 inline LightTable build_light_table(const std::vector<double>& pmf) {
@@ -73,10 +73,10 @@ inline LightTable build_light_table(const std::vector<double>& pmf) {
     return table;
 }
 
-/// Chooses a light in O(1): a column, and one of the two lights in it.
+/// Chooses a light in O(1): first a column, then one of the two lights in it.
 ///
-/// u is a double, of 48 random bits: the 24 of a float are 17 numbers for each of a million
-/// columns.
+/// u is a double with 48 random bits: a float's 24 bits would give each of a million columns only
+/// 17 different numbers.
 inline uint32_t pick_light(const LightTable& lights, double u) {
     int N = static_cast<int>(lights.size());
     double at = u * N;

@@ -1,22 +1,22 @@
 // taught by chapter 10
-// Aiming at one light.
+// Sampling one light.
 #pragma once
 #include "common/light/light_shapes.h"
 #include "common/material/cosine.h"
 
-/// Light that was aimed at. pdf_w == 0: no sample, it contributes nothing.
+/// A sampled point or direction of a light, seen from x. pdf_w == 0: no sample, no contribution.
 struct LightSample {
     Vec3 wi;             // unit, from x to the light
     Rgb Le;              // W m^-2 sr^-1: without f, cosine and visibility
-    float dist = 0;      // m: how far the shadow ray goes, just short of the light
+    float dist = 0;      // m: length of the shadow ray, which ends just before the light
     float pdf_w = 0;     // sr^-1; for a point or distant light the probability of choosing it
-    bool delta = false;  // a point or distant light: no path meets it by chance
+    bool delta = false;  // a point or distant light: no path can hit it
 };
 
-/// A point y of an area light, and the density of its direction at x.
+/// Samples a point y of an area light; pdf_w is the density of its direction seen from x.
 ///
-/// zero    where y faces away, is edge-on, or is x itself (cos_y is then not a number)
-/// error   unbiased, Var < E^2 / 3 however near the light
+/// zero    if y faces away, is edge-on, or is x itself (cos_y is then not a number)
+/// error   unbiased; Var < E^2 / 3, however near the light is
 /// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);

@@ -1,13 +1,13 @@
-// The densities of lights.h, asked of a direction that someone else has drawn.
+// The densities of lights.h, for directions that were sampled in another way.
 #pragma once
 #include "common/light/lights.h"
 
-/// The density, in sr^-1, with which sample_one_light would have drawn the direction from x in
-/// which a ray met y, a point of the light.
+/// The density of sample_one_light, in sr^-1, for the direction in which a ray from x hit point y
+/// of the light.
 inline float pdf_one_light(const Scene& scene, size_t light, const Hit& x, const Hit& y) {
     return pdf_solid_angle(scene, light, x.p, y);
 }
-/// The density of the direction wi from x in which a ray met nothing, and saw the sky.
+/// The density of sample_one_light, in sr^-1, for direction wi, in which a ray from x hit the sky.
 inline float pdf_sky(const Hit& x, Vec3 wi) {
     return pdf_cosine_hemisphere(std::max(0.0f, dot(wi, x.n)));
 }

@@ -1,16 +1,16 @@
 // taught by chapter 12
-// Choosing one of M candidate lights by what each could give.
+// Resampling (RIS): choosing one of M candidate lights by its target.
 #pragma once
 #include "common/light/light_table.h"
 
-/// A light as its target needs it: the same numbers for lights of every type.
+/// What the target function needs to know about a light: the same fields for every type.
 struct LightBounds {
-    Vec3 centre;          // m; unit, towards a light without a place
+    Vec3 centre;          // m; unit, towards a distant light
     float has_place = 1;  // 0: distant and infinite lights
-    Vec3 n;               // unit, of a flat light; else 0
-    float back = 1;       // -1: a flat light that shines to both sides
-    float radius = 0;     // m, of a sphere around it; 1: the sky, which is around x
-    float least_cos = 1;  // of the angle at the light; 0: a flat light
+    Vec3 n;               // normal of a flat light, unit; else 0
+    float back = 1;       // -1: a flat light that emits on both sides
+    float radius = 0;     // m, of its bounding sphere; 1: the sky, which surrounds x
+    float least_cos = 1;  // least cosine at the light; 0: a flat light
     float power = 0;      // area: L A;  point and distant: L;  sky: pi L
 };
 inline LightBounds light_bounds(const Scene& scene, size_t i) {
@@ -24,13 +24,13 @@ inline LightBounds light_bounds(const Scene& scene, size_t i) {
     return {y.centre, 1, y.first.n, back, y.radius, 0, L * y.area};
 }
 
-/// p_hat: what a light could send by way of x if nothing were in between, from its centre alone.
+/// The target p_hat: the light that x would receive from the light's centre without shadows.
 ///
-///   p_hat = power cos_x cos_y / d^2;   cos_y = 1 and d = 1 for lights that have none
+///   p_hat = power cos_x cos_y / d^2;   cos_y = 1 and d = 1 for lights without them
 ///
-/// Other points of an area light may be nearer or seen less edge-on than its centre: its cosines
-/// count as radius / d at least, and d as its radius, unless all of it lies behind the surface or
-/// turns its back. So p_hat is 0 only where the light gives nothing, and no point gives much more.
+/// Other points of an area light may be nearer than its centre, or seen less edge-on. So cosines
+/// are at least radius / d, and d is at least radius, unless the whole light is behind x or faces
+/// away. Then p_hat is 0 only where the light contributes nothing, and it is never far too small.
 inline float target(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
     float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));
@@ -42,15 +42,15 @@ inline float target(const LightBounds& y, const Hit& x) {
     return seen * y.power * cos_x * cos_y / d2;
 }
 
-/// The light kept among the candidates so far.
+/// The candidate kept so far, and the sum of all weights.
 struct Reservoir {
     size_t light = 0;
     float p_hat = 0;       // of that light
     float weight_sum = 0;  // of all candidates
 
-    /// Takes the candidate with probability weight / weight_sum.
+    /// Keeps this candidate instead with probability weight / weight_sum.
     ///
-    /// u in [0,1) decides, and is made uniform again for the next candidate.
+    /// u in [0,1) decides, and is then rescaled to [0,1) for the next candidate.
     void offer(size_t candidate, float p_hat_candidate, float weight, float& u) {
         if (!(weight > 0)) return;
         weight_sum += weight;
@@ -62,19 +62,19 @@ struct Reservoir {
             u = (u - share) / (1 - share);
         }
     }
-    /// W: what the kept light counts for all others, in place of 1 / probability.
+    /// The weight W of the kept light, which replaces 1 / probability.
     float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
 };
 
-/// Where candidates come from: a table of the lights by power, and how many for one sample.
+/// The source of candidates: a table of lights by power, and the number M of candidates.
 struct Proposal {
     LightTable lights;
     int M;
 };
 
-/// Draws M lights by power, and keeps one in proportion to its target at x.
+/// Draws M lights by power, and keeps one with probability proportional to w = p_hat / p at x.
 ///
-/// u: one number for the candidates, one from each of M slices of the table; u1 for the choice.
+/// u: draws all candidates, one from each of M slices of the table; u1: chooses among them.
 inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hit& x, double u,
                                  float u1) {
     Reservoir kept;

@@ -1,12 +1,12 @@
-// Directions into a cone or a spherical triangle, all equally likely per solid angle. What draws
-// them takes the functions of angles in double: in float their last bit differs between libraries.
+// Uniformly distributed directions in a cone or a spherical triangle. Trigonometric functions are
+// computed in double: in float their last bit differs between libraries.
 #pragma once
 #include "common/geometry/transform.h"
 
 /// 1 - cos of a cone's half angle from sin^2, without cancellation for narrow cones.
 inline float one_minus_cos(float sin2) { return sin2 / (1 + std::sqrt(std::max(0.0f, 1 - sin2))); }
 
-/// A direction of the cone around +z whose half angle has sin^2 = sin2.
+/// A uniform direction in the cone around +z whose half angle has sin^2 = sin2.
 ///
 ///   cos = 1 - u1 (1 - cos_max);      pdf_w = 1 / (2 pi (1 - cos_max))
 inline Vec3 sample_cone(float sin2, Vec2 u) {
@@ -24,8 +24,8 @@ inline Vec2 invert_cone(float sin2, Vec3 w) {
 ///
 ///   tan(Omega / 2) = |a . (b x c)| / (1 + a.b + b.c + c.a)
 ///
-/// In double: just below a triangle, and where it is seen edge-on, small differences of large
-/// numbers are what counts.
+/// In double: very near a triangle, or where it is seen edge-on, the result is a small difference
+/// of large numbers.
 /// source  Van Oosterom, Strackee 1983
 /// tested by  "truth: solid angles of triangles and rectangles"
 inline double triangle_solid_angle(Vec3d a, Vec3d b, Vec3d c) {
@@ -33,7 +33,7 @@ inline double triangle_solid_angle(Vec3d a, Vec3d b, Vec3d c) {
     return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(a, c));
 }
 
-/// A direction of the spherical triangle a, b, c of solid angle `omega`.
+/// A uniform direction in the spherical triangle a, b, c of solid angle `omega`.
 ///
 ///   u1 cuts off a sub-triangle a, b, c' of solid angle s = u1 omega; u2 goes from b towards c'
 ///   tan(|ac'| / 2) = sin(s / 2) / (tan(|ab| / 2) sin(alpha - s / 2)),  alpha: the angle at a

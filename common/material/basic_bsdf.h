@@ -6,7 +6,7 @@
 
 namespace basic_bsdf {
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+/// The BSDF f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass (Dirac deltas).
 ///
 ///   diffuse:  f = reflectance / pi  on wo's side of the surface
 inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
@@ -15,14 +15,14 @@ inline Rgb eval_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     return x.material->reflectance / pi;
 }
 
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+/// The density of sample_bsdf for wi, in sr^-1; 0 for mirrors and glass (Dirac deltas).
 inline float pdf_bsdf(const Hit& x, Vec3 /*wo*/, Vec3 wi) {
     if (x.material->type != MaterialType::diffuse) return 0;
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
     return pdf_cosine_hemisphere(dot(wi, x.n));
 }
 
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+/// Samples the next direction of the path. u1 chooses reflection or refraction, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     switch (x.material->type) {
         case MaterialType::diffuse: {

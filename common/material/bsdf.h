@@ -5,10 +5,10 @@
 #include "common/material/metal.h"
 #include "common/material/optics.h"
 
-/// A direction drawn from a BSDF. pdf_w == 0: no sample, the path ends.
+/// A direction sampled from a BSDF. pdf_w == 0: no sample, the path ends.
 ///
-/// specular: wi is the only direction there is. f and pdf_w are then both infinite, and hold only
-/// the factors in front, which are all that f cos / pdf_w needs.
+/// specular: light leaves in one direction only. f and pdf_w are then Dirac deltas, and these
+/// fields hold only the factors before the deltas, which cancel in f cos / pdf_w.
 struct BsdfSample {
     Vec3 wi;          // unit
     Rgb f;            // sr^-1, without the cosine
@@ -16,7 +16,7 @@ struct BsdfSample {
     bool specular = false;
 };
 
-/// A direction of the hemisphere around +z, all equally likely.
+/// A uniformly distributed direction of the hemisphere around +z.
 ///
 ///   z = 1 - u1,  phi = 2 pi u2;      pdf_w = 1 / (2 pi)
 ///
@@ -31,19 +31,19 @@ inline Vec2 invert_uniform_hemisphere(Vec3 w) {
     return {1 - w.z, (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// A mirror has one direction to go on in.      f cos = F, the share that the metal reflects
+/// The mirror direction.      f cos = F, the share of light that the metal reflects (Fresnel)
 inline BsdfSample sample_mirror(const Hit& x, Vec3 wo) {
     float cos_o = dot(wo, x.n);
     Rgb F = fresnel_conductor(cos_o, x.material->eta, x.material->k);
     return {reflect(wo, x.n), F / cos_o, 1, true};
 }
 
-/// Glass sends the path on by reflection or by refraction: by chance, so that it stays one path.
+/// Samples reflection or refraction by glass: one of them at random, so the path does not branch.
 ///
 ///   P_R = R (Fresnel), P_T = 1 - R;  f cos / P = 1 for reflection, 1 / eta^2 for refraction
 ///
-/// eta: index beyond over index here. Radiance is squeezed by 1 / eta^2 where it enters glass, and
-/// gets it back where it leaves.      source  Veach 1997, sec. 5.2
+/// eta: refractive index beyond the surface over the index on wo's side. Radiance over index^2 is
+/// conserved, hence 1 / eta^2.      source  Veach 1997, sec. 5.2
 inline BsdfSample sample_dielectric(const Hit& x, Vec3 wo, float u) {
     float eta = x.front ? x.material->ior : 1 / x.material->ior;
     float cos_o = dot(wo, x.n), R = fresnel_dielectric(cos_o, eta);

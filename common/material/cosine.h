@@ -1,13 +1,13 @@
 // taught by chapter 10
-// The warp for diffuse surfaces.
+// Cosine-distributed directions, for diffuse surfaces.
 #pragma once
 #include "common/base/vec.h"
 
-/// A direction of the hemisphere around +z, likelier the higher it stands.
+/// A direction of the hemisphere around +z, with density proportional to its cosine z.
 ///
 ///   r = sqrt(u1),  phi = 2 pi u2,  z = sqrt(1 - u1);      pdf_w = cos / pi
 ///
-/// A uniform point of the unit disk, lifted to the sphere. u in [0,1)^2; z in (0,1].
+/// A uniform point of the unit disk, projected up to the sphere. u in [0,1)^2; z in (0,1].
 /// source  Malley 1988      tested by  "density: cosine hemisphere"
 inline Vec3 sample_cosine_hemisphere(Vec2 u) {
     return from_cylindrical(std::sqrt(u.x), u.y, std::sqrt(1 - u.x));

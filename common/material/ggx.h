@@ -5,20 +5,20 @@
 
 namespace glossy_bsdf {
 
-/// How normals of microfacets spread, in the frame where z is the normal (GGX):
+/// The GGX distribution of microfacet normals, in the frame where z is the surface normal:
 /// D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2)
 /// source  Walter et al. 2007      tested by  "density: GGX normals"
 inline float ggx_D(Vec3 h, float alpha) {
     float a2 = alpha * alpha, d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
     return a2 / (pi * d * d);
 }
-/// By which facets hide each other: G1(w) = 1 / (1 + Lambda(w)).     source  Smith 1967; Heitz 2014
+/// Lambda of Smith's shadowing G1(w) = 1 / (1 + Lambda(w)).     source  Smith 1967; Heitz 2014
 inline float ggx_lambda(Vec3 w, float alpha) {
     float tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
     return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
 }
-/// A microfacet normal among those that wo sees: pdf(h) = G1(wo) D(h) wo.h / cos_o. Stretched to
-/// alpha = 1, it is drawn from a cap of the sphere.
+/// Samples a microfacet normal visible from wo: pdf(h) = G1(wo) D(h) wo.h / cos_o. Stretched to
+/// alpha = 1, the visible normals follow from a uniform point on a cap of the sphere.
 /// source  Heitz 2018; Dupuy, Benyoub 2023
 inline Vec3 sample_ggx_normal(Vec3 wo, float alpha, Vec2 u) {
     Vec3 w = normalize({alpha * wo.x, alpha * wo.y, wo.z});
@@ -37,7 +37,7 @@ inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
     return {1 - (c.z + w.z) / (1 + w.z), (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// f of a rough conductor on wo's side, in sr^-1, and the density of its samples; h = wo + wi.
+/// The BSDF of a rough conductor, in sr^-1; next, its sampling density and sample; h ~ wo + wi.
 inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), i = frame.to_local(wi), h = normalize(o + i);
@@ -61,21 +61,21 @@ inline BsdfSample sample_rough_conductor(const Hit& x, Vec3 wo, Vec2 u) {
     return {wi, eval_rough_conductor(x, wo, wi), pdf_rough_conductor(x, wo, wi)};
 }
 
-/// f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass, where no wi but one counts.
+/// The BSDF f(x, wo, wi) in sr^-1, without the cosine; 0 for mirrors and glass (Dirac deltas).
 inline Rgb eval_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
     if (!is_rough(*x.material)) return basic_bsdf::eval_bsdf(x, wo, wi);
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return {};
     return eval_rough_conductor(x, wo, wi);
 }
 
-/// The density, in sr^-1, with which sample_bsdf draws wi; 0 for mirrors and glass.
+/// The density of sample_bsdf for wi, in sr^-1; 0 for mirrors and glass (Dirac deltas).
 inline float pdf_bsdf(const Hit& x, Vec3 wo, Vec3 wi) {
     if (!is_rough(*x.material)) return basic_bsdf::pdf_bsdf(x, wo, wi);
     if (dot(wi, x.n) <= 0 || dot(wi, x.ng) <= 0) return 0;
     return pdf_rough_conductor(x, wo, wi);
 }
 
-/// Draws the direction in which the path goes on. u1 chooses what happens, u2 the direction.
+/// Samples the next direction of the path. u1 chooses reflection or refraction, u2 the direction.
 inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
     if (!is_rough(*x.material)) return basic_bsdf::sample_bsdf(x, wo, u1, u2);
     return sample_rough_conductor(x, wo, u2);

@@ -1,8 +1,8 @@
-// Glass that bends blue light more than red.
+// Dispersion: glass refracts blue light more than red.
 #pragma once
 #include <cmath>
 
-/// A glass by what was fitted to measurements of its index of refraction.
+/// A glass: the coefficients fitted to measurements of its index of refraction.
 struct Glass {
     const char* name;   // as pbrt calls it
     double B[3], C[3];  // C in micrometres^2

@@ -2,16 +2,16 @@
 #pragma once
 #include "common/material/material.h"
 
-/// A point of a surface, as seen by the ray that found it: n and ng face where it came from.
+/// A point of a surface, hit by a ray: n and ng are on the side that the ray came from.
 struct Hit {
     Vec3 p;      // m
     Vec3 n;      // shading normal, unit
     Vec3 ng;     // geometric normal, unit
-    float eps;   // m: how far p may be off the surface
-    float t;     // in lengths of the ray's d
+    float eps;   // m: largest distance of p from the surface, by rounding
+    float t;     // distance along the ray, in lengths of its d
     float time;  // the ray's
-    bool front;  // came from the side of the normal: where it shines, outside of glass
+    bool front;  // on the normal's side: where a light emits, outside of glass
     const Material* material;
-    int light;      // into Scene::lights; -1: does not shine
-    uint32_t prim;  // into Scene::geometry
+    int light;      // index into Scene::lights; -1: emits no light
+    uint32_t prim;  // index into Scene::geometry
 };

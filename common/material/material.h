@@ -1,4 +1,4 @@
-// What a surface is made of, as the scene file says it.
+// The material of a surface, as the scene file describes it.
 #pragma once
 #include <cstdint>
 
@@ -13,8 +13,8 @@ struct Material {
     Rgb eta, k;                            // conductor: complex index of refraction eta + i k
     float alpha = 0;                       // conductor: GGX roughness; 0: a perfect mirror
     float ior = 1.5f;                      // dielectric: index inside over index outside
-    const Glass* glass = nullptr;  // dielectric: which disperses; then ior is that at 587.6 nm
-    int line = 0, column = 0;      // where the scene file makes it, for messages
+    const Glass* glass = nullptr;  // dielectric with dispersion; ior is then the one at 587.6 nm
+    int line = 0, column = 0;      // of its definition in the scene file, for messages
 };
 
 /// Whether light that arrives from one direction leaves in one direction (or two) only.
@@ -23,5 +23,5 @@ inline bool is_specular(const Material& m) {
            (m.type == MaterialType::conductor && m.alpha == 0);
 }
 
-/// Whether it is metal that light leaves in many directions, more in some than in others.
+/// Whether it is rough metal.
 inline bool is_rough(const Material& m) { return m.type == MaterialType::conductor && m.alpha > 0; }

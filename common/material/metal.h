@@ -9,8 +9,8 @@
 ///   R_p = R_s (cos^2 a2_b2 - 2 a cos sin^2 + sin^4) / (cos^2 a2_b2 + 2 a cos sin^2 + sin^4)
 ///   R = (R_s + R_p) / 2
 ///
-/// Numerators are sums of squares, (a - cos)^2 + b^2 and its like: rounding must not make them
-/// negative. a2_b2 is 0 for eta = k = 0 straight on, where R_p would be 0 / 0: R is then 1.
+/// Numerators are sums of squares such as (a - cos)^2 + b^2, but rounding may make them negative.
+/// For eta = k = 0 at normal incidence a2_b2 is 0, and R_p would be 0 / 0: R is then 1.
 /// source  Born, Wolf, "Principles of Optics", ch. 14
 /// tested by  "identity: a metal's reflectance is Fresnel's with a complex index"
 inline float fresnel_conductor(float cos_i, float eta, float k) {

@@ -1,4 +1,4 @@
-// What the eye sees of light of one wavelength.
+// The colour of light of one wavelength, as the CIE standard observer sees it.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "common/base/vec.h"
 
-/// The CIE 1931 observer of 2 degrees: x, y, z from 380 nm on, every 10 nm.      source  CIE 015
+/// The CIE 1931 2-degree observer: x, y, z from 380 nm on, every 10 nm.      source  CIE 015
 inline constexpr double observer_first_nm = 380, observer_step_nm = 10;
 inline constexpr std::array<std::array<double, 3>, 41> observer = {{
     {0.001368, 0.000039, 0.006450}, {0.004243, 0.000120, 0.020050}, {0.014310, 0.000396, 0.067850},
@@ -25,15 +25,15 @@ inline constexpr std::array<std::array<double, 3>, 41> observer = {{
     {0.000083, 0.000030, 0.000000}, {0.000042, 0.000015, 0.000000},
 }};
 
-/// CIE XYZ as linear sRGB; what lies outside of it is cut off at 0.      source  IEC 61966-2-1
+/// CIE XYZ as linear sRGB; negative channels are set to 0.      source  IEC 61966-2-1
 inline std::array<double, 3> srgb_from_xyz(double X, double Y, double Z) {
     return {std::max(0.0, 3.2406 * X - 1.5372 * Y - 0.4986 * Z),
             std::max(0.0, -0.9689 * X + 1.8758 * Y + 0.0415 * Z),
             std::max(0.0, 0.0557 * X - 0.2040 * Y + 1.0570 * Z)};
 }
 
-/// What each row of the observer has of all that the eye sees of white light, in linear sRGB: each
-/// channel sums to 1.
+/// The contribution of each row of the observer (10 nm) to white light, in linear sRGB. Each
+/// channel sums to 1 over all rows.
 inline std::vector<Rgb> shares_of_white() {
     std::vector<Rgb> shares;
     Rgb sum;

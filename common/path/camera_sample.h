@@ -3,8 +3,8 @@
 #include "common/path/sampler.h"
 #include "common/scene/camera.h"
 
-/// Starts sample `number` of a pixel. Half 1 of the samples, and audits, have random numbers of
-/// their own: of a key that is no pixel's.
+/// Starts sample `number` of a pixel. Samples of half 1, and audits, have random numbers of their
+/// own, from a key that no pixel has.
 inline void start_sample(Sampler& sampler, size_t pixel, int half, uint32_t number) {
     constexpr uint32_t another_key = 1u << 31;
     sampler.start(static_cast<uint32_t>(pixel) | (half == 1 ? another_key : 0), number);
@@ -12,12 +12,12 @@ inline void start_sample(Sampler& sampler, size_t pixel, int half, uint32_t numb
 
 struct CameraSample {
     Ray ray;
-    Vec2 film;  // the point that the ray goes through, in pixels from the top left
+    Vec2 film;  // the point that the ray passes, in pixels from the top left
 };
 
-/// A ray through a random point of pixel (x, y), by the first two numbers of a sample. All points
-/// are equally likely: the mean of what comes along the rays is the pixel of a box filter.
-/// `centre`: always through the middle, a mistake that chapter 16 shows.
+/// A ray through a uniformly distributed point of pixel (x, y), from the first two numbers of a
+/// sample. The mean over such rays is the pixel's average: a box filter. `centre`: always through
+/// the pixel's centre, a mistake that chapter 16 shows.
 ///
 /// tested by  "identity: a camera sample is the ray through its pixel, at the next two numbers"
 inline CameraSample camera_sample(const CameraView& view, int x, int y, Sampler& sampler,

@@ -7,13 +7,13 @@ namespace sky_light {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf;
 
-/// The probability that light sampling chooses one of the pixels before pixel i, for each i, and
-/// at the end 1.      All are 0 for an image of one colour: no pixel is brighter than the mean.
+/// The cumulative distribution (CDF) of light sampling: entry i is the probability of the pixels
+/// before i, the last entry is 1. All are 0 for an image of one colour: no pixel exceeds the mean.
 ///
 ///   pmf_i = max(0, L_i - mean L) w_i / sum,    mean L = sum of L_i w_i / sum of w_i
 ///
-/// To subtract the mean is MIS compensation: BSDF sampling finds light that comes from everywhere
-/// anyway, so light sampling is left for what is brighter. 1e-6: as the mean is rounded.
+/// Subtracting the mean is MIS compensation: BSDF sampling finds even light well, so light sampling
+/// concentrates on what is brighter. 1e-6: allows for rounding of the mean.
 /// source  Karlik et al. 2019      tested by  "density: the image's density sums to 1, or is 0"
 inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
     double light = 0, sphere = 0;
@@ -31,7 +31,7 @@ inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
     return cdf;
 }
 
-/// The lights of chapter 15, and the sky's image as one more: what chooses its pixels.
+/// The lights of chapter 15, and the CDF that chooses pixels of the sky's image.
 struct LightsAndSky : many_lights::Lights {
     std::vector<double> image_cdf;
 };
@@ -41,14 +41,14 @@ inline LightsAndSky prepare(const Scene& scene, int M = 64, bool compensate = tr
     return {lights, image_cdf(*scene.sky_image, compensate)};
 }
 
-/// The density at uv, in pixel i.      pdf_w = pmf_i pixels / (solid angle per area at uv)
+/// The density of direction uv, in pixel i.     pdf_w = pmf_i pixels / (solid angle per area at uv)
 inline float pdf_image(const SkyImage& image, const std::vector<double>& cdf, size_t i, Vec2 uv) {
     double pmf = cdf[i + 1] - cdf[i], pixels = static_cast<double>(image.pixels.size());
     return static_cast<float>(pmf * pixels) / solid_angle_per_area(image, uv);
 }
 
-/// Estimates what the image sends by way of x to wo, from a point of one pixel. By rounding the
-/// point may lie in the next pixel, which may be black: the pixel drawn tells Le and density.
+/// Estimates the image's light that x scatters to wo, from a point of one pixel. Rounding may move
+/// the point into the next pixel, which may be black: Le and pdf are those of the sampled pixel.
 ///
 ///   Ld = mis_l f Le V cos / pdf_l      0 for an image of one colour
 /// tested by  "truth: skies of known irradiance"
@@ -69,8 +69,8 @@ inline Rgb image_light(const Scene& scene, const LightsAndSky& lights, const Hit
     return Ld;
 }
 
-/// The image in direction wi, in which the path has left the scene, times mis_b. pdf_b: with which
-/// wi was drawn; infinite where light sampling cannot draw it, so that mis_b = 1.
+/// The image's radiance in direction wi, in which the path left the scene, times mis_b. pdf_b: the
+/// density of wi; infinite if light sampling cannot sample wi, so that mis_b = 1.
 inline Rgb image_emission(const Scene& scene, const LightsAndSky& lights, Vec3 wi, float pdf_b,
                           Recorder& recorder) {
     if (!scene.sky_image) return {};

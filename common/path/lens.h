@@ -3,11 +3,11 @@
 #pragma once
 #include "common/scene/scene.h"
 
-/// Turns the pinhole's ray into one through a point of the lens that is sharp at the same place.
+/// Replaces the pinhole's ray by one through a random point of the lens, with the same focus point.
 ///
 ///   focus = o + F d / (depth of d);   o' = o + R sqrt(u1) (cos, sin)(2 pi u2);   d' = focus - o'
 ///
-/// F and depths count along the camera's axis: what is sharp is a plane, not a sphere.
+/// F and depths are measured along the camera's axis: the points in focus form a plane.
 /// source  Cook, Porter, Carpenter 1984      tested by  "truth: circles of confusion"
 inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
     Vec3 axis = cross(camera.right, camera.up);
@@ -18,7 +18,7 @@ inline Ray through_lens(const Camera& camera, Ray ray, Vec2 u) {
     return {o, normalize(focus - o)};
 }
 
-/// A time at which the shutter is open, in s; all of them are equally likely.
+/// A uniformly distributed time at which the shutter is open, in s.
 ///
 /// tested by  "truth: how long what moves covers a point"
 inline float sample_time(const Camera& camera, float u) {

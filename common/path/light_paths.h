@@ -1,5 +1,5 @@
 // taught by chapter 20
-// Where paths from lights begin, how they go on, and where the camera sees them.
+// Paths from lights: how they start, scatter, and connect to the camera.
 #pragma once
 #include "common/light/light_table.h"
 #include "common/material/ggx.h"
@@ -8,11 +8,11 @@
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::sample_bsdf;
 
-/// The camera as light sees it.
+/// The camera, as connections from light paths need it.
 struct Pinhole {
     CameraView view;
-    Vec3 n, axis;       // dx x dy, the area of a pixel; unit, the way the camera looks
-    float depth, area;  // of the film from the pinhole; the film's at distance 1
+    Vec3 n, axis;       // dx x dy, the area of a pixel; viewing direction, unit
+    float depth, area;  // distance of the film; its area at distance 1
     int width, height;
 };
 inline Pinhole pinhole_of(const Scene& scene) {
@@ -24,12 +24,12 @@ inline Pinhole pinhole_of(const Scene& scene) {
     return {view, n, axis, depth, pixels * length(n) / (depth * depth), scene.width, scene.height};
 }
 
-/// The importance of light from the direction of `away`, times its cosine, in sr^-1.
+/// The importance We of light from direction `away`, times the cosine, in sr^-1.
 ///
 ///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos over A: 1
 ///
-/// A patch dA of the film is seen under dw = dA cos^3 / d^2, at distance d in front. A picture
-/// weighs all of its film alike, so a direction weighs dA / dw / A = 1 / (A cos^3) = We cos.
+/// From the pinhole, a patch dA of the film at distance d has solid angle dw = dA cos^3 / d^2. All
+/// points of the film have the same weight, so We cos = dA / dw / A = 1 / (A cos^3) with d = 1.
 /// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright as it should be"
 inline float importance_cos(const Pinhole& camera, Vec3 away) {
     float cos_c = dot(away, camera.axis) / length(away);
@@ -42,7 +42,7 @@ struct CameraImportance {
     float We_cos;  // sr^-1
 };
 
-/// Where the camera sees a point `away` from its pinhole; nothing outside of the picture.
+/// The pixel in which the camera sees the point at `away` from its pinhole; nothing if outside.
 ///
 /// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
 inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, Vec3 away) {
@@ -58,7 +58,7 @@ inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, 
     return CameraImportance{pixel + static_cast<size_t>(x), importance_cos(camera, away)};
 }
 
-/// Where paths begin: a distribution of the lights, three in four by power; and the camera.
+/// The ends of paths: the camera, and the table of lights (3/4 by power, 1/4 uniform).
 struct Endpoints {
     LightTable lights;
     Vec3 centre;  // of the scene
@@ -70,16 +70,16 @@ inline Endpoints endpoints_of(const Scene& scene) {
     return {lights, (box.low + box.high) / 2, pinhole_of(scene)};
 }
 
-/// A ray that leaves a light: where from, where to, and how likely.
+/// A ray that leaves a light: its origin, direction, densities and radiance.
 struct Emission {
     LightType type;
-    LightPoint y;  // its normal on the side that shines here; pdf per area
+    LightPoint y;  // its normal is on the ray's side; pdf per area
     Vec3 d;
     float pmf = 0, pdf_w = 0;  // of the light; sr^-1
-    Rgb Le;                    // W m^-2 sr^-1, or what the light has in its place
+    Rgb Le;                    // W m^-2 sr^-1; W sr^-1 of a point light, W m^-2 of a distant one
 };
 
-/// A direction of the sphere, all equally likely.      pdf_w = 1 / (4 pi)
+/// A uniformly distributed direction of the sphere.      pdf_w = 1 / (4 pi)
 inline Vec3 sample_sphere(Vec2 u) {
     float z = 1 - 2 * u.x;
     return from_cylindrical(std::sqrt(std::max(0.0f, 1 - z * z)), u.y, z);
@@ -90,7 +90,7 @@ inline Vec3 sample_sphere(Vec2 u) {
 ///   area     any point, cosine direction:   pdf = 1 / A, cos / pi       (both sides: 1 / 2A)
 ///   point    any direction:                 pdf = 1, 1 / (4 pi)
 ///   distant  a point of the scene's disk:   pdf = 1 / (pi R^2), 1
-///   sky      the same, from any direction:  pdf = 1 / (pi R^2), 1 / (4 pi)
+///   sky      such a point, any direction:   pdf = 1 / (pi R^2), 1 / (4 pi)
 ///
 /// tested by  "identity: each light sends out its power"
 inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, double u, Vec2 u_y,
@@ -117,33 +117,33 @@ inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, 
     return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
 }
 
-/// x as the ray finds it that comes along w: with its normals on that side.
+/// x with its normals turned to the side of direction w.
 inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
     x.n = smooth_normal(scene, x);
     if (dot(w, x.ng) < 0) x.n = -x.n, x.ng = -x.ng, x.front = !x.front;
-    if (dot(w, x.n) <= 0) x.n = x.ng;  // one that looks away cannot be used
+    if (dot(w, x.n) <= 0) x.n = x.ng;  // a smoothed normal that faces away cannot be used
     return x;
 }
 
-/// The adjoint BSDF times its cosine: the factor of flux that arrives from wi and leaves to wo.
+/// The adjoint BSDF times the cosine: the factor of flux that arrives from wi and leaves to wo.
 ///
-///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, if wo sees its front
+///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, ng if that faces away from wo
 ///
-/// For a path from the eye the cosine is that of wi and n. Flux arrives in proportion to |wi.ng|
-/// and leaves to |wo.ng|: where n is ng, the cosine is that of wo.
+/// A path from the eye multiplies by |wi.n|. Flux arrives in proportion to |wi.ng|, and leaves in
+/// proportion to |wo.ng|. Where n = ng, only the cosine |wo.ng| is left.
 /// source  Veach 1997, sec. 5.3      tested by  "agreement: smoothed normals"
 inline Rgb adjoint_bsdf(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     Hit seen = seen_from(scene, x, wo);
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
 }
 
-/// Draws where light goes on that arrives at x from wi, and f cos of it; s.f is that.
+/// Samples the direction in which light from wi leaves x; s.f holds f cos of the adjoint BSDF.
 ///
-/// Refracted radiance is squeezed by 1 / eta^2, flux is not: its factor is taken out again.
+/// Refraction scales radiance by 1 / eta^2, but not flux: that factor is removed again.
 /// source  Veach 1997, sec. 5.2      tested by  "agreement: a light in glass"
 inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, float u1, Vec2 u2) {
     Hit y = x;
-    if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // so that all of wo is drawn
+    if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // to sample every possible wo
     BsdfSample s = sample_bsdf(y, wi, u1, u2);
     if (s.pdf_w == 0) return s;
     if (!s.specular) {

@@ -1,5 +1,5 @@
 // taught by chapter 15
-// Aiming at two lights of many, each with its MIS weight.
+// Sampling two of many lights, each with its MIS weight.
 #pragma once
 #include "common/light/pdf_one_light.h"
 #include "common/light/resampling.h"
@@ -12,11 +12,11 @@ namespace many_lights {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 
-/// The lights, and M: as many are candidates at each vertex, or all if there are no more.
+/// The lights, and M, the number of candidates at each vertex (all lights if there are fewer).
 struct Lights {
     LightTable table;
     std::vector<LightBounds> bounds;  // power: divided by candidates
-    std::vector<float> candidates;    // how often each light is a candidate, on average
+    std::vector<float> candidates;    // expected number of times that each light is a candidate
     int M;
     bool all() const { return table.size() <= static_cast<size_t>(M); }
 };
@@ -31,7 +31,7 @@ inline Lights prepare(const Scene& scene, int M = 64) {
     return lights;
 }
 
-/// The candidates at x, seen along wo, and how likely each is to be included in the two lights.
+/// The candidates at x, viewed from wo, and the probability that each is one of the two sampled.
 struct Candidates {
     static constexpr int most = 128;
     Hit x;
@@ -41,8 +41,8 @@ struct Candidates {
     float inclusion[most];
 };
 
-/// How much of a light's target rough metal turns to wo, and the BSDF does not find by itself:
-/// mis_l f, both towards the light's centre. + 0.05: a heuristic, as its other points may differ.
+/// The factor of a light's target on rough metal: mis_l f towards the light's centre, the part that
+/// BSDF sampling does not find. + 0.05: a heuristic, since other points of the light may differ.
 inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo) {
     if (scene.lights[light].type != LightType::area) return 1;
     const LightShape& shape = scene.light_shapes[light];
@@ -53,11 +53,11 @@ inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo)
     return power_heuristic(pdf_one, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
-/// Chooses the candidates, and works out how likely each is to be included.
+/// Chooses the candidates, and computes the probability that each is included in the sample.
 ///
-///   inclusion = min(1, c (w + mean w / 9)),    w = p_hat / candidates,    c: they sum to 2
+///   inclusion = min(1, c (w + mean w / 9)),    w = p_hat / candidates,    c: makes them sum to 2
 ///
-/// mean w / 9: a defensive share of 10 %, as no target sees walls. One or two lights: 1.
+/// mean w / 9: a defensive share of 10 %, since targets ignore walls. One or two lights: 1.
 inline void choose_candidates(const Scene& scene, const Lights& lights, const Hit& x, Vec3 wo,
                               double u, Candidates& c) {
     int N = static_cast<int>(lights.table.size());
@@ -67,12 +67,12 @@ inline void choose_candidates(const Scene& scene, const Lights& lights, const Hi
         c.light[i] = pick_light(lights.table, (i + u) / c.size);
     if (c.size <= 2) return;
 
-    // Weigh each by its target.
+    // Weight each by its target.
     for (int i = 0; i < c.size; i++) c.inclusion[i] = target(lights.bounds[c.light[i]], x);
     for (int i = 0; i < c.size && is_rough(*x.material); i++)
         c.inclusion[i] *= lobe_share(scene, c.light[i], x, wo);
 
-    // Scale the weights to a sum of 2. A light that would have more than 1 leaves 1 to the others.
+    // Scale the weights to a sum of 2. If one would exceed 1, the others sum to 1.
     float sum = 0, largest = 0;
     for (int i = 0; i < c.size; i++)
         sum += c.inclusion[i], largest = std::max(largest, c.inclusion[i]);
@@ -84,15 +84,15 @@ inline void choose_candidates(const Scene& scene, const Lights& lights, const Hi
         c.inclusion[i] = std::min(scale * (c.inclusion[i] + share), 1.0f);
 }
 
-/// The density of the two samples together in the direction of a light: inclusion pdf_one.
+/// The sum of both samples' densities in the direction of a light: inclusion pdf_one.
 ///
-/// If candidates are drawn, nobody knows how likely a light is to be included: min(1, candidates)
-/// is a heuristic in its place. Any positive number keeps the mean.
+/// With random candidates, the probability that a light is included is unknown: min(1, candidates)
+/// is a heuristic for it. Any positive number keeps the estimate unbiased.
 inline float pdf_aimed(const Lights& lights, const Candidates& c, size_t light, float pdf_one) {
     return (lights.all() ? c.inclusion[light] : std::min(1.0f, lights.candidates[light])) * pdf_one;
 }
 
-/// Estimates what candidate number i sends by way of x to wo, from one point of it.
+/// Estimates the direct light of candidate number i that x scatters to wo, from one point.
 ///
 ///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = candidates inclusion pdf_one
 inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidates& c, int i,
@@ -111,10 +111,10 @@ inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidat
     return Ld;
 }
 
-/// Estimates what all lights send by way of x to wo, from two of them.
+/// Estimates the direct light that x scatters to wo, from two of the candidates.
 ///
-/// Systematic sampling: the inclusions lie end to end on a line of length 2; u and u + 1 choose.
-/// Mirrors and glass: 0, since no light aimed at lies in the one direction that counts.
+/// Systematic sampling: put the inclusions end to end, a line of length 2; choose at u and u + 1.
+/// Mirrors and glass: 0, since their f is 0 for every direction that light sampling finds.
 /// source  Madow 1949      tested by  "truth: irradiance of all lights"
 inline Rgb direct_light(const Scene& scene, const Lights& lights, const Candidates& c,
                         const TwoLightNumbers& u, Recorder& recorder) {
@@ -129,7 +129,7 @@ inline Rgb direct_light(const Scene& scene, const Lights& lights, const Candidat
     return Ld;
 }
 
-/// The weight of emission that the BSDF's direction from x has met: at y, or else in the sky.
+/// The MIS weight of emission that a BSDF sample from x has hit: at y, or else in the sky.
 inline float mis_emission(const Scene& scene, const Lights& lights, const Candidates& c,
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);

@@ -1,20 +1,20 @@
 // taught by chapter 14
-// How two ways of drawing the same direction share it.
+// MIS weights of directions that two strategies can sample.
 #pragma once
 #include "common/light/lights.h"
 #include "common/light/pdf_one_light.h"
 
-/// The weight of a direction that was drawn with density a, and could have been drawn with b.
+/// The MIS weight of a direction that was sampled with density a; b: the other strategy's density.
 ///
 ///   balance: a / (a + b);  power: a^2 / (a^2 + b^2)
 ///
-/// By way of b / a, so that no square overflows. a > 0; an infinite a has weight 1.
+/// Computed from b / a, so that no square overflows. a > 0; an infinite a has weight 1.
 /// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1"
 inline float balance_heuristic(float a, float b) { return 1 / (1 + b / a); }
 inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / a)); }
 
-/// A light seen from x. The sky: all directions are equally likely, since BSDF sampling draws it by
-/// the cosine already (chapter 10), and finds too little of one that shines near the horizon alone.
+/// Samples a light from x. The sky: uniformly, since BSDF sampling already samples it by the cosine
+/// (chapter 10), which finds too little of a sky that is bright only near the horizon.
 ///
 /// tested by  "variance: a sky at the horizon: a third of the error of chapter 10"
 inline LightSample sample_beside_bsdf(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
@@ -23,7 +23,7 @@ inline LightSample sample_beside_bsdf(const Scene& scene, size_t light, const Hi
     Vec3 wi = from_cylindrical(std::sqrt(u.x * (2 - u.x)), u.y, 1 - u.x);
     return {Frame(x.n).to_world(wi), scene.lights[light].L, infinity, 1 / (2 * pi)};
 }
-/// The density, in sr^-1, with which that draws wi: the light met at y, or else the sky.
+/// The density of sample_beside_bsdf for wi, in sr^-1, of the light hit at y, or else of the sky.
 inline float pdf_beside_bsdf(const Scene& scene, size_t light, const Hit& x,
                              const std::optional<Hit>& y) {
     return y ? pdf_one_light(scene, light, x, *y) : 1 / (2 * pi);

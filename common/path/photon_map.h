@@ -28,7 +28,7 @@ public:
     PhotonMap() = default;
     PhotonMap(const std::vector<Photon>& photons, float radius)
         : radius_(radius), photons_(photons.size()) {
-        // Count the photons of each entry; make that the end of each entry; fill from the end.
+        // Counting sort: count each entry's photons, turn counts into ends, fill from the ends.
         begin_.resize(std::max(std::bit_ceil(photons.size()), size_t{32}) + 1);
         for (const Photon& photon : photons) begin_[entry_of(cell_of(photon.p))]++;
         for (size_t i = 1; i < begin_.size(); i++) begin_[i] += begin_[i - 1];
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    /// Numbers of a cell along the axes, modulo 2^64.
+    /// The integer coordinates of a cell, modulo 2^64.
     struct Cell {
         uint64_t x, y, z;
     };
@@ -91,9 +91,9 @@ struct LightVertex {
 
 /// The photons of one pass, and how they are gathered.
 struct PhotonMaps {
-    bool final_gathering;               // at the second diffuse vertex, and not at the first
+    bool final_gathering;               // gather at the second diffuse vertex, not at the first
     std::vector<LightVertex> vertices;  // of all light paths, one path after the other
-    PhotonMap global, caustic;          // all photons; those of paths LS+D alone
+    PhotonMap global, caustic;          // all photons; only those of paths LS+D
 
     /// The light path of a photon, from the first vertex behind the light to the photon itself.
     std::span<const LightVertex> path_of(const Photon& photon) const {

@@ -1,5 +1,5 @@
 // taught by chapter 23
-// Pass one of photon mapping: light paths, and the flux that they bring to each vertex.
+// Pass one of photon mapping: light paths, and the flux that arrives at each vertex.
 #pragma once
 #include "common/base/parallel.h"
 #include "common/path/camera_sample.h"
@@ -13,10 +13,10 @@ struct PhotonSettings {
     uint32_t seed = 0;
     int light_paths = 100000;  // in each pass
     bool final_gathering = true;
-    float radius = 0;  // m, of the disk around a point in which photons count; 0: by the scene
+    float radius = 0;  // m, of the disk in which photons count; 0: by the scene's size
 };
 
-/// Traces one of so many light paths, and stores the flux that arrives at each diffuse vertex.
+/// Traces one of `paths` light paths, and stores the flux that arrives at each diffuse vertex.
 ///
 ///   flux = Le cos_y / (pmf pdf_A pdf_w paths) beta
 ///
@@ -41,7 +41,7 @@ inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int
         float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
         vertices.push_back({x->p, x->ng, flux * beta * cosines, depth, x->material});
 
-        // Go on as in chapter 20.
+        // Sample the next direction as in chapter 20.
         float u1 = sampler.u1();
         BsdfSample s = sample_light_bsdf(scene, *x, wi, u1, sampler.u2());
         float u_q = sampler.u1();

@@ -7,20 +7,20 @@
 
 using Points = std::vector<Vec2>;  // on the unit square
 
-/// Pair number i of the independent random numbers of `seed`.
+/// Pair number i of a sequence of independent random numbers; each `seed` has its own sequence.
 inline Vec2 random_pair(uint32_t seed, uint32_t i) {
     Sampler sampler(SamplerType::independent, seed, 1);
     sampler.start(0, i);
     return sampler.u2();
 }
 
-/// The largest float below 1 for what rounding took to 1.
+/// x, or the largest float below 1 where rounding made it 1: keeps coordinates in [0,1).
 inline float below_1(float x) { return std::min(x, 0x1.fffffep-1f); }
 
 /// The estimate of the integral of f over the square: (1/N) sum f(x_i).
 ///
-/// bias 0 for points that are uniform on the square. Points of one set are not independent: s^2/N
-/// is NOT the variance of the estimate. The spread of the estimates of many sets is.
+/// bias 0 for points that are uniform on the square. Points of one set may depend on each other, so
+/// s^2/N is NOT the variance of the estimate: measure that from the estimates of many sets.
 /// tested by  "failure: s^2/N is 4.7 times the variance of 6 x 6 strata"
 template <class Function>
 double estimate(const Points& points, Function f) {

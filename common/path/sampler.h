@@ -22,24 +22,24 @@ inline uint64_t hash64(uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// The top 24 bits as a number in [0,1). Rounding all 32 would give 1 for the largest.
+/// The top 24 bits as a number in [0,1). Converting all 32 would round the largest to 1.
 inline float to_unit_float(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
-/// Two numbers in [0,1) of 24 bits as one of 48 bits, to choose among millions.
+/// Combines two numbers in [0,1) of 24 bits to one of 48 bits, to choose among millions.
 inline double to_unit_double(Vec2 u) { return double{u.x} + 0x1p-24 * double{u.y}; }
 
-/// What aiming at a light is drawn from: numbers in [0,1) that choose the light, and a point on it.
+/// The random numbers in [0,1) of a light sample: they choose the light, and a point on it.
 struct LightNumbers {
     double light;
     Vec2 point;
 };
-/// Those that draw many candidates, choose one of them, and a point on that.
+/// The random numbers of RIS: they draw candidates, choose one of them, and a point on it.
 struct ResamplingNumbers {
     double candidates;
     float choice;
     Vec2 point;
 };
-/// Those that draw candidates, include two of them, and a point on each.
+/// The random numbers of two light samples: they draw candidates, choose two, and a point on each.
 struct TwoLightNumbers {
     double candidates;
     float choice;
@@ -57,7 +57,7 @@ inline uint32_t reverse_bits(uint32_t x) {
 ///
 ///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
 ///
-/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: a step for each size of block.
+/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: one step of code per block size.
 /// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points"
 inline uint32_t sobol_second(uint32_t index) {
     uint32_t x = reverse_bits(index);
@@ -69,7 +69,7 @@ inline uint32_t sobol_second(uint32_t index) {
     return x;
 }
 
-/// reverse_bits(sobol_second(index)): the same steps, the other way.
+/// sobol_second with the bits of argument and result reversed: the same steps with shifts reversed.
 /// tested by  "identity: Sobol's second coordinate from either end"
 inline uint32_t sobol_second_reversed(uint32_t x) {
     x ^= (x >> 16) & 0x0000ffffu;
@@ -80,8 +80,8 @@ inline uint32_t sobol_second_reversed(uint32_t x) {
     return x;
 }
 
-/// Owen's scrambling of a 32-bit fraction: each bit is flipped or not by a random function of the
-/// bits above it. The points stay as evenly spread as they were, and each becomes uniform.
+/// Owen scrambling of a 32-bit fraction: a random function of the bits above it decides whether a
+/// bit is flipped. Points stay as evenly spread as before, and each becomes uniform.
 /// source  Laine, Karras 2011; constants: Vegdahl 2021
 inline uint32_t scramble_reversed(uint32_t x, uint32_t seed) {  // x: bits reversed
     x ^= x * 0x3d20adeau;
@@ -93,10 +93,10 @@ inline uint32_t owen_scramble(uint32_t x, uint32_t seed) {
     return reverse_bits(scramble_reversed(reverse_bits(x), seed));
 }
 
-/// Point u jittered inside stratum i of n: strata of equal area 1/n for any n.
+/// A point of stratum i of n, at position u in it. Strata have equal area 1/n, for any n.
 ///
-///   the square is cut into about sqrt(n) columns, as wide as the number of cells in each, so that
-///   n = k^2 gives the k x k grid, and no other n has to drop or repeat a sample
+///   the square is cut into about sqrt(n) columns, each as wide as its share of the n cells;
+///   n = k^2 gives the k x k grid
 inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
     uint32_t columns = static_cast<uint32_t>(std::rint(std::sqrt(static_cast<double>(n))));
     uint64_t c = (uint64_t{i + 1} * columns - 1) / n;
@@ -108,10 +108,10 @@ inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
     return {std::min(x, 0x1.fffffep-1f), std::min(y, 0x1.fffffep-1f)};
 }
 
-/// The place of i in a random order of 0 .. n-1, without a table.
+/// The position of i in a random permutation of 0 .. n-1, without a table.
 ///
-///   a bijection of the 2^k >= n numbers, in rounds of  i = odd i + any mod 2^k,  i ^= i >> k/2;
-///   repeated until the place is below n, and turned so that each place is equally likely
+///   a bijection of 0 .. 2^k-1, 2^k >= n, in rounds of  i = odd i + any mod 2^k,  i ^= i >> k/2;
+///   repeated until the result is below n, then rotated so that each position is equally likely
 ///
 /// source  cycle walking: Black, Rogaway 2002; for sampling: Kensler 2013
 /// tested by  "truth: permute is a permutation for every n, and each place equally likely"
@@ -130,15 +130,15 @@ inline uint32_t permute(uint32_t i, uint32_t n, uint32_t seed) {
 
 enum class SamplerType : uint8_t { independent, stratified, sobol };
 
-/// The numbers in [0,1) that one path is made of, in the order in which it asks for them.
+/// The random numbers in [0,1) of one path, in the order in which it uses them.
 ///
-/// independent  every number on its own
-/// stratified   dimension pairs: the samples of a pixel fill `spp` strata, in an order of their own
-/// sobol        dimension pairs: Owen-scrambled 2-D Sobol points, in an order of their own
+/// independent  independent numbers
+/// stratified   each pair of dimensions: the samples of a pixel fill `spp` strata, in random order
+/// sobol        each pair of dimensions: Owen-scrambled 2-D Sobol points, in random order
 ///
-/// The same (seed, pixel, sample) gives the same numbers on any machine, thread and tile order. The
-/// key that all of a pixel's numbers come from is a bijection of (seed, pixel): no pixel has the
-/// key of another, in no picture of any seed. source  PCG: O'Neill 2014; shuffled, scrambled Sobol
+/// The same (seed, pixel, sample) gives the same numbers on any machine, whatever the threads.
+/// All numbers of a pixel come from one key, a bijection of (seed, pixel): no two pixels have the
+/// same key, whatever their seeds. source  PCG: O'Neill 2014; shuffled, scrambled Sobol
 /// pairs: Burley 2020
 class Sampler {
 public:
@@ -153,8 +153,8 @@ public:
         state_ = hash64(key_ + sample);
     }
 
-    /// Goes on with the numbers of this dimension, a multiple of 8: what was drawn before has no
-    /// say in which ones come next.
+    /// Continues with the numbers of this dimension, a multiple of 8, however many numbers were
+    /// drawn before.
     void jump(uint32_t dimension) { dimension_ = dimension; }
 
     float u1() {
@@ -168,7 +168,7 @@ public:
     }
 
 private:
-    /// Another number for each of the sets of points that the pixel's samples are taken from.
+    /// The seed of point set `number` of this pixel: different for each set.
     uint32_t key_of_set(uint32_t number) const {
         uint32_t high = static_cast<uint32_t>(key_ >> 32), low = static_cast<uint32_t>(key_);
         return hash32(low + 0x632be5abu * number) ^ high;
@@ -183,16 +183,16 @@ private:
         uint32_t set = key_of_set(dimension_++ + (sample_ / spp_ << 16));
         return jitter_in_stratum(permute(sample_ % spp_, spp_, set), spp_, independent());
     }
-    /// The next dimension's point; its first coordinate alone for u1().
+    /// The point of the next pair of dimensions; u1() uses its first coordinate only.
     Vec2 sobol() {
         size_t i = dimension_ % at_once;
         if (i == 0) draw_sobol();
         dimension_++;
         return {sobol_x_[i], sobol_y_[i]};
     }
-    /// The points of the next dimensions, all at once: the compiler makes vector instructions of
-    /// the loop. index is owen_scramble(sample), x owen_scramble(reverse_bits(index)), y
-    /// owen_scramble(sobol_second(index)); of bits that are reversed twice neither is done.
+    /// The points of the next 8 pairs of dimensions, so that the compiler vectorizes the loop.
+    /// index is owen_scramble(sample), x owen_scramble(reverse_bits(index)), y
+    /// owen_scramble(sobol_second(index)), without pairs of reversals that cancel.
     [[gnu::noinline]] void draw_sobol() {
         for (uint32_t i = 0; i < at_once; i++) {
             uint32_t set = key_of_set(dimension_ + i);
@@ -213,7 +213,7 @@ private:
     float sobol_x_[at_once], sobol_y_[at_once];
 };
 
-/// As many numbers as there is to choose for two of N lights, by way of M candidates.
+/// Draws the numbers that choosing two of N lights among M candidates needs.
 inline TwoLightNumbers two_light_numbers(Sampler& sampler, size_t N, int M) {
     return {N > static_cast<size_t>(M) ? to_unit_double(sampler.u2()) : 0, N > 2 ? sampler.u1() : 0,
             sampler.u2(), N > 1 ? sampler.u2() : Vec2{}};

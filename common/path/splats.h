@@ -1,10 +1,10 @@
-// What a path brings to pixels other than the one that it is a sample of.
+// Contributions of a path to pixels other than its own.
 #pragma once
 #include <vector>
 
 #include "common/base/vec.h"
 
-/// A path that began at a light has met the camera in this pixel.
+/// The contribution of a path from a light to the pixel in which the camera sees it.
 struct Splat {
     size_t pixel;
     Rgb L;

@@ -7,7 +7,7 @@
 #include "common/path/splats.h"
 #include "common/recording/recorder.h"
 
-/// A vertex of a path: on a surface, on a light, in the sky; or the pinhole.
+/// A vertex of a path: on a surface, on a light, in the sky, or at the pinhole.
 struct Vertex {
     Hit x = {};
     Vec3 back;                         // unit, to the vertex before
@@ -23,7 +23,7 @@ inline bool is_far(LightType t) { return t == LightType::distant || t == LightTy
 inline bool can_be_hit(LightType t) { return t == LightType::area || t == LightType::infinite; }
 inline Vec3 direction(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
 
-/// The vertex where a ray hits x, or that of the sky where it hits nothing.
+/// The vertex where a ray hits x, or a vertex in the sky if it hits nothing.
 inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const std::optional<Hit>& x,
                         const Ray& ray, Rgb beta) {
     Vertex v{x ? *x : Hit{}, -ray.d, beta, x && !is_specular(*x->material), {}};
@@ -37,7 +37,7 @@ inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const st
     return v;
 }
 
-/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. path[0] stays empty.
+/// Walks along the ray: from a light as in chapter 20, from the eye as in 13. Leaves path[0] empty.
 inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool from_light, Ray ray,
                         Sampler& sampler, Recorder& recorder) {
     Path path(1);
@@ -93,16 +93,16 @@ inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sample
     return path;
 }
 
-/// Places y, the point of a light, for the vertex x that it lights.
+/// Sets position or normal of y, the point of a light, as seen from the vertex x that it lights.
 ///
-/// Far lights stand on a sphere of the scene's radius around x; lights without a size face x.
+/// Distant lights and skies: at the scene's radius from x. Point lights: facing x.
 inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
     if (is_far(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
     if (y.type == LightType::point) y.x.ng = direction(y, x);
 }
 
-/// The density, in sr^-1, of direction `to` at x, where the path came from `from`. Mirrors and
-/// glass: 1, as both directions have the same probability there.
+/// The density, in sr^-1, with which a path that came from `from` leaves x in direction `to`.
+/// Mirrors and glass: 1, as walks from both ends choose the direction with the same probability.
 inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3 from, Vec3 to) {
     if (is_specular(*x.material)) return 1;
     Hit y = seen_from(scene, x, from);
@@ -110,7 +110,7 @@ inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3
     return glossy_bsdf::pdf_bsdf(y, from, to);
 }
 
-/// The density, in sr^-1, of direction w at a light. Rays of far lights fill a disk: pi sr.
+/// The density, in sr^-1, with which a light emits along w. Far lights: 1 / pi, for a disk of rays.
 inline float pdf_emission(const Vertex& light, Vec3 w) {
     return light.type == LightType::point ? 1 / (4 * pi) : std::abs(dot(w, light.x.ng)) / pi;
 }

@@ -1,4 +1,4 @@
-// What a chapter hands to the programs: its trace(), with all that it needs beside the scene.
+// A chapter's trace() as a function object, with the chapter's prepared data bound to it.
 #pragma once
 #include <functional>
 
@@ -10,31 +10,31 @@
 /// A chapter's estimator: one sample of the radiance that arrives along the ray.
 using Trace = std::function<Rgb(const Scene&, Ray, Sampler&, Recorder&)>;
 
-/// The estimator of a chapter whose paths also begin at lights: what they bring to whatever pixels
-/// they meet goes into the splats; the radiance along the ray itself is returned.
+/// The estimator of a chapter whose paths also start at lights: it returns the radiance along the
+/// ray, and adds contributions to other pixels to the splats.
 using SplatTrace = std::function<Rgb(const Scene&, Ray, Splats&, Sampler&, Recorder&)>;
 
-/// The estimator of a chapter that prepares something anew for each sample: the samples of all
-/// pixels that have the same number make a pass, and depend on each other by what was prepared. So
-/// that passes do not, paths from the eye have independent numbers here: --sampler is for what is
-/// prepared.
+/// The estimator of a chapter that prepares something for each pass, such as photons. A pass is one
+/// sample of every pixel; its samples depend on each other, since they share what was prepared.
+/// Passes must not depend on each other, so paths from the eye use independent numbers, and
+/// --sampler applies only to what is prepared.
 struct PassTrace {
-    /// Before sample number `pass` is taken of any pixel. Ends early when `stopped()`, and that
-    /// pass is then not begun.
+    /// Called before sample number `pass` of any pixel. If `stopped()`, it returns early, and the
+    /// pass does not start.
     std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     Trace trace;
 };
 
-/// A copy, number by number: `volatile` forbids to copy more at once, for which the processor would
-/// have to wait until all that was just written is in memory.
+/// Copies number by number: `volatile` forbids wider loads, which would have to wait until the
+/// numbers just written have reached the cache.
 inline Ray copy_of(const volatile Ray& ray) {
     return {
         {ray.o.x, ray.o.y, ray.o.z}, {ray.d.x, ray.d.y, ray.d.z}, ray.t_max, ray.time, ray.from};
 }
 
-/// A chapter's trace(), and what the chapter has prepared for it and hands in behind the scene.
+/// A chapter's trace(), with what the chapter has prepared as its arguments after the scene.
 ///
-/// gnu::flatten makes one piece of code of all that trace() calls: a fifth faster.
+/// gnu::flatten inlines all that trace() calls, which makes it a fifth faster.
 template <auto trace, class... Own>
 Trace trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Sampler& sampler,

@@ -1,4 +1,4 @@
-// Samples that are not shared out evenly.
+// Different numbers of samples for different pixels.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -6,8 +6,8 @@
 
 #include "common/base/vec.h"
 
-/// What the pilot has seen of a pixel, in one half: of each channel its mean, and the sum of
-/// (sample - mean)^2. The same steps as in RunningStats, of three channels at once.
+/// The statistics of the pilot samples of one half of a pixel: mean and sum of (sample - mean)^2 of
+/// each channel, computed as in RunningStats.
 struct PilotPixel {
     uint32_t n = 0, rays = 0;
     double mean[3] = {}, m2[3] = {};
@@ -26,18 +26,18 @@ struct Pilot {
     std::vector<PilotPixel> half[2] = {};
 };
 
-/// How many samples of each pixel there are.
+/// The number of samples of each pixel.
 using SamplesOf = std::function<uint32_t(size_t pixel)>;
 
-/// How samples are shared out unevenly among the pixels, after a pilot that gives all alike. Those
-/// of a pixel belong to two halves by turns: sample number 2 k + h is number k of half h.
+/// How samples are distributed unevenly among pixels, after a pilot with as many for each. The
+/// samples of a pixel alternate between two halves: sample number 2 k + h is number k of half h.
 struct Allocation {
     uint32_t pilot = 0;  // samples of each pixel; 0: no allocation, all pixels get the same
 
-    /// Decides, by the pilot. Empty: has decided.
+    /// Decides the numbers of samples from the pilot. Empty: already decided.
     std::function<void(const Pilot& pilot, int threads)> share_out = {};
 
-    /// How many there are in a half when there are `spp` a pixel on the mean. Grows with spp, and
-    /// up to the pilot it is the same for all pixels.
+    /// The numbers of samples in a half, for `spp` samples per pixel on average. They grow with
+    /// spp, and are the same for all pixels up to the end of the pilot.
     std::function<SamplesOf(int half, uint32_t spp)> samples = {};
 };

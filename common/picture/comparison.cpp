@@ -37,7 +37,7 @@ std::vector<PixelError> errors_of(const Image& a, const Image& b) {
 }
 
 void sum_errors(std::vector<PixelError> errors, double trim, Comparison& result) {
-    // Leave out the worst.
+    // Leave out the pixels with the largest errors.
     auto smaller = [](PixelError x, PixelError y) { return x.relative < y.relative; };
     std::sort(errors.begin(), errors.end(), smaller);
     size_t left_out = static_cast<size_t>(trim / 100 * static_cast<double>(errors.size()));
@@ -54,7 +54,7 @@ void sum_errors(std::vector<PixelError> errors, double trim, Comparison& result)
     result.mse = sum / static_cast<double>(errors.size());
     result.rmse = std::sqrt(result.mse);
 
-    // See how much of it is in the worst thousandth.
+    // Compute the share of the worst thousandth.
     std::sort(squared.rbegin(), squared.rend());
     double worst = 0;
     size_t few = std::max<size_t>(1, squared.size() / 1000);
@@ -85,7 +85,7 @@ void compare_blocks(const Image& a, const Image& b, Comparison& result) {
                     level.add(std::abs(brightness(b.at(x, y))));
                 }
             }
-            if (difference.count() < 16) continue;  // a rim too thin to know its spread
+            if (difference.count() < 16) continue;  // too few pixels to estimate the spread
             double n = static_cast<double>(difference.count());
             variance += n * difference.variance();
             pixels += n;

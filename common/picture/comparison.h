@@ -1,21 +1,21 @@
-// How far one picture is from another.
+// The errors of one picture relative to another.
 #pragma once
 #include <optional>
 #include <string>
 
 #include "common/picture/image.h"
 
-/// What compare() finds out. Errors are means over pixels and channels of a - b, b the reference.
+/// The result of compare(). Errors are means of a - b over pixels and channels; b: the reference.
 struct Comparison {
     double mean_a = 0, mean_b = 0;  // over pixels and channels
     double mse = 0, rmse = 0;
     double rel_mse = 0;       // of (a-b)^2 / (b^2 + 0.01)
     double worst_share = 0;   // of the squared error, in the worst 0.1 % of the pixels
-    double median_ratio = 0;  // of a / b over the pixels where b > 0, brightness by brightness
-    int cut_off = 0;  // pixels with a channel that is 1 in one picture alone: in 8 bits, the most
+    double median_ratio = 0;  // median ratio of brightness a / b where b > 0
+    int cut_off = 0;          // pixels with a channel of 1, the most in 8 bits, in one picture only
 
-    // Brightness in blocks of 8 x 8 pixels, in standard errors from the spread of a - b within the
-    // block: that needs pixels whose noise is independent, and no second picture of the noise.
+    // Differences of blocks of 8 x 8 pixels, in standard errors. These are estimated from the
+    // spread of a - b within a block, which needs pixels with independent noise.
     double standard_error = 0;  // of mean_a - mean_b; NaN where there is no block
     int blocks = 0, beyond_5 = 0;
     double worst_z = 0;
@@ -36,7 +36,7 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
                       const std::string& name_b);
 
 /// The error of a pixel, sqrt of the mean over its channels of (a-b)^2 / (b^2 + 0.01), as a colour:
-/// black for 0, over blue, purple, orange and yellow to white for `range` and more.
+/// black for 0, then blue, purple, orange and yellow, to white for `range` and more.
 Image error_image(const Image& a, const Image& b, double range);
 
 /// A range that leaves 1 % of the pixels white.

@@ -88,7 +88,7 @@ void Film::start_audit() {
     audits_.assign(audited_.size(), {});
 }
 
-/// What pixels of one kind, at edges or elsewhere, say about the error of the whole.
+/// The sums that estimate the error, over pixels of one kind: at edges, or elsewhere.
 struct Film::ErrorPart {
     double v = 0, v2 = 0;                         // sums of v and v^2 over the pixels
     double found = 0, audited = 0, audited2 = 0;  // over the audited ones: (A - B)^2 / 2, v, v^2

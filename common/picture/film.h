@@ -1,4 +1,4 @@
-// The film: sums of samples, pixel by pixel, and what they say about their own error.
+// The film: sums of the samples of each pixel, and the estimated error of the picture.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include "common/picture/image.h"
 #include "common/picture/pixel_sum.h"
 
-/// Adds up samples, in sums that do not depend on their order. Each pixel counts its own samples,
-/// and has the mean of those.
+/// Adds up samples, in sums that do not depend on their order. Each pixel counts its own samples;
+/// its value is their mean.
 class Film {
 public:
     int width, height;
@@ -23,10 +23,10 @@ public:
           splats_(takes_splats ? pixels_.size() : 0),
           totals_(splats_.size()) {}
 
-    /// From now on each pixel has two halves, 0 and 1, that count their samples each. The picture
-    /// is the mean of both halves' means, and they tell the error: (A - B)^2 / 4 is on the mean the
-    /// variance of (A + B) / 2. For samples that are shared out unevenly, as in chapter 19: each
-    /// half's mean is then without bias if the other half alone decided on the number of samples.
+    /// From now on each pixel has two halves, 0 and 1, that count their own samples. The picture
+    /// is the mean of both means A and B. They also give the error: the expectation of
+    /// (A - B)^2 / 4 is the variance of (A + B) / 2. For uneven samples, as in chapter 19: a half's
+    /// mean is unbiased if only the other half decided on its number of samples.
     void start_halves();
     bool has_halves() const { return has_halves_; }
     const std::vector<PixelSum>& half(int number) const { return number == 0 ? pixels_ : audits_; }
@@ -34,22 +34,22 @@ public:
     /// Adds the next sample of a pixel. Two threads must not add to one pixel.
     void add(size_t pixel, Rgb L, int half = 0) { sum_of(pixel, half).add(L); }
 
-    /// Adds what part of a sample brings, as often as it has parts: to the sums alone, so that the
-    /// film knows its mean but not its error. How many samples there were, count_as() tells.
+    /// Adds one part of a sample, to the sums only: the film then has a mean but no error.
+    /// count_as() sets the numbers of samples.
     void add_part(size_t pixel, Rgb L, int half = 0) { sum_of(pixel, half).add_part(L); }
-    /// This film holds parts of all the samples of `whole`, and has halves if that has.
+    /// This film holds parts of all samples of `whole`; it has halves if `whole` has.
     void count_as(const Film& whole) {
         for (size_t i = 0; i < pixels_.size(); i++) pixels_[i].n = whole.pixels_[i].n;
         for (size_t i = 0; has_halves_ && i < audits_.size(); i++)
             audits_[i].n = whole.audits_[i].n;
     }
 
-    /// Adds what a path from a light brings to a pixel that it happens to meet. Two threads must
-    /// not add to one pixel. The picture is the mean of the samples plus the sum of the splats over
-    /// spp(): one path from a light for each sample.
+    /// Adds the contribution of a path from a light to the pixel in which the camera sees it. Two
+    /// threads must not add to one pixel. The picture is the mean of the samples plus the sum of
+    /// the splats over spp(), as each sample traces one path from a light.
     void splat(size_t pixel, Rgb L) { splats_[pixel].add_part(L); }
-    /// Adds what sample and splats together have brought that belong to the next sample of a pixel:
-    /// these totals are independent of each other, and so tell the error of the mean.
+    /// Adds the total of the next sample of a pixel: the sample plus its splats to all pixels.
+    /// Totals are independent of each other, so they give the error of the mean.
     void add_total(size_t pixel, Rgb L) { totals_[pixel].add(L); }
     bool takes_splats() const { return !splats_.empty(); }
 
@@ -57,27 +57,27 @@ public:
     /// random numbers of another key.
     ///
     /// Samples of one pixel may depend on each other, as stratified ones do; then their spread does
-    /// not tell the error of their mean. Two sets of samples tell: of the means A and B of both,
-    /// (A - B)^2 / 2 is on the mean the variance of one. Of the pixels at the edges of lamps, which
-    /// are few and may carry most of the error, and of all others, each: one of 256, or of fewer so
-    /// that there are 64 or more. Called once all edges are marked.
+    /// not give the error of their mean. Two independent sets do: if A and B are their means, the
+    /// expectation of (A - B)^2 / 2 is the variance of each. Pixels at the edges of lamps are few
+    /// but may have most of the error, so they are audited separately: of either kind one pixel in
+    /// 256, or more so that there are at least 64. Called after all edges are marked.
     void mark_edge(size_t pixel) { pixels_[pixel].is_edge = 1; }
     void start_audit();
     bool has_audits() const { return !audits_.empty() && !has_halves_; }
     bool is_audited(size_t pixel) const { return pixels_[pixel].is_audited > 0; }
-    /// Adds the sample that goes with the last one of this pixel.
+    /// Adds the audit sample that belongs to the last sample of this pixel.
     void audit(size_t pixel, Rgb L) {
         auto place = std::lower_bound(audited_.begin(), audited_.end(), pixel);
         audits_[static_cast<size_t>(place - audited_.begin())].add(L);
     }
 
-    /// From now on the samples of one pass, those of all pixels that have the same number, may
-    /// depend on each other. Passes are independent, so their totals tell the error: each is added
-    /// to one of a few batches, by its number.
+    /// From now on the samples of one pass (one sample of each pixel) may depend on each other.
+    /// Passes are independent, so their totals give the error: each pass is added to one of a few
+    /// batches, by its number.
     ///
     ///   SE^2 = B / (B - 1) sum over the B batches of (n_b / n)^2 (mean_b - mean)^2
     ///
-    /// Batches with a pass that is not complete are left out.
+    /// Batches with an incomplete pass are left out.
     static constexpr size_t most_batches = 32;
     void start_batches() { batches_.assign(most_batches, {}); }
     bool has_batches() const { return !batches_.empty(); }
@@ -88,40 +88,40 @@ public:
     std::vector<PixelSum>& batches() { return batches_; }
     const std::vector<PixelSum>& batches() const { return batches_; }
 
-    /// Adds the samples of another film of the same size, which has audits if this has.
+    /// Adds the samples of another film of the same size; it must have audits if this film has.
     void add(const Film& other);
 
-    /// What each pixel has, as a picture; black where it has nothing yet.
+    /// The picture: the value of each pixel, black where it has no samples yet.
     Image image() const;
 
-    /// How many samples each pixel has, in all three channels.
+    /// The number of samples of each pixel, in all three channels.
     Image counts() const;
 
     /// Mean over channels and the pixels that have samples.
     double mean() const;
     Rgb mean_rgb() const;
 
-    /// Standard error of mean(), from the variance within the pixels; unknown (NaN) where a pixel
-    /// has one sample alone, or samples in one half alone. In a film that takes splats, from that
-    /// of the totals.
+    /// Standard error of mean(), from the variance within the pixels; unknown (NaN) if a pixel has
+    /// only one sample, or samples in only one half. For a film with splats, from the variance of
+    /// the totals.
     ///
     ///   SE^2 = r sum over the pixels of v,   v = sum (Y - mean)^2 / (n - 1) / n
     ///   r    = sum of (A - B)^2 / 2 over the audited pixels / sum of v over them
     ///
-    /// for the pixels at edges and for the others, each. r is 1 without audits, for samples that
-    /// are independent of each other. tested by  "consistency: the reported error is the spread
+    /// separately for the pixels at edges and the others. r is 1 without audits, when samples are
+    /// independent of each other. tested by  "consistency: the reported error is the spread
     /// over seeds, with each sampler"
     double standard_error() const;
 
-    /// What standard_error() rests on: the more the better.
+    /// The number of data that standard_error() is based on: the more, the more reliable.
     struct ErrorBasis {
-        double pixels = 0;   // (sum v)^2 / sum v^2: how many pixels carry the error
-        double audits = 0;   // the same of the audited pixels (with halves, of all); or 0
+        double pixels = 0;   // (sum v)^2 / sum v^2: effective number of pixels
+        double audits = 0;   // the same for the audited pixels (with halves, all); or 0
         double squares = 0;  // sum (Y - mean)^2 over all samples
     };
     ErrorBasis error_basis() const;
 
-    /// (sum x)^2 / sum x^2 over all samples of the film: how many samples really carry it.
+    /// (sum x)^2 / sum x^2 over all samples of the film: the effective number of samples.
     double effective_samples() const;
 
     /// The samples of a pixel, of both halves.
@@ -156,7 +156,7 @@ private:
     Channels mean_channels() const;
     double error_of_batches() const;
 
-    /// What the error is told by.
+    /// The sums that the error is estimated from.
     const std::vector<PixelSum>& measured() const { return splats_.empty() ? pixels_ : totals_; }
 
     std::vector<PixelSum> pixels_, audits_;  // the audits may be a second half

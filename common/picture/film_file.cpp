@@ -22,15 +22,15 @@ std::string_view bytes_of(const std::vector<PixelSum>& sums) {
     return {reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(PixelSum)};
 }
 
-/// All that a film's file holds, in its order.
+/// All sums in a film's file, in order.
 std::array<const std::vector<PixelSum>*, 5> sums_of(const Film& film) {
     return {&film.pixels(), &film.audits(), &film.splats(), &film.totals(), &film.batches()};
 }
 
-/// Whether the numbers of a film fit together, and to its label. All that is an index elsewhere is
-/// checked here or in read_pixels().
+/// Whether the numbers of a film are consistent with each other and with its label. Numbers that
+/// are used as an index elsewhere are checked here or in read_pixels().
 bool is_consistent(const Film& film, const FilmLabel& label) {
-    // The sums themselves: without samples there is nothing to sum up, but for splats.
+    // The sums themselves: without samples, only the sums of splats may differ from 0.
     for (const std::vector<PixelSum>* sums : sums_of(film)) {
         for (const PixelSum& p : *sums) {
             bool has_flags = p.is_edge || p.is_audited, is_splat = sums == &film.splats();
@@ -57,7 +57,7 @@ bool is_consistent(const Film& film, const FilmLabel& label) {
     return !film.has_batches() || in_batches == in_pixels;
 }
 
-/// Reads a film from the beginning to the end, and adds up its checksum.
+/// Reads a film from beginning to end, and computes its checksum.
 class FilmReader {
 public:
     explicit FilmReader(const std::string& path) : path_(path) {

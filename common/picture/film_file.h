@@ -1,4 +1,4 @@
-// Films on disk: what a render has done so far, and what it takes to go on or to be merged.
+// Films on disk: the state of a render, to be continued or merged later.
 #pragma once
 #include <string>
 
@@ -13,8 +13,8 @@ struct LabeledFilm {
 /// The ending of a film's name.
 inline constexpr const char* film_ending = ".film";
 
-/// Writes a film: lines of text that say what it is of, the sums as they lie in memory, and a
-/// checksum over all. The same bytes for the same samples, in whatever order they came. Throws
+/// Writes a film: a label in lines of text, the sums as they are in memory, and a checksum of both.
+/// The bytes depend on the samples, but not on their order. Throws
 /// InputError; the file that was there before stays until the new one is whole and on the disk.
 void write_film(const std::string& path, const FilmLabel& label, const Film& film);
 

@@ -1,4 +1,4 @@
-// What a film is of: options, samples, counts; as a value, and as text.
+// The label of a film: its options, samples and counts, as a value and as text.
 #pragma once
 #include <compare>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "common/picture/film.h"
 
-/// Samples number first to last - 1 of each pixel, made of the random numbers of a seed.
+/// Samples number first to last - 1 of each pixel, with the random numbers of a seed.
 struct SampleRange {
     uint32_t seed = 0, first = 0, last = 0;
     auto operator<=>(const SampleRange&) const = default;
@@ -32,7 +32,7 @@ struct Goal {
     }
 };
 
-/// What is counted beside the sums. The counts of two sets of samples add up.
+/// Counts besides the sums. Those of two sets of samples add up.
 struct SampleCounts {
     uint64_t rays = 0;
     uint64_t paths_cut = 0;   // ended by the depth limit
@@ -45,8 +45,8 @@ struct SampleCounts {
     void add(const SampleCounts& other);
 };
 
-/// What a film is of: two films can be added when their options are the same, and their samples
-/// are not.
+/// The label of a film. Two films can be added if their options are equal, and no sample is in
+/// both.
 struct FilmLabel {
     std::vector<std::pair<std::string, std::string>> options;  // names and values, all that matter
     std::vector<SampleRange> samples;                          // sorted, none touches the next
@@ -62,7 +62,7 @@ struct FilmLabel {
     std::vector<std::string> missing() const;
 };
 
-/// What decides which sums a film has.
+/// The properties that decide which sums a film has.
 struct FilmShape {
     int width = 0, height = 0;
     int kind =

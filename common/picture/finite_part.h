@@ -1,9 +1,9 @@
-// What a film says of its picture where some samples are not finite.
+// The mean and error of a picture where some samples are not finite.
 #pragma once
 #include "common/picture/film.h"
 
-/// The mean of a picture and its standard error. Where a sample is not finite, its pixel has no
-/// mean: then they are those of the other pixels, and unknown (NaN) where there are no others.
+/// The mean of a picture and its standard error. Pixels with a sample that is not finite have no
+/// mean, and are left out; both numbers are unknown (NaN) if no other pixels exist.
 struct FinitePart {
     double mean = 0, error = 0;
     Rgb rgb;

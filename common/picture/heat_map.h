@@ -1,4 +1,4 @@
-// A picture of how much work each pixel is.
+// A picture of the work for each pixel, in false colours.
 #pragma once
 #include "common/picture/image.h"
 #include "common/scene/camera.h"
@@ -32,7 +32,7 @@ inline Image heat_map(Image numbers, float most) {
     return numbers;
 }
 
-/// work(ray) of every pixel, in these colours.
+/// work(ray) of every pixel, as a heat map.
 template <class Work>
 Image heat_map(const Scene& scene, float most, const Work& work) {
     Image image(scene.width, scene.height);

@@ -35,7 +35,7 @@ std::string extension(const std::string& path) {
     return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
 }
 
-// What a pixel that is not finite looks like where it cannot be written as it is: magenta.
+// The colour of pixels that are not finite, in formats that cannot store them: magenta.
 constexpr Rgb not_a_color = {1, 0, 1};
 
 std::string srgb_bytes(const Image& image) {
@@ -114,7 +114,7 @@ struct Header {
         sized.width = static_cast<int>(width), sized.height = static_cast<int>(height);
         return sized;
     }
-    /// The bytes behind the header, `each` for a pixel: all that there are. One blank ends the
+    /// The bytes after the header, `each` for a pixel: all of them. One blank ends the
     /// header, or CR LF where the file then has the right size.
     std::string_view body(Image& image, size_t each) {
         size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);

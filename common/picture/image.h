@@ -21,7 +21,7 @@ struct Image {
     }
 };
 
-/// One channel as an 8-bit sRGB code; what lies outside [0,1] (or is NaN) is cut off.
+/// One channel as an 8-bit sRGB code; values outside [0,1] (and NaN) are clamped.
 unsigned char to_srgb8(float linear);
 /// Back to linear, from a code in [0,1].
 float from_srgb(float code);

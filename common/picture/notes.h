@@ -2,12 +2,12 @@
 #pragma once
 #include "common/picture/film_file.h"
 
-/// Names and values. Where the same samples make the same pixels, the notes are the same too: they
-/// do not hold threads, times, folders, or names of outputs.
+/// Names and values that describe how a picture was made. The same samples give the same notes, so
+/// they do not contain numbers of threads, times, folders, or names of outputs.
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
-/// What a film is of, with `spp` samples per pixel on average. Without samples it is no film: then
-/// they say what a picture shows that has none.
+/// The notes of a film's label, with `spp` samples per pixel on average. A label without samples
+/// describes a picture that was not sampled.
 Notes notes_of(const FilmLabel& label, double spp);
 
 /// A line "NAME VALUE" for each, and back.

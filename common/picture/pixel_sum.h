@@ -24,22 +24,22 @@ struct Tops {
 inline constexpr Tops tops;
 }  // namespace pixel_sum
 
-/// The samples of one pixel so far: their number, the sum of each channel, and that of the squares
-/// of their brightness. The same bits for the same samples in any order, and however they were
-/// shared out among sums that are added later.
+/// The samples of one pixel so far: their number, the sum of each channel, and the sum of the
+/// squares of their brightness. The bits of the sums do not depend on the order of the samples, nor
+/// on whether they were added one by one or as partial sums.
 ///
 /// A number x is cut in pieces, each a multiple of its bin's unit and at most 2^25 of them:
 ///
 ///   unit_t = 2^(26 t - 364);   piece_t = (x + M) - M,  M = 1.5 2^52 unit_t;   x -= piece_t
 ///
-/// (M is so large that the sum is rounded to the unit.) Each sum has three bins, in which the
-/// pieces are added without any rounding; t of the first is `top`, so large that no number so far
-/// has pieces above. What lies below the third bin is left out: so it is a sum of pieces that
-/// depend on the largest number, and on nothing else.
+/// (M is so large that x + M is rounded to the unit.) Each sum has three bins, in which the pieces
+/// are added without any rounding. The first bin is t = `top`, chosen so that no number so far has
+/// larger pieces. Pieces below the third bin are left out. So which pieces are added depends only
+/// on the largest number.
 ///
-/// error   2^-53 of the largest number for each that is added, as if rounded to double; n may be
-///         2^28, and beyond the sums are rounded as others are
-/// NaN     a channel is NaN for good when one of its numbers is not finite
+/// error   at most 2^-53 of the largest number for each number added, like rounding to double; for
+///         n above 2^28 the sums are rounded as usual
+/// NaN     a channel becomes and stays NaN if one of its numbers is not finite
 /// source  Demmel, Nguyen 2013, "Fast reproducible floating-point summation"
 /// tested by  "identity: a pixel's sums have the same bits in any order and any grouping"
 struct PixelSum {
@@ -57,9 +57,9 @@ struct PixelSum {
         add_numbers(r, g, b, y * y);
         n++;
     }
-    /// Adds what part of a sample brings to the sums of the channels alone.
+    /// Adds part of a sample, to the sums of the channels only.
     void add_part(Rgb L) { add_numbers(double{L.r}, double{L.g}, double{L.b}, 0); }
-    /// Whether some numbers have this sum: asked of what was read from a file.
+    /// Whether some numbers can have this sum: a check of sums read from a file.
     bool is_possible() const;
     bool is_zero() const { return r() == 0 && g() == 0 && b() == 0 && sum_of_squares() == 0; }
     /// Adds the samples of another sum.
@@ -75,7 +75,7 @@ struct PixelSum {
     double m2() const;
 
 private:
-    /// A number as the sum of two, which has twice the digits.
+    /// A number as the sum of two doubles, with twice the digits.
     struct Double2 {
         double high, low;
     };
@@ -102,9 +102,9 @@ private:
             M *= 0x1p-26;
         }
     }
-    /// Adds numbers that may not fit, or not be finite.
+    /// Adds numbers that may be too large for the bins, or not finite.
     void add_large(double r, double g, double b, double y2);
-    /// Makes the bins of one sum begin higher.
+    /// Moves the bins of one sum up.
     void raise(Sum sum, int by);
     void raise_to(int channels, int squares_to);
 };

@@ -4,13 +4,13 @@
 
 #include "common/picture/image.h"
 
-/// A rectangle of an image with coordinates of its own: x to the right, y up.
+/// A rectangle of an image with its own coordinates: x to the right, y up.
 struct Panel {
     Image& image;
     int left, top, width, height;      // pixels
     Vec2 low = {0, 0}, high = {1, 1};  // the coordinates of two corners
 
-    /// A disc of `radius` pixels around p, cut off at the rim of the panel.
+    /// A disc of `radius` pixels around p, clipped to the panel.
     void dot(Vec2 p, float radius, Rgb color) const {
         Vec2 centre = {(p.x - low.x) / (high.x - low.x) * static_cast<float>(width),
                        (high.y - p.y) / (high.y - low.y) * static_cast<float>(height)};

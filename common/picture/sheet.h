@@ -1,11 +1,11 @@
-// Many pictures as one, each with words below it.
+// A sheet: many pictures in one, each with words below it.
 #pragma once
 #include <string>
 #include <vector>
 
 #include "common/picture/image.h"
 
-/// A picture of a sheet; of no size: its place stays empty.
+/// One picture of a sheet; of size 0: its place stays empty.
 struct Tile {
     Image image;
     std::vector<std::string> lines;

@@ -1,4 +1,4 @@
-// What a render's --stats file says, read back by the tools.
+// Reads the --stats file of a render, for the tools.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -34,7 +34,7 @@ std::string about_means(const Comparison& c, double standard_error, bool is_cut_
                            : "and noise does not do that") +
                " (" + short_number(z) + " standard errors)";
     }
-    // Of so many blocks, noise alone puts one of a million beyond 5; their spread is an estimate.
+    // Noise alone puts about one block of a million beyond 5; some more, as errors are estimates.
     if (!is_cut_off && c.beyond_5 > 2 && c.beyond_5 > c.blocks / 200) {
         return "the same mean within the noise, but not everywhere: " + std::to_string(c.beyond_5) +
                " of " + std::to_string(c.blocks) + " blocks differ by more than noise does";
@@ -66,7 +66,7 @@ std::string about_errors(const PictureFacts& a, const PictureFacts& b) {
                       : short_number(1 / each) + " times more");
 }
 
-/// Whether both have this note, and not the same; and whether they have the same.
+/// Whether both have this note, with different values; and (below) with the same value.
 bool differ(const PictureFacts& a, const PictureFacts& b, const std::string& name) {
     std::string x = value_of(a.notes, name), y = value_of(b.notes, name);
     return !x.empty() && !y.empty() && x != y;

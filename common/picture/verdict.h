@@ -1,4 +1,4 @@
-// What a comparison of two pictures says, in words.
+// The result of comparing two pictures, in words.
 #pragma once
 #include <cmath>
 #include <string>
@@ -6,13 +6,13 @@
 #include "common/picture/comparison.h"
 #include "common/picture/notes.h"
 
-/// What is known of a picture beside its pixels.
+/// What is known of a picture besides its pixels.
 struct PictureFacts {
     std::string file;
     double standard_error = NAN;   // of its mean; NaN: not known
-    std::string known_from = "";   // the file that says so
+    std::string known_from = "";   // the file it was read from
     Notes notes = {};              // what made it; empty: not known
-    std::string other_stats = "";  // a file beside it that is of another picture
+    std::string other_stats = "";  // a file beside it that belongs to another picture
 };
 
 /// From the notes in a picture, and from the files beside it: NAME.err.pfm, one sample of the
@@ -23,17 +23,17 @@ PictureFacts facts_of(const std::string& picture, const Image& image);
 /// Why the two should not be compared, or not by these files: one line each, "warning: ...".
 ///
 ///   other scenes, depths, or classes of paths; samples in common; statistics of another picture; a
-///   picture of 8 bits, in which all that is brighter than 1 is cut off
+///   picture of 8 bits, in which values above 1 are clamped
 ///
 /// Or "note: ..." where it is not known what they show.
 std::vector<std::string> doubts(const PictureFacts& a, const PictureFacts& b);
 
-/// One sentence: is the mean the same, and which of both has less error? standard_error: of the
-/// difference of the means.
+/// One sentence: do the means agree, and which picture has the smaller error? standard_error: that
+/// of the difference of the means.
 ///
-/// Five standard errors make a difference. Errors are compared where both are known; variance falls
-/// as 1 / samples, so that the ratio of the squares is one of samples. Of different scenes it says
-/// only that they are.
+/// Means differ if they are more than five standard errors apart. Errors are compared if both are
+/// known. The ratio of their squares is a ratio of samples, since variance falls as 1 / samples.
+/// For different scenes it says only that they differ.
 /// tested by  "truth: verdicts"
 std::string verdict(const Comparison& c, double standard_error, const PictureFacts& a,
                     const PictureFacts& b);

@@ -12,18 +12,18 @@
 
 namespace {
 
-/// How far light from the lights comes to a point that the camera sees: the farthest of all rays.
+/// How far light gets on its way to a point that the camera sees: the best case over all rays.
 enum class Reach : uint8_t {
-    faces_away,     // the light shines the other way
-    behind,         // the surface looks the other way
-    blocked,        // something stands between
-    through_glass,  // only glass stands between
+    faces_away,     // the light emits in the other direction
+    behind,         // the surface faces away from the light
+    blocked,        // an object is in between
+    through_glass,  // only glass is in between
     arrives
 };
 
-/// What a few hundred rays find out about a scene.
+/// The statistics of a few hundred rays in a scene.
 struct Survey {
-    int rays = 0, hits = 0, backs = 0;  // from the camera; that meet something; from behind
+    int rays = 0, hits = 0, backs = 0;  // from the camera; that hit something; from behind
     int receivers = 0, reflecting = 0;  // points in view that are neither mirror nor glass; those
                                         // of them that are not black
     Reach reach = Reach::faces_away;
@@ -44,7 +44,7 @@ std::optional<Hit> first_receiver(const Scene& scene, Ray ray) {
     return {};
 }
 
-/// Whether the way from x along wi is free, or only glass stands there.
+/// Whether the segment from x along wi is free, or only glass is in between.
 Reach reach_along(const Scene& scene, const Hit& x, Vec3 wi, float dist) {
     Hit from = x;
     for (int i = 0; i < 16; i++) {
@@ -100,7 +100,7 @@ Survey survey(const Scene& scene) {
     return s;
 }
 
-/// Where the scene file makes the first light that has a surface, in brackets.
+/// The place in the scene file that defines the first area light, in brackets.
 std::string first_place(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type != LightType::area || light.line == 0) continue;
@@ -110,7 +110,7 @@ std::string first_place(const Scene& scene) {
     return "";
 }
 
-/// Why light that could arrive is not found, by the way in which the chapter looks for it.
+/// Why the chapter's way of finding light misses light that could arrive.
 std::string of_search(LightSearch search, double chance) {
     char text[200];
     switch (search) {

@@ -9,8 +9,8 @@
 
 namespace {
 
-/// How many times as bright a picture may be shown: until of the pixels that are not black one of
-/// 100 is white.
+/// The factor by which a picture is brightened: the largest for which at most 1 % of the pixels
+/// that are not black become white.
 int brightening(const Image& image) {
     std::vector<float> values;
     for (Rgb p : image.pixels) {

@@ -3,6 +3,6 @@
 #include <string>
 
 /// A hash of the files in the chapter's folder and in common/: the same on all machines, and
-/// another after any change. Empty for what is no chapter. tested by  "teeth: the hash of a
+/// different after any change. Empty if there is no such chapter. tested by  "teeth: the hash of a
 /// chapter's code changes with any file of it, and of no other chapter"
 std::string code_hash(const std::string& chapter);

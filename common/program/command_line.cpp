@@ -42,8 +42,8 @@ namespace {
     std::exit(0);
 }
 
-// Where stdin, stdout or stderr was closed, opens nothing there: else the next file would take its
-// place, and what is printed would end up in that file.
+// Opens /dev/null for each of stdin, stdout and stderr that is closed. Else the next file opened
+// would take its number, and printed text would end up in that file.
 void open_missing_streams() {
     for (int fd = 0; fd <= 2; fd++) {
         if (::fcntl(fd, F_GETFD) == -1) ::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
@@ -59,7 +59,7 @@ int set_option(int argc, char** argv, int i, const std::vector<Option>& options)
     auto option = std::find_if(options.begin(), options.end(), known);
     if (option == options.end()) fail_unknown(name, options);
 
-    // Take the value, from behind the = or from the next word.
+    // Take the value from after the = or from the next word.
     bool has_value = equals != std::string::npos;
     if (has_value) value = word.substr(equals + 1);
     if (option->argument.empty()) {
@@ -159,7 +159,7 @@ std::string command_line(int argc, char** argv) {
 
 int run_program(const std::function<int()>& program) {
     open_missing_streams();
-    // A file that may not grow so large, or a reader that has gone: the write fails with a message.
+    // Writing beyond a file size limit or to a closed pipe: fail with a message, not by a signal.
     for (int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
     auto report = [](const std::string& line, int code) {
         std::fprintf(stderr, "%s\n", printable(line).c_str());

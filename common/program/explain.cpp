@@ -42,8 +42,8 @@ std::string place(const Scene& scene, size_t pixel) {
     return std::to_string(pixel % w) + "," + std::to_string(pixel / w);
 }
 
-/// All that the sample adds, pixel by pixel with their sums: its own first, then those that a path
-/// from a light has met.
+/// All contributions of the sample, with their sum for each pixel: first its own pixel, then those
+/// that a path from a light was connected to.
 Table table_of(const Scene& scene, std::vector<Contribution> additions, size_t own) {
     std::vector<size_t> pixels = {own};
     for (Contribution& added : additions) {
@@ -71,7 +71,7 @@ Table table_of(const Scene& scene, std::vector<Contribution> additions, size_t o
     return table;
 }
 
-/// Prints a warning where the table lacks something of what the chapter has returned.
+/// Prints a warning if the contributions do not add up to the radiance that the chapter returned.
 void warn_of_gaps(const std::vector<Contribution>& additions, Rgb L, const Splats& splats) {
     Sum told, returned;
     for (const Contribution& added : additions) told.add(added.L);
@@ -103,7 +103,7 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     auto [ray, film] = camera_sample(view, x, y, sampler, scene.camera.pixel_centre);
     Splats splats;
     Limit limit(0);
-    std::optional<Rgb> L;  // none: the path was longer than the user would wait
+    std::optional<Rgb> L;  // none: the path took too long
     try {
         TracingLimit tracing([&] { return limit.overdue(); });
         L = trace(scene, ray, splats, sampler, recorder);
@@ -128,7 +128,7 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     if (L) warn_of_gaps(recorder.contributions(), *L, splats);
 
     std::string file = drawing_path(options);
-    // Of a path that hardly ends, draw the beginning.
+    // Draw only the beginning of a very long path.
     constexpr size_t most_drawn = 1000;
     std::vector<PathVertex> vertices = recorder.vertices();
     std::vector<TracedRay> rays = story.rays();

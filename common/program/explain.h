@@ -1,13 +1,13 @@
-// --explain: one path in words, as a table and as a drawing.
+// --explain: describes one path step by step, with a table and a drawing.
 #pragma once
 #include "common/path/trace.h"
 #include "common/program/render.h"
 
-/// Prints the path that makes sample options.explain_sample of one pixel and what it adds up to,
+/// Prints the path of sample options.explain_sample of one pixel and the sum of its contributions,
 /// and draws it as an SVG beside the first picture. Returns the exit code. `halves`: a pixel's
-/// samples belong to two halves by turns; see Allocation.
+/// samples alternate between two halves; see Allocation.
 int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& trace, bool halves);
 
-/// Options that explain the sample of a render that brings most, to all pixels together: the one
-/// that makes the worst firefly. Says which it is; throws InputError when all are black.
+/// Options that explain the largest sample of a render, summed over all its pixels: the worst
+/// firefly. Prints which one it is; throws InputError if all samples are black.
 RenderOptions explain_brightest(const RenderOptions& options, const Rendering& rendering);

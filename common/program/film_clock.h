@@ -4,16 +4,16 @@
 
 #include "common/program/render.h"
 
-/// Says when the film is to be written next, and writes it.
+/// Writes the film at regular intervals.
 class FilmClock {
 public:
     FilmClock(const Scene& scene, const RenderOptions& options)
         : scene_(scene), options_(options), interval_(options.film_every) {}
 
-    /// Any thread may ask.
+    /// Whether it is time to write the film. Any thread may call it.
     bool due() const { return !options_.film.empty() && Clock::now() - last_ >= interval_; }
-    /// While nobody adds to the film. A film that cannot be written now is reported, and tried
-    /// again next time: the render goes on.
+    /// Writes the film; no thread may add to it meanwhile. If writing fails, prints a message, and
+    /// tries again next time.
     void save(const Rendering& rendering);
 
 private:

@@ -10,14 +10,14 @@
 
 namespace {
 
-/// All that decides what the samples are, but for their seeds and numbers.
+/// The options that decide the samples, except seeds and sample numbers.
 std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene,
                                                               const RenderOptions& o) {
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
     char scene_bytes[17];
     std::snprintf(scene_bytes, sizeof scene_bytes, "%016llx",
                   static_cast<unsigned long long>(scene.files_checksum));
-    bool has_strata = o.sampler == SamplerType::stratified;  // as many as samples
+    bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
     std::vector<std::pair<std::string, std::string>> options = {
         {"chapter", o.name},
         {"code", code_hash(o.name)},
@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     return options;
 }
 
-/// With --time and no --spp a render takes samples as long as there is time.
+/// With --time but without --spp, a render takes samples until the time is up.
 bool is_endless(const RenderOptions& o) { return o.time > 0 && o.spp == 0 && o.parts == 1; }
 
 /// The samples of all parts.
@@ -59,7 +59,7 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     if (options.film.empty() || !std::filesystem::exists(options.film, none)) return;
     LabeledFilm found = read_film(options.film);
     check_options(options.film, found.label, film_options(scene, options));
-    if (found.label.samples.empty()) return;  // stopped before it had any
+    if (found.label.samples.empty()) return;  // it was stopped before it had samples
     check_sums(options.film, found.film, rendering.film);
     SampleRange wanted = wanted_samples(scene, options);
     for (const SampleRange& r : found.label.samples) {

@@ -4,14 +4,14 @@
 
 #include "common/program/svg.h"
 
-/// Finds places for short words beside points, so that none covers another or a point.
+/// Finds positions for short words beside points, so that words cover neither words nor points.
 class Labels {
 public:
     void keep_free(Vec2 point) { taken_.push_back({{point.x - 4, point.y - 4}, {8, 8}}); }
 
     void put(Svg& svg, Vec2 point, const std::string& words) {
         Vec2 size = {8.0f * static_cast<float>(words.size()), 13};
-        for (int i = 0; i < 96; i++) {  // round and round, further away
+        for (int i = 0; i < 96; i++) {  // in circles of growing radius
             float angle = 2 * pi * (static_cast<float>(i % 16) / 16 - 0.125f);
             float away = 14 + 10 * static_cast<float>(i / 16);
             Vec2 middle = {point.x + away * std::cos(angle), point.y + away * std::sin(angle)};

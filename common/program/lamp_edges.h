@@ -1,8 +1,8 @@
-// Which pixels show the edge of something that shines.
+// Finds the pixels that show the edge of a lamp.
 #pragma once
 #include "common/picture/film.h"
 #include "common/scene/scene.h"
 
-/// Marks the film's pixels whose middle shines unlike that of a neighbour: their error is large,
-/// and samples that are evenly spread make far less of it than others.
+/// Marks the film's pixels whose centre emits different light than that of a neighbour. Their error
+/// is large, and stratified samples reduce it much more than that of other pixels.
 void mark_lamp_edges(const Scene& scene, int threads, Film& film);

@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Reads the scene, and prints the notes even when an error follows.
+/// Reads the scene, and prints its notes even if an error follows.
 Scene load_and_tell(const std::string& path, const Report& report, LoadingProgress& progress) {
     struct Notes {
         LoadingProgress& progress;

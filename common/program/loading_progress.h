@@ -1,12 +1,12 @@
-// What a program says while it loads a large scene.
+// The progress messages while a large scene is loaded.
 #pragma once
 #include <chrono>
 #include <cstdio>
 #include <mutex>
 #include <string>
 
-/// Shows how far loading is: on a terminal in one line, which is gone at the end; else, as in a log
-/// file, by a line now and then. Small scenes are loaded before there is anything to say.
+/// Shows the progress of loading: on a terminal in one line, which disappears at the end; in a log
+/// file as a new line now and then. Small scenes are loaded before the first message.
 class LoadingProgress {
 public:
     /// pause   s, between lines in a file
@@ -17,7 +17,7 @@ public:
 
     /// A Report (base/report.h).
     void show(const std::string& what, double share);
-    /// Takes the line off the terminal, so that other lines can be printed.
+    /// Clears the line on the terminal, so that other lines can be printed.
     void clear();
 
 private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t tried = 1 << 14, tried_from_camera = 1 << 16;
 
-/// What the camera sees of flux that arrives at x from wi; see chapter 20.
+/// The light that the camera sees of flux arriving at x from wi; see chapter 20.
 Rgb shown(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb flux) {
     Vec3 away = x.p - camera.view.o;
     std::optional<CameraImportance> importance = camera_importance(camera, away);
@@ -24,7 +24,7 @@ Rgb shown(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi, Rgb 
     return is_black(L) || occluded(scene, spawn_ray(x, wo, d)) ? Rgb{} : L;
 }
 
-/// What one path from a light brings to the picture by way of nearly mirrors.
+/// The contribution of one path from a light to the picture via near mirrors.
 Rgb path_by_nearly_mirrors(const Scene& scene, const Endpoints& endpoints, double paths,
                            bool meets_lights, Sampler& sampler) {
     double u = to_unit_double(sampler.u2());
@@ -54,7 +54,7 @@ Rgb path_by_nearly_mirrors(const Scene& scene, const Endpoints& endpoints, doubl
     return {};
 }
 
-/// Which share of the sphere the sky's light comes from, about: 1 where it is even.
+/// The approximate share of the sphere that the sky's light comes from: 1 if it is even.
 double size_of_sky(const SkyImage& sky) {
     double sum = 0, squares = 0;
     for (size_t i = 0; i < sky.pixels.size(); i++) {
@@ -65,7 +65,7 @@ double size_of_sky(const SkyImage& sky) {
     return squares > 0 ? sum * sum / squares / static_cast<double>(sky.pixels.size()) : 1;
 }
 
-/// Aims at a light from x.
+/// Samples a light from x.
 Rgb aim(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo, Sampler& sampler) {
     double u = to_unit_double(sampler.u2());
     LightSample y = sample_light(scene, lights, x, u, sampler.u2());
@@ -74,8 +74,8 @@ Rgb aim(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo, Sam
     return is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist)) ? Rgb{} : Ld;
 }
 
-/// Light along a ray from the camera, from one path, as in chapter 13: nearly mirrors follow the
-/// BSDF, all else aims. Adds to `hits` where the path meets a light by way of a nearly mirror.
+/// Light along a ray from the camera, from one path, as in chapter 13: near mirrors sample the
+/// BSDF, other surfaces sample lights. Adds to `hits` if the path hits a light via a near mirror.
 Rgb light_along(const Scene& scene, const LightTable& lights, double paths, Ray ray,
                 Sampler& sampler, double& hits) {
     Rgb L, beta = {1, 1, 1};

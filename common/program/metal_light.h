@@ -1,14 +1,15 @@
-// Light that paths from the camera rarely find: by way of metal that is nearly a mirror.
+// Light that paths from the camera rarely find: reflected by metal that is nearly a mirror.
 #pragma once
 #include "common/picture/film.h"
 #include "common/scene/scene.h"
 
-/// Whether metal is so smooth that of so many paths too few find what it reflects.
+/// Whether metal is so smooth that too few of `paths` paths find the light that it reflects.
 ///
-/// A path finds a light in metal where a point of the light, drawn by aiming, lies in the metal's
-/// lobe, or where a direction of the lobe meets the light. Of N paths about so many do:
+/// A path finds a light reflected in metal if a sampled point of the light lies in the metal's
+/// lobe, or if a sampled direction of the lobe hits the light. The expected number of hits of N
+/// paths:
 ///
-///   hits = N (alpha^2 + size),   size = A / (4 pi d^2),   of a ball  r^2 / d^2
+///   hits = N (alpha^2 + size),   size = A / (4 pi d^2),   of a sphere  r^2 / d^2
 ///
 /// Measured with a metal plate beside a floor, a lamp of 0.5 to 9 degrees and alpha from 0.001 to
 /// 0.1: intervals cover the truth in 10 to 87 % of the runs for hits up to 8, in 93 % and more from
@@ -19,21 +20,21 @@ inline bool is_nearly_mirror(const Material& m, double paths, double size = 0) {
     return is_rough(m) && paths * (alpha * alpha + size) < few_hits;
 }
 
-/// How bright the picture is by light that comes from a light by way of nearly mirrors alone to a
-/// surface in view: from a few thousand paths from the lights, which find it easily. Infinite (that
-/// is: unknown) where the light is a small part of a picture of the sky.
+/// The contribution to the picture of light that reaches a visible surface only via near mirrors.
+/// Estimated from a few thousand paths from the lights, which find it easily. Infinite (that is,
+/// unknown) if the light is a small part of a sky image.
 ///
-/// meets_lights  whether directions of the metal that meet a light count, or aiming alone does
+/// meets_lights  whether BSDF samples of the metal that hit a light count, or only light samples
 /// tested by  "failure: metal that is nearly a mirror hides light, and a warning says so"
 double light_by_nearly_mirrors(const Scene& scene, double paths, bool meets_lights);
 
-/// The pixels of a picture that show nearly mirrors, where paths begin at the lights.
+/// The pixels that show near mirrors, in a picture by paths that start at the lights.
 struct NearlyMirrorsSeen {
     double share = 0;     // of the picture
-    double found = 0;     // what they add to its mean, in the film
+    double found = 0;     // their contribution to its mean, in the film
     double expected = 0;  // the same, by paths from the camera
     double error = 0;     // of what is expected
-    double hits = 0;      // how many of these paths met a light by way of a nearly mirror
+    double hits = 0;      // number of these paths that hit a light via a near mirror
 };
 
 /// tested by  "failure: paths from lights miss what nearly mirrors show, and a warning says so"

@@ -52,7 +52,7 @@ void parse_film(const std::string& text, RenderOptions& options) {
 
 double parse_interval(const std::string& text) {
     double seconds = parse_positive("film-every", text);
-    // In less time than that nothing is rendered between two writings.
+    // At shorter intervals nothing would be rendered between two writings.
     if (seconds < 0.01) fail_value("film-every", text, "at least 0.01 seconds");
     return seconds;
 }
@@ -66,7 +66,7 @@ void parse_part(const std::string& text, RenderOptions& options) {
     fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
 }
 
-/// Throws for what cannot be done together.
+/// Throws UsageError for options that cannot be combined.
 void check_together(const RenderOptions& o) {
     if (o.film.empty()) {
         if (o.parts > 1) {
@@ -106,7 +106,7 @@ std::string parse_class_filter(const std::string& text) {
     return text;
 }
 
-/// Options that mean nothing to the program are an error, and --help does not list them.
+/// Makes options that do not apply to the program an error; --help does not list them.
 void refuse_all_but(const std::vector<std::string>& takes, const std::string& program,
                     std::vector<Option>& options) {
     for (Option& option : options) {
@@ -141,12 +141,14 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     std::vector<Option> options = {
         {"spp", "N", "samples per pixel (default: as the scene says)",
          integer("spp", o.spp, 1, 1 << 30)},
-        {"time", "SECONDS", "end when the time is up, with the samples taken so far",
+        {"time", "SECONDS", "stop when the time is up, with the samples taken so far",
          [&](const std::string& text) { o.time = parse_positive("time", text); }},
-        {"size", "WxH", "pixels", [&](const std::string& text) { parse_size(text, o); }},
-        {"seed", "S", "of the random numbers (default 0)", integer("seed", o.seed, 0, 0xffffffff)},
-        {"threads", "T", "default: one for each processor", integer("threads", o.threads, 1, 1024)},
-        {"max-depth", "D", "scattering events: 0 emitters only, 1 direct light",
+        {"size", "WxH", "size in pixels", [&](const std::string& text) { parse_size(text, o); }},
+        {"seed", "S", "seed of the random numbers (default 0)",
+         integer("seed", o.seed, 0, 0xffffffff)},
+        {"threads", "T", "number of threads (default: one for each processor)",
+         integer("threads", o.threads, 1, 1024)},
+        {"max-depth", "D", "limit of scattering events: 0 lights only, 1 direct light",
          integer("max-depth", o.max_depth, 0, 1 << 30)},
         {"sampler", "KIND", "independent (default), stratified or sobol",
          [&](const std::string& text) { o.sampler = parse_sampler(text); }},
@@ -162,7 +164,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
          [&](const std::string& text) { o.paths = parse_class_filter(text); }},
         {"split", "DIR", "write one picture for each class of path, and all as one sheet",
          [&](const std::string& text) { o.split = text; }},
-        {"film", "FILE.film", "keep the sums: go on where the film stopped, also after kill -9",
+        {"film", "FILE.film", "save the samples' sums, to continue later, even after kill -9",
          [&](const std::string& text) { parse_film(text, o); }},
         {"film-every", "SECONDS", "how often the film is written (default 60)",
          [&](const std::string& text) { o.film_every = parse_interval(text); }},
@@ -202,7 +204,7 @@ TableOptions parse_table_options(int argc, char** argv, const std::string& name,
          [&](const std::string& text) {
              o.n = static_cast<uint64_t>(parse_integer("n", text, 1, int64_t{1} << 40));
          }},
-        {"seed", "S", "of the random numbers (default 0)",
+        {"seed", "S", "seed of the random numbers (default 0)",
          [&](const std::string& text) {
              o.seed = static_cast<uint32_t>(parse_integer("seed", text, 0, 0xffffffff));
          }},

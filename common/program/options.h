@@ -1,4 +1,4 @@
-// What the programs of all chapters understand on their command lines.
+// The command-line options of the chapters' programs.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -7,17 +7,17 @@
 #include "common/path/sampler.h"
 #include "common/program/command_line.h"
 
-/// How a chapter finds light, which decides what it can tell about its error.
+/// How a chapter finds light, which decides what it can know about its error.
 enum class LightSearch : uint8_t {
-    aims,         // at lights, and also meets by chance those that it cannot aim at
-    by_chance,    // never aims
-    direct,       // only aims, and follows mirrors and glass; other light it leaves out
-    from_lights,  // begins at them, and cannot see what mirrors and glass show the camera
-    both_ends,    // begins at them and at the eye, and joins the two
-    photons       // begins at them, and counts what arrives near to what the eye sees
+    aims,         // samples lights, and hits at random those that it cannot sample
+    by_chance,    // never samples lights: random hits only
+    direct,       // samples lights, follows mirrors and glass; leaves out other light
+    from_lights,  // starts at lights; misses what the camera sees in mirrors and glass
+    both_ends,    // starts at lights and at the eye, and connects the two
+    photons       // starts at lights; uses what arrives near visible points
 };
 
-/// What every chapter that renders a scene understands.
+/// The options of every chapter that renders a scene.
 struct RenderOptions {
     std::string name;     // of the chapter, such as "07_path_tracing"
     std::string command;  // as typed
@@ -35,12 +35,12 @@ struct RenderOptions {
     int explain_x = 0, explain_y = 0, explain_sample = -1;  // -1: none was named
     bool explain_brightest = false;
     std::string paths;        // regular expression; empty: all
-    std::string strategy;     // chapter 21: the `way` of the contributions that count; empty: all
+    std::string strategy;     // chapter 21: the `way` of the selected contributions; empty: all
     bool unweighted = false;  // they count without their MIS weight
     std::string split;        // folder; empty: none
-    std::string film;         // keeps the sums; empty: none
-    double film_every = 60;   // s, from one writing of the film to the next
-    int part = 1, parts = 1;  // which samples: the part-th of so many parts, from 1
+    std::string film;         // file for the sums; empty: none
+    double film_every = 60;   // s, between two writings of the film
+    int part = 1, parts = 1;  // render part number `part` of `parts`, from 1
     LightSearch search = LightSearch::aims;
     /// The chapter's own options, with their values.
     std::vector<std::pair<std::string, std::string>> own = {};
@@ -49,15 +49,15 @@ struct RenderOptions {
 };
 
 /// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.
-/// `takes` names those of the others that mean something to it (empty: all); the rest it refuses.
+/// `takes` names the general options that apply to it (empty: all); it refuses the others.
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
                                    const std::string& scene, std::vector<Option> extra = {},
                                    const std::vector<std::string>& takes = {});
 
-/// The name of a picture, or UsageError.
+/// The file name of a picture, or UsageError.
 std::string parse_picture(const std::string& option, const std::string& text);
 
-/// What the chapters without a scene (01 to 04) understand.
+/// The options of the chapters without a scene (01 to 04).
 struct TableOptions {
     std::string name;
     std::string comment;  // for the picture; see picture/notes.h

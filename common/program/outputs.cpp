@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether --split may write a picture of this name: of a class such as LDE, of all that have long
-/// names, or the sheet of them all.
+/// Whether --split may write a picture of this name: of one class such as LDE, of all classes with
+/// long names, or the sheet of all.
 bool is_of_split(const fs::path& name) {
     if (name.extension() != ".pfm" && name.extension() != ".png") return false;
     std::string stem = name.stem().string();
@@ -22,9 +22,8 @@ bool is_of_split(const fs::path& name) {
            stem.find_first_not_of("DS", 1) == stem.size() - 1;
 }
 
-/// Adds the files of a folder that may be written by the names that they get later. Which there
-/// will be is not known yet: so they are those that are there already, and those of `others`, where
-/// their names are right.
+/// Adds the files of a folder that may be written later. Their names are not known yet, so these
+/// are the existing files and those of `others`, if their names match.
 void add_later(const std::string& folder, const std::vector<std::string>& others,
                const IsWritten& is_written, std::vector<std::string>& files) {
     std::vector<std::string> names;
@@ -39,7 +38,7 @@ void add_later(const std::string& folder, const std::vector<std::string>& others
     }
 }
 
-/// What is known of the sizes of files: pictures that are not compressed, and the sums of a film.
+/// Checks the disk space for files of known size: uncompressed pictures, and the sums of a film.
 void check_space(const Scene& scene, const std::vector<std::string>& files) {
     uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
     std::vector<FutureFile> known;

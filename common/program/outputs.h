@@ -1,19 +1,19 @@
-// The files that a program is going to write, looked at before its work.
+// Checks the files that a program is going to write, before it renders.
 #pragma once
 #include <functional>
 
 #include "common/program/options.h"
 #include "common/scene/scene.h"
 
-/// The picture that --explain draws.
+/// The file name of the picture that --explain draws.
 std::string drawing_path(const RenderOptions& options);
 
-/// Whether a name is one of those that a program gives to files while it works.
+/// Whether a program uses this file name for files that it writes while it runs.
 using IsWritten = std::function<bool(const std::string& name)>;
 
-/// Throws now what writing the results would throw later (see files.h), and refuses what would
+/// Throws early the errors that writing the results would throw later (see files.h), and refuses to
 /// overwrite a file that the scene was read from. Makes the folder of --split.
-/// more: what the chapter writes beside what the options say
+/// more: files that the chapter writes besides those of the options
 /// is_beside: of files that it writes beside its first picture
 void check_outputs(const Scene& scene, const RenderOptions& options,
                    const std::vector<std::string>& more = {}, const IsWritten& is_beside = {});

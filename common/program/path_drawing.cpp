@@ -10,7 +10,7 @@ namespace {
 
 constexpr float side = 460, margin = 20;  // px
 
-/// From the world to a panel: across = (p - o).rx / z, down = (p - o).ry / z,
+/// The projection from the world to a panel: across = (p - o).rx / z, down = (p - o).ry / z,
 /// z = (p - o).rz + w.
 struct View {
     bool is_camera;
@@ -18,7 +18,7 @@ struct View {
     Vec3 o, rx, ry, rz;
     float w;
 
-    /// The part of a segment that lies before the camera.
+    /// The part of a segment in front of the camera.
     std::optional<std::pair<Vec2, Vec2>> project(Vec3 a, Vec3 b) const {
         float za = dot(a - o, rz) + w, zb = dot(b - o, rz) + w, near = 0.01f * std::max(za, zb);
         if (!(near > 0)) return {};
@@ -26,7 +26,7 @@ struct View {
         if (zb < near) b = b + (near - zb) / (za - zb) * (a - b);
         return std::pair(divide(a), divide(b));
     }
-    /// The place of a point, where it is within the panel.
+    /// The position of a point in the panel; nothing if it is outside.
     std::optional<Vec2> project(Vec3 p) const {
         if (!(dot(p - o, rz) + w > 0)) return {};
         Vec2 at = divide(p);
@@ -42,7 +42,7 @@ private:
     }
 };
 
-/// As the picture is.      film point = (x, y) with  corner + x dx + y dy  along p - o
+/// The view of the picture.      film point = (x, y) with  corner + x dx + y dy  along p - o
 View camera_panel(const Scene& scene) {
     float scale = side / static_cast<float>(std::max(scene.width, scene.height));
     Vec2 size = {scale * static_cast<float>(scene.width), scale * static_cast<float>(scene.height)};
@@ -63,8 +63,8 @@ int longest_axis(Vec3 v) {
     Vec3 a = abs(v);
     return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
 }
-/// The axis of the world that points up: the camera's up, where that looks neither up nor down, and
-/// level with its right. In doubt y, as in most scenes.
+/// The axis of the world that points up: close to the camera's up direction if the camera looks
+/// about horizontally, and perpendicular to its right. In doubt y, as in most scenes.
 int upward_axis(const Camera& camera) {
     Vec3 up = abs(camera.up), right = abs(camera.right);
     return longest_axis({up.x * (1 - right.x), 3 * up.y * (1 - right.y), up.z * (1 - right.z)});
@@ -75,7 +75,7 @@ Vec3 signed_axis(int axis, Vec3 like) {
     return unit;
 }
 
-/// From above, along an axis of the world; what the camera has on its right is on the right.
+/// The view from above, along an axis of the world; the camera's right is on the right.
 View panel_from_above(const Scene& scene, Box box, float left) {
     int up = upward_axis(scene.camera);
     Vec3 level = scene.camera.right;
@@ -89,7 +89,7 @@ View panel_from_above(const Scene& scene, Box box, float left) {
     return {false, {left, margin}, {side, side}, o, scale * right, -scale * away, {}, 1};
 }
 
-/// Around the path, and around the scene as far as that is not much larger than what is seen.
+/// A box around the path and the scene, without parts of the scene far away from the visible part.
 Box box_around(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& path) {
     Box box, all = bounds_of(scene.geometry);
     for (const PathVertex& x : path) box = {min(box.low, x.p), max(box.high, x.p)};
@@ -173,7 +173,7 @@ void draw_vertices(Svg& svg, const View& view, Vec3 eye, const std::vector<PathV
     for (const PathVertex& x : path) {
         bool begins = x.from == -2, first = x.from == -1;
         from_light.push_back(begins || (!first && from_light[static_cast<size_t>(x.from)]));
-        if (begins || (first && view.is_camera)) continue;  // straight away: a point there
+        if (begins || (first && view.is_camera)) continue;  // seen end-on: a point
         Vec3 from = first ? eye : path[static_cast<size_t>(x.from)].p;
         draw_line(svg, view, from, x.p, from_light.back() ? orange : red);
     }

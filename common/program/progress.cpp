@@ -14,7 +14,7 @@ Progress::~Progress() {
 
 void Progress::show(double share, double seconds) {
     if (!on_) return;
-    std::unique_lock lock(mutex_, std::try_to_lock);  // another thread just shows it
+    std::unique_lock lock(mutex_, std::try_to_lock);  // another thread is showing it
     if (!lock || seconds - last_ < (is_terminal_ ? 0.1 : 60)) return;
     last_ = seconds;
     share = std::min(share, 1.0);

@@ -2,8 +2,8 @@
 #pragma once
 #include <mutex>
 
-/// Shows how far the work is and how long it will take: on a terminal as a bar, of which no trace
-/// is left when it is done; in a file by a line each minute.
+/// Shows the progress of the work and the remaining time: on a terminal as a bar, which disappears
+/// at the end; in a file as one line each minute.
 class Progress {
 public:
     explicit Progress(bool quiet);
@@ -11,7 +11,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `share` of the work, in 0 to 1, took so many seconds. Any thread may say so.
+    /// `share` of the work, from 0 to 1, took `seconds`. Any thread may call it.
     void show(double share, double seconds);
 
 private:

@@ -8,7 +8,7 @@
 
 namespace fs = std::filesystem;
 
-/// Where the program is, after all links; empty when that cannot be told.
+/// The program's file, with links resolved; empty if it is not known.
 static fs::path program_file(const std::string& program) {
     std::error_code none;
     if (program.find('/') != std::string::npos) return fs::canonical(program, none);

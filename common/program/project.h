@@ -1,9 +1,9 @@
-// The project's own files, wherever one of its programs is started.
+// Finds the project's own files, in whatever folder a program is started.
 #pragma once
 #include <string>
 
-/// The path to file `name` of the project, from the working directory: it is looked for in the
-/// folder of the program and in those above. `name` itself where it is not found.
+/// The path of the project's file `name`, from the working directory. It is searched in the folder
+/// of the program and in the folders above. If it is not found: `name` itself.
 ///
-/// program  argv[0]: with a slash it says where the program is, without one PATH does
+/// program  argv[0]: with a slash it is the program's path; without one, PATH is searched
 std::string project_file(const std::string& program, const std::string& name);

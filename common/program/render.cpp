@@ -30,11 +30,11 @@ uint32_t fewest_samples(const Film& film) {
     return fewest;
 }
 
-/// Takes samples `wanted.first` to `wanted.last` - 1 of each pixel, but for those that the film
-/// has.
+/// Takes samples `wanted.first` to `wanted.last` - 1 of each pixel, except those already in the
+/// film.
 ///
-/// A pass takes every pixel once, or more often when they are so few that threads would idle; but
-/// no more often than all passes before, so that an early end does not leave pixels empty.
+/// A pass takes each pixel once, or more often if there are too few pixels to keep all threads
+/// busy; but not more often than all passes before it, so that an early end leaves no pixel empty.
 template <class AnyTrace>
 void take_samples(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
                   const Allocation& allocation, const Limit& limit, SampleRange wanted,
@@ -70,7 +70,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
             progress.show(std::max(by_time, (done + (next - done) * of_pass) / spp), seconds);
         });
         if (clock.due()) {
-            clock.save(result);  // and go on with the same pass
+            clock.save(result);  // then continue the same pass
             continue;
         }
         done = next;
@@ -101,7 +101,7 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     continue_film(scene, options, result);
     SampleRange wanted = wanted_samples(scene, options);
 
-    // Make the pilot again where this render does not begin with it.
+    // Render the pilot again if this render does not start with it.
     Allocation shared_out = allocation;
     if (allocation.pilot > 0 && (wanted.first > 0 || result.film.samples() > 0)) {
         RenderOptions alone = options;
@@ -147,9 +147,9 @@ int explain_of_pass(const Scene& scene, const RenderOptions& options, const Pass
     return explain_plain(scene, as_rendered, trace.trace, false);
 }
 
-/// Renders to find the brightest sample, and explains that. A lamp that is seen straight, or by way
-/// of mirrors and glass alone, is bright in all samples and no firefly: unless --paths says
-/// otherwise, only light counts that a diffuse or rough surface has scattered.
+/// Renders to find the brightest sample, and explains it. A lamp that is seen directly, or only via
+/// mirrors and glass, is bright in all samples, so it is no firefly: without --paths, only light
+/// that a diffuse or rough surface has scattered counts.
 template <class AnyTrace, class... More>
 int find_and_explain(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
                      const More&... more) {
@@ -158,7 +158,7 @@ int find_and_explain(const Scene& scene, const RenderOptions& options, const Any
     if (whole.paths.empty()) whole.paths = "L.*D.*E";
     StopOnSignal signal;
     Rendering r = render_film(scene, whole, trace, more...);
-    signal.take_request();  // it has ended the render, and not what it has found
+    signal.take_request();  // the signal ended the render; explain the sample found so far
     int code = render(scene, explain_brightest(options, r), trace, more...);
     return code == 0 && r.stats.interrupted ? 3 : code;
 }

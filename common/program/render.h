@@ -1,4 +1,4 @@
-// The loop that every chapter's trace() runs in: tiles, passes, threads, and when to end.
+// The render loop that calls a chapter's trace(): tiles, passes, threads, and stopping.
 #pragma once
 #include <map>
 #include <string>
@@ -11,14 +11,14 @@
 #include "common/program/options.h"
 #include "common/scene/scene.h"
 
-/// What happened while a picture was rendered.
+/// Statistics of rendering a picture.
 struct RenderStats : SampleCounts {
     double seconds = 0;                            // without loading
-    uint64_t samples_before = 0, rays_before = 0;  // of the film that it went on from
+    uint64_t samples_before = 0, rays_before = 0;  // of the film that it continued
     bool interrupted = false;                      // by a signal, before all samples were taken
     int largest_x = 0, largest_y = 0, largest_sample = 0;  // where the largest sample is
 
-    /// Notes a sample if it is the largest so far; of equal ones, that of the first pixel.
+    /// Stores a sample if it is the largest so far; of equal samples, that of the first pixel.
     void add_largest(double value, int x, int y, int sample) {
         if (value < largest || value == 0) return;
         bool first = value > largest ||
@@ -35,29 +35,29 @@ struct Rendering {
     Film film;
     RenderStats stats;
     std::map<std::string, Film> classes;  // with --split: one film for each class of path, and one
-                                          // for all that are longer than 8 letters
+                                          // for all classes longer than 8 letters
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::vector<std::string> warnings = {};  // of the chapter's own
-    /// What the chapter writes beside pictures and statistics: its name, and what writes it.
+    /// Other files that the chapter writes: the name, and the function that writes it.
     std::vector<std::pair<std::string, std::function<void()>>> files = {};
 };
 
-/// Renders in passes over the whole picture, until scene.spp samples a pixel, or options.time, or
-/// a signal (stop.h). These two end it at once: then some pixels have more samples than others,
-/// none where the first pass did not come. The same pixels for any number of threads. Goes on from
-/// options.film, and writes it now and then.
+/// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a
+/// signal (stop.h). Time and signals end it at once: then some pixels have more samples than
+/// others, or none, if the first pass was not complete. The picture does not depend on the number
+/// of threads. Continues from options.film, and saves it at intervals.
 ///
-/// With an allocation, a render that goes on, or is not the first part, makes the pilot again to
-/// share the samples out as the whole does.
+/// With an allocation, a render that continues, or is not the first part, repeats the pilot, so
+/// that samples are distributed as in the whole render.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation = {});
-/// Renders a chapter that also splats into other pixels, and one that prepares something for each
-/// pass.
+/// The same for a chapter that also splats to other pixels, and for one that prepares something for
+/// each pass.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
 Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
 
-/// All that a chapter's program does with its scene: renders it, or explains one path of it, and
-/// writes what the options ask for. Returns the exit code.
+/// What a chapter's program does with its scene: renders it or explains one path, and writes what
+/// the options ask for. Returns the exit code.
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation = {});
 int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);

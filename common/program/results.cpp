@@ -20,12 +20,12 @@
 
 namespace {
 
-/// Samples per second, or rays, of this run alone.
+/// Samples per second (or rays per second) of this run only.
 double per_second(uint64_t all, uint64_t before, const RenderStats& s) {
     return static_cast<double>(all - before) / s.seconds;
 }
 
-/// What made a picture; a picture of one class of paths is as --paths would make it.
+/// The notes of a picture. A picture of one class of paths has the notes of a render with --paths.
 Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering& r,
                const std::string& path_class = "") {
     RenderOptions whole = options;
@@ -87,8 +87,8 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     }
 }
 
-/// Writes the results one by one: when one fails, the others are written all the same. Says before
-/// what may take some time.
+/// Writes the results one by one; if one fails, the others are still written. Prints a message
+/// before steps that may take some time.
 class Writer {
 public:
     Writer(bool quiet, bool is_large) : quiet_(quiet), is_large_(is_large) {}
@@ -184,10 +184,10 @@ std::string mean_and_error(const Film& film) {
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     if (!options.quiet) print_summary(scene, options, r);
     bool all_written = write_files(scene, options, r);
-    flush_stdout();  // while a signal is still waited for
+    flush_stdout();  // while signals are still handled
     if (r.stats.not_finite == 0 && all_written) return r.stats.interrupted ? 3 : 0;
     if (r.stats.not_finite == 0) return 1;
-    // The command without what --explain does not take.
+    // The command without the options that --explain does not accept.
     static const std::regex film_words(" --(film|film-every|part)(=| )('[^']*'|[^ ]*)");
     std::string command = std::regex_replace(options.command, film_words, "");
     std::fprintf(stderr, "error: %llu samples were not finite; to see one: %s --explain %d,%d,%d\n",

@@ -1,9 +1,9 @@
-// What a program writes when it has rendered: pictures, statistics, and a summary.
+// Writes the results of a render: pictures, statistics, and a summary.
 #pragma once
 #include "common/program/render.h"
 
-/// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 when a sample was
-/// not finite, 3 when a signal stopped the render before its end.
+/// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 if a sample was
+/// not finite, 3 if a signal stopped the render before its end.
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
 
 /// "mean 0.150432 +- 0.000102", or with "standard error unknown".

@@ -10,12 +10,12 @@ namespace {
 
 bool is_before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-/// An edge of a triangle, and the normal of that.
+/// An edge of a triangle, and the triangle's normal.
 struct Edge {
     Vec3 a, b, n;
 };
 
-/// Of the edges of all triangles those that say something, each once.
+/// The edges of triangles that show the shape, each once.
 std::vector<Segment> telling_edges(std::vector<Edge> edges, Vec3 axis) {
     for (Edge& e : edges) {
         if (is_before(e.b, e.a)) std::swap(e.a, e.b);
@@ -76,7 +76,7 @@ std::vector<Segment> outline_of(const Scene& scene, Vec3 axis, bool lamps) {
         add_outline(scene, mover.geometry, axis, lamps, lines);
     }
 
-    // Of a large mesh every k-th line says enough.
+    // Of a large mesh, every k-th line is enough.
     constexpr size_t most = 4000;
     size_t step = lines.size() / most + 1, kept = 0;
     for (size_t i = 0; i < lines.size(); i += step) lines[kept++] = lines[i];

@@ -1,4 +1,4 @@
-// A scene without its pictures: what a drawing shows of it.
+// The outlines of a scene, for drawings.
 #pragma once
 #include <utility>
 #include <vector>
@@ -8,11 +8,11 @@
 
 using Segment = std::pair<Vec3, Vec3>;
 
-/// The lines that tell the form of the scene to who looks along `axis` (unit): edges where faces
-/// meet at an angle or end, and where a round form turns away. No diagonal of a flat face. Lamps
-/// have lines of their own. What moves is where it begins.
+/// The lines that show the shape of the scene from direction `axis` (unit): edges where faces meet
+/// at an angle or end, and contours of round shapes; no diagonals of flat faces. Lamps have lines
+/// of their own. Moving shapes are drawn at their first position.
 std::vector<Segment> outline(const Scene& scene, Vec3 axis);
 std::vector<Segment> lamp_outline(const Scene& scene, Vec3 axis);
 
-/// The scene as the pinhole sees it, in flat colours, lit from there; lamps are yellow.
+/// The scene seen from the pinhole and lit from there, in flat colours; lamps are yellow.
 Image preview(const Scene& scene, int width, int height);

@@ -1,11 +1,11 @@
-// Ctrl-C and its like, for work that keeps what it has done so far.
+// Stops work on Ctrl-C and similar signals, so that results so far are kept.
 #pragma once
 #include <csignal>
 
-/// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP asks for a stop, and the same
-/// signal once more ends the program, if it comes half a second later: timeout and others send it
-/// twice at once. What the program was started to ignore, as by nohup, it ignores. Of several, one
-/// inside the life of the other, the outermost counts.
+/// While it exists, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP asks for a stop. The same signal
+/// ends the program if it comes again at least half a second later (timeout and others send it
+/// twice at once). Signals that the program was started to ignore, as by nohup, stay ignored. If
+/// several objects exist, only the first has an effect.
 class StopOnSignal {
 public:
     StopOnSignal();
@@ -14,8 +14,8 @@ public:
     StopOnSignal& operator=(const StopOnSignal&) = delete;
 
     bool requested() const;
-    /// Whether a signal came, and forgets it: it ends one part of the work, and the next begins
-    /// anew.
+    /// Whether a signal came; resets it, so that the signal ends one part of the work but not the
+    /// next.
     bool take_request();
 
 private:

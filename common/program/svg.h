@@ -28,7 +28,7 @@ public:
         add("<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' %s/>\n", double{corner.x},
             double{corner.y}, double{size.x}, double{size.y}, style);
     }
-    /// Words that stand out from what is behind them; `at`: left end of their base line.
+    /// Text with a contrasting outline; `at`: left end of its base line.
     void text(Vec2 at, const std::string& words) {
         add("<text x='%.1f' y='%.1f' font-family='sans-serif' font-size='13' stroke='white' "
             "stroke-width='3' paint-order='stroke'>%s</text>\n",
@@ -40,7 +40,7 @@ public:
             double{corner.y}, double{size.x}, double{size.y});
         body_ += "href='data:image/png;base64," + png + "'/>\n";
     }
-    /// What follows is cut off at the border of a rectangle, until end_clip().
+    /// Clips what follows to a rectangle, until end_clip().
     void begin_clip(Vec2 corner, Vec2 size) {
         clips_++;
         add("<clipPath id='clip%d'>", clips_);

@@ -12,15 +12,15 @@ struct Table {
     std::vector<std::vector<std::string>> rows;
 };
 
-/// x with so many significant digits; "infinite", or "unknown" when it is not a number.
+/// x with `significant` digits; "infinite", or "unknown" if it is not a number.
 std::string digits(double x, int significant = 5);
 
 /// One line per row, the columns aligned to the right (the first to the left).
 std::string aligned(const Table& table);
 std::string tab_separated(const Table& table);
 
-/// The slope of the straight line through (log x, log y) with the least squares: -1/2 where four
-/// times the samples halve the error. NaN for fewer than two points.
+/// The slope of the straight line fitted to (log x, log y) by least squares: -1/2 if four times the
+/// samples halve the error. NaN for fewer than two points.
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 
 /// Prints the table and the notes below it (nothing with --quiet), and writes every --out FILE:
@@ -28,7 +28,7 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,
                    const Image& picture);
 
-/// Seconds of processor time since it was made: what else runs on the machine does not count.
+/// Seconds of processor time since construction: other programs on the machine do not count.
 class Stopwatch {
 public:
     double seconds() const { return now() - start_; }

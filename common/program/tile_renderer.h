@@ -1,4 +1,4 @@
-// The samples of one tile of the picture after another, until the render has to end.
+// Renders the samples of the picture tile by tile, until the render has to end.
 #pragma once
 #include <array>
 #include <atomic>
@@ -19,12 +19,12 @@ public:
     explicit Limit(double seconds) : seconds_(seconds) {}
     bool reached() const { return signal_.requested() || (seconds_ > 0 && elapsed() >= seconds_); }
     bool interrupted() const { return signal_.requested(); }
-    /// Whether it was interrupted, and forgets it: what comes next has a limit of its own.
+    /// Whether it was interrupted; resets it, since the next render has its own limit.
     bool take_interruption() { return signal_.take_request(); }
-    /// Whether overdue() has seen it reached: asked often, and never wrong by more than some rays.
+    /// Whether overdue() has found the limit reached; at most a few rays late.
     bool seen() const { return reached_at_ != 0; }
-    /// Whether it was reached some time ago. Until then a sample that was begun is finished, since
-    /// those that are given up are the long ones.
+    /// Whether it was reached some time ago. Until then, samples that have started are finished:
+    /// giving up samples would leave out the long ones, a bias.
     bool overdue() const {
         if (!reached()) return false;
         double now = elapsed();
@@ -38,7 +38,7 @@ public:
 private:
     double seconds_;  // 0: no limit
     StopOnSignal signal_;
-    mutable std::atomic<double> reached_at_ = 0;  // s, when somebody first saw it; 0: nobody
+    mutable std::atomic<double> reached_at_ = 0;  // s, when a thread first noticed it; 0: not yet
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -51,7 +51,8 @@ public:
     static constexpr bool has_passes = std::is_same_v<AnyTrace, PassTrace>;
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
-    static constexpr int between_looks = 64;    // samples without rays; those look by themselves
+    static constexpr int between_looks =
+        64;  // samples without rays; rays check the limit themselves
 
     TileRenderer(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
                  const Allocation& allocation, const Limit& limit, const FilmClock& clock,
@@ -73,7 +74,7 @@ public:
         }
     }
 
-    /// What its pilot has seen, for those who decide by it. Not kept.
+    /// Returns the statistics of the pilot, and removes them here.
     Pilot take_pilot() { return std::move(pilot_); }
 
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
@@ -122,7 +123,7 @@ public:
         try {
             for_pixels(tile, render_pixel);
         } catch (const TracingEnds&) {
-            // The sample that was given up counts in nothing: who goes on takes it again.
+            // A sample that was given up is not counted: a continued render takes it again.
         }
         stats.rays = rays - rays_before, stats.paths_cut = paths_cut;
         std::lock_guard lock(mutex_);
@@ -134,7 +135,8 @@ private:
     int halves() const { return allocation_.pilot > 0 ? 2 : 1; }
     bool has_pilot() const { return allocation_.share_out && first_ == 0; }
 
-    /// The numbers of the next sample of a pixel's half, and of the one after the last to take.
+    /// The number of the next sample of a pixel's half, and the end: one more than the last to
+    /// take.
     std::pair<uint32_t, uint32_t> samples(size_t pixel, int half) const {
         uint32_t done = result_.film.half(half)[pixel].n;
         if (allocation_.pilot == 0) return {first_ + done, end_};
@@ -160,7 +162,7 @@ private:
         uint32_t sample;  // of the half
     };
 
-    /// What one sample after another is taken with.
+    /// The tools that trace samples, reused from one sample to the next.
     struct Tools {
         Tools(const Scene& scene, const RenderOptions& options)
             : sampler(has_passes ? SamplerType::independent : options.sampler, options.seed,
@@ -174,7 +176,7 @@ private:
         Splats splats = {};
     };
 
-    /// What a sample brings to its own pixel, and what with all its splats.
+    /// The contribution of a sample to its own pixel, and its total with all splats.
     struct Sample {
         Rgb L, total;
     };
@@ -202,7 +204,7 @@ private:
         return !options.paths.empty() || !options.strategy.empty();
     }
 
-    /// What was recorded of the classes and of the strategy that count.
+    /// The recorded contributions of the selected classes and strategy.
     std::vector<Contribution> chosen_parts(Tools& with) const {
         std::vector<Contribution> parts = with.recorder.contributions();
         std::erase_if(parts, [&](const Contribution& part) {
@@ -215,7 +217,7 @@ private:
         return parts;
     }
 
-    /// The sample, with its splats, is what counts of it.
+    /// Reduces the sample and its splats to the selected contributions.
     Rgb choose(Tools& with) {
         Rgb L;
         with.splats.clear();
@@ -252,7 +254,7 @@ private:
 
     void split(const Place& at, Tools& with) {
         for (const Contribution& part : chosen_parts(with)) {
-            // Keep all long paths together: their classes double with every letter.
+            // Keep all long paths together: the number of classes doubles with every letter.
             bool is_long = part.path_class.size() > longest_class;
             std::lock_guard lock(mutex_);
             auto [film, added] = film_of(is_long ? "longer" : part.path_class);
@@ -289,5 +291,5 @@ private:
     int tiles_x_;
     Pilot pilot_;
     std::mutex mutex_;
-    std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats meet
+    std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats go to
 };

@@ -16,16 +16,16 @@
 namespace {
 
 constexpr double too_much = 0.01;    // of a picture, in one sample
-constexpr double few_samples = 100;  // that carry a picture: below, intervals are too short
-constexpr double few_pixels = 30, few_audits = 16;  // that the error rests on
-constexpr double few_hits = 50;                     // of a light that is met by chance
+constexpr double few_samples = 100;  // effective samples: below, intervals are too short
+constexpr double few_pixels = 30, few_audits = 16;  // that the error is estimated from
+constexpr double few_hits = 50;                     // of a light that is found by random hits
 
 bool is_receiver(const Material& m) {
     return !is_specular(m) && !(m.type == MaterialType::diffuse && is_black(m.reflectance));
 }
 
-/// How likely a light is met, about: in a closed room each patch of the wall is met in proportion
-/// to its area, and the scene has at most the walls of the sphere around it.
+/// The approximate probability of hitting a light at random: in a closed room each part of the
+/// walls is hit in proportion to its area, at most the area of the scene's bounding sphere.
 double chance_of(const Scene& scene, size_t light) {
     double radius = static_cast<double>(scene.radius);
     return static_cast<double>(scene.light_shapes[light].area) /
@@ -39,7 +39,7 @@ double chance_of_any(const Scene& scene) {
     return scene.sky_light >= 0 || scene.sky_image ? 1 : std::min(sum, 1.0);
 }
 
-/// Whether a light that matters is so small that chance meets it too rarely.
+/// Whether an important light is so small that random hits are too rare.
 bool has_rare_light(const Scene& scene, double samples) {
     double all = 0;
     for (size_t i = 0; i < scene.lights.size(); i++) {
@@ -53,7 +53,7 @@ bool has_rare_light(const Scene& scene, double samples) {
     return false;
 }
 
-/// Which share of the pixels shows a mirror or glass in its middle.
+/// The share of pixels that show a mirror or glass at their centre.
 double share_of_mirrors(const Scene& scene) {
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     double seen = 0;
@@ -67,7 +67,7 @@ double share_of_mirrors(const Scene& scene) {
     return seen / scene.width / scene.height;
 }
 
-/// Whether a surface in view faces another one that reflects light.
+/// Whether a visible surface faces another one that reflects light.
 bool surfaces_face_each_other(const Scene& scene) {
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, 1, 1);
@@ -85,7 +85,7 @@ bool surfaces_face_each_other(const Scene& scene) {
     return false;
 }
 
-/// Light that this way of looking for it leaves out, or meets by chance.
+/// Adds warnings about light that this method leaves out, or finds by random hits.
 void add_missed_light(const Scene& scene, const RenderOptions& options, const Film& film,
                       std::vector<std::string>& lines) {
     double samples = static_cast<double>(film.samples()), error = film.standard_error();
@@ -131,7 +131,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
                            [&](const Light& light) { return is(light.type); });
     };
     if (options.search == LightSearch::aims && any_material(is_receiver)) {
-        // Chapter 13 aims alone, unless told otherwise; those after it also follow the metal.
+        // By default, chapter 13 samples lights only; later chapters also sample the metal's BSDF.
         bool aims_alone = std::count(options.own.begin(), options.own.end(),
                                      std::pair<std::string, std::string>("strategy", "light")) > 0;
         double hidden = light_by_nearly_mirrors(scene, samples, !aims_alone);

@@ -7,7 +7,7 @@ namespace {
 constexpr std::string_view letters = "LDSE";
 constexpr uint8_t every_letter = 15;
 
-/// The bit of a letter; 0 for what is none.
+/// The bit of a letter; 0 for any other character.
 uint8_t letter_bit(char c) {
     size_t i = letters.find(c);
     return static_cast<uint8_t>(i == std::string_view::npos ? 0 : 1 << i);
@@ -17,8 +17,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
 
-/// Turns an expression into places and steps. Each function reads one form of the grammar from at_
-/// on, and returns where its first step starts and its last one ends.
+/// Compiles an expression to places (states) and steps (transitions) of an automaton. Each function
+/// parses one rule of the grammar at at_, and returns the first and the last place of its part.
 class ClassFilterReader {
 public:
     ClassFilterReader(ClassFilter& filter, const std::string& text)
@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    static constexpr size_t most_letters = 1000;  // brackets within brackets use the stack
+    static constexpr size_t most_letters = 1000;  // nested brackets use the stack
     static constexpr size_t most_places = 5000;
 
     struct Part {
@@ -96,7 +96,7 @@ private:
         if (next_is('{')) return read_counted(begin);
         return all;
     }
-    /// The part, or nothing.
+    /// Makes a part optional.
     Part optional(Part part) {
         Part all = {new_place(), new_place()};
         connect(all.start, part.start);
@@ -105,7 +105,7 @@ private:
         return all;
     }
 
-    /// Reads what begins at `begin` as often as the count behind it says.
+    /// Repeats the part that begins at `begin` as often as the count behind it says.
     Part read_counted(size_t begin) {
         size_t brace = at_++;
         int low = read_count(brace), high = low;
@@ -182,7 +182,7 @@ ClassFilter::ClassFilter(const std::string& expression) {
     ClassFilterReader(*this, expression).read();
 }
 
-/// Adds a place, and those that are reached from it over no letter.
+/// Adds a place, and all places that are reached from it without reading a letter.
 void ClassFilter::add(Places& places, uint32_t place) const {
     std::vector<uint32_t> open = {place};
     while (!open.empty()) {
@@ -202,7 +202,7 @@ ClassFilter::Places ClassFilter::at_start() const {
     return places;
 }
 
-/// Where one can be after one of these letters.
+/// The places that are reached by reading one of these letters.
 ClassFilter::Places ClassFilter::after(const Places& places, uint8_t over) const {
     Places next(steps_.size());
     for (size_t place = 0; place < steps_.size(); place++) {
@@ -222,7 +222,7 @@ bool ClassFilter::matches(std::string_view path_class) const {
 
 bool ClassFilter::matches_some_path() const {
     Places places = after(at_start(), letter_bit('L')), before;
-    // Add what more D and S reach until that is nothing new.
+    // Add the places that more D and S reach, until there are no new ones.
     while (places != before) {
         before = places;
         Places more = after(places, letter_bit('D') | letter_bit('S'));

@@ -1,4 +1,4 @@
-// The expressions of --paths: which classes of paths count.
+// The expressions of --paths, which select classes of paths.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -13,21 +13,21 @@
 ///   a b       a, and then b      a|b      a or b           (a)         brackets
 ///   a* a+ a?  any number of a, at least one, at most one   a{2} a{2,} a{2,4}   that many
 ///
-/// Reads each letter of a class once, whatever the expression is: it is in many places of the
-/// expression at a time, and never goes back.
+/// Reads each letter of a class once, whatever the expression: it follows all possible places of
+/// the expression at the same time, and never backtracks.
 /// source  Thompson 1968      tested by  "truth: what each sign of a class filter matches"
 class ClassFilter {
 public:
-    /// Throws UsageError, with the column, for what is no such expression.
+    /// Throws UsageError, with the column, for an invalid expression.
     explicit ClassFilter(const std::string& expression);
 
     bool matches(std::string_view path_class) const;
-    /// Whether a path can have a class that matches, L(D|S)*E that is.
+    /// Whether any class of paths, L(D|S)*E, matches.
     bool matches_some_path() const;
 
 private:
     friend class ClassFilterReader;
-    /// The way from one place of the expression to another: over one of these letters, or over
+    /// A transition from one place of the expression to another: it reads one of these letters, or
     /// none (letters == 0).
     struct Step {
         uint32_t to;
@@ -43,7 +43,7 @@ private:
     uint32_t start_ = 0, end_ = 0;
 };
 
-/// The classes that count. Remembers what the filter said of each class.
+/// The classes that are selected. Caches the answer of the filter for each class.
 class ClassSelection {
 public:
     /// expression: that of a ClassFilter; empty: all classes count.

@@ -38,8 +38,7 @@ PathStory::~PathStory() {
     if (rays_kept == &rays_) rays_kept = nullptr;
 }
 
-/// Tells what became of the rays that were traced since the last step, where that is not the step
-/// to come.
+/// Describes the rays traced since the last step, except those that the next step describes.
 void PathStory::tell_rays() {
     for (; told_ < rays_.size(); told_++) {
         const TracedRay& traced = rays_[told_];
@@ -114,7 +113,7 @@ void PathStory::adds(const Contribution& added) {
              format(", mis %.6g, class ", double{added.mis}) + added.path_class + "\n";
 }
 
-/// Why it ends at the last vertex, before a direction to go on in was found.
+/// Why the path ends at its last vertex, where no next direction was sampled.
 std::string PathStory::end_at_vertex() const {
     std::string vertex = format("vertex %zu", vertex_);
     if (from_light_ && events_ == max_depth_)

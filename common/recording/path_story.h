@@ -1,4 +1,4 @@
-// One path in words: what --explain prints.
+// Describes one path in words, for --explain.
 #pragma once
 #include <string>
 #include <vector>
@@ -6,14 +6,14 @@
 #include "common/recording/contribution.h"
 #include "common/scene/intersect.h"
 
-/// Follows one path as its Recorder hears of it, and writes down each step, what it adds, which
-/// shadow rays were blocked, and why it ends.
+/// Describes one path as its Recorder reports it: each step, what it adds, which shadow rays were
+/// blocked, and why the path ends.
 ///
-/// Of rays it sees all that this thread traces until ends(); without any (chapter 05 has a search
-/// of its own) it cannot tell how the path ends.
+/// It sees all rays that this thread traces until ends(). Without them (chapter 05 has its own
+/// intersection code) it cannot tell how the path ends.
 class PathStory {
 public:
-    /// counts_photons: a path may end where photons tell the rest, as in chapter 23.
+    /// counts_photons: a path may end by gathering photons, as in chapter 23.
     PathStory(int max_depth, bool counts_photons);
     ~PathStory();
     PathStory(const PathStory&) = delete;
@@ -28,14 +28,14 @@ public:
     void is_cut();
     void aims(Vec3 wi, float pdf_l, float pdf_b);
     void adds(const Contribution& added);
-    /// Tells why the path ends, once it has.
+    /// Adds the reason why the path ended.
     void ends();
-    /// Says that the path was not followed to its end.
+    /// Adds that the path was not followed to its end.
     void is_given_up();
 
     const std::string& text() const { return text_; }
     const std::vector<TracedRay>& rays() const { return rays_; }
-    /// Whether what was met last is the sky.
+    /// Whether the path's last ray left the scene.
     bool has_left() const { return !rays_.empty() && !rays_.back().shadow && !rays_.back().met; }
 
 private:
@@ -47,10 +47,10 @@ private:
     const bool counts_photons_;
     std::string text_;
     std::vector<TracedRay> rays_;
-    size_t told_ = 0;  // of the rays
+    size_t told_ = 0;  // rays described so far
     Last last_ = Last::start;
     bool from_light_ = false;
-    int events_ = 0;  // surfaces met on this path
+    int events_ = 0;  // surfaces hit on this path
     size_t vertex_ = 0;
     const Material* material_ = nullptr;  // of that vertex
 };

@@ -35,10 +35,10 @@ void Recorder::note_vertex(const Hit& x) {
     if (story_) story_->meets(x, vertices_.size());
 }
 
-/// The number, from 1, of the vertex that the path from the eye has come to; 0: none.
+/// The number, from 1, of the last vertex of the path from the eye; 0: none.
 int Recorder::current_vertex() const { return eye_vertex(scattered_.size()); }
 
-/// The number of the vertex after so many scattering events; the last one, if the sky follows it.
+/// The number of the vertex after this many scattering events; the last one, if the sky follows it.
 int Recorder::eye_vertex(size_t events) const {
     size_t depth = std::min(events + 1, latest_.size());
     return depth == 0 ? 0 : latest_[depth - 1] + 1;

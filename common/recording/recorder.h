@@ -1,43 +1,43 @@
-// What one path did, for those who ask: --explain, --paths, --split, and the measuring programs.
+// Records what one path did, for --explain, --paths, --split and the measuring programs.
 #pragma once
 #include <map>
 #include <optional>
 
 #include "common/recording/path_story.h"
 
-/// Where the path went, and the vertex that it came from (-1: the eye, -2: it is a light).
+/// A vertex of the path, and the number of the vertex before it (-1: the eye, -2: it is a light).
 struct PathVertex {
     Vec3 p;
     int from;
 };
 
-/// trace() reports to a Recorder what it does, and never asks it: what trace() returns is the same
-/// whether or not the recorder keeps anything. One that keeps nothing costs an untaken branch for
-/// each event.
+/// Receives the events of a path from trace(), which never reads from it: trace() returns the same
+/// value whether or not the recorder stores anything. One that stores nothing costs an untaken
+/// branch for each event.
 ///
-/// Follows the throughput beta by itself, so that events tell what was found and not what of it
-/// reaches the eye.      tested by  "identity: recording never changes an estimate"
+/// It keeps track of the throughput beta itself, so events report radiance at the vertex, without
+/// beta.      tested by  "identity: recording never changes an estimate"
 class Recorder {
 public:
-    /// Keeps nothing but how many paths were cut.
+    /// Stores only how many paths the depth limit has ended.
     Recorder() = default;
-    /// Keeps all contributions and vertices. story: is told each step.
+    /// Stores all contributions and vertices. story: receives each step.
     explicit Recorder(bool keeps_all, PathStory* story = nullptr)
         : listening_(keeps_all), story_(story) {}
 
-    /// Forgets the path before.
+    /// Starts a new path from the eye; the path before is deleted.
     void start() {
         if (listening_) forget();
     }
-    /// From here on the path is another one that begins at p, a point of a light.
+    /// The next events belong to a path that starts at p, a point of a light.
     void start_at_light(Vec3 p) {
         if (listening_) note_start_at_light(p);
     }
-    /// From here on it is one that begins at the eye, as after start().
+    /// The next events belong to a path that starts at the eye, as after start().
     void start_at_eye() {
         if (listening_) note_start_at_eye();
     }
-    /// The path met x, or left the scene.
+    /// The path hit x, or left the scene.
     void vertex(const std::optional<Hit>& x) {
         if (listening_ && x) note_vertex(*x);
     }
@@ -49,16 +49,16 @@ public:
     void scatter(const BsdfSample& s, Rgb beta) {
         scatter(s.wi, s.f, s.pdf_w, s.specular, beta);
     }
-    /// Roulette let the path go on with probability q, and beta was divided by it.
+    /// The path survived roulette with probability q, and beta was divided by q.
     void roulette(float q, Rgb beta) {
         if (listening_) note_roulette(q, beta);
     }
-    /// Goes back to the vertex before, whose other branch comes next (chapter 05 walks a tree).
+    /// Goes back to the vertex before, to follow its other branch (chapter 05 traces a tree).
     void step_back() {
         if (listening_) note_step_back();
     }
-    /// Goes back to the t-th vertex from the eye, the pinhole being the first: the next branch of
-    /// the path begins there.
+    /// Goes back to the t-th vertex from the eye (the pinhole is the first), where the next branch
+    /// of the path starts.
     void back_to(int t) {
         if (listening_) note_back_to(t);
     }
@@ -68,7 +68,7 @@ public:
         if (listening_) note_cut();
     }
 
-    /// The path met Le: beta Le mis_b was added.
+    /// The path hit emission Le: beta Le mis_b was added.
     void emitted(Rgb Le, float mis_b = 1) {
         if (listening_) note_emitted(Le, mis_b);
     }
@@ -76,8 +76,8 @@ public:
     void direct(Rgb Ld, Vec3 wi, float pdf_l, float pdf_b, float mis_l = 1) {
         if (listening_) note_direct(Ld, wi, pdf_l, pdf_b, mis_l);
     }
-    /// The first s vertices from the light, itself included, were connected with the first t from
-    /// the eye: L was added, with weight mis. s = 0: the t-th is the light. t = 1: in a pixel.
+    /// The first s vertices from the light (included) were connected to the first t from the eye:
+    /// L was added with weight mis. s = 0: the t-th is the light. t = 1: L was added to `pixel`.
     void connected(Rgb L, int s, int t, float mis = 1, size_t pixel = Contribution::own_pixel) {
         if (listening_) note_connected(L, s, t, mis, pixel);
     }
@@ -85,8 +85,8 @@ public:
     void splat(Rgb L, size_t pixel) {
         connected(L, static_cast<int>(vertices_.size()), 1, 1, pixel);
     }
-    /// A photon near the last vertex counts so much flux. paths.path_of(photon): its path, up to
-    /// where it lies.
+    /// A photon near the last vertex contributes this flux. paths.path_of(photon): its path from
+    /// the light to its position.
     template <class Paths, class Photon>
     void photon(Rgb flux, const Paths& paths, const Photon& photon) {
         if (!listening_) return;
@@ -128,7 +128,7 @@ private:
     std::string scattered_;   // D and S of the vertices left so far, the first one last
     std::vector<Rgb> beta_;   // behind each of them, the first one first
     std::string from_light_;  // D and S of the path from the light, the first one first
-    bool at_light_ = false;   // that is the one that goes on
+    bool at_light_ = false;   // events belong to the path from the light
     std::vector<PathVertex> vertices_;
     std::vector<int> latest_;             // vertex for each number of scatterings before it
     std::map<std::string, Rgb> photons_;  // flux by the D and S of their paths
