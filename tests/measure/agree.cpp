@@ -10,7 +10,8 @@
 
 namespace {
 
-/// The values of each quantity, batch by batch: "total", "block 16,32", "length 2", "class LDE".
+/// The values of each quantity, batch by batch: "total", "block 16,32", "length 2", "class LDE";
+/// and "part of 16,32: LDE", which is not judged but tells what a method may miss in a block.
 using Batches = std::map<std::string, std::vector<double>>;
 
 constexpr int block = 16;  // pixels
@@ -32,17 +33,21 @@ void add_batch(const Rendering& r, size_t batch, size_t count, Batches& batches)
         values.resize(count);
         return values[batch];
     };
-    at("total") = r.film.mean();
-    Image image = r.film.image();
-    for (int y = 0; y < image.height; y += block) {
-        for (int x = 0; x < image.width; x += block) {
-            at("block " + std::to_string(x) + "," + std::to_string(y)) = block_mean(image, x, y);
+    auto add_blocks = [&](const Image& image, const std::string& before, const std::string& after) {
+        for (int y = 0; y < image.height; y += block) {
+            for (int x = 0; x < image.width; x += block) {
+                std::string place = std::to_string(x) + "," + std::to_string(y);
+                at(before + place + after) += block_mean(image, x, y);
+            }
         }
-    }
+    };
+    at("total") = r.film.mean();
+    add_blocks(r.film.image(), "block ", "");
     for (const auto& [path_class, film] : r.classes) {
         bool is_long = path_class == "longer";
         std::string length = is_long ? path_class : std::to_string(path_class.size() - 2);
         at("class " + path_class) += film.mean();
+        add_blocks(film.image(), "part of ", ": " + path_class);
         at("length " + length) += film.mean();
     }
 }
@@ -97,13 +102,14 @@ void judge_one(const std::string& scene, const std::string& key, Column& c, cons
                 ", the others " + row[5] + " +- " + row[6] + ", z " + row[7] + "\n";
 }
 
-/// What other methods surely have found in the classes of paths of which a method has too few
-/// samples to tell how much they vary, beyond what it has of them: per pixel of the picture.
-double missed_by(const Column& c, const std::vector<Column>& all) {
+/// What other methods surely have found of classes of paths (those quantities that begin with
+/// `kind`) of which a method has too few samples to tell how much they vary, beyond what it has.
+double missed_by(const Column& c, const std::vector<Column>& all, const std::string& kind) {
     std::map<std::string, double> most;
     for (const Column& other : all) {
-        for (const auto& [key, values] : other.batches) {
-            if (!key.starts_with("class ")) continue;
+        for (auto i = other.batches.lower_bound(kind); i != other.batches.end(); i++) {
+            const auto& [key, values] = *i;
+            if (!key.starts_with(kind)) break;
             Estimate e = estimate_of(values);
             most[key] = std::max(most[key], e.mean - 3 * e.se);
         }
@@ -120,19 +126,20 @@ double missed_by(const Column& c, const std::vector<Column>& all) {
 void judge_scene(SceneResult& result, Table& details, std::string& failures) {
     Batches all;
     for (const Column& c : result.columns) all.insert(c.batches.begin(), c.batches.end());
-    std::vector<double> missed;
-    for (const Column& c : result.columns) missed.push_back(missed_by(c, result.columns));
-    double blocks = static_cast<double>(
-        std::count_if(all.begin(), all.end(), [](const auto& b) { return b.first[0] == 'b'; }));
     for (const auto& [key, unused] : all) {
-        bool is_class = key.starts_with("class ") && key != "class longer",
-             is_block = key[0] == 'b';
+        if (key.starts_with("part of ")) continue;
+        bool is_class = key.starts_with("class "), is_rest = key.ends_with(" longer");
+        bool is_block = key.starts_with("block ");
+        std::string parts = is_block ? "part of " + key.substr(6) + ": " : "class ";
         std::vector<Estimate> estimates;
         for (size_t i = 0; i < result.columns.size(); i++) {
             const Batches& batches = result.columns[i].batches;
             auto found = batches.find(key);
             Estimate e = found == batches.end() ? Estimate{} : estimate_of(found->second);
-            if (!is_class) e.missed = missed[i] * (is_block ? blocks : 1);  // or all in one block
+            // Who misses some classes by chance may miss some of those that are counted together.
+            double missed = missed_by(result.columns[i], result.columns, parts);
+            if (is_rest && missed > 0) missed = INFINITY;
+            if (is_rest || !is_class) e.missed = missed;
             estimates.push_back(e);
         }
         for (size_t i = 0; i < estimates.size(); i++) {
