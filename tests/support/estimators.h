@@ -86,7 +86,8 @@ inline SquareMoments moments_of(const std::function<double(double, double)>& f, 
 }
 
 /// Two chapters bring the same: in all, by length of path, and by class (those that both saw 100
-/// times); of the classes that the filter matches. The log's parts make up the whole. Returns how
+/// times and know to 30 %: where a few bright paths are most of the light, the error comes out too
+/// small); of the classes that the filter matches. The log's parts make up the whole. Returns how
 /// many parts were compared.
 template <class TraceA, class TraceB>
 int check_classes(const Scene& scene_a, const TraceA& trace_a, const Scene& scene_b,
@@ -101,8 +102,10 @@ int check_classes(const Scene& scene_a, const TraceA& trace_a, const Scene& scen
         for (const auto& [name_here, part] : parts_a) {
             const auto& name = name_here;
             if (part.not_zero < 100 || parts_b[name].not_zero < 100) continue;
+            Measured in_a = part.measured(a.paths), in_b = parts_b[name].measured(b.paths);
+            if (std::max(in_a.se / in_a.mean, in_b.se / in_b.mean) > 0.3) continue;
             CAPTURE(name);
-            CHECK(z_between(part.measured(a.paths), parts_b[name].measured(b.paths)) < 5);
+            CHECK(z_between(in_a, in_b) < 5);
             compared++;
         }
     };
