@@ -288,7 +288,7 @@ inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, Recor
 ///
 ///   classes found:  LE, LDE, LS+E, LDS+E      missed:  any with two D, and LS+D...
 ///
-/// Biased: lamps are points (no soft shadows), and no light comes by way of other surfaces.
+/// Biased: lamps are points (no soft shadows), and no light arrives from other surfaces.
 /// source  Whitted 1980      tested by  "ch05 classes of paths"
 inline Rgb trace(const Scene& scene, Ray ray, Sampler&, Recorder& recorder) {
     return follow(scene, ray, {1, 1, 1}, 0, recorder);

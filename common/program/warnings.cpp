@@ -137,7 +137,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
         double hidden = light_by_nearly_mirrors(scene, samples, !aims_alone);
         if (hidden > 0 && !(hidden <= error)) {
             lines.push_back(
-                "light that reaches a surface by way of metal that is nearly a mirror is met only "
+                "light that reaches a surface via metal that is nearly a mirror is met only "
                 "by chance: the error may not know of it");
         }
     }
@@ -154,8 +154,8 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     };
     if (options.search == LightSearch::both_ends) {
         const std::string both =
-            "light that comes by way of mirrors or glass to what the camera "
-            "sees by way of mirrors or glass ";
+            "light that comes via mirrors or glass to what the camera "
+            "sees via mirrors or glass ";
         if (any_light(is_delta)) {
             lines.push_back(both +
                             "from a point or distant light is left out: nothing can meet it");
@@ -164,7 +164,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
         }
         return;
     }
-    const std::string light = "light that reaches a surface by way of mirrors or glass ";
+    const std::string light = "light that reaches a surface via mirrors or glass ";
     if (options.search == LightSearch::direct) {
         lines.push_back(light + "is left out, as is light from surface to surface");
     } else if (any_light(is_delta)) {

@@ -175,12 +175,12 @@ TEST_SUITE("warning rules") {
     }
 
     TEST_CASE("truth: what each search for light leaves out, scene by scene") {
-        const std::string leaves = "light that reaches a surface by way of mirrors or glass ",
+        const std::string leaves = "light that reaches a surface via mirrors or glass ",
                           met = "is met only by chance: the error may not know of it",
                           delta = "from a point or distant light is left out: nothing can meet it",
                           both =
-                              "light that comes by way of mirrors or glass to what the camera "
-                              "sees by way of mirrors or glass ",
+                              "light that comes via mirrors or glass to what the camera "
+                              "sees via mirrors or glass ",
                           blurred =
                               "photons blur light within their radius: the reported error does not "
                               "include this bias",
