@@ -19,8 +19,8 @@ using many_lights::direct_light, many_lights::mis_emission;
 ///
 ///   pmf_i = max(0, L_i - mean L) w_i / sum,    mean L = sum of L_i w_i / sum of w_i
 ///
-/// Subtracting the mean is MIS compensation: BSDF sampling finds even light well, so light sampling
-/// concentrates on what is brighter. 1e-6: allows for rounding of the mean.
+/// Subtracting the mean is MIS compensation: BSDF sampling finds uniform light well, so light
+/// sampling concentrates on what is brighter. 1e-6: allows for rounding of the mean.
 /// source  Karlik et al. 2019      tested by  "density: the image's density sums to 1, or is 0"
 inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
     double light = 0, sphere = 0;

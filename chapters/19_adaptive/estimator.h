@@ -97,8 +97,8 @@ inline double level_of(const std::vector<double>& shares, double least, double w
 ///
 ///   n = floor(max(least, level share) + u),    least = pilot / 2 + 0.05 (spp - pilot) / 2
 ///
-/// 0.05: pixels that look even so far may not be. For the same reason none gets more than 16 times
-/// the average. u in [0,1) differs for each pixel and half, so that rounding is unbiased.
+/// 0.05: pixels that seem to have no noise may have some. For the same reason none gets more than
+/// 16 times the average. u in [0,1) differs for each pixel and half: rounding is unbiased.
 /// tested by  "identity: samples are as many as the shares say"
 inline SamplesOf samples_of(std::shared_ptr<const Shares> s, int half, uint32_t spp) {
     uint32_t pilot = std::min(spp, s->pilot), first = (pilot + (half == 0)) / 2;

@@ -1,6 +1,6 @@
-// Chapter 23: photon mapping. Pass one sends light out, and stores what arrives at diffuse surfaces
-// as photons. Pass two follows camera paths, and estimates the light at a point from the photons
-// around it:
+// Chapter 23: photon mapping. The first step sends light out, and stores what arrives at diffuse
+// surfaces as photons. The second follows camera paths, and estimates the light at a point from the
+// photons around it:
 //
 //   Lo = rho / pi  sum over photons nearer than r of  K(d / r) flux / (pi r^2)
 #pragma once
@@ -66,7 +66,7 @@ inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int
     }
 }
 
-/// Pass one: traces the light paths. The order of the vertices does not depend on threads.
+/// First step: traces the light paths. The order of the vertices does not depend on threads.
 inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endpoints& endpoints,
                                                   const PhotonSettings& settings, uint32_t pass,
                                                   int threads, const Stopped& stopped) {
@@ -142,8 +142,8 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
     return power_heuristic(pdf_b, pmf_light(endpoints.lights, light) * pdf_one);
 }
 
-/// Pass two: estimates Li along the ray. The path continues via mirrors, glass and rough metal to a
-/// diffuse vertex, and gathers photons there or (final gathering) at the next one.
+/// Second step: estimates Li along the ray. The path continues via mirrors, glass and rough metal
+/// to a diffuse vertex, and gathers photons there or (final gathering) at the next one.
 ///
 /// Biased, since it uses photons near a point and not at it; more passes do not reduce the bias.
 /// source  Jensen 1996      tested by  "ch23 photon mapping"

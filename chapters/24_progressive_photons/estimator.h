@@ -70,8 +70,8 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
     return power_heuristic(pdf_b, pmf_light(endpoints.lights, light) * pdf_one);
 }
 
-/// Pass two: estimates Li along the ray. The path continues via mirrors, glass and rough metal to a
-/// diffuse vertex, and gathers photons there or (final gathering) at the next one.
+/// Second step: estimates Li along the ray. The path continues via mirrors, glass and rough metal
+/// to a diffuse vertex, and gathers photons there or (final gathering) at the next one.
 ///
 /// Biased, since it uses photons near a point and not at it. The bias of the mean of all passes
 /// goes to 0 with the radius.

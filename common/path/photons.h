@@ -1,5 +1,5 @@
 // taught by chapter 23
-// Pass one of photon mapping: light paths, and the flux that arrives at each vertex.
+// The first step of photon mapping: light paths, and the flux that arrives at each vertex.
 #pragma once
 #include "common/base/parallel.h"
 #include "common/path/camera_sample.h"
@@ -54,7 +54,7 @@ inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int
     }
 }
 
-/// Pass one: traces the light paths. The order of the vertices does not depend on threads.
+/// First step: traces the light paths. The order of the vertices does not depend on threads.
 inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endpoints& endpoints,
                                                   const PhotonSettings& settings, uint32_t pass,
                                                   int threads, const Stopped& stopped) {
