@@ -341,6 +341,16 @@ TEST_SUITE("ch14 mis") {
         }
     }
 
+    TEST_CASE("agreement: each weight belongs to the last vertex, also after several") {
+        for (const std::string& board_here : boards) {
+            const auto& board = board_here;
+            CAPTURE(board);
+            Scene scene = board_beside_lamp(board);
+            Trace light = by({Strategy::light}, scene);
+            CHECK(check_classes(scene, light, scene, by({}, scene), 200000) >= 6);
+        }
+    }
+
     TEST_CASE("agreement: classes of path by each strategy on Veach's plates") {
         Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
         PathCensus mis = census_of(scene, by({}, scene), 60000, 1);

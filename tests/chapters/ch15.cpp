@@ -314,6 +314,15 @@ TEST_SUITE("ch15 mis ris") {
             }
     }
 
+    TEST_CASE("agreement: each weight belongs to the last vertex, also after several") {
+        for (const std::string& board_here : boards) {
+            const auto& board = board_here;
+            CAPTURE(board);
+            Scene scene = board_beside_lamp(board);
+            CHECK(check_classes(scene, by_fourteen(scene), scene, by_fifteen(scene), 200000) >= 6);
+        }
+    }
+
     TEST_CASE("agreement: behind a wall, classes of paths with chapter 14") {
         Scene scene = scene_from("scenes/hidden-light.pbrt", 32, 8);
         CHECK(check_classes(scene, by_fourteen(scene), scene, by_fifteen(scene), 100000) >= 4);

@@ -353,6 +353,22 @@ TEST_SUITE("ch23 photon mapping") {
         }
     }
 
+    TEST_CASE("agreement: metal shows a wall: behind the wall no emission counts") {
+        Scene scene = scene_of(
+            "LookAt -1 0.5 0  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 5\n"
+            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
+            "LightSource \"infinite\"\nAttributeBegin " +
+            boards[2] + " Scale 20 1 20 " + square(0, true) + "AttributeEnd\n" + boards[0] +
+            " Translate 1 0 0 Rotate 90 0 0 1 Scale 3 3 3 " + square(0, true));
+        scene.max_depth = 2;
+        Measured m = mean_over_seeds(scene, {.light_paths = 500}, 64, 10, "LDDE");
+        Measured truth = mean_over_seeds_of(scene, by_fifteen(scene), 64, 10, "LDDE");
+        CAPTURE(m.mean);
+        CAPTURE(truth.mean);
+        CHECK(std::abs(m.mean - truth.mean) < 5 * std::hypot(m.se, truth.se));
+        CHECK(std::hypot(m.se, truth.se) < 0.01 * truth.mean);
+    }
+
     TEST_CASE("agreement: a lamp over a wide land, whose sky has a million times its power") {
         Scene scene = scene_of(
             "LookAt 0 0.5 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 40\n"

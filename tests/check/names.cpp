@@ -53,7 +53,8 @@ bool fits(const Probe& probe, const Method& method) {
     // From a sky, hardly any path meets what these small pictures show.
     if (chapter == 20 && probe.text.find("infinite") != std::string::npos) return false;
     // Photons blur light that is not even.
-    static const std::set<std::string> uneven = {"bulb", "mirror", "leaning mirror"};
+    static const std::set<std::string> uneven = {"bulb", "mirror", "leaning mirror", "wall beside",
+                                                 "mirror beside"};
     if (method.biased && uneven.contains(probe.name)) return false;
     return chapter >= probe.first_chapter && std::min(chapter, 21) <= probe.last_chapter;
 }

@@ -44,6 +44,7 @@ std::string metal(double share, const std::string& more = "") {
            more + "\n";
 }
 const std::string rough = "\"float roughness\" 0.5 \"bool remaproughness\" false";
+const std::string smoother = "\"float roughness\" 0.2 \"bool remaproughness\" false";
 std::string shining(double L, bool two_sided = false) {
     return format("AreaLightSource \"diffuse\" \"rgb L\" [%g %g %g] \"bool twosided\" %s ", L, L, L,
                   two_sided ? "true" : "false");
@@ -143,6 +144,21 @@ void add_floors(std::vector<Probe>& p) {
                  above + floor_here + lamp(at(-1, -0.5, 0) + turn(90, z_axis) + scale(2), 1)});
 }
 
+/// What the vertex before has to be remembered for: the camera sees a board, and in it or by its
+/// light a floor close under a lamp. There the weights of both strategies are near 1/2.
+void add_second_vertices(std::vector<Probe>& p) {
+    auto board = [](const std::string& material) {
+        return view("-0.4 0.1 0  1 0.1 0  0 1 0", "\"float fov\" 10", 4) + floor_here +
+               lamp(at(0, 0.2, 0)) +
+               group(material + at(0.7, 0.5, 0) + turn(90, z_axis) + scale(0.5) + square(true));
+    };
+    std::string more = lamp(at(0, 1.5, 1.2), 0.3) + lamp(at(0, 1.5, -1.2), 0.1);
+    p.push_back({"wall beside", "a wall beside a floor close under a lamp", board(paint(0.5))});
+    p.push_back({"mirror beside", "a mirror beside a floor close under a lamp", board(metal(0.9))});
+    p.push_back({"metal beside", "rough metal beside a floor close under one of three lamps",
+                 board(metal(0.9, smoother)) + more, 13});
+}
+
 void add_skies(std::vector<Probe>& p) {
     std::string wide = floor_of(paint(0.5), "", 500);
     std::string low = from_above(0.5);
@@ -226,6 +242,11 @@ void add_glass_and_metal(std::vector<Probe>& p) {
         return view(format("-1 %g 0  0 0 0  0 1 0", height), "\"float fov\" 5") + sky() +
                floor_of(material);
     };
+    p.push_back({"metal, wall", "rough metal that shows a wall under a sky",
+                 view("-1 0.5 0  0 0 0  0 1 0", "\"float fov\" 5", 2) + sky() +
+                     floor_of(metal(1, smoother)) +
+                     group(paint(0.5) + at(1, 0, 0) + turn(90, z_axis) + scale(3) + square(true)),
+                 13});
     p.push_back({"metal", "rough metal, from above", on_metal(metal(1, rough), 8), 13});
     p.push_back(
         {"metal aslant", "rough metal, along its surface", on_metal(metal(1, rough), 0.25), 13});
@@ -288,6 +309,7 @@ void add_wavelengths_and_shares(std::vector<Probe>& p) {
 std::vector<Probe> all_probes() {
     std::vector<Probe> probes;
     add_floors(probes);
+    add_second_vertices(probes);
     add_skies(probes);
     add_bent(probes);
     add_glass_and_metal(probes);
