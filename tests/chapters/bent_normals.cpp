@@ -161,7 +161,7 @@ TEST_SUITE("bent normals") {
         }
     }
 
-    TEST_CASE("identity: no light by way of what a bent normal faces below the surface") {
+    TEST_CASE("identity: no light from below the surface, even where the bent normal faces it") {
         // The normal leans towards +x. One ball is in its sight, but below the floor; one is above
         // the floor, but behind the normal.
         for (Vec3 ball : {Vec3{4, -1.5f, 0}, {-4, 1.5f, 0}})

@@ -280,6 +280,20 @@ TEST_SUITE("ch07 path tracing") {
         }
     }
 
+    TEST_CASE("furnace: a ball of glass under a white sky shows 1, and 2.25 from inside") {
+        Scene scene = world_of("LightSource \"infinite\" Material \"dielectric\" Shape \"sphere\"");
+        scene.max_depth = 1000;
+        for (float offset : {0.0f, 0.5f, 0.95f}) {
+            CAPTURE(offset);
+            RunningStats outside = repeat(scene, {{offset, 0, -4}, {0, 0, 1}}, 1000);
+            CHECK(outside.mean() == doctest::Approx(1).epsilon(1e-5).scale(0));
+            CHECK(outside.variance() < 1e-9);
+        }
+        RunningStats inside = repeat(scene, {{0, 0, 0}, {0, 0, 1}}, 1000);
+        CHECK(inside.mean() == doctest::Approx(2.25).epsilon(1e-5).scale(0));
+        CHECK(inside.variance() < 1e-9);
+    }
+
     TEST_CASE("truth: two endless planes, one of which emits: 5/3 and 4/3") {
         Scene scene = world_of(
             "Scale 1e5 1 1e5\n"

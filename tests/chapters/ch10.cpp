@@ -265,7 +265,7 @@ TEST_SUITE("ch10 cosine sampling") {
                         0.01);
     }
 
-    TEST_CASE("variance: in the Cornell box, for light that comes by way of a surface") {
+    TEST_CASE("variance: in the Cornell box, for light that other surfaces reflect") {
         // Direct light is drawn alike in both; what comes after one bounce or more is not.
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 8);
         PathCensus before = census_of(scene, trace_09, 100000, 1);

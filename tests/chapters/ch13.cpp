@@ -145,7 +145,7 @@ TEST_SUITE("ch13 rough metal") {
         CHECK(chi_square_chance(counts, expected) < 1e-6);
     }
 
-    TEST_CASE("density: directions of rough metal, by way of their half vectors") {
+    TEST_CASE("density: directions of rough metal, from their half vectors") {
         for (float alpha : {0.05f, 0.4f, 1.0f})
             for (double degrees : {0.0, 50.0, 80.0}) {
                 CAPTURE(alpha);
@@ -401,7 +401,8 @@ TEST_SUITE("ch13 glossy") {
     }
 
     TEST_CASE(
-        "failure: by aiming alone large lights in smooth plates: variance above 100 squared "
+        "failure: by light sampling alone large lights in smooth plates: variance above 100 "
+        "squared "
         "means") {
         // The plates from smooth to rough.
         constexpr double least[] = {100, 10, 1, 0.15};

@@ -120,7 +120,7 @@ TEST_SUITE("ch18 dispersion") {
         }
     }
 
-    TEST_CASE("agreement: glass of one index by way of wavelengths, with chapter 15") {
+    TEST_CASE("agreement: glass of one index, rendered by wavelengths, with chapter 15") {
         Scene scene = scene_from("scenes/caustic.pbrt", 16, 8), by_colors = scene;
         const Glass plain = {"plain", {1.25, 0, 0}, {0, 0, 0}};
         for (Material& m : by_colors.materials)

@@ -438,7 +438,7 @@ TEST_SUITE("ch21 bidirectional") {
         }
     }
 
-    TEST_CASE("failure: a point light seen by way of glass, lit by way of glass: no strategy") {
+    TEST_CASE("failure: a point light behind glass, seen through glass: no strategy") {
         // LS+DS+E has one strategy, by chance; of a point light, none.
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 8);
         Measured lamp = census_of(scene, by_22(scene), 400000, 1, "LS+DS+E").all.measured(400000);

@@ -143,7 +143,7 @@ TEST_SUITE("ch22 fast bidirectional") {
     }
 
     TEST_CASE("variance: sixteen chances leave a sixteenth of the variance of their paths") {
-        // Light by way of glass, seen by way of glass or a mirror: what chance alone finds.
+        // Light through glass, seen through glass or a mirror: only random hits find it.
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 8);
         constexpr int paths = 400000;
         Measured one = census_of(scene, by_22(scene, 0), paths, 1, "LS+DS+E").all.measured(paths);

@@ -3,7 +3,7 @@
 
 #include "chapters/15_mis_ris/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
-// In this order: names of a lower chapter must not be found by way of a higher one.
+// In this order: names of a lower chapter must not be found through a higher one.
 #include "chapters/24_progressive_photons/estimator.h"
 #include "tests/support/photons.h"
 

@@ -1,6 +1,6 @@
 // A room in which light is the same everywhere, whatever stands in it: every chapter must find it.
 #include "tests/support/chapters.h"
-// In this order: names of a lower chapter must not be found by way of a higher one.
+// In this order: names of a lower chapter must not be found through a higher one.
 #include "chapters/18_dispersion/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
@@ -79,7 +79,7 @@ TEST_SUITE("furnace of all things") {
     }
 
     TEST_CASE("agreement: the same, each length and class of path by one end and by both") {
-        // A mirror and glass fill the picture: light by way of mirrors is seen by way of mirrors.
+        // A mirror and glass fill the picture: light from mirrors is seen in mirrors.
         Scene scene = furnace(
             sphere, lamps + things +
                         thing("\"dielectric\"",

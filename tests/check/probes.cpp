@@ -196,7 +196,7 @@ void add_bent(std::vector<Probe>& p) {
         {"curved", "a floor whose normals differ from corner to corner", above + curved + strip});
     p.push_back(
         {"leaning sky", "a floor whose normals lean, under a sky", from_above(0.5) + bent + sky()});
-    p.push_back({"leaning mirror", "a floor whose normals lean, lit by way of a mirror",
+    p.push_back({"leaning mirror", "a floor whose normals lean, lit through a mirror",
                  from_above(0.5, 2) + bent + lamp(at(-1.5, 1, 0) + scale(2), 1, false, true) +
                      group(metal(1) + at(-1.5, 2, 0) + scale(4) + square(false))});
     p.push_back({"leaning lamp", "a lamp of four triangles whose normals lean",
@@ -216,7 +216,7 @@ void add_bent(std::vector<Probe>& p) {
 }
 
 void add_glass_and_metal(std::vector<Probe>& p) {
-    p.push_back({"corridor", "the sky by way of six mirrors",
+    p.push_back({"corridor", "the sky in a row of six mirrors",
                  view("0 0 0  1 0 0.16  0 1 0", "\"float fov\" 0.5", 20) + sky() +
                      group(metal(0.9) + at(1, 0, 0) + "Scale 1 1 1 " + turn(90, z_axis) +
                            "Scale 20 1 1.86 " + square(true)) +
@@ -232,7 +232,7 @@ void add_glass_and_metal(std::vector<Probe>& p) {
                  from_above(0.4, 3) + floor_here + group(at(0, 1.5, 0) + glass + ball(1)) +
                      group(shining(1) + paint(0) + at(0, 1.5, 0) + ball(0.3)),
                  7, 21, 128});
-    p.push_back({"mirror", "a floor lit by way of a mirror",
+    p.push_back({"mirror", "a floor lit through a mirror",
                  from_above(0.5, 2) + floor_here + lamp(at(1.5, 1, 0) + scale(2), 1, false, true) +
                      group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false))});
     p.push_back({"tiny", "a shining ball of a hundredth of a millimetre, from near",

@@ -1,5 +1,5 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check checkers names verdicts
+.PHONY: exercise check checkers names mistakes verdicts
 
 #: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
 exercise:
@@ -24,6 +24,10 @@ verdicts: checkers $(BUILD)/01_monte_carlo_pi $(BUILD)/compare
 # All chapters in one, for the references that make check compares with (2 minutes): build/names --references
 $(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp)) $$(patsubst %.cpp,$$(BUILD)/obj/%.o,$$(methods)) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-#: make names        plant mistakes, and write down how make check names them (8 minutes)
+#: make names        plant the mistakes of the pages, and write down how make check names them (15 minutes)
 names: $(checkers) $(common) $(made)
 	@tests/check/plant $(BUILD) '$(M)' $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))
+#: make mistakes     change code as students might, and count what make check notices and names (CH=09, N=, SEED=, FILL=1, PREDICT=1)
+mistakes: $(checkers) $(common) $(made)
+	@tests/check/mistakes $(BUILD) $(CH:%=--chapters %) $(N:%=--n %) $(SEED:%=--seed %) $(if $(LIST),--list) \
+	  $(if $(PREDICT),--predict) $(if $(FILL),--fill) -- $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))

@@ -362,7 +362,7 @@ StabilityCase far_wall() {
 }
 
 /// A lamp of a tenth of the lens, as far behind the plane of focus as that is from the lens: a
-/// hundredth of the lens sees it, and nothing aims at lamps by way of a lens.
+/// hundredth of the lens sees it, and no light sampling goes through a lens.
 StabilityCase blurred_lamp() {
     double seen = 0.01;
     return {"small lamp out of focus",
@@ -451,7 +451,7 @@ StabilityCase close_to_the_floor(double h) {
             {"07", "08", "13-bsdf"}};
 }
 
-/// Sunlight by way of a mirror, near the edge of the floor: t times the radius of chapter 23 away
+/// Sunlight from a mirror, near the edge of the floor: t times the radius of chapter 23 away
 /// from it. Photons are missing beyond the edge, so the floor looks too dark there.
 ///
 ///   share(t) = 8 / (3 pi) times the integral of (1 - x^2)^1.5 from -t to 1      (kernel of 23)

@@ -49,7 +49,7 @@ class Written:
             self.put(self.const[span])
             return
         # What leaves a whole statement out comes first: then the value of the rest is not used.
-        group = sorted(self.groups[span], key=lambda change: change[1] is not None)
+        group = sorted(self.groups[span], key=lambda change: change[1] is not None and change[0].kind != "state")
         start, closing = self.size, ""
         for m, new in group:
             if new == "":  # the declaration of a variable that is const because of m
@@ -57,6 +57,8 @@ class Written:
             asks = "mutants::is_now" if m.place.in_constexpr else "mutants::is"
             if new is None:
                 self.put(f"({asks}({m.n}) ? void() : void(")
+            elif m.kind == "state":  # left out where this is true
+                self.put(f"({asks}({m.n}) && ({new}) ? void() : void(")
             else:
                 same = "bool(" if m.kind == "branch" and new in ("true", "false") else "("
                 self.put(f"({asks}({m.n}) ? ({new}) : {same}")

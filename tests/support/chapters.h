@@ -2,7 +2,7 @@
 #pragma once
 #include "common/path/trace.h"
 #include "tests/support/estimators.h"
-// In this order: names of a lower chapter must not be found by way of a higher one.
+// In this order: names of a lower chapter must not be found through a higher one.
 #include "chapters/07_path_tracing/estimator.h"
 #include "chapters/08_russian_roulette/estimator.h"
 #include "chapters/09_light_sampling/estimator.h"
