@@ -34,6 +34,7 @@ struct Disk {
 struct Geometry {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  // of the vertices; empty, or one for each position (0: flat there)
+    std::vector<Vec2> uvs;      // of the vertices, for textures; the same (NaN: none there)
     std::vector<Triangle> triangles;
     std::vector<Vec3> facet_normals;  // unit, of the triangles; prepare() works them out
     std::vector<Sphere> spheres;

@@ -9,7 +9,8 @@ enum class MaterialType : uint8_t { diffuse, conductor, dielectric };
 
 struct Material {
     MaterialType type = MaterialType::diffuse;
-    Rgb reflectance = {0.5f, 0.5f, 0.5f};  // diffuse: albedo, in [0,1]
+    uint16_t texture = 0;  // of the reflectance: 1 + its number in Textures::all; 0: none
+    Rgb reflectance = {0.5f, 0.5f, 0.5f};  // diffuse: albedo, in [0,1]; the largest of a texture
     Rgb eta, k;                            // conductor: complex index of refraction eta + i k
     float alpha = 0;                       // conductor: GGX roughness; 0: a perfect mirror
     float ior = 1.5f;                      // dielectric: index inside over index outside

@@ -24,6 +24,18 @@ inline float fresnel_conductor(float cos_i, float eta, float k) {
         R_s * std::max(0.0f, cos2 * a2_b2 - p + sin2 * sin2) / (cos2 * a2_b2 + p + sin2 * sin2);
     return (R_s + R_p) / 2;
 }
+
+/// The k of the metal with eta = 1 that reflects so much of light that arrives along the normal.
+///
+///   k = 2 sqrt(r) / sqrt(1 - r),  r at most 0.9999      source  pbrt-v4
+inline Rgb k_of_reflectance(Rgb reflectance) {
+    auto k = [](float r) {
+        r = std::min(r, 0.9999f);
+        return 2 * std::sqrt(r) / std::sqrt(1 - r);
+    };
+    return {k(reflectance.r), k(reflectance.g), k(reflectance.b)};
+}
+
 inline Rgb fresnel_conductor(float cos_i, Rgb eta, Rgb k) {
     return {fresnel_conductor(cos_i, eta.r, k.r), fresnel_conductor(cos_i, eta.g, k.g),
             fresnel_conductor(cos_i, eta.b, k.b)};

@@ -135,12 +135,14 @@ struct Header {
     static constexpr const char* cut_short = "the picture is cut short";
 };
 
-Image decode_ppm(Header header) {
+Image decode_ppm(Header header, float gamma) {
     Image image = header.image();
     if (header.number() != 255) header.fail("only 8-bit .ppm files (maxval 255) are read");
     std::string_view body = header.body(image, 3);
     std::array<float, 256> linear;
-    for (size_t i = 0; i < 256; i++) linear[i] = from_srgb(static_cast<float>(i) / 255);
+    for (size_t i = 0; i < 256; i++) {
+        linear[i] = to_linear(static_cast<float>(i) / 255, gamma);
+    }
     for (size_t i = 0; i < image.pixels.size(); i++) {
         auto channel = [&](size_t c) {
             return linear[static_cast<unsigned char>(body[3 * i + c])];
@@ -197,11 +199,11 @@ void write_image(const std::string& path, const Image& image, const std::string&
 
 Image read_image(const std::string& path) { return decode_image(path, read_file(path)); }
 
-Image decode_image(const std::string& path, const std::string& bytes) {
-    if (is_png(bytes)) return decode_png(path, bytes);
+Image decode_image(const std::string& path, const std::string& bytes, float gamma) {
+    if (is_png(bytes)) return decode_png(path, bytes, gamma);
     Header header{path, bytes};
     std::string_view magic = header.word();
-    if (magic == "P6") return decode_ppm(header);
+    if (magic == "P6") return decode_ppm(header, gamma);
     if (magic == "PF") return decode_pfm(header, 3);
     if (magic == "Pf") return decode_pfm(header, 1);
     header.fail("not a .ppm (P6), .pfm or .png picture");

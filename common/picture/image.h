@@ -25,6 +25,10 @@ struct Image {
 unsigned char to_srgb8(float linear);
 /// Back to linear, from a code in [0,1].
 float from_srgb(float code);
+/// Back to linear, as from an sRGB code, or to the power gamma where it is not 0.
+inline float to_linear(float code, float gamma) {
+    return gamma == 0 ? from_srgb(code) : static_cast<float>(std::pow(double{code}, double{gamma}));
+}
 
 /// The most pixels that a picture may have.
 inline constexpr int most_pixels = 1 << 28;
@@ -46,6 +50,8 @@ bool is_image_path(const std::string& path);
 /// damaged: with a byte too few or too many for its size, or, in a .png, with a wrong checksum.
 Image read_image(const std::string& path);
 /// What read_image reads, from the bytes of the file `path`.
-Image decode_image(const std::string& path, const std::string& bytes);
+///
+/// gamma  how codes of a .ppm or .png become linear values, see to_linear()
+Image decode_image(const std::string& path, const std::string& bytes, float gamma = 0);
 /// The comment that write_image put into a .ppm or .png; empty where there is none.
 std::string decode_comment(const std::string& path, const std::string& bytes);

@@ -107,7 +107,7 @@ std::string encode_png(int width, int height, const std::string& codes,
     return png.insert(after_header, png_chunk("tEXt" + std::string(comment_key) + comment));
 }
 
-Image decode_png(const std::string& path, const std::string& bytes) {
+Image decode_png(const std::string& path, const std::string& bytes, float gamma) {
     std::string file(signature);  // without empty parts, which stb copies to nowhere
     for_chunks(path, bytes, [&](std::string_view kind, std::string_view data) {
         if (kind == "IEND" || !data.empty())
@@ -127,7 +127,9 @@ Image decode_png(const std::string& path, const std::string& bytes) {
         stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
     if (!codes) fail({path}, "a damaged .png picture");
     std::vector<float> linear(65536);
-    for (size_t i = 0; i < linear.size(); i++) linear[i] = from_srgb(static_cast<float>(i) / 65535);
+    for (size_t i = 0; i < linear.size(); i++) {
+        linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
+    }
     Image image(width, height);
     for (size_t i = 0; i < pixels; i++) {
         const uint16_t* code = codes.get() + 3 * i;

@@ -9,7 +9,7 @@ std::string encode_png(int width, int height, const std::string& codes, const st
 
 /// Reads any kind of .png: grey, with a palette, of 16 bits; transparency is left out. Throws
 /// InputError where a chunk does not have its checksum, or is missing.
-Image decode_png(const std::string& path, const std::string& bytes);
+Image decode_png(const std::string& path, const std::string& bytes, float gamma = 0);
 
 /// A chunk of a file, with its length and its checksum.
 std::string png_chunk(const std::string& kind_and_data);

@@ -14,6 +14,12 @@ void refuse(const Scene& scene) {
     }
     auto refuse_material = [&](uint32_t shape) {
         const Material& m = scene.materials[scene.shapes[shape].material];
+        if (m.texture != 0) {
+            fail(
+                {scene.file, m.line, m.column},
+                "radiosity gives a patch one reflectance, and a texture has many; chapters from 05 "
+                "to 25 render it");
+        }
         if (m.type == MaterialType::diffuse) return;
         fail({scene.file, m.line, m.column},
              std::string("radiosity knows diffuse surfaces alone (LD*E): ") +

@@ -52,5 +52,5 @@ private:
     bool from_light_ = false;
     int events_ = 0;  // surfaces hit on this path
     size_t vertex_ = 0;
-    const Material* material_ = nullptr;  // of that vertex
+    MaterialAt material_ = nullptr;  // of that vertex
 };

@@ -54,8 +54,8 @@ inline uint32_t finish(const Disk& disk, Vec3 p, Hit& x) {
 
 }  // namespace hit_details
 
-/// Fills in x, the point where the ray meets the primitive that was found. In its place: a copy
-/// would have to wait until all parts are in memory.
+/// Fills in x but for its texture, the point where the ray meets the primitive found. In its place:
+/// a copy would have to wait until all parts are in memory.
 inline void make_hit(const Scene& scene, const Geometry& g, const Ray& ray, const PrimHit& found,
                      Hit& x) {
     // Work out the point and its normals on the shape that was hit.
@@ -84,17 +84,30 @@ inline void make_hit(const Scene& scene, const Geometry& g, const Ray& ray, cons
     x.prim = found.prim;
 }
 
+/// Gives x, a point of the primitive that was found, the reflectance that its texture has there.
+void look_up_texture(const Scene& scene, const Geometry& g, const PrimHit& found, Hit& x);
+
+/// Fills in all of x.
 inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
     make_hit(scene, scene.geometry, ray, found, x);
+    if (x.material->texture != 0) look_up_texture(scene, scene.geometry, found, x);
 }
 
 namespace hit_details {
 
+/// What few scenes have.
+[[gnu::noinline]] inline void vary_or_move(const Scene& scene, const Ray& ray, const PrimHit& found,
+                                           std::optional<Hit>& x) {
+    if (x && x->material->texture != 0) look_up_texture(scene, scene.geometry, found, *x);
+    if (!scene.movers.empty()) intersect_movers(scene, ray, x);
+}
+
 inline std::optional<Hit> nearest(const Scene& scene, const Ray& ray) {
     PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
     std::optional<Hit> x;
-    if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
-    if (!scene.movers.empty()) intersect_movers(scene, ray, x);
+    if (found.prim != PrimHit::none) make_hit(scene, scene.geometry, ray, found, x.emplace());
+    if (scene.moves_or_varies) [[unlikely]]
+        vary_or_move(scene, ray, found, x);
     return x;
 }
 inline bool any(const Scene& scene, const Ray& ray) {

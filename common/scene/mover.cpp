@@ -78,6 +78,7 @@ void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x)
         PrimHit found = closest_hit(mover.bvh, mover.geometry, back);
         if (found.prim == PrimHit::none) continue;
         make_hit(scene, mover.geometry, back, found, x.emplace());
+        if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
         carry_on(world_from_start, *x);
         rest.t_max = found.t;
     }

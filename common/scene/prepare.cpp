@@ -32,6 +32,7 @@ void prepare(Scene& scene, int threads, const Report& report) {
     if (scene.sky_light >= 0) scene.lights[static_cast<size_t>(scene.sky_light)].L = scene.sky;
 
     if (report) report("preparing lights and surfaces", 0);
+    scene.moves_or_varies = !scene.movers.empty() || !scene.textures.all.empty();
     Box box = bounds_of(scene.geometry);
     for (Mover& mover : scene.movers) {
         mover.geometry.facet_normals = facet_normals(mover.geometry);

@@ -11,6 +11,7 @@
 #include "common/scene/light_shape.h"
 #include "common/scene/mover.h"
 #include "common/scene/sky_image.h"
+#include "common/scene/texture.h"
 
 enum class LightType : uint8_t { area, point, distant, infinite };
 
@@ -33,6 +34,13 @@ struct Shape {
     uint32_t material = 0;  // into Scene::materials
     int light = -1;         // into Scene::lights; -1: does not shine
     bool reverse = false;   // a sphere whose normal points inwards; others are turned when read
+    int axes = -1;          // of a sphere or disk, into Scene::axes; -1: the world's
+};
+
+/// The axes of a shape's own space, in the world: unit vectors.
+struct Axes {
+    Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
+    bool operator==(const Axes&) const = default;
 };
 
 /// The camera as the file says it; camera_view() in camera.h makes it ready for one picture size.
@@ -56,6 +64,8 @@ struct Scene {
     Geometry geometry;
     std::vector<Shape> shapes;
     std::vector<Material> materials;
+    Textures textures;
+    std::vector<Axes> axes;
     std::vector<Light> lights;
     std::vector<LightShape> light_shapes;  // one for each light
     float radius = 0;                      // m, of a sphere around all primitives
@@ -63,6 +73,7 @@ struct Scene {
     Rgb sky;                               // what all infinite lights send from any direction
     std::optional<SkyImage> sky_image;     // what the sky sends beside that
     std::vector<Mover> movers;             // shapes that move; they do not shine
+    bool moves_or_varies = false;          // has movers or textures; prepare() finds out
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel

@@ -130,12 +130,12 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
     NamedMaterial& named = named_materials_[name];
     if (named.defined) fail(lexer.at(token), "a second material " + quote(name));
     named.defined = true;
-    scene_.materials[index] = read_material(params);
+    scene_.materials[index] = read_material(params, textures_);
 }
 
 void Directives::material(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
-    scene_.materials.push_back(read_material(params));
+    scene_.materials.push_back(read_material(params, textures_));
     state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
 }
 
@@ -164,17 +164,22 @@ void Directives::shape(Lexer& lexer, const Token& word) {
     if (!too_small_light_ && state.emission) too_small_light_ = params.at();
 }
 
+void Directives::texture(Lexer& lexer, const Token& word) { textures_.read(lexer, word, notes_); }
+
 uint64_t Directives::bytes() const {
     uint64_t sum = scene_.shapes.size() * sizeof(Shape) + scene_.lights.size() * sizeof(Light) +
                    scene_.materials.size() * sizeof(Material);
     auto add = [&](const Geometry& g) {
         sum += (g.positions.size() + g.normals.size()) * sizeof(Vec3) +
-               g.triangles.size() * sizeof(Triangle) + g.spheres.size() * sizeof(Sphere) +
-               g.disks.size() * sizeof(Disk);
+               g.uvs.size() * sizeof(Vec2) + g.triangles.size() * sizeof(Triangle) +
+               g.spheres.size() * sizeof(Sphere) + g.disks.size() * sizeof(Disk);
     };
     add(scene_.geometry);
     for (const Mover& mover : scene_.movers) add(mover.geometry);
     if (scene_.sky_image) sum += scene_.sky_image->pixels.size() * sizeof(Rgb);
+    for (const TexturePicture& picture : textures_.textures().pictures) {
+        sum += picture.texels.size() * sizeof(Rgb);
+    }
     return sum;
 }
 
@@ -233,10 +238,26 @@ void Directives::check_materials() const {
     if (!wrong.empty()) throw InputError(join_lines(wrong));
 }
 
+// A mesh may be given a material whose texture is named later.
+void Directives::check_uvs(const Geometry& g) const {
+    for (const Triangle& t : g.triangles) {
+        uint32_t material = scene_.shapes[t.shape].material;
+        if (scene_.materials[material].texture == 0) continue;
+        if (!g.uvs.empty() && !std::isnan(g.uvs[t.v[0]].x)) continue;
+        for (const auto& [name, named] : named_materials_) {
+            if (named.index != material) continue;
+            fail(named.first_use, "a mesh of material " + quote(name) +
+                                      " has no usable uv, which its texture needs");
+        }
+    }
+}
+
 void Directives::check_complete() const {
     Position file = {scene_.file};
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
     check_materials();
+    check_uvs(scene_.geometry);
+    for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
     if (!in_world_) fail(file, "no WorldBegin");
     if (!has_camera_) fail(file, "no Camera");
 
@@ -270,6 +291,13 @@ Scene Directives::finish() {
         }
     if (!has_filter_) {
         notes_.add(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
+    }
+    // Keep what textures need only if there are some.
+    auto has_texture = [](const Material& m) { return m.texture != 0; };
+    if (std::any_of(scene_.materials.begin(), scene_.materials.end(), has_texture)) {
+        scene_.textures = textures_.take();
+    } else {
+        scene_.geometry.uvs = {};
     }
     return std::move(scene_);
 }

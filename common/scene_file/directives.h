@@ -45,6 +45,7 @@ public:
     void named_material(Lexer& lexer, const Token& word);
     void reverse_orientation(Lexer& lexer, const Token& word);
     void shape(Lexer& lexer, const Token& word);
+    void texture(Lexer& lexer, const Token& word);
 
 private:
     // What AttributeBegin saves and AttributeEnd restores.
@@ -71,12 +72,14 @@ private:
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(Params& params) const;
     void check_materials() const;
+    void check_uvs(const Geometry& g) const;
     void check_complete() const;
     void read_mover(Params& params, ShapeState& state);
 
     Scene scene_;
     const Limits limits_;
     NamedFiles files_;
+    TextureReader textures_{limits_, files_};
     Messages& notes_;
     Exposure exposure_;
     State state_;

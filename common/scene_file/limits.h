@@ -9,4 +9,5 @@ struct Limits {
     uint64_t directives = 10'000'000;
     uint64_t primitives = uint64_t{1} << 25;  // triangles, spheres and disks
     uint64_t vertices = uint64_t{1} << 26;
+    uint64_t texels = uint64_t{1} << 28;  // of the pictures of all textures together
 };

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "common/material/metal.h"
 #include "common/picture/image.h"
 #include "common/scene_file/spectra.h"
 
@@ -14,15 +15,14 @@ Rgb read_rgb(const Param& param) {
             static_cast<float>(param.numbers[2])};
 }
 
-// A reflectance in [0,1], or nothing when it is not given.
-std::optional<Rgb> read_reflectance(Params& params) {
-    const Param* param = params.find_exactly("rgb", "reflectance", 3);
-    if (!param) return {};
-    Rgb r = read_rgb(*param);
-    if (std::min({r.r, r.g, r.b}) < 0 || max_component(r) > 1) {
-        fail(param->at, "\"reflectance\" must be from 0 to 1");
-    }
-    return r;
+// "reflectance": one colour, or a texture and its largest value. Whether it is given.
+bool read_reflectance(Params& params, const TextureReader& textures, Material& material) {
+    std::optional<Rgb> rgb = read_reflectance(params, "reflectance");
+    std::optional<NamedTexture> texture = textures.find(params, "reflectance");
+    if (rgb) material.reflectance = *rgb;
+    if (texture) material.reflectance = texture->most;
+    if (texture && texture->needs_uv) material.texture = static_cast<uint16_t>(texture->index + 1);
+    return rgb || texture;
 }
 
 /// The roughness as GGX's alpha; sqrt(roughness) unless remaproughness is false.
@@ -75,25 +75,21 @@ std::optional<Rgb> read_metal(Params& params, const std::string& name) {
     return {};
 }
 
-Material read_conductor(Params& params) {
+Material read_conductor(Params& params, const TextureReader& textures) {
     Material material;
     material.type = MaterialType::conductor;
-    std::optional<Rgb> reflectance = read_reflectance(params);
+    bool has_reflectance = read_reflectance(params, textures, material);
     std::optional<Rgb> eta = read_metal(params, "eta"), k = read_metal(params, "k");
-    if (reflectance && (eta || k)) {
+    if (has_reflectance && (eta || k)) {
         fail(params.at(), "a conductor has either reflectance or eta and k");
     }
     MetalIor copper = *metal_ior("Cu");
     material.eta = eta.value_or(copper.eta);
     material.k = k.value_or(copper.k);
-    if (reflectance) {
+    if (has_reflectance) {
         // Find the metal of eta = 1 that reflects so much at normal incidence, as pbrt does.
-        auto to_k = [](float r) {
-            r = std::min(r, 0.9999f);
-            return 2 * std::sqrt(r) / std::sqrt(1 - r);
-        };
         material.eta = {1, 1, 1};
-        material.k = {to_k(reflectance->r), to_k(reflectance->g), to_k(reflectance->b)};
+        material.k = k_of_reflectance(material.reflectance);
     }
     float alpha = read_alpha(params);
     material.alpha = alpha >= smooth_below ? alpha : 0;
@@ -168,12 +164,12 @@ void check_brightness(const Params& params, Rgb L) {
     fail(params.at(), params.owner() + " shines brighter than 1e15: choose a larger unit");
 }
 
-Material read_material(Params& params) {
+Material read_material(Params& params, const TextureReader& textures) {
     Material material;
     if (params.type() == "diffuse") {
-        material.reflectance = read_reflectance(params).value_or(material.reflectance);
+        read_reflectance(params, textures, material);
     } else if (params.type() == "conductor") {
-        material = read_conductor(params);
+        material = read_conductor(params, textures);
     } else if (params.type() == "dielectric") {
         material = read_dielectric(params);
     } else {

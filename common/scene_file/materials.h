@@ -4,10 +4,9 @@
 
 #include "common/geometry/transform.h"
 #include "common/scene/scene.h"
-#include "common/scene_file/named_files.h"
-#include "common/scene_file/params.h"
+#include "common/scene_file/textures.h"
 
-Material read_material(Params& params);
+Material read_material(Params& params, const TextureReader& textures);
 
 /// What AreaLightSource says about the shapes after it.
 struct AreaEmission {

@@ -34,7 +34,7 @@ std::vector<uint32_t> read_indices(Params& params, size_t vertices) {
     return indices;
 }
 
-// Adds positions and normals in world space; returns the number of the first.
+// Adds positions, uv, and normals in world space; returns the number of the first.
 uint32_t add_vertices(const Params& params, const TriangleMesh& mesh,
                       const Transform& world_from_object, bool reverse, Geometry& geometry) {
     size_t first = geometry.positions.size();
@@ -42,6 +42,11 @@ uint32_t add_vertices(const Params& params, const TriangleMesh& mesh,
         Vec3 world = to_vec3(transform_point(world_from_object, {p.x, p.y, p.z}));
         check_extent(params, world);
         geometry.positions.push_back(world);
+    }
+    if (!mesh.uvs.empty() || !geometry.uvs.empty()) {
+        geometry.uvs.resize(first, {NAN, NAN});
+        geometry.uvs.insert(geometry.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+        geometry.uvs.resize(geometry.positions.size(), {NAN, NAN});
     }
     if (mesh.normals.empty() && geometry.normals.empty()) return static_cast<uint32_t>(first);
 
@@ -82,6 +87,11 @@ TriangleMesh read_triangle_mesh(Params& params) {
                             std::to_string(mesh.positions.size()) + " vertices");
     }
     if (N) mesh.normals = group_by_three(N->numbers);
+    for (size_t i = 0; uv && i < uv->numbers.size(); i += 2) {
+        mesh.uvs.push_back(
+            {static_cast<float>(uv->numbers[i]), static_cast<float>(uv->numbers[i + 1])});
+    }
+    if (!are_usable(mesh.uvs)) mesh.uvs.clear();
     mesh.indices = read_indices(params, mesh.positions.size());
     const Param* faces = params.find("integer", "faceIndices");
     if (faces && faces->numbers.size() != mesh.indices.size() / 3) {

@@ -35,6 +35,7 @@ public:
     /// file is read elsewhere, and added by who reads it.
     uint64_t checksum() const { return checksum_.value(); }
     void add_to_checksum(std::string_view bytes);
+    void add_number(uint64_t number);
     const std::set<std::string>& files_read() const { return files_read_; }
 
     /// The mesh in a PLY file, which is read once, however often it is named; also a file that is
@@ -50,7 +51,6 @@ private:
         std::string error;    // of a file that is no mesh
         uint64_t number = 0;  // in the order in which they are read
     };
-    void add_number(uint64_t number);  // to the checksum
 
     const std::string main_file_;
     const Limits limits_;

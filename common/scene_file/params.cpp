@@ -15,6 +15,8 @@ const std::vector<std::string> pbrt_only = {
     "loopsubdiv",          "measured",        "mix",           "orthographic", "projection",
     "realistic",           "spectral",        "spherical",     "spot",         "subsurface",
     "thindielectric"};
+const std::vector<std::string> pbrt_only_textures = {"bilerp", "directionmix", "dots",  "fbm",
+                                                     "marble", "ptex",         "windy", "wrinkled"};
 // Types of its third edition that the fourth does not have.
 const std::map<std::string, std::vector<std::string>> pbrt_v3 = {
     {"AreaLightSource", {"area"}},
@@ -90,7 +92,7 @@ void Params::refuse_old_type() const {
 }
 
 void Params::fail_type(const std::vector<std::string>& known) const {
-    if (contains(pbrt_only, type_)) {
+    if (contains(pbrt_only, type_) || contains(pbrt_only_textures, type_)) {
         fail(type_at_, owner() + " is not supported (known: " + list(known) + ')');
     }
     fail_unknown(type_at_, directive_, type_, known);
@@ -219,7 +221,7 @@ std::string Params::what_is_wrong_with(const Param& param) const {
         known.erase(std::unique(known.begin(), known.end()), known.end());
         return unknown(owner() + " parameter", param.name, known);
     }
-    std::string hint = param.type == "texture" ? " (textures are not supported)" : "";
+    std::string hint = param.type == "texture" ? " (only a reflectance can be a texture)" : "";
     return quote(param.name) + " of " + owner() + " must be of type " + types + ", not " +
            param.type + hint;
 }

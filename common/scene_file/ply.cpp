@@ -145,35 +145,42 @@ void skip(PlyBytes& reader, const Property& property) {
 }
 
 void read_vertices(PlyBytes& reader, const Element& element, TriangleMesh& mesh) {
-    // Find where in a vertex its coordinates and its normal stand.
-    constexpr std::array<const char*, 6> names = {"x", "y", "z", "nx", "ny", "nz"};
-    std::array<const Property*, 6> wanted;
-    for (size_t i = 0; i < 6; i++) {
+    // Find where in a vertex its coordinates, its normal and its place in textures stand.
+    constexpr size_t count = 8;
+    std::array<const char*, count> names = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
+    for (auto [u, v] : {std::pair("s", "t"), std::pair("texture_u", "texture_v"),
+                        std::pair("texture_s", "texture_t")}) {
+        if (!element.find(names[6]) || !element.find(names[7])) names[6] = u, names[7] = v;
+    }
+    std::array<const Property*, count> wanted;
+    for (size_t i = 0; i < count; i++) {
         wanted[i] = element.find(names[i]);
         if (i < 3 && !wanted[i]) fail(element.at, "vertex has no property " + quote(names[i]));
         if (wanted[i] && wanted[i]->count_type) {
             fail(element.at, "property " + quote(names[i]) + " must not be a list");
         }
     }
-    bool has_normals = wanted[3] && wanted[4] && wanted[5];
+    bool has_normals = wanted[3] && wanted[4] && wanted[5], has_uvs = wanted[6] && wanted[7];
 
     mesh.positions.reserve(element.count);
     for (uint64_t n = 0; n < element.count; n++) {
         reader.report(n);
-        std::array<float, 6> v = {};
+        std::array<float, count> v = {};
         for (const Property& property : element.properties) {
             size_t slot = 0;
-            while (slot < 6 && wanted[slot] != &property) slot++;
-            if (slot == 6) {
+            while (slot < count && wanted[slot] != &property) slot++;
+            if (slot == count) {
                 skip(reader, property);
                 continue;
             }
             v[slot] = static_cast<float>(reader.value(*property.type));
-            if (!std::isfinite(v[slot])) reader.fail_here("a vertex is not finite");
+            if (slot < 6 && !std::isfinite(v[slot])) reader.fail_here("a vertex is not finite");
         }
         mesh.positions.push_back({v[0], v[1], v[2]});
         if (has_normals) mesh.normals.push_back({v[3], v[4], v[5]});
+        if (has_uvs) mesh.uvs.push_back({v[6], v[7]});
     }
+    if (!are_usable(mesh.uvs)) mesh.uvs.clear();
 }
 
 void read_faces(PlyBytes& reader, const Element& element, size_t vertices, TriangleMesh& mesh) {
@@ -216,6 +223,13 @@ void read_faces(PlyBytes& reader, const Element& element, size_t vertices, Trian
 }
 
 }  // namespace
+
+bool are_usable(const std::vector<Vec2>& uvs) {
+    constexpr float largest = 1e9f;
+    return std::all_of(uvs.begin(), uvs.end(), [](Vec2 uv) {
+        return std::abs(uv.x) <= largest && std::abs(uv.y) <= largest;
+    });
+}
 
 TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits,
                        const Report& report) {

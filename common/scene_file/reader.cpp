@@ -49,7 +49,7 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"Sampler", {Block::options, &D::sampler}},
     {"Scale", {Block::both, &D::move}},
     {"Shape", {Block::world, &D::shape}},
-    {"Texture", {Block::both, nullptr}},
+    {"Texture", {Block::world, &D::texture}},
     {"Transform", {Block::both, &D::move}},
     {"TransformBegin", {Block::world, &D::begin}},
     {"TransformEnd", {Block::world, &D::end}},

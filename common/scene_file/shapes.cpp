@@ -40,7 +40,16 @@ void require(Params& params, const std::string& name, float value, const std::st
     if (params.number(name, value) != value) params.not_supported(params.at(name), otherwise);
 }
 
-void add_sphere(Params& params, const ShapeState& state, Scene& scene) {
+// The number of the axes of a sphere or disk; -1 where they are the world's.
+int add_axes(const Transform& t, Scene& scene) {
+    auto unit = [](Vec3d v) { return to_vec3(normalize(v)); };
+    Axes axes = {unit(t.x), unit(t.y), unit(t.z)};
+    if (axes == Axes{}) return -1;
+    scene.axes.push_back(axes);
+    return static_cast<int>(scene.axes.size()) - 1;
+}
+
+int add_sphere(Params& params, const ShapeState& state, Scene& scene) {
     float radius = read_radius(params);
     require(params, "zmin", -radius, "only whole spheres are supported");
     require(params, "zmax", radius, "only whole spheres are supported");
@@ -52,9 +61,10 @@ void add_sphere(Params& params, const ShapeState& state, Scene& scene) {
                      static_cast<uint32_t>(scene.shapes.size())};
     check_radius(params, sphere.c, sphere.r);
     scene.geometry.spheres.push_back(sphere);
+    return add_axes(t, scene);
 }
 
-void add_disk(Params& params, const ShapeState& state, Scene& scene) {
+int add_disk(Params& params, const ShapeState& state, Scene& scene) {
     float radius = read_radius(params);
     require(params, "innerradius", 0, "only whole disks are supported");
     require(params, "phimax", 360, "only whole disks are supported");
@@ -67,6 +77,7 @@ void add_disk(Params& params, const ShapeState& state, Scene& scene) {
                  static_cast<uint32_t>(scene.shapes.size())};
     check_radius(params, disk.c, disk.r);
     scene.geometry.disks.push_back(disk);
+    return add_axes(t, scene);
 }
 
 // Stops before the scene grows beyond the limits.
@@ -104,9 +115,9 @@ int add_light(const Params& params, Rgb L, bool two_sided, Scene& scene) {
 // Adds the Shape of the primitives from `first` on, and what light they send.
 template <class Primitive>
 void add_shape(const Params& params, const ShapeState& state, std::vector<Primitive>& primitives,
-               size_t first, bool reverse, Scene& scene) {
+               size_t first, bool reverse, int axes, Scene& scene) {
     if (first == primitives.size()) return;
-    Shape shape = {state.material, -1, reverse};
+    Shape shape = {state.material, -1, reverse, axes};
     bool shines = state.emission && !is_black(state.emission->L);
     if (!shines || state.emission->power == 0) {
         if (shines) {
@@ -134,7 +145,11 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
     check_room(params, state, g, 1, 0, limits);
+    int axes = -1;
     auto add = [&](const TriangleMesh& mesh) {
+        if (scene.materials[state.material].texture != 0 && mesh.uvs.empty()) {
+            fail(params.at(), params.owner() + " has no usable uv, which its texture needs");
+        }
         check_room(params, state, g, mesh.indices.size() / 3, mesh.positions.size(), limits);
         uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
         add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
@@ -154,16 +169,16 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
         if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
         add(*mesh);
     } else if (params.type() == "sphere") {
-        add_sphere(params, state, scene);
+        axes = add_sphere(params, state, scene);
     } else if (params.type() == "disk") {
-        add_disk(params, state, scene);
+        axes = add_disk(params, state, scene);
     } else {
         params.fail_type({"disk", "plymesh", "sphere", "trianglemesh"});
     }
     params.finish();
-    add_shape(params, state, g.triangles, triangles, false, scene);
-    add_shape(params, state, g.spheres, spheres, state.reverse_orientation, scene);
-    add_shape(params, state, g.disks, disks, false, scene);
+    add_shape(params, state, g.triangles, triangles, false, axes, scene);
+    add_shape(params, state, g.spheres, spheres, state.reverse_orientation, axes, scene);
+    add_shape(params, state, g.disks, disks, false, axes, scene);
 }
 
 void number_light_primitives(Scene& scene) {

@@ -4,6 +4,8 @@
 #include "chapters/18_dispersion/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
+#include "common/picture/image.h"
+#include "tests/support/folder.h"
 
 namespace {
 
@@ -103,5 +105,63 @@ TEST_SUITE("furnace of all things") {
                                    "Translate 0.5 -0.4 0 Shape \"sphere\" \"float radius\" 0.5"));
         check_is_two(scene, splat_trace_with<ch21::trace>(endpoints_of(scene)), 15000);
         check_is_two(scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 60000);
+    }
+}
+
+TEST_SUITE("textures in all chapters") {
+    TEST_CASE("furnace: under a sky of radiance 1 a picture's mean is the mean of its texture") {
+        // The square reaches beyond the film, which sees one whole period of the texture.
+        TemporaryFolder folder;
+        Image picture(5, 3);
+        Sampler random = random_numbers(7);
+        double mean = 0;
+        for (Rgb& r : picture.pixels) {
+            r = {random.u1(), random.u1(), random.u1()};
+            mean += double{average(r)} / static_cast<double>(picture.pixels.size());
+        }
+        write_image(folder / "a.pfm", picture, "");
+        std::string half = std::to_string(16 * std::tan(std::numbers::pi / 9));
+        Scene scene = world_of(
+            "LightSource \"infinite\" Texture \"t\" \"spectrum\" \"imagemap\" \"string "
+            "filename\" \"" +
+            folder / "a.pfm" +
+            "\" \"float uscale\" 4 \"float vscale\" 4 Material \"diffuse\" "
+            "\"texture reflectance\" \"t\" Scale " +
+            half + " " + half +
+            " 1 Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
+            "[-1 -1 0 -1 1 0 1 1 0 1 -1 0] \"point2 uv\" [0 0 0 1 1 1 1 0]");
+        std::vector<Chapter> chapters = every_chapter(scene);
+        chapters.push_back(
+            {"18", trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white())});
+        auto check = [&](const auto& trace) {
+            int paths = 20000;
+            Measured m = census_of(scene, trace, paths, 1).all.measured(paths);
+            CHECK(std::abs(m.mean - mean) < 5 * m.se);
+            CHECK(m.se < 0.005);
+        };
+        for (const Chapter& chapter : chapters) {
+            CAPTURE(chapter.name);
+            check(chapter.trace);
+        }
+        check(splat_trace_with<ch21::trace>(endpoints_of(scene)));
+        check(splat_trace_with<ch22::trace>(ch22::prepare(scene)));
+    }
+
+    TEST_CASE(
+        "agreement: each length and class of path in globe.pbrt, whose surfaces have "
+        "textures") {
+        Scene scene = load_scene("scenes/globe.pbrt", nullptr);
+        prepare(scene, 1);
+        scene.width = scene.height = 32, scene.max_depth = 4;
+        REQUIRE(scene.textures.all.size() == 4);
+        Trace by_chapter_10 = trace_with<ch10::trace>();
+        for (const Chapter& chapter : every_chapter(scene)) {
+            CAPTURE(chapter.name);
+            check_classes(scene, by_chapter_10, scene, chapter.trace, 20000);
+        }
+        check_classes(scene, by_chapter_10, scene,
+                      splat_trace_with<ch21::trace>(endpoints_of(scene)), 20000);
+        check_classes(scene, by_chapter_10, scene,
+                      splat_trace_with<ch22::trace>(ch22::prepare(scene)), 20000);
     }
 }

@@ -136,7 +136,7 @@ TEST_SUITE("reader: malformed input") {
         text.clear();
         for (int i = 0; i < 50; i++) text += "Textur\n";
         CHECK(refuse(text + "Shap") ==
-              "scene.pbrt:1:1: error: unknown directive \"Textur\"\n"
+              "scene.pbrt:1:1: error: unknown directive \"Textur\": did you mean \"Texture\"?\n"
               "scene.pbrt:51:1: error: unknown directive \"Shap\": did you mean \"Shape\"?");
     }
 

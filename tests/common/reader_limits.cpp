@@ -268,8 +268,7 @@ TEST_SUITE("reader: large scenes") {
     TEST_CASE("input: a program prints notes and all errors of a scene, and with --quiet errors") {
         TemporaryFolder folder;
         std::string scene = folder / "scene.pbrt";
-        write_file_atomically(scene,
-                              "Sampler \"halton\"\nTexture \"a\" \"float\" \"constant\"\nCamra");
+        write_file_atomically(scene, "Sampler \"halton\"\nMakeNamedMedium \"a\"\nCamra");
         for (const char* quiet : {"--quiet", "--spp=1"}) {
             Process program([&] {
                 std::vector<std::string> words = program_words("07_path_tracing");
@@ -286,7 +285,7 @@ TEST_SUITE("reader: large scenes") {
                 scene + ":1:1: note: Sampler \"halton\" only sets the samples per pixel\n";
             if (std::string(quiet) == "--quiet") note.clear();
             CHECK(end.err ==
-                  note + scene + ":2:1: error: Texture is not supported\n" + scene +
+                  note + scene + ":2:1: error: MakeNamedMedium is not supported\n" + scene +
                       ":3:1: error: unknown directive \"Camra\": did you mean \"Camera\"?\n");
         }
     }

@@ -190,10 +190,17 @@ inline void check_scene(const Scene& scene) {
             require(is_finite(p) && max_component(abs(p)) <= 1e9f, "position");
         }
         require(g.normals.empty() || g.normals.size() == g.positions.size(), "count of normals");
+        require(g.uvs.empty() || g.uvs.size() == g.positions.size(), "count of uv");
         for (Vec3 n : g.normals) require(is_finite(n) && std::isfinite(dot(n, n)), "normal");
         for (const Triangle& t : g.triangles) {
             for (uint32_t v : t.v) require(v < g.positions.size(), "corner");
             require(t.shape < scene.shapes.size(), "shape of a triangle");
+            bool textured = scene.materials[scene.shapes[t.shape].material].texture != 0;
+            for (uint32_t v : t.v) {
+                require(!textured || (!g.uvs.empty() && std::abs(g.uvs[v].x) <= 1e9f &&
+                                      std::abs(g.uvs[v].y) <= 1e9f),
+                        "uv of a corner");
+            }
             Vec3 n = cross(g.positions[t.v[1]] - g.positions[t.v[0]],
                            g.positions[t.v[2]] - g.positions[t.v[0]]);
             require(std::abs(length(normalize(n)) - 1) < 1e-3f, "triangle without a normal");
@@ -229,6 +236,7 @@ inline void check_scene(const Scene& scene) {
     for (const Shape& s : scene.shapes) {
         require(s.material < scene.materials.size(), "material");
         require(s.light < static_cast<int>(scene.lights.size()), "light");
+        require(s.axes < static_cast<int>(scene.axes.size()), "axes");
     }
     for (const Light& light : scene.lights) {
         require(is_finite(light.L) && std::min({light.L.r, light.L.g, light.L.b}) >= 0 &&
@@ -243,6 +251,15 @@ inline void check_scene(const Scene& scene) {
     for (const Material& m : scene.materials) {
         require(is_finite(m.reflectance) && max_component(m.reflectance) <= 1, "reflectance");
         require(is_finite(m.eta) && is_finite(m.k) && m.ior > 0 && m.alpha >= 0, "metal");
+        require(m.texture <= scene.textures.all.size(), "texture");
+        if (m.texture == 0) continue;
+        for (Vec2 uv : {Vec2{0, 0}, Vec2{0.3f, 0.8f}, Vec2{-1e9f, 1e9f}, Vec2{1, 1}}) {
+            Rgb value = value_at(scene.textures, m.texture - 1u, uv);
+            Rgb most = m.type == MaterialType::diffuse ? m.reflectance : Rgb{1, 1, 1};
+            require(std::min({value.r, value.g, value.b}) >= 0 && value.r <= most.r + 1e-6f &&
+                        value.g <= most.g + 1e-6f && value.b <= most.b + 1e-6f,
+                    "value of a texture");
+        }
     }
 }
 
@@ -303,9 +320,15 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count,
             write_file_atomically(temporary / name, bytes);
             path = temporary / "scene.pbrt";
             bytes = "Camera \"perspective\" WorldBegin LightSource \"infinite\" ";
-            bytes += name == "part.ply" ? "Shape \"plymesh\""
-                                        : "Shape \"sphere\" LightSource \"infinite\"";
-            bytes += " \"string filename\" \"" + name + '"';
+            std::string file = " \"string filename\" \"" + name + '"';
+            if (name == "part.ply") {
+                bytes += "Shape \"plymesh\"" + file;
+            } else if (dice.below(2) == 0) {
+                bytes += "Shape \"sphere\" LightSource \"infinite\"" + file;
+            } else {
+                bytes += "Texture \"a\" \"spectrum\" \"imagemap\"" + file +
+                         " Material \"diffuse\" \"texture reflectance\" \"a\" Shape \"sphere\"";
+            }
         }
         std::vector<std::string> notes;
         double start = processor_seconds();
