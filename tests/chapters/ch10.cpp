@@ -15,7 +15,7 @@ const Trace trace_09 = trace_with<ch09::trace>(ch09::LightMeasure::solid_angle);
 constexpr float below_one = 0x1.fffffep-1f;
 
 Hit facing(Vec3 n) {
-    static const Material diffuse{MaterialType::diffuse, {0.5f, 0.25f, 0.75f}, {}, {}};
+    static const Material diffuse{MaterialType::diffuse, 0, {0.5f, 0.25f, 0.75f}, {}, {}};
     Hit x{};
     x.n = x.ng = n;
     x.material = &diffuse;
