@@ -25,7 +25,7 @@ std::map<std::string, Quantity> measure(const Method& method, const Probe& probe
     std::map<std::string, RunningStats> stats;
     bool shared_out =
         method.name.starts_with("19") && (probe.name == "floor" || probe.name == "rare light");
-    int spp = std::max(samples / batches, shared_out ? 32 : 1);
+    int spp = std::max(samples / batches, shared_out ? 32 : 2);
     for (int batch = 0; batch < batches; batch++) {
         Rendering r = render_once(method, scene, o, spp, seed + static_cast<uint32_t>(batch), true);
         std::map<std::string, double> values = {{"all", r.film.mean()}};

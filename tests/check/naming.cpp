@@ -14,10 +14,9 @@ constexpr double pi_exact = std::numbers::pi;
 
 /// The parts of a key of evidence.
 struct Key {
-    bool second;
     std::string probe, name;
-    explicit Key(const std::string& key) : second(key.starts_with("2:")) {
-        size_t slash = key.find('/'), from = second ? 2 : 0;
+    explicit Key(const std::string& key) {
+        size_t slash = key.find('/'), from = key.starts_with("2:") ? 2 : 0;
         probe = key.substr(from, slash - from), name = key.substr(slash + 1);
     }
 };
@@ -199,13 +198,19 @@ bool is_noisy(const Findings& f, const char* probe, double times) {
     return r.mean - 3 * r.se > times;
 }
 
-/// Whether anything is wrong at all: a class of path, the whole picture, its samples or its noise.
-bool is_wrong(const Findings& f) {
+/// Whether a class of path or the whole picture is not as bright as it should be.
+bool are_means_off(const Findings& f) {
     for (const auto& [probe, row] : f.expected())
         for (const auto& [name, q] : row)
             if ((is_class(name) || name == "all") && f.off(probe, name)) return true;
     for (const auto& [probe, row] : f.measured())
         if (!f.leak(probe).empty()) return true;
+    return false;
+}
+
+/// Whether anything is wrong at all: a mean, or the number of samples, their noise or their rays.
+bool is_wrong(const Findings& f) {
+    if (are_means_off(f)) return true;
     auto of = [&](const char* probe, const char* name) { return f.ratio(probe, name).mean; };
     return (f.has("floor") && of("floor", "samples") > 1.1) ||
            (f.has("sphere") && of("sphere", "rays") < 0.9) || is_noisy(f, "red", 1.25) ||
@@ -218,6 +223,9 @@ Evidence evidence_of(const Findings& found, const Findings* other) {
     Evidence evidence;
     add_evidence(evidence, found, "");
     if (other) add_evidence(evidence, *other, "2:");
+    // Noise tells something only of means that are right.
+    if (are_means_off(found) || (other && are_means_off(*other)))
+        std::erase_if(evidence, [](const auto& cell) { return cell.first.ends_with("/noise"); });
     return evidence;
 }
 
@@ -276,7 +284,10 @@ std::vector<Fit> explanations(const std::vector<Hypothesis>& hypotheses, const E
             if (is_dark(key)) numbers.insert({key, Quantity{}});
         for (const auto& [key, q] : numbers) {
             auto found = h.predicted.find(key);
-            Quantity p = found == h.predicted.end() ? as_it_should_be(key) : found->second;
+            // What is not written down was less than 3 standard errors away, of fewer samples:
+            // where those are large, it may be as far away.
+            Quantity p = {as_it_should_be(key).mean, q.se > 0.01 ? 2 * q.se : 0};
+            if (found != h.predicted.end()) p = found->second;
             // Noise and rays of another chapter say nothing: as if they were one error away.
             bool known = h.own || !(key.ends_with("/noise") || key.ends_with("/rays"));
             if (!known) p = q;
