@@ -27,6 +27,47 @@ void Directives::active_transform(Lexer& lexer, const Token&) {
     state_.set_end = all || !start;
 }
 
+// What the parameters are for must be known, and no more: which of them a directive knows shows
+// when it stands there.
+void Directives::attribute(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "what it is for");
+    std::string target(token.text);
+    Params params(lexer, word, notes_, false);
+    const std::vector<std::string> known = {"light", "material", "medium", "shape", "texture"};
+    if (std::find(known.begin(), known.end(), target) == known.end()) {
+        fail_unknown(lexer.at(token), "Attribute", target, known);
+    }
+    constexpr size_t most = 100;
+    std::vector<Param>& defaults = state_.defaults[target];
+    for (const Param& param : params.all()) {
+        std::erase_if(defaults, [&](const Param& other) { return other.name == param.name; });
+        if (defaults.size() == most) fail(param.at, "more than 100 attributes of " + quote(target));
+        defaults.push_back(param);
+    }
+}
+
+Params Directives::read_params(Lexer& lexer, const Token& word, const std::string& target) {
+    auto defaults = state_.defaults.find(target);
+    if (defaults == state_.defaults.end()) return Params(lexer, word, notes_);
+    return Params(lexer, word, notes_, true, defaults->second);
+}
+
+void Directives::coordinate_system(Lexer& lexer, const Token& word) {
+    std::string name = lexer.unescape(expect_string(lexer, word, "a name"));
+    coordinate_systems_[name] = {state_.start, state_.end};
+}
+
+void Directives::coord_sys_transform(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    auto found = coordinate_systems_.find(lexer.unescape(token));
+    if (found == coordinate_systems_.end()) {
+        std::vector<std::string> known;
+        for (const auto& [name, transforms] : coordinate_systems_) known.push_back(name);
+        fail_unknown(lexer.at(token), "coordinate system", lexer.unescape(token), known);
+    }
+    std::tie(state_.start, state_.end) = found->second;
+}
+
 void Directives::color_space(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     if (token.text == "srgb") return;
@@ -46,8 +87,11 @@ void Directives::accelerator(Lexer& lexer, const Token& word) {
 
 void Directives::camera(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
-    read_camera(params, still_transform(params), scene_.camera, exposure_);
+    const Transform& camera_from_world = still_transform(params);
+    read_camera(params, camera_from_world, scene_.camera, exposure_);
     has_camera_ = true;
+    Transform world_from_camera = inverse(camera_from_world);
+    coordinate_systems_["camera"] = {world_from_camera, world_from_camera};
 }
 
 void Directives::film(Lexer& lexer, const Token& word) {
@@ -82,11 +126,14 @@ void Directives::sampler(Lexer& lexer, const Token& word) {
 
 void Directives::world_begin(Lexer&, const Token&) {
     in_world_ = true;
-    state_ = {};
+    State fresh;
+    fresh.defaults = std::move(state_.defaults);
+    state_ = std::move(fresh);
+    coordinate_systems_["world"] = {};
 }
 
 void Directives::area_light_source(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
+    Params params = read_params(lexer, word, "light");
     state_.emission = read_area_light(params);
 }
 
@@ -110,7 +157,7 @@ void Directives::end(Lexer& lexer, const Token& word) {
 }
 
 void Directives::light_source(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
+    Params params = read_params(lexer, word, "light");
     if (params.type() == "infinite" && params.find("string", "filename")) {
         if (has_sky_image_) fail(params.at(), "a second picture of the sky");
         has_sky_image_ = true;  // also when it cannot be read: then it is not read again
@@ -134,7 +181,7 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
 }
 
 void Directives::material(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
+    Params params = read_params(lexer, word, "material");
     scene_.materials.push_back(read_material(params, textures_));
     state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
 }
@@ -148,20 +195,70 @@ void Directives::reverse_orientation(Lexer&, const Token&) {
     state_.reverse_orientation = !state_.reverse_orientation;
 }
 
+void Directives::object_begin(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    std::string name = lexer.unescape(token);
+    if (open_object_) fail(lexer.at(word), "ObjectBegin inside an object");
+    if (objects_.contains(name)) fail(lexer.at(token), "a second object " + quote(name));
+    begin(lexer, word);
+    open_object_ = &objects_[name];
+}
+
+void Directives::object_end(Lexer& lexer, const Token& word) {
+    end(lexer, word);
+    open_object_ = nullptr;
+}
+
+void Directives::object_instance(Lexer& lexer, const Token& word) {
+    Token token = expect_string(lexer, word, "a name");
+    if (open_object_) fail(lexer.at(word), "ObjectInstance inside an object");
+    auto found = objects_.find(lexer.unescape(token));
+    if (found == objects_.end()) {
+        std::vector<std::string> known;
+        for (const auto& [name, object] : objects_) known.push_back(name);
+        fail_unknown(lexer.at(token), "object", lexer.unescape(token), known);
+    }
+    for (const auto& [shape, state] : found->second.shapes) {
+        if (++placed_ > limits_.directives) {
+            stop_reading(lexer.at(word), "more than " + std::to_string(limits_.directives) +
+                                             " shapes of objects are placed");
+        }
+        Params params = shape;
+        State where = state;
+        where.start = state_.start * state.start, where.end = state_.end * state.end;
+        place(params, where);
+    }
+}
+
 void Directives::shape(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
-    ShapeState state = {state_.start, state_.material, state_.emission, state_.reverse_orientation};
+    Params params = read_params(lexer, word, "shape");
+    if (!open_object_) return place(params, state_);
+    // Keep it for the instances.
+    for (const Param& param : params.all()) object_numbers_ += param.numbers.size();
+    if (object_numbers_ > 8 * limits_.vertices) {
+        stop_reading(params.at(),
+                     "objects of more than " + std::to_string(8 * limits_.vertices) + " numbers");
+    }
+    open_object_->shapes.emplace_back(params, state_);
+    State& kept = open_object_->shapes.back().second;
+    kept.defaults.clear();
+    if (kept.emission) notes_.add(params.at(), "lights inside an object are left out, as in pbrt");
+    kept.emission = {};
+}
+
+void Directives::place(Params& params, const State& where) {
+    ShapeState state = {where.start, where.material, where.emission, where.reverse_orientation};
     state.primitives_elsewhere = moving_primitives_;
     state.vertices_elsewhere = moving_vertices_;
     size_t before = scene_.geometry.size() + moving_primitives_;
-    if (state_.start == state_.end) {
+    if (where.start == where.end) {
         read_shape(params, state, limits_, files_, scene_, notes_);
     } else {
-        read_mover(params, state);
+        read_mover(params, where, state);
     }
     if (scene_.geometry.size() + moving_primitives_ > before) return;
     if (!too_small_) too_small_ = params.at();
-    if (!too_small_light_ && state.emission) too_small_light_ = params.at();
+    if (!too_small_light_ && where.emission) too_small_light_ = params.at();
 }
 
 void Directives::texture(Lexer& lexer, const Token& word) { textures_.read(lexer, word, notes_); }
@@ -183,11 +280,11 @@ uint64_t Directives::bytes() const {
     return sum;
 }
 
-void Directives::read_mover(Params& params, ShapeState& state) {
+void Directives::read_mover(Params& params, const State& where, ShapeState& state) {
     if (state.emission) params.not_supported(params.at(), "a shape that moves cannot shine");
     constexpr size_t most = 1000;
     if (scene_.movers.size() == most) fail(params.at(), "more than 1000 shapes that move");
-    Mover mover(state_.start, state_.end);
+    Mover mover(where.start, where.end);
     mover.line = params.at().line, mover.column = params.at().column;
     state.primitives_elsewhere += scene_.geometry.size();
     state.vertices_elsewhere += scene_.geometry.positions.size();

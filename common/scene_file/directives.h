@@ -25,6 +25,9 @@ public:
     // Both before and after WorldBegin.
     void move(Lexer& lexer, const Token& word);
     void active_transform(Lexer& lexer, const Token& word);
+    void attribute(Lexer& lexer, const Token& word);
+    void coordinate_system(Lexer& lexer, const Token& word);
+    void coord_sys_transform(Lexer& lexer, const Token& word);
     void color_space(Lexer& lexer, const Token& word);
     // Before WorldBegin.
     void accelerator(Lexer& lexer, const Token& word);
@@ -43,6 +46,9 @@ public:
     void make_named_material(Lexer& lexer, const Token& word);
     void material(Lexer& lexer, const Token& word);
     void named_material(Lexer& lexer, const Token& word);
+    void object_begin(Lexer& lexer, const Token& word);
+    void object_end(Lexer& lexer, const Token& word);
+    void object_instance(Lexer& lexer, const Token& word);
     void reverse_orientation(Lexer& lexer, const Token& word);
     void shape(Lexer& lexer, const Token& word);
     void texture(Lexer& lexer, const Token& word);
@@ -55,6 +61,7 @@ private:
         uint32_t material = 0;                  // into Scene::materials
         std::optional<AreaEmission> emission;
         bool reverse_orientation = false;
+        std::map<std::string, std::vector<Param>> defaults;  // of Attribute, by what they are for
     };
 
     struct SavedState {
@@ -63,18 +70,25 @@ private:
         std::string begin;  // AttributeBegin, or TransformBegin
     };
 
+    /// The shapes between ObjectBegin and ObjectEnd, which each ObjectInstance places.
+    struct Object {
+        std::vector<std::pair<Params, State>> shapes;
+    };
+
     struct NamedMaterial {
         uint32_t index = 0;  // into Scene::materials
         bool defined = false;
         Position first_use;
     };
 
+    Params read_params(Lexer& lexer, const Token& word, const std::string& target);
+    void place(Params& params, const State& where);
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(Params& params) const;
     void check_materials() const;
     void check_uvs(const Geometry& g) const;
     void check_complete() const;
-    void read_mover(Params& params, ShapeState& state);
+    void read_mover(Params& params, const State& where, ShapeState& state);
 
     Scene scene_;
     const Limits limits_;
@@ -85,6 +99,10 @@ private:
     State state_;
     std::vector<SavedState> saved_;
     std::map<std::string, NamedMaterial> named_materials_;
+    std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
+    std::map<std::string, Object> objects_;
+    Object* open_object_ = nullptr;  // the one that is being defined
+    uint64_t object_numbers_ = 0, placed_ = 0;
     uint64_t moving_primitives_ = 0, moving_vertices_ = 0;  // of all movers
     // The first Shape of which all triangles were too small, and the first such that shines.
     std::optional<Position> too_small_, too_small_light_;

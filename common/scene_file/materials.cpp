@@ -41,29 +41,21 @@ float read_alpha(Params& params) {
     return remap ? std::sqrt(u) : u;
 }
 
-// What to say of a spectrum that is none of the known ones. pbrt would look for a file of that
-// name.
-std::string unknown_spectrum(const std::string& name, const std::vector<std::string>& known) {
-    if (name.find_first_of("./\\") == std::string::npos) return unknown("spectrum", name, known);
-    return "files of spectra are not supported: " + quote_file(name);
+Rgb check_metal(const Param& param, Rgb value) {
+    constexpr float largest = 1e4f;  // so that its fourth power is a float
+    if (std::min({value.r, value.g, value.b}) >= 0 && max_component(value) <= largest) return value;
+    fail(param.at, quote(param.name) + " must be from 0 to 1e4");
 }
 
-// "eta" or "k" of a metal: an rgb, or the name of a measured spectrum such as "metal-Cu-eta".
+// "eta" or "k" of a metal: an rgb, a listed spectrum, or the name of one such as "metal-Cu-eta".
 std::optional<Rgb> read_metal(Params& params, const std::string& name) {
     if (const Param* rgb = params.find_exactly("rgb", name, 3)) {
-        Rgb value = read_rgb(*rgb);
-        constexpr float largest = 1e4f;  // so that its fourth power is a float
-        if (std::min({value.r, value.g, value.b}) < 0 || max_component(value) > largest) {
-            fail(rgb->at, quote(name) + " must be from 0 to 1e4");
-        }
-        return value;
+        return check_metal(*rgb, read_rgb(*rgb));
     }
     const Param* spectrum = params.find("spectrum", name);
     if (!spectrum) return {};
-    if (spectrum->strings.size() != 1) {
-        params.not_supported(spectrum->at, quote(name) + " must be an rgb or the name of a metal");
-        return {};
-    }
+    if (spectrum->strings.size() != 1)
+        return check_metal(*spectrum, mean_rgb(read_spectrum(*spectrum)));
     std::vector<std::string> known;
     for (const std::string& symbol : metal_symbols()) {
         MetalIor ior = *metal_ior(symbol);

@@ -12,15 +12,16 @@ std::vector<Vec3> group_by_three(const std::vector<double>& numbers) {
     return groups;
 }
 
-std::vector<uint32_t> read_indices(Params& params, size_t vertices) {
+std::vector<uint32_t> read_indices(Params& params, size_t vertices, size_t corners) {
     const Param* param = params.find("integer", "indices");
     if (!param) {
-        if (vertices == 3) return {0, 1, 2};
+        if (vertices == 3 && corners == 3) return {0, 1, 2};
+        if (vertices == 4 && corners == 4) return {0, 1, 2, 3};
         fail(params.at(), params.owner() + " needs \"integer indices\"");
     }
-    if (param->numbers.size() % 3 != 0) {
+    if (param->numbers.size() % corners != 0) {
         fail(param->at, "\"indices\" has " + std::to_string(param->numbers.size()) +
-                            " numbers, not a multiple of 3");
+                            " numbers, not a multiple of " + std::to_string(corners));
     }
     std::vector<uint32_t> indices;
     for (double index : param->numbers) {
@@ -70,7 +71,7 @@ void check_extent(const Params& params, Vec3 p) {
     fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
 }
 
-TriangleMesh read_triangle_mesh(Params& params) {
+TriangleMesh read_triangle_mesh(Params& params, size_t corners) {
     TriangleMesh mesh;
     const Param* P = params.find("point3", "P");
     if (!P) fail(params.at(), params.owner() + " needs \"point3 P\"");
@@ -92,10 +93,46 @@ TriangleMesh read_triangle_mesh(Params& params) {
             {static_cast<float>(uv->numbers[i]), static_cast<float>(uv->numbers[i + 1])});
     }
     if (!are_usable(mesh.uvs)) mesh.uvs.clear();
-    mesh.indices = read_indices(params, mesh.positions.size());
+    std::vector<uint32_t> indices = read_indices(params, mesh.positions.size(), corners);
     const Param* faces = params.find("integer", "faceIndices");
-    if (faces && faces->numbers.size() != mesh.indices.size() / 3) {
-        fail(faces->at, "\"faceIndices\" needs one number for each triangle");
+    if (faces && faces->numbers.size() != indices.size() / corners) {
+        fail(faces->at, "\"faceIndices\" needs one number for each face");
+    }
+    if (corners == 3) {
+        mesh.indices = std::move(indices);
+        return mesh;
+    }
+    // The corners of a patch are at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+    for (size_t i = 0; i < indices.size(); i += 4) {
+        uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2], d = indices[i + 3];
+        mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
+    }
+    if (!uv && mesh.positions.size() == 4 && indices == std::vector<uint32_t>{0, 1, 2, 3}) {
+        mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    }
+    return mesh;
+}
+
+TriangleMesh read_cylinder(Params& params) {
+    constexpr int sides = 128;
+    float radius = params.number("radius", 1), turn = params.number("phimax", 360);
+    float z0 = params.number("zmin", -1), z1 = params.number("zmax", 1);
+    if (!(radius > 0)) fail(params.at("radius"), "\"radius\" must be greater than 0");
+    if (!(turn > 0 && turn <= 360)) fail(params.at("phimax"), "\"phimax\" must be from 0 to 360");
+    TriangleMesh mesh;
+    for (int i = 0; i <= sides; i++) {
+        float u = static_cast<float>(i) / sides;
+        Vec3 n = from_cylindrical(1, u * turn / 360, 0);
+        for (int end = 0; end < 2; end++) {
+            mesh.positions.push_back(
+                {radius * n.x, radius * n.y, end == 0 ? std::min(z0, z1) : std::max(z0, z1)});
+            mesh.normals.push_back(n);
+            mesh.uvs.push_back({u, static_cast<float>(end)});
+        }
+        uint32_t first = 2 * static_cast<uint32_t>(i);
+        if (i == sides) break;
+        mesh.indices.insert(mesh.indices.end(),
+                            {first, first + 2, first + 3, first, first + 3, first + 1});
     }
     return mesh;
 }

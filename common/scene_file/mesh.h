@@ -7,8 +7,12 @@
 /// Throws for a point so far out that squares of areas would overflow a float.
 void check_extent(const Params& params, Vec3 p);
 
-/// The mesh of Shape "trianglemesh" in its own space, with all that can be wrong with it checked.
-TriangleMesh read_triangle_mesh(Params& params);
+/// The mesh of Shape "trianglemesh" in its own space, with all that can be wrong with it checked;
+/// or of "bilinearmesh" (4 corners), of which each patch becomes two triangles.
+TriangleMesh read_triangle_mesh(Params& params, size_t corners = 3);
+
+/// Shape "cylinder", as a mesh of flat sides with the normals of the cylinder.
+TriangleMesh read_cylinder(Params& params);
 
 /// Adds the mesh, and turns each triangle so that its corners run counter-clockwise on the side
 /// that pbrt takes for its outside:

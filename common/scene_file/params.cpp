@@ -4,17 +4,29 @@
 #include <map>
 
 #include "common/base/numbers.h"
-#include "common/scene_file/spectra.h"
 
 namespace {
 
 // Types that pbrt has and we do not.
-const std::vector<std::string> pbrt_only = {
-    "bilinearmesh",        "coatedconductor", "coateddiffuse", "curve",        "cylinder",
-    "diffusetransmission", "gbuffer",         "goniometric",   "hair",         "interface",
-    "loopsubdiv",          "measured",        "mix",           "orthographic", "projection",
-    "realistic",           "spectral",        "spherical",     "spot",         "subsurface",
-    "thindielectric"};
+const std::vector<std::string> pbrt_only = {"coatedconductor",
+                                            "coateddiffuse",
+                                            "curve",
+                                            "diffusetransmission",
+                                            "gbuffer",
+                                            "goniometric",
+                                            "hair",
+                                            "interface",
+                                            "loopsubdiv",
+                                            "measured",
+                                            "mix",
+                                            "orthographic",
+                                            "projection",
+                                            "realistic",
+                                            "spectral",
+                                            "spherical",
+                                            "spot",
+                                            "subsurface",
+                                            "thindielectric"};
 const std::vector<std::string> pbrt_only_textures = {"bilerp", "directionmix", "dots",  "fbm",
                                                      "marble", "ptex",         "windy", "wrinkled"};
 // Types of its third edition that the fourth does not have.
@@ -44,7 +56,30 @@ std::string list(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type)
+Spectrum read_spectrum(const Param& param) {
+    const std::vector<double>& numbers = param.numbers;
+    if (!param.strings.empty() || numbers.size() % 2 != 0) {
+        fail(param.at, quote(param.name) + " needs pairs of a wavelength in nm and a value");
+    }
+    Spectrum spectrum;
+    for (size_t i = 0; i < numbers.size(); i += 2) {
+        if (i > 0 && numbers[i] <= numbers[i - 2]) {
+            fail(param.at, "wavelengths of " + quote(param.name) + " must be in ascending order");
+        }
+        if (!(numbers[i + 1] >= 0)) fail(param.at, quote(param.name) + " must not be negative");
+        spectrum.push_back({numbers[i], numbers[i + 1]});
+    }
+    return spectrum;
+}
+
+// pbrt would look for a file of that name.
+std::string unknown_spectrum(const std::string& name, const std::vector<std::string>& known) {
+    if (name.find_first_of("./\\") == std::string::npos) return unknown("spectrum", name, known);
+    return "files of spectra are not supported: " + quote_file(name);
+}
+
+Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type,
+               const std::vector<Param>& defaults)
     : at_(lexer.at(directive)), type_at_(at_), directive_(directive.text) {
     if (has_type) {
         Token token = lexer.next();
@@ -56,6 +91,12 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_t
         refuse_old_type();
     }
     while (lexer.peek().type == Token::string) add(read_param(lexer), notes);
+    for (const Param& param : defaults) {
+        auto same_name = [&](const Param& other) { return other.name == param.name; };
+        if (std::any_of(params_.begin(), params_.end(), same_name)) continue;
+        params_.push_back(param);
+        params_.back().used = true;
+    }
     // Say here what is wrong, not where a parameter behind it is missing.
     const Token& after = lexer.peek();
     bool is_value = after.type == Token::open || after.type == Token::close ||
@@ -169,6 +210,16 @@ Rgb Params::illuminant(const std::string& name, Rgb fallback) {
         double kelvin = param->numbers[0];
         if (kelvin < 500 || kelvin > 1e6) fail(param->at, "blackbody needs 500 to 1e6 kelvin");
         return blackbody_rgb(kelvin);
+    }
+    if (const Param* param = find("spectrum", name)) {
+        if (param->strings.size() != 1 || !param->numbers.empty()) {
+            Rgb L = light_rgb(read_spectrum(*param));
+            if (is_black(L)) fail(param->at, quote(name) + " has no visible light");
+            return L;
+        }
+        if (std::optional<Rgb> L = illuminant_rgb(param->strings[0])) return *L;
+        not_supported(param->at, unknown_spectrum(param->strings[0], illuminant_names()));
+        return fallback;
     }
     const Param* param = find_exactly("rgb", name, 3);
     if (!param) return fallback;

@@ -7,6 +7,12 @@
 #include "common/base/vec.h"
 #include "common/scene_file/messages.h"
 #include "common/scene_file/param.h"
+#include "common/scene_file/spectra.h"
+
+/// The spectrum that a parameter lists; throws for one that is not in order, or negative.
+Spectrum read_spectrum(const Param& param);
+/// What to say of a spectrum that is none of the known ones.
+std::string unknown_spectrum(const std::string& name, const std::vector<std::string>& known);
 
 /// The parameters of one directive. A directive asks for each that it knows; finish() then refuses
 /// those that nobody asked for. Of a parameter given twice the last one counts, with a note.
@@ -16,9 +22,14 @@ class Params {
 public:
     /// Reads what follows `directive`: its type, such as "perspective" (where it has one), and the
     /// parameters up to a token that is none.
-    Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type = true);
+    ///
+    /// defaults  parameters that Attribute has given: they count where the directive has none of
+    ///           that name, and may be such as the directive does not know
+    Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type = true,
+           const std::vector<Param>& defaults = {});
 
     const std::string& type() const { return type_; }
+    const std::vector<Param>& all() const { return params_; }
     /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
     void read_type();
     /// Throws for a type that is none of the known ones.
@@ -36,7 +47,8 @@ public:
     bool boolean(const std::string& name, bool fallback);
     std::string string(const std::string& name, const std::string& fallback);
     Vec3 point(const std::string& name, Vec3 fallback);
-    /// A color of components >= 0: `rgb`, or `blackbody` (luminance 1).
+    /// A color of components >= 0: `rgb`, or of luminance 1: `blackbody`, or a `spectrum` that is
+    /// listed or a standard illuminant.
     Rgb illuminant(const std::string& name, Rgb fallback);
     /// The parameter of this type and name; null if not given.
     const Param* find(const std::string& type, const std::string& name);

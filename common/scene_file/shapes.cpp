@@ -154,9 +154,17 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
         uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
         add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
     };
-    if (params.type() == "trianglemesh") {
-        TriangleMesh mesh = read_triangle_mesh(params);
+    bool is_patches = params.type() == "bilinearmesh", is_cylinder = params.type() == "cylinder";
+    if (params.type() == "trianglemesh" || is_patches || is_cylinder) {
+        TriangleMesh mesh =
+            is_cylinder ? read_cylinder(params) : read_triangle_mesh(params, is_patches ? 4 : 3);
+        if ((is_patches || is_cylinder) && state.emission && state.emission->power > 0) {
+            params.not_supported(params.at(),
+                                 "the \"power\" of a light of this shape is not supported");
+        }
         params.finish();
+        if (is_patches) notes.add(params.at(), "a bilinear patch is read as two triangles");
+        if (is_cylinder) notes.add(params.at(), "a cylinder is read as 256 triangles");
         add(mesh);
     } else if (params.type() == "plymesh") {
         const Param* name = params.find_exactly("string", "filename", 1);
@@ -173,7 +181,7 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
     } else if (params.type() == "disk") {
         axes = add_disk(params, state, scene);
     } else {
-        params.fail_type({"disk", "plymesh", "sphere", "trianglemesh"});
+        params.fail_type({"bilinearmesh", "cylinder", "disk", "plymesh", "sphere", "trianglemesh"});
     }
     params.finish();
     add_shape(params, state, g.triangles, triangles, false, axes, scene);

@@ -17,7 +17,120 @@ constexpr std::array<NamedMetal, 4> metals = {{
     {"Cu", {{0.200438f, 0.924033f, 1.102212f}, {3.912949f, 2.452848f, 2.142188f}}},
 }};
 
+struct Illuminant {
+    const char* name;
+    double x, y;
+};
+constexpr std::array<Illuminant, 15> illuminants = {{
+    {"stdillum-A", 0.44758, 0.40745},
+    {"stdillum-D50", 0.34567, 0.35851},
+    {"stdillum-D65", 0.31272, 0.32903},
+    {"stdillum-F1", 0.3131, 0.3371},
+    {"stdillum-F2", 0.3721, 0.3751},
+    {"stdillum-F3", 0.4091, 0.3941},
+    {"stdillum-F4", 0.4402, 0.4031},
+    {"stdillum-F5", 0.3138, 0.3452},
+    {"stdillum-F6", 0.3779, 0.3882},
+    {"stdillum-F7", 0.3129, 0.3292},
+    {"stdillum-F8", 0.3458, 0.3586},
+    {"stdillum-F9", 0.3741, 0.3727},
+    {"stdillum-F10", 0.3458, 0.3588},
+    {"stdillum-F11", 0.3805, 0.3769},
+    {"stdillum-F12", 0.4370, 0.4042},
+}};
+
+double at(const Spectrum& spectrum, double nm) {
+    auto after = std::upper_bound(spectrum.begin(), spectrum.end(), nm,
+                                  [](double x, const auto& entry) { return x < entry[0]; });
+    if (after == spectrum.begin()) return 0;
+    auto [nm0, value0] = *(after - 1);
+    if (after == spectrum.end()) return nm == nm0 ? value0 : 0;
+    auto [nm1, value1] = *after;
+    return value0 + (value1 - value0) * (nm - nm0) / (nm1 - nm0);
+}
+
+/// X, Y, Z of values at wavelengths in nm.
+template <class Values>
+std::array<double, 3> xyz_of(const Values& values) {
+    constexpr int steps = static_cast<int>(observer_step_nm);  // of 1 nm, in a row
+    std::array<double, 3> xyz = {};
+    for (int i = 0; i <= steps * (static_cast<int>(observer.size()) - 1); i++) {
+        size_t row = static_cast<size_t>(i / steps), next = std::min(row + 1, observer.size() - 1);
+        double part = static_cast<double>(i % steps) / steps, value = values(observer_first_nm + i);
+        for (size_t k = 0; k < 3; k++) {
+            xyz[k] += value * ((1 - part) * observer[row][k] + part * observer[next][k]);
+        }
+    }
+    return xyz;
+}
+
+// As linear sRGB; without a light of luminance above 0: black.
+Rgb with_luminance_1(const std::array<double, 3>& xyz) {
+    if (!(xyz[1] > 0)) return {};
+    std::array<double, 3> rgb = srgb_from_xyz(xyz[0] / xyz[1], 1, xyz[2] / xyz[1]);
+    double scale = 1 / (0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
+    return {static_cast<float>(scale * rgb[0]), static_cast<float>(scale * rgb[1]),
+            static_cast<float>(scale * rgb[2])};
+}
+
 }  // namespace
+
+const Spectrum& standard_daylight() {
+    static const Spectrum d65 = [] {
+        constexpr std::array<double, observer.size()> values = {
+            49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008, 117.812,
+            114.861, 115.923, 108.811, 109.354, 107.802, 104.790, 107.689, 104.405, 104.046,
+            100.000, 96.3342, 95.7880, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992,
+            80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091, 74.3490, 61.6040, 69.8856,
+            75.0870, 63.5927, 46.4182, 66.8054, 63.3828};
+        Spectrum spectrum;
+        double nm = observer_first_nm;
+        for (double value : values) {
+            spectrum.push_back({nm, value});
+            nm += observer_step_nm;
+        }
+        return spectrum;
+    }();
+    return d65;
+}
+
+Rgb light_rgb(const Spectrum& spectrum) {
+    return with_luminance_1(xyz_of([&](double nm) { return at(spectrum, nm); }));
+}
+
+Rgb reflectance_rgb(const Spectrum& spectrum) {
+    auto light = [](double nm) { return at(standard_daylight(), nm); };
+    auto [X, Y, Z] = xyz_of([&](double nm) { return light(nm) * at(spectrum, nm); });
+    auto [Xw, Yw, Zw] = xyz_of(light);
+    std::array<double, 3> rgb = srgb_from_xyz(X, Y, Z), white = srgb_from_xyz(Xw, Yw, Zw);
+    auto channel = [&](size_t i) { return static_cast<float>(std::min(1.0, rgb[i] / white[i])); };
+    return {channel(0), channel(1), channel(2)};
+}
+
+Rgb mean_rgb(const Spectrum& spectrum) {
+    Rgb mean;
+    double nm = observer_first_nm;
+    for (Rgb share : shares_of_white()) {
+        mean += static_cast<float>(at(spectrum, nm)) * share;
+        nm += observer_step_nm;
+    }
+    return mean;
+}
+
+std::optional<Rgb> illuminant_rgb(const std::string& name) {
+    for (const Illuminant& illuminant : illuminants) {
+        if (name != illuminant.name) continue;
+        double x = illuminant.x, y = illuminant.y;
+        return with_luminance_1({x / y, 1, (1 - x - y) / y});
+    }
+    return {};
+}
+
+std::vector<std::string> illuminant_names() {
+    std::vector<std::string> names;
+    for (const Illuminant& illuminant : illuminants) names.emplace_back(illuminant.name);
+    return names;
+}
 
 Rgb blackbody_rgb(double kelvin) {
     constexpr double c2 = 1.438776877e-2;  // m K, the second radiation constant
@@ -35,10 +148,7 @@ Rgb blackbody_rgb(double kelvin) {
     }
 
     // Give the color luminance 1.
-    std::array<double, 3> rgb = srgb_from_xyz(X, Y, Z);
-    double scale = 1 / (0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
-    return {static_cast<float>(scale * rgb[0]), static_cast<float>(scale * rgb[1]),
-            static_cast<float>(scale * rgb[2])};
+    return with_luminance_1({X, Y, Z});
 }
 
 std::optional<MetalIor> metal_ior(const std::string& symbol) {

@@ -62,6 +62,13 @@ bool read_filter(Params& params, Messages& notes) {
 
 std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
     const Param* param = params.find_exactly("rgb", name, 3);
+    if (const Param* listed = params.find("spectrum", name)) {
+        Spectrum spectrum = read_spectrum(*listed);
+        for (const auto& [nm, value] : spectrum) {
+            if (value > 1) fail(listed->at, quote(name) + " must be from 0 to 1");
+        }
+        return reflectance_rgb(spectrum);
+    }
     if (!param) return {};
     Rgb r = {static_cast<float>(param->numbers[0]), static_cast<float>(param->numbers[1]),
              static_cast<float>(param->numbers[2])};

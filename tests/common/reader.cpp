@@ -457,3 +457,88 @@ TEST_SUITE("reader: shapes") {
         CHECK(disk("ConcatTransform [1 0 0 0 0 1 0 0 5 0 1 0 0 0 0 1]").n == Vec3{0, 0, 1});
     }
 }
+
+TEST_SUITE("reader: shortcuts of scene files") {
+    const std::string start = "Camera \"perspective\" WorldBegin LightSource \"infinite\" ";
+    auto read = [](const std::string& text, std::vector<std::string>* notes = nullptr) {
+        return parse_scene("scene.pbrt", start + text, notes);
+    };
+
+    TEST_CASE("input: Attribute gives parameters to what comes after it, up to AttributeEnd") {
+        Scene scene = read(
+            "AttributeBegin Attribute \"shape\" \"float radius\" 2 \"float height\" 3 "
+            "Attribute \"material\" \"rgb reflectance\" [1 0 0] Material \"diffuse\" "
+            "Shape \"sphere\" Shape \"sphere\" \"float radius\" 4 Shape \"disk\" "
+            "AttributeEnd Shape \"sphere\"");
+        REQUIRE(scene.geometry.spheres.size() == 3);
+        CHECK(scene.geometry.spheres[0].r == 2);
+        CHECK(scene.geometry.spheres[1].r == 4);
+        CHECK(scene.geometry.spheres[2].r == 1);
+        CHECK(scene.geometry.disks[0].c == Vec3{0, 0, 3});
+        CHECK(scene.materials[scene.shapes[0].material].reflectance == Rgb{1, 0, 0});
+    }
+
+    TEST_CASE("input: coordinate systems by name, those of the camera and the world too") {
+        Scene scene = parse_scene("scene.pbrt",
+                                  "Translate 0 0 5 Camera \"perspective\" WorldBegin "
+                                  "LightSource \"infinite\" Translate 1 2 3 "
+                                  "CoordinateSystem \"here\" CoordSysTransform \"camera\" "
+                                  "Shape \"sphere\" CoordSysTransform \"world\" Shape \"sphere\" "
+                                  "CoordSysTransform \"here\" Shape \"sphere\"",
+                                  nullptr);
+        CHECK(scene.geometry.spheres[0].c == Vec3{0, 0, -5});
+        CHECK(scene.geometry.spheres[1].c == Vec3{0, 0, 0});
+        CHECK(scene.geometry.spheres[2].c == Vec3{1, 2, 3});
+    }
+
+    TEST_CASE("input: an object is copied to each of its instances, within the limits") {
+        const std::string object =
+            "Material \"diffuse\" \"rgb reflectance\" [1 0 0] ObjectBegin \"two\" Translate 1 0 0 "
+            "Shape \"sphere\" AreaLightSource \"diffuse\" Scale 2 2 2 Shape \"disk\" ObjectEnd "
+            "Material \"diffuse\" ";
+        const std::string twice =
+            "ObjectInstance \"two\" Rotate 90 0 0 1 Scale 3 3 3 ObjectInstance \"two\" ";
+        std::vector<std::string> notes;
+        Scene scene = read(object + twice, &notes);
+        REQUIRE(scene.geometry.spheres.size() == 2);
+        REQUIRE(scene.geometry.disks.size() == 2);
+        CHECK(scene.geometry.spheres[0].c == Vec3{1, 0, 0});
+        CHECK(length(scene.geometry.spheres[1].c - Vec3{0, 3, 0}) < 1e-6f);
+        CHECK(scene.geometry.spheres[1].r == doctest::Approx(3).scale(0));
+        CHECK(scene.geometry.disks[1].r == doctest::Approx(6).scale(0));
+        CHECK(scene.materials[scene.shapes[3].material].reflectance == Rgb{1, 0, 0});
+        CHECK(scene.lights.size() == 1);  // the sky
+        CHECK(notes[0].ends_with("lights inside an object are left out, as in pbrt"));
+        CHECK_THROWS_WITH(read(object), "scene.pbrt: error: no Shape");
+        Limits limits;
+        limits.primitives = 3;
+        CHECK_THROWS_WITH(parse_scene("scene.pbrt", start + object + twice, nullptr, {}, limits),
+                          doctest::Contains("the scene has more than 3"));
+    }
+
+    TEST_CASE("input: patches and cylinders as triangles, which a note says") {
+        std::vector<std::string> notes;
+        Scene scene = read(
+            "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  2 0 0  0 1 0  2 1 0] "
+            "Shape \"cylinder\" \"float radius\" 2 \"float zmin\" 1 \"float zmax\" 4",
+            &notes);
+        const Geometry& g = scene.geometry;
+        REQUIRE(g.triangles.size() == 2 + 256);
+        double area = 0;
+        for (size_t i = 0; i < g.triangles.size(); i++) {
+            Vec3 p0 = g.positions[g.triangles[i].v[0]];
+            Vec3 n =
+                cross(g.positions[g.triangles[i].v[1]] - p0, g.positions[g.triangles[i].v[2]] - p0);
+            if (i < 2) {
+                CHECK(n == Vec3{0, 0, 2});
+                continue;
+            }
+            CHECK(dot(n, {p0.x, p0.y, 0}) > 0);
+            CHECK(std::abs(std::hypot(p0.x, p0.y) - 2) < 1e-5f);
+            area += double{length(n)} / 2;
+        }
+        CHECK(area == doctest::Approx(2 * std::numbers::pi * 2 * 3).scale(0).epsilon(2e-4));
+        CHECK(notes[0].ends_with("a bilinear patch is read as two triangles"));
+        CHECK(notes[1].ends_with("a cylinder is read as 256 triangles"));
+    }
+}

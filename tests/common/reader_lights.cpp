@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/material/observer.h"
 #include "common/scene_file/reader.h"
 #include "common/scene_file/spectra.h"
 
@@ -290,6 +291,85 @@ TEST_SUITE("reader: lights") {
             CHECK(std::min({c.r, c.g, c.b}) >= 0);
             CHECK(std::abs(luminance(c) - 1) < 1e-5);
         }
+    }
+}
+
+TEST_SUITE("reader: spectra") {
+    TEST_CASE("truth: colors of spectra, by quadrature") {
+        // The observer and the spectrum as straight lines between what is known, in steps of 0.01
+        // nm.
+        auto line = [](const Spectrum& known, double nm) {
+            for (size_t i = 1; i < known.size(); i++) {
+                auto [a, low] = known[i - 1];
+                auto [b, high] = known[i];
+                if (nm >= a && nm <= b) return low + (high - low) * (nm - a) / (b - a);
+            }
+            return 0.0;
+        };
+        auto quadrature = [&](const Spectrum& spectrum, const Spectrum& light) {
+            std::array<Spectrum, 3> curves;
+            for (size_t i = 0; i < observer.size(); i++) {
+                for (size_t k = 0; k < 3; k++) {
+                    curves[k].push_back({380 + 10 * static_cast<double>(i), observer[i][k]});
+                }
+            }
+            std::array<double, 3> xyz = {};
+            for (double nm = 380.005; nm < 780; nm += 0.01) {
+                double value = line(spectrum, nm) * line(light, nm);
+                for (size_t k = 0; k < 3; k++) xyz[k] += value * line(curves[k], nm);
+            }
+            return srgb_from_xyz(xyz[0], xyz[1], xyz[2]);
+        };
+        const Spectrum even = {{300, 1}, {900, 1}},
+                       band = {{400, 0}, {455, 0.9}, {520.5, 0.2}, {690, 1}},
+                       step = {{380, 0.1}, {580, 0.1}, {582, 0.8}, {780, 0.8}};
+        std::array<double, 3> white = quadrature(even, standard_daylight());
+        for (const Spectrum& spectrum : {even, band, step}) {
+            std::array<double, 3> rgb = quadrature(spectrum, even);
+            double luminance_here = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+            Rgb light = light_rgb(spectrum);
+            CHECK(std::abs(double{light.r} - rgb[0] / luminance_here) < 1e-3);
+            CHECK(std::abs(double{light.g} - rgb[1] / luminance_here) < 1e-3);
+            CHECK(std::abs(double{light.b} - rgb[2] / luminance_here) < 1e-3);
+            rgb = quadrature(spectrum, standard_daylight());
+            Rgb r = reflectance_rgb(spectrum);
+            CHECK(std::abs(double{r.r} - std::min(1.0, rgb[0] / white[0])) < 1e-3);
+            CHECK(std::abs(double{r.g} - rgb[1] / white[1]) < 1e-3);
+            CHECK(std::abs(double{r.b} - rgb[2] / white[2]) < 1e-3);
+        }
+        CHECK(near(reflectance_rgb({{300, 0.25}, {900, 0.25}}), {0.25f, 0.25f, 0.25f}));
+    }
+
+    TEST_CASE("truth: listed daylight and black bodies have the colors that the CIE gives") {
+        // Lines between rows of 10 nm make the observer's curves lower at their tops.
+        auto close = [](Rgb a, Rgb b) {
+            CHECK(std::abs(a.r - b.r) < 3e-3f);
+            CHECK(std::abs(a.g - b.g) < 3e-3f);
+            CHECK(std::abs(a.b - b.b) < 3e-3f);
+        };
+        close(light_rgb(standard_daylight()), *illuminant_rgb("stdillum-D65"));
+        close(*illuminant_rgb("stdillum-A"), blackbody_rgb(2855.6));
+        Spectrum planck;
+        for (double nm = 300; nm <= 900; nm += 10) {
+            planck.push_back({nm, std::pow(nm / 560, -5) / std::expm1(1.438777e7 / (nm * 5000))});
+        }
+        close(light_rgb(planck), blackbody_rgb(5000));
+    }
+
+    TEST_CASE("input: spectra of lights, of diffuse surfaces and of metal") {
+        Light light =
+            light_of("LightSource \"point\" \"spectrum I\" [300 2 900 2] \"float scale\" 3");
+        CHECK(std::abs(luminance(light.L) - 3) < 1e-5f);
+        CHECK(near(light_of("LightSource \"infinite\" \"spectrum L\" \"stdillum-D65\"").L,
+                   *illuminant_rgb("stdillum-D65")));
+        CHECK(
+            near(material_of("\"diffuse\" \"spectrum reflectance\" [300 .25 900 .25]").reflectance,
+                 {0.25f, 0.25f, 0.25f}));
+        Material metal = material_of(
+            "\"conductor\" \"spectrum eta\" [300 .5 900 .5] "
+            "\"spectrum k\" \"metal-Ag-k\"");
+        CHECK(near(metal.eta, {0.5f, 0.5f, 0.5f}));
+        CHECK(metal.k == metal_ior("Ag")->k);
     }
 }
 
