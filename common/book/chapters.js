@@ -79,6 +79,10 @@ const chapters = {
         own: [number('photons', 'light paths in each pass', 100000),
               choice('gather', 'gather photons', 'final', 'direct')]
     },
+    '25_vertex_merging': {
+        kind: 'film', scene: 'sds', against: '22_fast_bidirectional', spp: 8,
+        own: [number('photons', 'light paths in each pass', 0)]
+    },
     '26_radiosity': {
         kind: 'once', scene: 'cornell',
         own: [number('patches', 'patches at least', 1200),

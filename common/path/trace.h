@@ -1,6 +1,7 @@
 // A chapter's trace() as a function object, with the chapter's prepared data bound to it.
 #pragma once
 #include <functional>
+#include <type_traits>
 
 #include "common/base/parallel.h"
 #include "common/path/sampler.h"
@@ -24,6 +25,19 @@ struct PassTrace {
     std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     Trace trace;
 };
+
+/// The same for a chapter that also adds splats.
+struct SplatPassTrace {
+    std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
+    SplatTrace trace;
+};
+
+template <class AnyTrace>
+inline constexpr bool adds_splats =
+    std::is_same_v<AnyTrace, SplatTrace> || std::is_same_v<AnyTrace, SplatPassTrace>;
+template <class AnyTrace>
+inline constexpr bool has_passes =
+    std::is_same_v<AnyTrace, PassTrace> || std::is_same_v<AnyTrace, SplatPassTrace>;
 
 /// Copies number by number: `volatile` forbids wider loads, which would have to wait until the
 /// numbers just written have reached the cache.

@@ -128,7 +128,8 @@ std::string of_search(LightSearch search, double chance) {
                    "more photons, or a chapter whose paths begin at the camera";
         case LightSearch::aims:
         case LightSearch::direct:
-        case LightSearch::both_ends: break;
+        case LightSearch::both_ends:
+        case LightSearch::merging: break;
     }
     return "light takes ways here that too few paths find: more samples, or another chapter";
 }
@@ -172,7 +173,7 @@ std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions
     } else if (s.reach == Reach::through_glass) {
         causes.push_back(
             "light comes to what is in view only through glass, where aiming at a light does not "
-            "find it: chapters 20 to 24 do");
+            "find it: chapters 20 to 25 do");
     }
     if (s.reach != Reach::arrives && scene.max_depth == 1) {
         causes.push_back("with a depth of 1 light comes straight from the lights alone");

@@ -14,7 +14,8 @@ enum class LightSearch : uint8_t {
     direct,       // samples lights, follows mirrors and glass; leaves out other light
     from_lights,  // starts at lights; misses what the camera sees in mirrors and glass
     both_ends,    // starts at lights and at the eye, and connects the two
-    photons       // starts at lights; uses what arrives near visible points
+    photons,      // starts at lights; uses what arrives near visible points
+    merging       // as both_ends, and photons behind mirrors and glass
 };
 
 /// The options of every chapter that renders a scene.

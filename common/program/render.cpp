@@ -89,7 +89,7 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     TracingLimit tracing([&] { return limit.overdue(); });
     if (allocation.pilot > 0) {
         result.film.start_halves();
-    } else if (std::is_same_v<AnyTrace, PassTrace>) {
+    } else if (has_passes<AnyTrace>) {
         result.film.start_batches();
     } else if (options.sampler != SamplerType::independent) {
         try {
@@ -121,21 +121,22 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     return result;
 }
 
-/// Explains a sample of a trace that has no splats.
-int explain_plain(const Scene& scene, const RenderOptions& options, const Trace& trace,
-                  bool halves) {
-    auto without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler,
-                              Recorder& recorder) { return trace(s, ray, sampler, recorder); };
-    return explain(scene, options, without_splats, halves);
+/// A trace that has no splats, as one that adds none.
+SplatTrace without_splats(const Trace& trace) {
+    return [&](const Scene& scene, Ray ray, Splats&, Sampler& sampler, Recorder& recorder) {
+        return trace(scene, ray, sampler, recorder);
+    };
 }
 
 /// Explains a sample of a pass, once that is prepared.
-int explain_of_pass(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
+template <class AnyPassTrace>
+int explain_of_pass(const Scene& scene, const RenderOptions& options, const AnyPassTrace& passes,
+                    const SplatTrace& trace) {
     Limit limit(0);
     TracingLimit tracing([&] { return limit.overdue(); });
     uint32_t pass = static_cast<uint32_t>(std::max(0, options.explain_sample));
     try {
-        trace.prepare(pass, options.threads, [&] { return limit.reached(); });
+        passes.prepare(pass, options.threads, [&] { return limit.reached(); });
     } catch (const TracingEnds&) {
     }
     if (limit.reached()) {
@@ -144,7 +145,7 @@ int explain_of_pass(const Scene& scene, const RenderOptions& options, const Pass
     }
     RenderOptions as_rendered = options;
     as_rendered.sampler = SamplerType::independent;
-    return explain_plain(scene, as_rendered, trace.trace, false);
+    return explain(scene, as_rendered, trace, false);
 }
 
 /// Renders to find the brightest sample, and explains it. A lamp that is seen directly, or only via
@@ -172,9 +173,12 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Tr
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
     return render_into(empty_film(scene, true), scene, options, trace, {});
 }
-
 Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
     return render_into(empty_film(scene, false), scene, options, trace, {});
+}
+Rendering render_film(const Scene& scene, const RenderOptions& options,
+                      const SplatPassTrace& trace) {
+    return render_into(empty_film(scene, true), scene, options, trace, {});
 }
 
 int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
@@ -182,7 +186,8 @@ int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
     StopOnSignal until_all_is_written;
     check_outputs(scene, options);
     if (options.explain_brightest) return find_and_explain(scene, options, trace, allocation);
-    if (options.explain) return explain_plain(scene, options, trace, allocation.pilot > 0);
+    if (options.explain)
+        return explain(scene, options, without_splats(trace), allocation.pilot > 0);
     return write_results(scene, options, render_film(scene, options, trace, allocation));
 }
 int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
@@ -196,6 +201,13 @@ int render(const Scene& scene, const RenderOptions& options, const PassTrace& tr
     StopOnSignal until_all_is_written;
     check_outputs(scene, options);
     if (options.explain_brightest) return find_and_explain(scene, options, trace);
-    if (options.explain) return explain_of_pass(scene, options, trace);
+    if (options.explain) return explain_of_pass(scene, options, trace, without_splats(trace.trace));
+    return write_results(scene, options, render_film(scene, options, trace));
+}
+int render(const Scene& scene, const RenderOptions& options, const SplatPassTrace& trace) {
+    StopOnSignal until_all_is_written;
+    check_outputs(scene, options);
+    if (options.explain_brightest) return find_and_explain(scene, options, trace);
+    if (options.explain) return explain_of_pass(scene, options, trace, trace.trace);
     return write_results(scene, options, render_film(scene, options, trace));
 }

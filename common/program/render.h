@@ -51,10 +51,12 @@ struct Rendering {
 /// that samples are distributed as in the whole render.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation = {});
-/// The same for a chapter that also splats to other pixels, and for one that prepares something for
-/// each pass.
+/// The same for a chapter that also splats to other pixels, for one that prepares something for
+/// each pass, and for one that does both.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
 Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
+Rendering render_film(const Scene& scene, const RenderOptions& options,
+                      const SplatPassTrace& trace);
 
 /// What a chapter's program does with its scene: renders it or explains one path, and writes what
 /// the options ask for. Returns the exit code.
@@ -62,3 +64,4 @@ int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
            const Allocation& allocation = {});
 int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
 int render(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
+int render(const Scene& scene, const RenderOptions& options, const SplatPassTrace& trace);

@@ -43,12 +43,12 @@ private:
 };
 
 /// Renders the samples of the pixels of one tile, or fewer at the limit. AnyTrace: Trace,
-/// SplatTrace or PassTrace.
+/// SplatTrace, PassTrace or SplatPassTrace.
 template <class AnyTrace>
 class TileRenderer {
 public:
-    static constexpr bool has_splats = std::is_same_v<AnyTrace, SplatTrace>;
-    static constexpr bool has_passes = std::is_same_v<AnyTrace, PassTrace>;
+    static constexpr bool has_splats = adds_splats<AnyTrace>;
+    static constexpr bool has_passes = ::has_passes<AnyTrace>;
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
     static constexpr int between_looks =
@@ -110,9 +110,9 @@ public:
                     // For the audit the same sample again, with numbers of another key.
                     Rgb again;
                     if (audited) again = trace(at, 1, audit).total;
-                    Rgb L = add_sample(at, own, stats);
+                    auto [L, total] = add_sample(at, own, stats);
                     if (audited) result_.film.audit(pixel, again);
-                    if constexpr (has_passes) of_pass.add(L);
+                    if constexpr (has_passes) of_pass.add(total);
                     if (seen) seen->add(L);
                     rays = rays_traced, paths_cut = own.recorder.paths_cut();
                 }
@@ -188,16 +188,21 @@ private:
         Ray ray = camera_sample(view_, at.x, at.y, with.sampler, centre).ray;
         Rgb L;
         if constexpr (has_splats) {
-            L = trace_(scene_, ray, with.splats, with.sampler, with.recorder);
-        } else if constexpr (has_passes) {
-            L = trace_.trace(scene_, ray, with.sampler, with.recorder);
+            L = function()(scene_, ray, with.splats, with.sampler, with.recorder);
         } else {
-            L = trace_(scene_, ray, with.sampler, with.recorder);
+            L = function()(scene_, ray, with.sampler, with.recorder);
         }
         if (chooses(options_)) L = choose(with);
         Rgb total = L;
         for (const Splat& splat : with.splats) total += splat.L;
         return {L, total};
+    }
+
+    const auto& function() const {
+        if constexpr (has_passes)
+            return trace_.trace;
+        else
+            return trace_;
     }
 
     static bool chooses(const RenderOptions& options) {
@@ -231,7 +236,7 @@ private:
         return L;
     }
 
-    Rgb add_sample(const Place& at, Tools& with, RenderStats& stats) {
+    Sample add_sample(const Place& at, Tools& with, RenderStats& stats) {
         auto [L, total] = trace(at, at.half, with);
         int number = static_cast<int>(at.sample) * halves() + at.half;
         double value = static_cast<double>(average(total));
@@ -249,7 +254,7 @@ private:
             }
         }
         if (!options_.split.empty()) split(at, with);
-        return L;
+        return {L, total};
     }
 
     void split(const Place& at, Tools& with) {

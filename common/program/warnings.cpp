@@ -116,10 +116,10 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
         }
         return;
     }
+    const std::string blurred =
+        "photons blur light within their radius: the reported error does not include this bias";
     if (options.search == LightSearch::photons) {
-        lines.push_back(
-            "photons blur light within their radius: the reported error does not include this "
-            "bias");
+        lines.push_back(blurred);
         return;
     }
     auto any_material = [&](auto is) {
@@ -152,7 +152,12 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     auto is_delta = [](LightType type) {
         return type == LightType::point || type == LightType::distant;
     };
-    if (options.search == LightSearch::both_ends) {
+    auto is_diffuse = [](const Material& m) { return m.type == MaterialType::diffuse; };
+    auto is_rough_metal = [&](const Material& m) { return is_receiver(m) && !is_diffuse(m); };
+    bool merges = options.search == LightSearch::merging;
+    if (merges && any_material(is_diffuse)) lines.push_back(blurred);
+    if (merges && !any_material(is_rough_metal)) return;
+    if (options.search == LightSearch::both_ends || merges) {
         const std::string both =
             "light that comes via mirrors or glass to what the camera "
             "sees via mirrors or glass ";

@@ -1,6 +1,7 @@
 #include "common/recording/recorder.h"
 
 void Recorder::forget() {
+    depth_ = 0;
     scattered_.clear();
     beta_.clear();
     from_light_.clear();
@@ -27,16 +28,15 @@ void Recorder::note_vertex(const Hit& x) {
     if (at_light_) {
         vertices_.push_back({x.p, static_cast<int>(vertices_.size()) - 1});
     } else {
-        size_t depth = scattered_.size();
-        latest_.resize(depth + 1);
-        latest_[depth] = static_cast<int>(vertices_.size());
-        vertices_.push_back({x.p, depth > 0 ? latest_[depth - 1] : -1});
+        latest_.resize(depth_ + 1);
+        latest_[depth_] = static_cast<int>(vertices_.size());
+        vertices_.push_back({x.p, depth_ > 0 ? latest_[depth_ - 1] : -1});
     }
     if (story_) story_->meets(x, vertices_.size());
 }
 
 /// The number, from 1, of the last vertex of the path from the eye; 0: none.
-int Recorder::current_vertex() const { return eye_vertex(scattered_.size()); }
+int Recorder::current_vertex() const { return eye_vertex(depth_); }
 
 /// The number of the vertex after this many scattering events; the last one, if the sky follows it.
 int Recorder::eye_vertex(size_t events) const {
@@ -48,41 +48,47 @@ void Recorder::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta
     if (at_light_) {
         from_light_ += specular ? 'S' : 'D';
     } else {
+        scattered_.erase(0, scattered_.size() - depth_);
         scattered_.insert(scattered_.begin(), specular ? 'S' : 'D');
+        beta_.resize(depth_++);
         beta_.push_back(beta);
     }
     if (story_) story_->goes_on(wi, f, pdf_w, specular, beta);
 }
 
 void Recorder::note_roulette(float q, Rgb beta) {
-    if (!at_light_) beta_.back() = beta;
+    if (!at_light_) beta_[depth_ - 1] = beta;
     if (story_) story_->survives(q, beta);
 }
 
 void Recorder::note_step_back() {
-    scattered_.erase(scattered_.begin());
-    beta_.pop_back();
+    depth_--;
     if (story_) story_->steps_back(current_vertex());
 }
 
 void Recorder::note_back_to(int t) {
-    while (scattered_.size() + 2 > static_cast<size_t>(t)) note_step_back();
+    while (depth_ + 2 > static_cast<size_t>(t)) note_step_back();
 }
 
 void Recorder::note_cut() {
     if (story_) story_->is_cut();
 }
 
+std::string Recorder::class_of(std::string path_class, size_t events) const {
+    path_class.append(scattered_, scattered_.size() - events);
+    return path_class += 'E';
+}
+
 void Recorder::note_emitted(Rgb Le, float mis_b) {
     bool sky = story_ && story_->has_left();
-    keep({"L" + scattered_ + "E", beta() * Le * mis_b, Contribution::own_pixel, current_vertex(),
+    keep({class_of("L", depth_), beta() * Le * mis_b, Contribution::own_pixel, current_vertex(),
           sky ? "sky met" : "light met", mis_b});
 }
 
 void Recorder::note_direct(Rgb Ld, Vec3 wi, float pdf_l, float pdf_b, float mis_l) {
     if (is_black(Ld)) return;
     if (story_) story_->aims(wi, pdf_l, pdf_b);
-    keep({"LD" + scattered_ + "E", beta() * Ld, Contribution::own_pixel, current_vertex(),
+    keep({class_of("LD", depth_), beta() * Ld, Contribution::own_pixel, current_vertex(),
           "light aimed at", mis_l});
 }
 
@@ -93,14 +99,14 @@ void Recorder::note_connected(Rgb L, int s, int t, float mis, size_t pixel) {
     std::string path_class = "L";
     path_class += from_light_.substr(0, before);
     if (s > 0) path_class.append(static_cast<size_t>(s > 1) + static_cast<size_t>(t > 1), 'D');
-    path_class += scattered_.substr(scattered_.size() - after) + "E";
+    path_class = class_of(std::move(path_class), after);
     std::string way = "s " + std::to_string(s) + ", t " + std::to_string(t);
     keep({path_class, L, pixel, t == 1 ? s : eye_vertex(after), way, mis});
 }
 
 void Recorder::note_gathered(Rgb scale) {
     for (const auto& [events, flux] : photons_) {
-        keep({"L" + events + scattered_ + "E", beta() * (scale * flux), Contribution::own_pixel,
+        keep({class_of("L" + events, depth_), beta() * (scale * flux), Contribution::own_pixel,
               current_vertex(), "photons"});
     }
     photons_.clear();

@@ -118,14 +118,18 @@ private:
     void note_connected(Rgb, int, int, float, size_t);
     void note_gathered(Rgb);
     void keep(const Contribution&);
-    Rgb beta() const { return beta_.empty() ? Rgb{1, 1, 1} : beta_.back(); }
+    Rgb beta() const { return depth_ == 0 ? Rgb{1, 1, 1} : beta_[depth_ - 1]; }
+    /// The class of a path that begins with these letters and ends with the first events of the
+    /// path from the eye.
+    std::string class_of(std::string path_class, size_t events) const;
     int current_vertex() const;
     int eye_vertex(size_t events) const;
 
     bool listening_ = false;
     PathStory* story_ = nullptr;
     uint64_t paths_cut_ = 0;
-    std::string scattered_;   // D and S of the vertices left so far, the first one last
+    size_t depth_ = 0;        // scattering events before the vertex that the path is at
+    std::string scattered_;   // D and S of all vertices left, the first one last
     std::vector<Rgb> beta_;   // behind each of them, the first one first
     std::string from_light_;  // D and S of the path from the light, the first one first
     bool at_light_ = false;   // events belong to the path from the light

@@ -127,7 +127,7 @@ TEST_SUITE("ch19 adaptive") {
         auto shares = std::make_shared<ch19::Shares>();
         for (auto& half : shares->of_half) half = ch19::shares(spiky, 100);
         uint32_t most = 0, least = 1000;
-        auto counts = ch19::samples_of(shares, 0, 216);  // 108 on the mean
+        auto counts = ch19::samples_of(shares, 0, 216);  // 108 on average
         for (size_t i = 0; i < 10000; i++) {
             uint32_t n = counts(i);
             most = std::max(most, n);

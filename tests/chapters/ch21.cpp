@@ -6,9 +6,9 @@
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "common/base/json.h"
-#include "tests/support/ggx_truth.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
+#include "tests/support/whole_paths.h"
 
 namespace {
 
@@ -44,103 +44,9 @@ Measured of_strategy(const Scene& scene, const SplatTrace& trace, std::pair<int,
     return census_of(scene, alone, paths, 2).all.measured(paths);
 }
 
-/// All that is seen of a whole path, from the light x[0] on to the eye: x[k] is the last surface.
-struct WholePath {
-    ch21::Path from_light;      // as the walk from the light left them
-    std::vector<Hit> from_eye;  // [i]: the vertex i + 1 steps from the eye
-    size_t light = 0;
-};
-
-/// The same points as a path from the eye meets them; nothing where it does not.
-bool add_eye_vertices(const Scene& scene, const Pinhole& camera, WholePath& path) {
-    Vec3 o = camera.view.o;
-    for (size_t i = path.from_light.size(); i-- > 0;) {
-        Vec3 target = path.from_light[i].x.p, d = normalize(target - o);
-        std::optional<Hit> x = intersect(
-            scene, path.from_eye.empty() ? Ray{o, d} : spawn_ray(path.from_eye.back(), d));
-        if (!x || length(x->p - target) > 2e-5f * scene.radius) return false;
-        path.from_eye.push_back(*x);
-        if (i == 0) break;
-        Vec3 wi = normalize(path.from_light[i - 1].x.p - x->p);
-        if (ch21::pdf_onwards(scene, false, *x, -d, wi) == 0) return false;
-        if (ch21::pdf_onwards(scene, true, *x, wi, -d) == 0) return false;
-        o = x->p;
-    }
-    return true;
-}
-
-/// A vector once more, in double.
-struct Exact {
-    double x, y, z;
-    explicit Exact(Vec3 v) : x(double{v.x}), y(double{v.y}), z(double{v.z}) {}
-    Exact(double a, double b, double c) : x(a), y(b), z(c) {}
-    Exact to(Exact b) const { return {b.x - x, b.y - y, b.z - z}; }
-    double dot(Exact b) const { return x * b.x + y * b.y + z * b.z; }
-    double length() const { return std::sqrt(dot(*this)); }
-    double cos(Exact b) const { return dot(b) / length() / b.length(); }
-};
-
-/// The density, in sr^-1, with which a path goes on at x, where its normals are the surface's; the
-/// same from both sides. In double, and by formulas of its own.
-double density_onwards(const Hit& x, Exact from, Exact to) {
-    if (is_specular(*x.material)) return 1;
-    Exact n(x.ng);
-    double cos_o = from.cos(n), cos_i = to.cos(n);
-    if (cos_o * cos_i <= 0) return 0;
-    if (x.material->type == MaterialType::diffuse) return std::abs(cos_i) / pi_exact;
-    double a = from.length(), b = to.length(), alpha = double{x.material->alpha};
-    double cos_h =
-        Exact(from.x / a + to.x / b, from.y / a + to.y / b, from.z / a + to.z / b).cos(n);
-    double D = alpha * alpha / pi_exact / std::pow(1 + cos_h * cos_h * (alpha * alpha - 1), 2);
-    return D / (1 + RoughMetal{alpha, 0, 0}.lambda(cos_o)) / (4 * std::abs(cos_o));
-}
-
-/// The balance heuristic as it is written: densities of the whole path by each strategy, in double
-/// and without a line of the lesson.
-std::vector<double> densities_of(const Scene& scene, const Endpoints& endpoints,
-                                 const WholePath& path) {
-    const auto& y = path.from_light;
-    size_t n = y.size();  // vertices but the eye
-    auto p = [&](size_t i) { return Exact(i < n ? y[i].x.p : endpoints.camera.view.o); };
-    auto hit = [&](size_t i) { return path.from_eye[n - 1 - i]; };
-    auto specular = [&](size_t i) { return i > 0 && i < n && is_specular(*y[i].x.material); };
-    auto to = [&](size_t a, size_t b) { return p(a).to(p(b)); };
-    auto area = [&](size_t from, size_t at) {  // of one sr at `from`, in m^-2 at `at`
-        Exact d = to(from, at);
-        return std::abs(d.cos(Exact(hit(at).ng))) / d.dot(d);
-    };
-    // Of each vertex, when it comes from the light, and from the eye.
-    std::vector<double> light(n), eye(n);
-    for (size_t i = 0; i < n; i++) {
-        if (i == 0) {
-            double sides = scene.lights[path.light].two_sided ? 2 : 1;
-            light[i] = static_cast<double>(pmf_light(endpoints.lights, path.light) *
-                                           pdf_area(scene, path.light)) /
-                       sides;
-        } else {
-            double pdf_w = i == 1 ? std::abs(to(0, 1).cos(Exact(hit(0).ng))) / pi_exact
-                                  : density_onwards(hit(i - 1), to(i - 1, i - 2), to(i - 1, i));
-            light[i] = pdf_w * area(i - 1, i);
-        }
-        double cos_c = to(n, i).cos(Exact(endpoints.camera.axis));
-        double pdf_w = i == n - 1 ? 1 / (double{endpoints.camera.area} * cos_c * cos_c * cos_c)
-                                  : density_onwards(hit(i + 1), to(i + 1, i + 2), to(i + 1, i));
-        eye[i] = pdf_w * area(i + 1, i);
-    }
-    std::vector<double> of_strategy(n + 1);  // by s; the eye alone comes from no light
-    for (size_t s = 0; s <= n; s++) {
-        bool joined = s == 0 || (!specular(s - 1) && !specular(s));
-        bool left_out = s == n && n < 3;  // direct light, or the light, connected to the camera
-        double density = joined && !left_out ? 1 : 0;
-        for (size_t i = 0; i < n; i++) density *= i < s ? light[i] : eye[i];
-        of_strategy[s] = density;
-    }
-    return of_strategy;
-}
-
 /// The same weight by the lesson.
-double lesson_weight(const Scene& scene, const Endpoints& endpoints, const WholePath& path,
-                     size_t s) {
+double lesson_weight(const Scene& scene, const Endpoints& endpoints,
+                     const WholePath<ch21::Path>& path, size_t s) {
     ch21::Path whole = path.from_light;
     ch21::Vertex pinhole;
     pinhole.x.p = endpoints.camera.view.o;
@@ -177,7 +83,7 @@ TEST_SUITE("ch21 weights") {
                 size_t n = 2 + i % 7;  // vertices of the path, but the eye
                 if (walk.size() < n) continue;
                 walk.resize(n);
-                WholePath path{walk, {}, 0};
+                WholePath<ch21::Path> path{walk, {}, 0};
                 if (!walk.back().connectible) continue;
                 if (!add_eye_vertices(scene, endpoints.camera, path)) continue;
                 path.light = static_cast<size_t>(path.from_eye.back().light);

@@ -270,20 +270,9 @@ TEST_SUITE("ch23 photon mapping") {
     }
 
     TEST_CASE("truth: the flux of a spot of light does not depend on the radius") {
-        // A mirror throws a spot, 1 m wide, onto a floor, from a point light: I times the mirror's
-        // solid angle. The picture shows the spot and what is blurred around it.
-        Scene scene = scene_of(
-            "LookAt 0 1.9 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 60\n"
-            "Film \"rgb\" \"integer xresolution\" 32 \"integer yresolution\" 32\nWorldBegin\n"
-            "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [0 1.5 0]\n"
-            "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] AttributeBegin Scale 2 1 2\n" +
-            square(0, true) +
-            "AttributeEnd Material \"conductor\" \"rgb reflectance\" [1 1 1]\n"
-            "Translate 0 2 0 Scale .1 1 .1\n" +
-            square(0, false));
-        scene.max_depth = 2;
-        double side = 2 * 1.9 * std::tan(pi_exact / 6), solid_angle = 4 * std::asin(0.01 / 0.26);
-        double truth = 0.5 / pi_exact * solid_angle / (side * side);
+        const SpotByMirror spot;
+        const Scene& scene = spot.scene;
+        double truth = spot.mean;
         for (bool final_gathering : {false, true}) {
             for (float radius : {0.06f, 0.15f, 0.4f}) {
                 CAPTURE(final_gathering);

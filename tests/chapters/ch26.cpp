@@ -66,7 +66,7 @@ Scene cube_room(double rho, size_t shining_faces, const std::string& more = "") 
     return world_of(text + more);
 }
 
-/// Patches alone, to be held against form factors.
+/// Patches alone, to compare form factors with.
 Patch patch_of(Vec3 a, Vec3 b, Vec3 c) {
     Patch p;
     Vec3 sides = cross(b - a, c - a);

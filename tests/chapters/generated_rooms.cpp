@@ -12,6 +12,7 @@
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/24_progressive_photons/estimator.h"
+#include "chapters/25_vertex_merging/estimator.h"
 #include "common/path/dispersion.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
@@ -143,6 +144,9 @@ std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
     traces.emplace_back("20", trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
     traces.emplace_back("21", splat_trace_with<ch21::trace>(endpoints_of(scene)));
     traces.emplace_back("22", splat_trace_with<ch22::trace>(ch22::prepare(scene)));
+    SplatPassTrace of_25 = ch25::merging_passes(scene, {.light_paths = 2000});
+    of_25.prepare(9, 1, [] { return false; });
+    traces.emplace_back("25", of_25.trace);
     for (bool final : {false, true}) {
         PassTrace of_23 =
             ch23::photon_passes(scene, {.light_paths = 2000, .final_gathering = final});

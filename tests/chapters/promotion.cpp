@@ -75,11 +75,15 @@ const std::vector<Promoted> promoted = {
      {"Vertex", "Path", "is_far", "can_be_hit", "direction", "vertex_at", "random_walk",
       "light_subpath", "place_light", "pdf_onwards", "pdf_emission", "connect_to_camera",
       "connect"}},
+    {"22",
+     "common/path/stored_subpaths.h",
+     {"Kept", "Subpath", "pdf_forward", "unweighted", "direct_light"}},
     {"23",
      "common/path/photon_map.h",
      {"Photon", "PhotonMap", "LightVertex", "is_diffuse", "PhotonMaps", "build_maps"},
      "photon_map.h"},
     {"23", "common/path/photons.h", {"PhotonSettings", "trace_light_path", "trace_light_paths"}},
+    {"24", "common/path/shrinking_radius.h", {"radius_of"}},
 };
 
 /// The name that a definition gives which starts with this line.

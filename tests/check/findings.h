@@ -15,7 +15,7 @@ using Quantities = std::map<std::string, std::map<std::string, Quantity>>;
 
 inline bool is_class(const std::string& name) { return name[0] == 'L' || name == "longer"; }
 
-/// Measurements held against what they should be.
+/// Measurements compared with what they should be.
 class Findings {
 public:
     Findings(Quantities measured, Quantities expected)

@@ -81,7 +81,7 @@ std::string ball(double radius) { return format("Shape \"sphere\" \"float radius
 const std::string floor_here = floor_of(paint(0.5));
 const std::string above = from_above(1.2);
 /// The place of a lamp at distance 2, this far from overhead, that faces the floor's middle.
-std::string aslant(double degrees) { return turn(degrees, z_axis) + at(0, 2, 0); }
+std::string tilted(double degrees) { return turn(degrees, z_axis) + at(0, 2, 0); }
 
 /// The same lamp near the floor, whose normals lean in all directions.
 const std::string bent_lamp =
@@ -111,7 +111,7 @@ std::string crowd() {
 void add_floors(std::vector<Probe>& p) {
     p.push_back({"floor", "a floor under a lamp", above + floor_here + lamp(at(0, 2, 0))});
     p.push_back(
-        {"slant", "a lamp 60 degrees from overhead", above + floor_here + lamp(aslant(60))});
+        {"slant", "a lamp 60 degrees from overhead", above + floor_here + lamp(tilted(60))});
     p.push_back({"turned", "a lamp overhead that is turned away by 60 degrees",
                  above + floor_here + lamp(at(0, 2, 0) + turn(60, z_axis))});
     p.push_back({"far", "a lamp of 2 x 2, twice as far",
@@ -190,7 +190,7 @@ void add_bent(std::vector<Probe>& p) {
     // Of each triangle the camera sees what is near one corner.
     std::string curved = group(paint(0.5) + scale(4) + at(0.9, 0, 0) +
                                square(true, "-1.5 1 0  0 1 0  1.5 1 0  0 1 0"));
-    std::string strip = lamp(aslant(-30));
+    std::string strip = lamp(tilted(-30));
     p.push_back({"leaning", "a floor whose normals lean, under a lamp", above + bent + strip});
     p.push_back(
         {"curved", "a floor whose normals differ from corner to corner", above + curved + strip});

@@ -1,4 +1,4 @@
-// What a film tells of its error: audits, halves, batches; and pictures held against each other
+// What a film tells of its error: audits, halves, batches; and pictures compared with each other
 // by another way of counting.
 #include <doctest/doctest.h>
 

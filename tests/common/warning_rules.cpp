@@ -300,7 +300,7 @@ TEST_SUITE("warning rules") {
                               "another chapter",
                           through =
                               "light comes to what is in view only through glass, where "
-                              "aiming at a light does not find it: chapters 20 to 24 do",
+                              "aiming at a light does not find it: chapters 20 to 25 do",
                           turned =
                               ": ReverseOrientation turns a light, \"bool twosided\" true "
                               "lights both sides",

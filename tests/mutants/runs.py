@@ -34,6 +34,8 @@ def all_runs():
         chapter = ("23_photon_mapping", "24_progressive_photons")[number % 2]
         add(f"$B/{chapter} $S/{scene}.pbrt --size 20x16 --spp 2 --photons 3000 --threads 1 --out a.pfm"
             " --stats a.json")
+    for scene in ("sds", "caustic", "cornell-spheres", "light-in-glass"):
+        add(f"$B/25_vertex_merging $S/{scene}.pbrt --size 20x16 --spp 3 --threads 1 --out a.pfm --stats a.json")
     for chapter in ("23_photon_mapping", "24_progressive_photons"):
         for words in ("--gather direct", "--gather final --radius 20"):
             add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 16x12 --spp 2 --photons 2000 {words} --out a.pfm")

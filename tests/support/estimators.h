@@ -1,4 +1,4 @@
-// What the chapters that aim at lights (09 to 13) are held against: a floor under lights whose
+// What the chapters that sample lights (09 to 13) are compared with: a floor under lights whose
 // irradiance is known, and paths of one chapter against those of another, class by class.
 #pragma once
 #include <functional>

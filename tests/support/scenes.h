@@ -101,7 +101,7 @@ inline Measured block_of(const Film& film, int x0, int y0, int side) {
     return {mean / pixels, std::sqrt(squares) / pixels};
 }
 
-/// Two pictures held against each other: the whole, and each block of pixels.
+/// Two pictures compared with each other: the whole, and each block of pixels.
 struct Agreement {
     double z_image = 0, worst_z = 0;       // standard errors apart
     double relative_se = 0, relative = 0;  // of the image mean: joint standard error, difference

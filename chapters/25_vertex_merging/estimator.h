@@ -1,0 +1,250 @@
+// Chapter 25: vertex connection and merging. Photons join the bidirectional paths of chapter 22 as
+// one more strategy: a path from the eye ends where many paths from lights have arrived nearby.
+//
+//   p_merge = p_s pdf(v) N pi r^2:    one more term in the sums of chapter 22
+#pragma once
+#include <memory>
+
+#include "chapters/25_vertex_merging/light_map.h"
+#include "common/path/shrinking_radius.h"
+#include "common/path/stored_subpaths.h"
+#include "common/path/trace.h"
+
+namespace ch25 {
+
+/// What is prepared for a scene, and for each pass.
+struct Merging {
+    Endpoints endpoints;
+    many_lights::Lights lights;
+    float area = 0;  // m^2, N pi r^2: of the disks of N light paths; 0: nothing merges
+    LightPaths paths = {};
+    PhotonMap map = {};
+};
+
+/// Computes what the vertices of a walk store, as in chapter 22, with one more term.
+///
+///   sum_j = c_j-1 + m_j-1 area pdf_j-1 + r_j-2 sum_j-1
+///   m_j     1 if paths may merge at vertex j, else 0;    pdf_j: of vertex j in this walk
+inline void add_sums(const Scene& scene, const Merging& merging, Subpath& walk) {
+    const Path& path = walk.path;
+    walk.kept.resize(path.size());
+    if (walk.from_light && !path.empty())
+        walk.kept[0] = {.pdf = path[0].pdf, .sum = can_be_hit(path[0].type) ? 1.0 : 0.0};
+    for (size_t j = 1; j < path.size(); j++) {
+        const Vertex &v = path[j - 1], &x = path[j];
+        Vec3 w = direction(v, x);
+        float d2 = length_squared(x.x.p - v.x.p);
+        float pdf =
+            pdf_forward(scene, merging.endpoints, walk, j, w) * std::abs(dot(w, x.x.ng)) / d2;
+        walk.kept[j] = {pdf, walk.kept[j - 1].sum, std::abs(dot(w, v.x.ng)) / d2, -w};
+        if (j == 1) continue;
+        double c = path[j - 2].connectible && v.connectible ? 1 : 0;
+        if (can_merge(v, walk.from_light ? path[j - 2] : x))
+            c += static_cast<double>(merging.area * walk.kept[j - 1].pdf);
+        float pdf_w = pdf_onwards(scene, !walk.from_light, v.x, w, walk.kept[j - 1].back);
+        float r = pdf_w * walk.kept[j - 1].to_area / walk.kept[j - 2].pdf;
+        walk.kept[j].sum = c + static_cast<double>(r) * walk.kept[j - 1].sum;
+    }
+}
+
+/// Sum of p_i / p_n-1 over connections with fewer than n vertices of this walk, and merges before
+/// its n-th vertex. pdf_w: as in chapter 22.      c_n-1 + r_n-2 sum_n-1
+inline double sum_below(const Subpath& walk, size_t n, size_t fewest, float pdf_w) {
+    double c = n == 1 || walk.path[n - 2].connectible ? 1 : 0;
+    if (n <= fewest + 1) return c;
+    const Kept& last = walk.kept[n - 1];
+    float r = pdf_w * last.to_area / walk.kept[n - 2].pdf;
+    return c + static_cast<double>(r) * last.sum;
+}
+
+/// Sum of p_i / p_s over strategies with fewer than n vertices of this walk, as in chapter 22;
+/// light paths may also merge at the n-th one.      r_n-1 (c_n-1 + m_n-1 area pdf_n-1 + r_n-2
+/// sum_n-1)
+inline double sum_of_fewer(const Merging& merging, const Subpath& walk, size_t n, size_t fewest,
+                           float pdf, float pdf_w) {
+    if (n <= fewest) return 0;
+    double sum = sum_below(walk, n, fewest, pdf_w);
+    float own_pdf = walk.kept[n - 1].pdf;
+    if (walk.from_light && n > 1 && can_merge(walk.path[n - 1], walk.path[n - 2]))
+        sum += static_cast<double>(merging.area * own_pdf);
+    return static_cast<double>(pdf / own_pdf) * sum;
+}
+
+/// The weight of connection (s, t): the balance heuristic, in constant time.
+///
+///   mis_s = p_s / sum over all connections and merges of p_i
+/// tested by  "identity: weights of connections and merges are p_i / sum p over whole paths"
+inline float mis_weight(const Scene& scene, const Merging& merging, const Subpath& light, size_t s,
+                        const Subpath& eye, size_t t) {
+    const Endpoints& endpoints = merging.endpoints;
+    const Vertex& z = eye.path[t - 1];
+    size_t fewest_t = s + t < 4 ? 2 : 1;  // 2: as in chapter 21, no splats of direct light
+    if (s == 0) {
+        float pdf_w = pdf_emission(z, eye.kept[t - 1].back);
+        return static_cast<float>(1 / (1 + sum_of_fewer(merging, eye, t, fewest_t, z.pdf, pdf_w)));
+    }
+    const Vertex& y = light.path[s - 1];
+    size_t fewest_s = can_be_hit(light.path[0].type) ? 0 : 1;
+    Vec3 w = direction(y, z);
+    float d2 = length_squared(z.x.p - y.x.p);
+    float pdf_y = pdf_forward(scene, endpoints, eye, t, -w) * std::abs(dot(w, y.x.ng)) / d2;
+    float pdf_z = pdf_forward(scene, endpoints, light, s, w) * std::abs(dot(w, z.x.ng)) / d2;
+    float back_y = s > 1 ? pdf_onwards(scene, false, y.x, w, light.kept[s - 1].back) : 0;
+    float back_z = t > 1 ? pdf_onwards(scene, true, z.x, -w, eye.kept[t - 1].back) : 0;
+    double sum = 1 + sum_of_fewer(merging, light, s, fewest_s, pdf_y, back_y) +
+                 sum_of_fewer(merging, eye, t, fewest_t, pdf_z, back_z);
+    return sum > 0 ? static_cast<float>(1 / sum) : 0;  // 0 if vertices coincide (0 / 0)
+}
+
+/// Merges the t-th vertex from the eye with the light paths that have arrived near it.
+///
+///   L = beta rho / pi  sum over photons nearer than r of  mis_merge K(d / r) flux / (pi r^2)
+///   K = 2 (1 - d^2 / r^2), as in chapter 23
+///   mis_merge = 1 / (1 + sum of p_i / p_merge on the light's side + the same on the eye's side)
+///
+/// Biased, as in chapter 23.      source  Georgiev et al. 2012; Hachisuka et al. 2012
+inline Rgb merge(const Scene& scene, const Merging& merging, const Subpath& eye, size_t t,
+                 Recorder& recorder) {
+    const Vertex& z = eye.path[t - 1];
+    if (!z.connectible || !is_diffuse(*z.x.material)) return {};
+    recorder.back_to(static_cast<int>(t));
+    const Kept& kept = eye.kept[t - 1];
+    float r = merging.map.radius();
+    int depth = scene.max_depth + 2 - static_cast<int>(t);  // scattering events that are left
+    float pdf_w = pdf_onwards(scene, true, z.x, kept.back, kept.back);
+    double from_eye = sum_below(eye, t, 1, pdf_w) / static_cast<double>(merging.area * kept.pdf);
+    Rgb sum;
+    merging.map.for_each_near(z.x.p, [&](const Photon& photon, Vec3 v) {
+        bool same_surface = dot(photon.ng, z.x.ng) > std::numbers::sqrt2_v<float> / 2;
+        if (!same_surface || std::abs(dot(v, z.x.ng)) > r / 8 || photon.depth > depth) return;
+        const LightVertex& y = merging.paths.vertices[photon.vertex];
+        float back_w = pdf_cosine_hemisphere(std::max(0.0f, dot(y.wi, z.x.n)));
+        double from_light = static_cast<double>(back_w) * y.others;
+        float mis = static_cast<float>(1 / (1 + from_light + from_eye));
+        Rgb flux = mis * 2 * (1 - dot(v, v) / (r * r)) * photon.flux;
+        sum += flux;
+        recorder.photon(flux, merging.paths, photon);
+    });
+    Rgb scale = z.x.material->reflectance / (pi * pi * r * r);
+    recorder.gathered(scale);
+    return z.beta * scale * sum;
+}
+
+/// A path from a light, and its sums.
+inline Subpath walk_from_light(const Scene& scene, const Merging& merging, Sampler& sampler,
+                               Recorder& recorder) {
+    Subpath walk = {true, light_subpath(scene, merging.endpoints, sampler, recorder)};
+    if (walk.path.size() > 1) place_light(scene, walk.path[0], walk.path[1]);
+    add_sums(scene, merging, walk);
+    return walk;
+}
+
+/// Estimates Li along the ray; splats the light path's contributions to other pixels.
+///
+///   L = sum over s, t of  mis_s,t (path of s vertices from the light, t from the eye)
+///     + sum over t of     mis_merge (photons near the t-th vertex from the eye)
+///
+/// Biased where paths merge; consistent, as the radius shrinks from pass to pass.
+/// tested by  "ch25 vertex merging"
+inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& splats,
+                 Sampler& sampler, Recorder& recorder) {
+    // Walk from a light and from the eye as in chapter 22.
+    sampler.jump(1 << 12);
+    Subpath light = walk_from_light(scene, merging, sampler, recorder);
+    sampler.jump(8);
+    recorder.start_at_eye();
+    Subpath eye = {false, random_walk(scene, merging.endpoints, false, ray, sampler, recorder)};
+    eye.path[0].x.p = ray.o;
+    place_light(scene, eye.path.back(), *(eye.path.end() - 2));
+    add_sums(scene, merging, eye);
+
+    // Connect every vertex of one path to every vertex of the other.
+    Rgb sum;
+    bool aims = scene.max_depth > 0 && eye.path[1].connectible;
+    size_t longest = static_cast<size_t>(scene.max_depth) + 2;
+    for (size_t t = 1; t <= eye.path.size(); t++) {
+        for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
+            if (aims && s + t == 3) continue;
+            if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
+            if (s == 2) place_light(scene, light.path[0], light.path[1]);
+            Splat splat = unweighted(scene, merging.endpoints, light.path, s, eye.path, t);
+            if (is_black(splat.L)) continue;
+            float mis = mis_weight(scene, merging, light, s, eye, t);
+            splat.L *= mis;
+            recorder.connected(splat.L, static_cast<int>(s), static_cast<int>(t), mis, splat.pixel);
+            if (t == 1) splats.push_back(splat);
+            if (t > 1) sum += splat.L;
+        }
+    }
+
+    // Merge every vertex of the path from the eye with the photons around it.
+    for (size_t t = eye.path.size(); t > 1 && merging.area > 0; t--)
+        sum += merge(scene, merging, eye, t, recorder);
+    return aims ? sum + direct_light(scene, merging.lights, eye.path, sampler, recorder) : sum;
+}
+
+/// Adds the vertices of one of N light paths to those of the pass, and photons where it may merge.
+inline void add_light_path(const Scene& scene, const Subpath& walk, float area, int N,
+                           LightPaths& paths) {
+    for (size_t j = 1; j < walk.path.size() && walk.path[j].x.material; j++) {
+        const Vertex& v = walk.path[j];
+        const Kept &kept = walk.kept[j], &before = walk.kept[j - 1];
+        paths.vertices.push_back({v.x.material, kept.back});
+        if (!can_merge(v, walk.path[j - 1])) continue;
+        double per_w = static_cast<double>(kept.to_area / before.pdf) * kept.sum;
+        paths.vertices.back().others = per_w / static_cast<double>(area * kept.pdf);
+        float cos_n = std::max(0.0f, dot(kept.back, smooth_normal(scene, v.x)));
+        float scale = cos_n / (dot(kept.back, v.x.ng) * static_cast<float>(N));
+        paths.add_photon(v.x.p, v.x.ng, scale * v.beta, j);
+    }
+}
+
+/// Pass one: traces the light paths that may merge, and sorts their photons into a map.
+inline void trace_light_paths(const Scene& scene, const PhotonSettings& settings, uint32_t pass,
+                              int threads, const Stopped& stopped, Merging& merging) {
+    float r = radius_of(scene, settings, pass);
+    int N = settings.light_paths, at_once = 256, parts = (N + at_once - 1) / at_once;
+    merging.area = static_cast<float>(N) * pi * r * r;
+    std::vector<LightPaths> of_part(static_cast<size_t>(parts));
+    parallel_for(parts, threads, [&](int part) {
+        if (stopped()) return;
+        Sampler sampler(settings.sampler, settings.seed, static_cast<uint32_t>(N));
+        Recorder nobody;
+        for (int i = part * at_once; i < std::min((part + 1) * at_once, N); i++) {
+            start_sample(sampler, pass, 1, static_cast<uint32_t>(i));
+            Subpath walk = walk_from_light(scene, merging, sampler, nobody);
+            add_light_path(scene, walk, merging.area, N, of_part[static_cast<size_t>(part)]);
+        }
+    });
+    merging.paths = {};
+    for (const LightPaths& some : of_part) merging.paths.add(some);
+    merging.map = PhotonMap(merging.paths.photons, r);
+}
+
+/// The settings, where the user leaves them open: two light paths for each pixel, at most a
+/// million, and a radius by the scene's size. No light paths where nothing is a mirror or glass.
+inline PhotonSettings settings_for(const Scene& scene, PhotonSettings settings) {
+    double most = 2.0 * scene.width * scene.height;
+    if (settings.light_paths == 0) settings.light_paths = static_cast<int>(std::min(most, 1e6));
+    if (settings.radius == 0) settings.radius = scene.radius / 60;
+    auto any = std::find_if(scene.materials.begin(), scene.materials.end(), is_specular);
+    if (any == scene.materials.end()) settings.light_paths = 0;
+    return settings;
+}
+
+/// The chapter's passes: new light paths and a smaller radius for each sample of all pixels.
+inline SplatPassTrace merging_passes(const Scene& scene, PhotonSettings settings) {
+    settings = settings_for(scene, settings);
+    auto merging =
+        std::make_shared<Merging>(Merging{endpoints_of(scene), many_lights::prepare(scene)});
+    auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
+        trace_light_paths(scene, settings, pass, threads, stopped, *merging);
+    };
+    auto trace_pass = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
+                          Recorder& recorder) __attribute__((flatten)) {
+        return trace(s, *merging, copy_of(ray), splats, sampler, recorder);
+    };
+    return {begin, trace_pass};
+}
+
+}  // namespace ch25

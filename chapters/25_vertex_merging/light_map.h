@@ -1,0 +1,47 @@
+// Chapter 25: the light paths of a pass, and the photons where they may merge.
+#pragma once
+#include "common/path/photon_map.h"
+#include "common/path/subpaths.h"
+
+namespace ch25 {
+
+/// A vertex of a path from a light, and what merging there needs.
+struct LightVertex {
+    const Material* material;
+    Vec3 wi;            // unit, to the vertex before
+    double others = 0;  // sr; times pdf_w: sum of p_i / p_merge on the light's side
+};
+
+/// The vertices of light paths, one path after the other, and photons at those that may merge.
+struct LightPaths {
+    std::vector<LightVertex> vertices;
+    std::vector<Photon> photons;
+
+    /// Adds photon to the last vertex.
+    void add_photon(Vec3 p, Vec3 ng, Rgb flux, size_t depth) {
+        uint32_t place = static_cast<uint32_t>(vertices.size() - 1);
+        photons.push_back({p, ng, flux, static_cast<int>(depth), place});
+    }
+    /// Adds the light paths of another part of the pass.
+    void add(const LightPaths& other) {
+        for (Photon photon : other.photons) {
+            photon.vertex += static_cast<uint32_t>(vertices.size());
+            photons.push_back(photon);
+        }
+        vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+    }
+    /// The light path of a photon, from the first vertex behind the light to the photon itself.
+    std::span<const LightVertex> path_of(const Photon& photon) const {
+        size_t events = static_cast<size_t>(photon.depth), end = photon.vertex + size_t{1};
+        return {vertices.data() + (end - events), events};
+    }
+};
+
+/// Whether paths may merge at v, which light reaches from vertex `before`: at a diffuse point
+/// behind a mirror or glass.
+inline bool can_merge(const Vertex& v, const Vertex& before) {
+    const Material *m = v.x.material, *of_before = before.x.material;
+    return m && of_before && is_diffuse(*m) && is_specular(*of_before) && before.x.light < 0;
+}
+
+}  // namespace ch25

@@ -1,0 +1,30 @@
+// Chapter 25 as a program: reads options, loads a scene, renders it, writes the picture.
+#include "chapters/25_vertex_merging/estimator.h"
+#include "common/program/render.h"
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        PhotonSettings s;
+        s.light_paths = 0;
+        std::vector<Option> extra = {
+            {"photons", "N",
+             "light paths in each pass that may merge; 0: two for each pixel, at most a million",
+             [&](const std::string& text) {
+                 s.light_paths = static_cast<int>(parse_integer("photons", text, 0, 1'000'000));
+             },
+             "0"},
+            {"radius", "METRES",
+             "radius of the disk in which paths merge, in the first pass (default 0: by the "
+             "scene's size)",
+             [&](const std::string& text) {
+                 s.radius = text == "0" ? 0 : static_cast<float>(parse_positive("radius", text));
+             },
+             "0"}};
+        RenderOptions options = parse_render_options(argc, argv, "25_vertex_merging",
+                                                     "scenes/sds.pbrt", std::move(extra));
+        options.search = LightSearch::merging;
+        Scene scene = load(options);
+        s.sampler = options.sampler, s.seed = options.seed;
+        return render(scene, options, ch25::merging_passes(scene, s));
+    });
+}

@@ -1,0 +1,62 @@
+// taught by chapter 22
+// Subpaths whose vertices store what the weights of their connections need, and direct light.
+#pragma once
+#include "common/path/many_lights.h"
+#include "common/path/subpaths.h"
+
+/// What a vertex stores for the weights of all its connections.
+struct Kept {
+    float pdf = 1;      // m^-2, of this vertex in this walk
+    double sum = 0;     // see add_sums()
+    float to_area = 0;  // cos / d^2 at the vertex before: turns sr^-1 here into m^-2 there
+    Vec3 back = {};     // unit, to the vertex before, by both points
+};
+
+/// A path from the eye or from a light, and what its vertices store.
+struct Subpath {
+    bool from_light;
+    Path path;
+    std::vector<Kept> kept = {};
+};
+
+/// The density, in sr^-1, with which this walk leaves its n-th vertex along w.
+inline float pdf_forward(const Scene& scene, const Endpoints& endpoints, const Subpath& walk,
+                         size_t n, Vec3 w) {
+    const Vertex& v = walk.path[n - 1];
+    if (n > 1) return pdf_onwards(scene, walk.from_light, v.x, walk.kept[n - 1].back, w);
+    return walk.from_light ? pdf_emission(v, w) : importance_cos(endpoints.camera, w);
+}
+
+/// The contribution of strategy (s, t) without its weight, and its pixel, as in chapter 21.
+inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Path& light, size_t s,
+                        const Path& eye, size_t t) {
+    const Vertex& z = eye[t - 1];
+    if (s == 0) return {Contribution::own_pixel, z.beta * z.Le};
+    const Vertex& y = light[s - 1];
+    if ((s > 1 && !y.connectible) || !z.connectible) return {Contribution::own_pixel, {}};
+    if (t == 1) return connect_to_camera(scene, endpoints.camera, y);
+    return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
+}
+
+/// Direct light at the first vertex from the eye (neither mirror nor glass), as in chapter 15: from
+/// two sampled lights and from the emission that the next ray hits.
+/// tested by  "variance: direct light has the error of chapter 15"
+inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, const Path& eye,
+                        Sampler& sampler, Recorder& recorder) {
+    sampler.jump(1 << 11);
+    TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
+    const Vertex& x = eye[1];
+    many_lights::Candidates c;
+    many_lights::choose_candidates(scene, lights, x.x, x.back, u.candidates, c);
+    Rgb L;
+    if (eye.size() > 2 && !is_black(eye[2].Le)) {
+        const Vertex& y = eye[2];
+        std::optional<Hit> hit = y.type == LightType::area ? std::optional(y.x) : std::nullopt;
+        float pdf_b = pdf_onwards(scene, false, x.x, x.back, -y.back);
+        float mis_b = many_lights::mis_emission(scene, lights, c, pdf_b, hit);
+        L = y.beta * y.Le * mis_b;
+        recorder.connected(L, 0, 3, mis_b);
+    }
+    recorder.back_to(2);
+    return L + many_lights::direct_light(scene, lights, c, u, recorder);
+}

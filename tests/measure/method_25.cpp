@@ -1,0 +1,20 @@
+#include "chapters/25_vertex_merging/estimator.h"
+#include "tests/measure/methods.h"
+
+static auto by_merging(PhotonSettings settings) {
+    return [=](const Scene& scene, RenderOptions options) {
+        options.search = LightSearch::merging;
+        PhotonSettings own = settings;
+        own.sampler = options.sampler, own.seed = options.seed;
+        return render_film(scene, options, ch25::merging_passes(scene, own));
+    };
+}
+
+[[maybe_unused]] static const bool added =
+    add_method({.name = "25",
+                .label = "25 vertex merging",
+                .color = "#b8860b",
+                .finds_light = "by photons from both ends",
+                .scenes = {"sds", "caustic", "cornell-spheres"},
+                .render = by_merging({.light_paths = 0}),
+                .biased = true});
