@@ -42,9 +42,9 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
 ///
 ///   q = max(beta), within [0.05, 0.95];  1 for the first few vertices
 ///
-/// The largest channel: so no channel of beta / q exceeds 1 (or beta / 0.95). At most 0.95, so that
-/// paths that lose nothing (mirrors, total reflection) end too; at least 0.05, so that one survival
-/// multiplies the weight by at most 20.
+/// The largest channel of beta: where q is below 0.95, no channel of beta / q is above 1.
+/// At most 0.95: so paths that lose nothing (between mirrors, in total reflection) end as well.
+/// At least 0.05: so one survival multiplies the weight by at most 20.
 inline float survival_probability(Rgb beta, int depth) {
     if (depth < 3) return 1;
     return std::clamp(max_component(beta), 0.05f, 0.95f);

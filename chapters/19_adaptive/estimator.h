@@ -79,8 +79,8 @@ inline void share_out(Shares& s, const Pilot& pilot, int threads) {
     });
 }
 
-/// The level at which the average of max(least, level share) is `wanted`. Lowered step by step, as
-/// pixels that get `least` leave less for the others.
+/// The factor `level` with which the average of max(least, level share) is `wanted`. Pixels with
+/// `least` leave fewer samples for the others: it is lowered until no more pixels get `least`.
 inline double level_of(const std::vector<double>& shares, double least, double wanted) {
     for (double level = infinity;;) {
         double sum = 0, left = 0;
@@ -95,10 +95,10 @@ inline double level_of(const std::vector<double>& shares, double least, double w
 
 /// The number of samples in a half of each pixel, for `spp` samples per pixel on average.
 ///
-///   n = floor(max(least, level share) + u),    least = pilot / 2 + 0.05 (spp - pilot) / 2
+///   n = floor(level share + u),  at least pilot / 2 + 0.05 (spp - pilot) / 2, at most 8 spp
 ///
-/// 0.05: pixels that seem to have no noise may have some. For the same reason none gets more than
-/// 16 times the average. u in [0,1) differs for each pixel and half: rounding is unbiased.
+/// At least: a pilot without noise may have missed some. At most: a pilot with one very bright
+/// sample may be wrong, too. u in [0,1) differs for each pixel and half: rounding is unbiased.
 /// tested by  "identity: samples are as many as the shares say"
 inline SamplesOf samples_of(std::shared_ptr<const Shares> s, int half, uint32_t spp) {
     uint32_t pilot = std::min(spp, s->pilot), first = (pilot + (half == 0)) / 2;

@@ -75,8 +75,8 @@ inline LightTable build_light_table(const std::vector<double>& pmf) {
 
 /// Chooses a light in O(1): first a column, then one of the two lights in it.
 ///
-/// u is a double with 48 random bits: a float's 24 bits would give each of a million columns only
-/// 17 different numbers.
+/// u is a double with 48 random bits. A random float has 24: of its 2^24 values, each of a million
+/// columns would get only 17.
 inline uint32_t pick_light(const LightTable& lights, double u) {
     int N = static_cast<int>(lights.size());
     double at = u * N;
