@@ -116,7 +116,7 @@ inline Points halton_points(uint32_t pair, uint32_t n, uint32_t seed) {
 ///
 ///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
 ///
-/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: one step of code per block size.
+/// Steps: each adds the higher half of a block of bits to the lower, with halves of 16 ... 1 bits.
 /// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points"
 inline uint32_t sobol_second(uint32_t index) {
     uint32_t x = reverse_bits(index);
@@ -184,8 +184,8 @@ inline Points shuffled(Points points, uint32_t seed) {
 /// The second pair of dimensions, z and w, of points in four.
 ///
 /// Halton uses two more bases. The other kinds take a second set of points in a random order, so
-/// that (x, y) and (z, w) are paired at random. In the same order, both pairs would fill their
-/// strata in step, and z would be correlated with x.
+/// that (x, y) and (z, w) are paired at random. In the same order, both pairs would reach their
+/// strata at the same time, and z would be correlated with x.
 /// tested by  "variance: two pairs in a random order have the variance of random matching",
 ///            "failure: two Sobol sets in the same order have a variance of 1/248 for any N"
 inline Points second_pair(PointSet set, uint32_t n, uint32_t seed) {

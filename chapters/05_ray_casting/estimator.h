@@ -1,7 +1,7 @@
 // Chapter 05: ray casting, and Whitted's ray tracing: what one ray from the eye can find out.
 //
 //   L = Le + sum over lamps of  f I cos / r^2 V     (diffuse: one shadow ray for each lamp)
-//   L = Le + R L(reflected) + (1 - R) L(refracted)  (mirror and glass: follow every branch)
+//   L = Le + R L(reflected) + (1 - R) / eta^2 L(refracted)     (mirror and glass: every branch)
 #pragma once
 #include <optional>
 
@@ -123,7 +123,7 @@ inline PrimHit linear_scan(const Geometry& g, Ray ray) {
 /// The mirror direction of wo about n.      wi = 2 (n.wo) n - wo
 inline Vec3 reflect(Vec3 wo, Vec3 n) { return 2 * dot(wo, n) * n - wo; }
 
-/// The direction into which light from wo is bent where it enters a medium eta times as dense.
+/// The direction into which light from wo is refracted; eta: index beyond the surface over here.
 ///
 ///   sin_t = sin_i / eta  (Snell);  wi = -wo / eta + (cos_i / eta - cos_t) n
 ///
@@ -153,7 +153,7 @@ inline float fresnel_dielectric(float cos_i, float eta) {
     return (r_s * r_s + r_p * r_p) / 2;
 }
 
-/// A lamp as Whitted's method sees it: everything that shines, gathered in one point.
+/// A lamp in Whitted's method: each primitive that emits light is replaced by one point.
 struct Lamp {
     Vec3 p = {};         // m, the centre of the primitive that shines
     Vec3 n = {};         // its normal; 0: shines the same to all sides (a sphere, a point light)
@@ -241,7 +241,7 @@ inline Rgb shade_all(const Scene& scene, const Hit& x, Rgb beta, Recorder& recor
 
 inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, Recorder& recorder);
 
-/// Follows mirror and glass into every branch; beta is what the eye keeps of what they bring.
+/// Follows every branch at mirror and glass; beta: the factor with which x counts at the eye.
 inline Rgb follow_specular(const Scene& scene, const Hit& x, Vec3 wo, Rgb beta, int depth,
                            Recorder& recorder) {
     auto branch = [&](Vec3 wi, Rgb share) {
@@ -284,7 +284,7 @@ inline Rgb follow(const Scene& scene, const Ray& ray, Rgb beta, int depth, Recor
     return L + follow_specular(scene, x, -ray.d, beta, depth, recorder);
 }
 
-/// Estimates Li along the ray as Whitted did: without chance, and without the paths it cannot see.
+/// Estimates Li along the ray as Whitted did: without random numbers, from some classes of paths.
 ///
 ///   classes found:  LE, LDE, LS+E, LDS+E      missed:  any with two D, and LS+D...
 ///

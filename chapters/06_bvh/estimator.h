@@ -1,9 +1,9 @@
-// Chapter 06: a hierarchy of boxes. Ask a box before asking what is in it.
+// Chapter 06: a hierarchy of boxes. A ray that misses a box misses everything inside it.
 //
 //   cost(node) = area(node) / area(root) * (inner: 1;  leaf: number of primitives)
 //
-// A ray that meets the root meets a box inside it with a chance in proportion to its area: the sum
-// of cost over all nodes is the expected work of a ray, and what a good build keeps small.
+// A ray that meets the root meets a box inside it with a probability proportional to the box's
+// area. So the sum of cost over all nodes is the expected work of a ray: a good tree has a low sum.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -41,9 +41,9 @@ inline Box box_of(const Geometry& g, uint32_t prim) {
 ///
 ///   in each axis the ray is between two planes for t in [near, far]; inside the box for all three
 ///
-/// A ray in the plane of a side gives 0 * infinity = NaN: no comparison with it holds, so that the
-/// side counts as touched. near and far are rounded, and so is where a triangle is hit: near is
-/// taken a bit sooner and far a bit later, or a ray would lose what lies on the side of a box.
+/// A ray in the plane of a side gives 0 * infinity = NaN. Comparisons with NaN are false, so the
+/// side counts as touched. near and far are rounded, and so are hits of triangles. So near is made
+/// a bit smaller and far a bit larger: no ray misses what lies on the side of a box.
 /// source  Kay, Kajiya 1986      tested by  "brute: no step loses a ray"
 inline float enter(const Box& box, const Ray& ray, Vec3 inv_d) {
     float t0 = 0, t1 = ray.t_max;
@@ -76,7 +76,7 @@ struct Item {
     uint32_t prim;
 };
 
-/// How to part items [begin, end): orders them and returns where the right half begins; `begin`
+/// How to split items [begin, end): orders them and returns where the right part begins; `begin`
 /// for a leaf.
 using Split = size_t (*)(std::vector<Item>& items, size_t begin, size_t end);
 
@@ -86,7 +86,7 @@ inline Box box_of_centres(const std::vector<Item>& items, size_t begin, size_t e
     return box;
 }
 
-/// Half of them to each side, by their place along the longest axis.
+/// Half of the items on each side, by the position of their centres on the longest axis.
 inline size_t split_median(std::vector<Item>& items, size_t begin, size_t end) {
     if (end - begin <= 4) return begin;
     Box centres = box_of_centres(items, begin, end);
@@ -108,7 +108,7 @@ inline size_t bin_of(const Item& item, const Box& centres, int axis) {
     return std::min(static_cast<size_t>(place * bins), bins - 1);
 }
 
-/// A way to part items: those in a bin up to `bin` go to the left. axis -1: do not.
+/// A way to split items: those in a bin up to `bin` go to the left. axis -1: no split.
 struct Cut {
     float cost = infinity;
     int axis = -1;
@@ -154,8 +154,8 @@ inline Cut best_cut(const std::vector<Item>& items, size_t begin, size_t end, fl
     return best;
 }
 
-/// Where the surface area heuristic costs least, tried between 16 bins in each axis. A leaf costs
-/// as much as it has items.
+/// The cheapest cut by the surface area heuristic, between 16 bins on each axis. A leaf costs one
+/// test for each of its items.
 inline size_t split_sah(std::vector<Item>& items, size_t begin, size_t end) {
     constexpr size_t largest_leaf = 16;
     bool may_be_leaf = end - begin <= largest_leaf;
@@ -206,7 +206,7 @@ inline Hierarchy build(const Geometry& g, Split split) {
     return h;
 }
 
-/// Expected nodes and primitives that a ray through the root looks at.
+/// Expected number of nodes and primitives that a ray through the root is tested against.
 inline double sah_cost(const Hierarchy& h) {
     double cost = 0;
     for (const Node& node : h.nodes) {
@@ -274,8 +274,8 @@ struct Walk {
     PrimHit found() const { return best.prim == PrimHit::none ? PrimHit{} : best; }
 };
 
-/// Finds the nearest hit. In order, the nearer child comes first, and a box that begins behind the
-/// hit found so far is not opened; else all boxes that the ray meets are.
+/// Finds the nearest hit. in_order: the nearer child comes first, and a box that begins behind the
+/// nearest hit so far is not opened. Otherwise all boxes that the ray meets are opened.
 inline PrimHit traverse(const Hierarchy& h, const Geometry& g, const Ray& ray, bool in_order,
                         Work& work) {
     struct Waiting {
@@ -305,8 +305,8 @@ inline PrimHit traverse(const Hierarchy& h, const Geometry& g, const Ray& ray, b
     return walk.found();
 }
 
-/// A node of up to four children, kept as Node keeps one; but an inner child is the node of four
-/// number `first`.
+/// A node of up to four children, each stored as a Node. `first` of an inner child is its index in
+/// FourHierarchy::nodes.
 struct FourNode {
     std::array<Node, 4> child;
     size_t size = 0;
@@ -316,14 +316,14 @@ struct FourHierarchy {
     std::vector<uint32_t> prims;
 };
 
-/// Makes a node of four of what lies below a node of two: as long as there is room, the largest
-/// inner child makes way for its own two. Returns the number of the new node.
+/// Makes a node of four from a node of two: while there is room, the largest inner child is
+/// replaced by its own two children. Returns the number of the new node.
 ///
 /// source  Dammertz, Hanika, Keller 2008; Wald, Benthin, Boulos 2008
 inline uint32_t collapse(const Hierarchy& h, uint32_t root, FourHierarchy& four) {
     std::vector<uint32_t> below = {root};
     while (below.size() < 4) {
-        // An inner node is worth opening in proportion to the chance that a ray meets it.
+        // Open the inner node that a ray meets with the highest probability: the largest one.
         auto worth = [&](uint32_t i) { return h.nodes[i].count > 0 ? -1 : h.nodes[i].box.area(); };
         auto largest = std::max_element(below.begin(), below.end(), [&](uint32_t a, uint32_t b) {
             return worth(a) < worth(b);
@@ -350,7 +350,7 @@ inline FourHierarchy collapse(const Hierarchy& h) {
     return four;
 }
 
-/// Finds the nearest hit: asks the boxes of four children at a time, and goes on with the nearest.
+/// Finds the nearest hit: tests the boxes of four children, and continues with the nearest child.
 inline PrimHit traverse_four(const FourHierarchy& h, const Geometry& g, const Ray& ray,
                              Work& work) {
     struct Waiting {

@@ -105,10 +105,10 @@ Floats farthest(const Floats (&a)[3]) { return max_abs(max_abs(a[0], a[1]), a[2]
 }
 
 /// intersect_triangle() on a whole block: the edges of all triangles at once, with the same bits.
-/// Hits up to best.t count, that included; of those at best.t only ones with a lower number.
+/// Hits with t up to and including best.t count; at best.t only one with a lower number.
 ///
-/// t and the weights are worked out in float first. Where they may be wrong by more than
-/// float_error, in double precision, as intersect_triangle() does.
+/// t and the weights are computed in float first. Where they may be wrong by more than float_error,
+/// they are computed in double precision, as in intersect_triangle().
 template <bool any>
 [[gnu::always_inline]] inline bool test_triangles(const BvhBlock& block, const Ray& ray,
                                                   const Shear& shear, PrimHit& best) {
@@ -122,8 +122,8 @@ template <bool any>
     inside &= ~equal(load(block.prim), ray.from);
     if (inside == 0) return false;
 
-    // In float is only known what is off by little. An e_i of 0 may be so by rounding alone, and
-    // the triangle elsewhere.
+    // Float is used only where its error is small. If an e_i is 0, this may be due to rounding, and
+    // the ray may miss the triangle.
     Floats z_t = e[0] * c.z[0] + e[1] * c.z[1] + e[2] * c.z[2], det = e[0] + e[1] + e[2];
     Floats t = z_t / det * scale, size = abs(z_t), error = error_of(c);
     uint32_t strictly = inside & (less(zero, low) | less(high, zero));
@@ -187,8 +187,8 @@ void prefetch(const Bvh& bvh, uint32_t child) {
         __builtin_prefetch(static_cast<const char*>(p) + 64 * line);
 }
 
-/// What ray and block have in common becomes the best hit. Returns whether any was asked for, and
-/// is found.
+/// Updates `best` by the hits of the ray with the block. Returns whether `any` is set and a hit was
+/// found.
 template <bool any, bool counting>
 [[gnu::always_inline]] inline bool test_block(const BvhBlock& block, bool mixed, const Geometry& g,
                                               const Ray& ray, const Shear& shear, PrimHit& best,
@@ -234,10 +234,10 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
     const AxisRay x(ray, centre, 0, inv[0]), y(ray, centre, 1, inv[1]), z(ray, centre, 2, inv[2]);
     uint32_t octant = x.negative | y.negative << 1 | z.negative << 2;
     float reach = best.t * scale * slack;
-    // A hit may lie outside of its primitive's box by what rounding did to it, and the distances
-    // are rounded too. The former is padded for when a box is built; for the latter the far planes
-    // are taken a bit further away. Never closer: what a box lets through for nothing the
-    // triangles turn down, but what it keeps out is lost.
+    // Rounding may move a hit out of its primitive's box, and the distances are rounded too. For
+    // the first, boxes are padded when they are built. For the second, the far planes are moved a
+    // bit away, never closer: a box that is tested needlessly costs some time, but a box that is
+    // skipped by mistake loses a hit.
     Floats further = splat(1 + 0x1p-20f);
 
     // Children still to be visited, the nearest on top, each with the distance to its box. At most

@@ -16,7 +16,7 @@ constexpr uint32_t few = 48;               // references for which boxes cost mo
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
 constexpr uint32_t reported = 16384;       // references of a subtree whose end is reported
-constexpr float worth_cutting = 1e-2f;     // of all surface, that lies in one box for nothing
+constexpr float worth_cutting = 1e-2f;     // of all surface, that one box wastes
 constexpr uint32_t whole_for_a_part = 10;  // so many references for one more by cutting
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
 
@@ -396,9 +396,9 @@ private:
         return all;
     }
 
-    /// Long slanted triangles fill little of their boxes, and every ray through such a box asks for
-    /// them. So they are cut into parts, each a reference with a box of its own: those first whose
-    /// boxes have most surface for nothing.
+    /// Long slanted triangles fill little of their boxes, and every ray through such a box tests
+    /// them. So they are cut into parts, each a reference with a box of its own: first those whose
+    /// boxes waste the most surface.
     /// source  Ernst, Greiner 2007, "Early Split Clipping"; by waste: Karras, Aila 2013
     void cut_slanted(Range& all) {
         struct Waste {
@@ -531,7 +531,7 @@ private:
         return static_cast<uint8_t>(best.axis);
     }
 
-    /// Swaps what goes left to the front. Which side that is nobody can predict, so no branch.
+    /// Swaps what goes left to the front. The side cannot be predicted, so there is no branch.
     template <typename GoesLeft>
     void partition(uint32_t begin, uint32_t end, GoesLeft goes_left, Range& left, Range& right) {
         uint32_t front = begin;

@@ -57,7 +57,7 @@ inline uint32_t reverse_bits(uint32_t x) {
 ///
 ///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
 ///
-/// The binomials mod 2 repeat in blocks of 16, 8, 4, 2 and 1: one step of code per block size.
+/// Steps: each adds the higher half of a block of bits to the lower, with halves of 16 ... 1 bits.
 /// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points"
 inline uint32_t sobol_second(uint32_t index) {
     uint32_t x = reverse_bits(index);
