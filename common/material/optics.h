@@ -8,7 +8,7 @@
 /// The mirror direction of wo about n.      wi = 2 (n.wo) n - wo
 inline Vec3 reflect(Vec3 wo, Vec3 n) { return 2 * dot(wo, n) * n - wo; }
 
-/// The direction into which light from wo is refracted; eta: index beyond the surface over here.
+/// The direction into which light from wo is refracted; eta: index there / index on wo's side.
 ///
 ///   sin_t = sin_i / eta  (Snell);  wi = -wo / eta + (cos_i / eta - cos_t) n
 ///
