@@ -116,7 +116,8 @@ std::vector<Event> surroundings() {
             {"with a camera lens", with("lensradius")}};
 }
 
-/// Sentences on what all paths that are off have in common.
+}  // namespace
+
 std::string where_to_look(const Evidence& evidence) {
     std::map<std::string, Probe> probes;
     for (const Probe& probe : all_probes()) probes.emplace(probe.name, probe);
@@ -166,6 +167,8 @@ std::string where_to_look(const Evidence& evidence) {
     if (!worst.empty()) text += "\n    Off most surely: " + worst + ".";
     return text;
 }
+
+namespace {
 
 /// Where two hypotheses differ most, and what each predicts there.
 std::string deciding_probe(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {

@@ -41,6 +41,9 @@ struct Fit {
 std::vector<Fit> explanations(const std::vector<Hypothesis>& hypotheses, const Evidence& evidence,
                               double ratio = 1000);
 
+/// Sentences on what all paths that are off have in common; empty: none is off.
+std::string where_to_look(const Evidence& evidence);
+
 /// What is said of a chapter whose pictures are not right; empty: they are.
 ///
 /// From the pictures alone: nothing here knows the code of the chapter. A mistake is named only if

@@ -9,11 +9,13 @@ checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp) test
             tests/measure/measure.cpp tests/support/main.cpp)
 $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
 	@mkdir -p $(@D); printf '#include "$<"\n' >$@
-# Compiled in advance, with the flags that tests/check/check compiles with.
+# Compiled in advance, with the flags that tests/check/check compiles with. g++ takes a header for the one in here only if its
+# time is the same: not that of another folder, from ccache.
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
-	@echo "compile $<"; $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -x c++-header $< -o $@
+	@echo "compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -MMD -MP -MF $(BUILD)/obj/check_support.d \
+	    -x c++-header $< -o $@
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
-#: make check CH=09      is it right? one line for each claim, and the name of the mistake (a minute)
+#: make check CH=09      is it right? one line for each claim, and what is off (a minute); NAME=1: the name of the mistake
 check: checkers $(made) \
        $(if $(wildcard tests/measure/method_$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare

@@ -5,6 +5,7 @@
 
 #include "tests/support/process.h"
 #include "tests/support/program.h"
+#include "tests/support/seal.h"
 
 namespace {
 
@@ -70,5 +71,5 @@ int main(int argc, char** argv) {
     std::vector<const char*> pointers;
     for (const std::string& word : words) pointers.push_back(word.c_str());
     int result = doctest::Context(static_cast<int>(pointers.size()), pointers.data()).run();
-    return ran_none ? 1 : result;
+    return seal(ran_none ? 1 : result);
 }
