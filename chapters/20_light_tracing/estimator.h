@@ -230,7 +230,7 @@ inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& 
             return;
         }
 
-        // Sample the next direction. beta leaves out the light: so does roulette.
+        // Sample the next direction. beta does not include the flux, so roulette ignores it too.
         float u1 = sampler.u1();
         BsdfSample s = sample_light_bsdf(scene, *x, wi, u1, sampler.u2());
         if (s.pdf_w == 0) return;

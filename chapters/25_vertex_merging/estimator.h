@@ -57,9 +57,9 @@ inline double sum_below(const Subpath& walk, size_t n, size_t fewest, float pdf_
     return c + static_cast<double>(r) * last.sum;
 }
 
-/// Sum of p_i / p_s over strategies with fewer than n vertices of this walk, as in chapter 22;
-/// light paths may also merge at the n-th one.      r_n-1 (c_n-1 + m_n-1 area pdf_n-1 + r_n-2
-/// sum_n-1)
+/// Sum of p_i / p_s over strategies with fewer than n vertices of this walk, as in chapter 22,
+/// and over merges at the n-th and before it.
+///   r_n-1 (c_n-1 + m_n-1 area pdf_n-1 + r_n-2 sum_n-1)
 inline double sum_of_fewer(const Merging& merging, const Subpath& walk, size_t n, size_t fewest,
                            float pdf, float pdf_w) {
     if (n <= fewest) return 0;

@@ -87,9 +87,9 @@ inline std::array<std::array<Vec3, 2>, 4> pairs_of_points(const Patch& p, const 
     return pairs;
 }
 
-/// What two patches exchange: G, m^2. The share of four rays between them that nothing stops, times
-/// the form factor without walls. That is computed from the smaller patch: seen from the larger
-/// one, the smaller may be a spike between few points. key: of the random numbers.
+/// What two patches exchange: G, m^2. It is the fraction of four rays between them that nothing
+/// stops, times G without walls. The latter is computed from points of the smaller patch: the few
+/// points of the larger one may all be far from the smaller. key: of the random numbers.
 /// tested by  "truth: form factors by contour of squares and disks",
 ///            "truth: a small patch and a large one at decades of size and distance"
 inline double exchange(const Scene& scene, const Patch& p, const Patch& q, uint32_t key) {
@@ -136,7 +136,7 @@ inline double sweep(const Matrix& G, const std::vector<Patch>& patch, Sweep kind
 ///
 ///   still to come <= q / (1 - q) change,    q = this change / the one before
 ///
-/// The change alone would lie: where each bounce keeps 99 %, a hundred more like it follow.
+/// The change alone is too small: where each bounce keeps 99 %, a hundred more like it follow.
 inline void solve(const Matrix& G, const std::vector<Patch>& patch, Sweep kind, double wanted,
                   Solution& s, const Stopped& stopped = {}) {
     s.H.resize(G.size());
@@ -193,7 +193,7 @@ inline void shoot(const Patches& patches, size_t i, std::span<const float> G_i, 
     s.steps++;
 }
 
-/// What is unshot will light the room about evenly: its irradiance, for display, while it lasts.
+/// Estimates the irradiance that unshot light will bring, about the same everywhere; for display.
 ///
 ///   H = keep dB / (1 - keep rho),    dB, rho: means over all areas; keep: what stays in the room
 ///
