@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "26_radiosity", "scenes/cornell.pbrt", own,
                                  {"spp", "time", "size", "seed", "threads", "sampler", "out",
-                                  "stats", "film", "film-every", "quiet"});
+                                  "stats", "film", "film-every", "stand-in", "quiet"});
         ch26::check_together(options, settings);
         Scene scene = load(options);
         bool has_noise = settings.show == ch26::Show::gather;

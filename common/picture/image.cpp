@@ -201,12 +201,17 @@ Image read_image(const std::string& path) { return decode_image(path, read_file(
 
 Image decode_image(const std::string& path, const std::string& bytes, float gamma) {
     if (is_png(bytes)) return decode_png(path, bytes, gamma);
+    if (is_jpg(bytes) || extension(path) == ".tga") return decode_jpg_or_tga(path, bytes, gamma);
+    if (bytes.starts_with("\x76\x2f\x31\x01")) {
+        fail({path}, "an .exr picture: pbrt makes a .pfm of it, by imgtool convert --outfile " +
+                         path.substr(0, path.rfind('.')) + ".pfm " + path);
+    }
     Header header{path, bytes};
     std::string_view magic = header.word();
     if (magic == "P6") return decode_ppm(header, gamma);
     if (magic == "PF") return decode_pfm(header, 3);
     if (magic == "Pf") return decode_pfm(header, 1);
-    header.fail("not a .ppm (P6), .pfm or .png picture");
+    header.fail("not a .ppm (P6), .pfm, .png, .jpg or .tga picture");
 }
 
 std::string decode_comment(const std::string& path, const std::string& bytes) {

@@ -46,12 +46,13 @@ std::string encode_png(const Image& image, const std::string& comment);
 bool is_image_path(const std::string& path);
 
 /// Reads a .ppm (P6, maxval 255) or a .png, both back to linear, or a .pfm (one or three channels,
-/// either byte order, times its scale). Throws InputError for anything else, and for a file that is
-/// damaged: with a byte too few or too many for its size, or, in a .png, with a wrong checksum.
+/// either byte order, times its scale), or a .jpg or .tga, which have no checksums. Throws
+/// InputError for anything else, and for a file that is damaged: with a byte too few or too many
+/// for its size, or, in a .png, with a wrong checksum.
 Image read_image(const std::string& path);
 /// What read_image reads, from the bytes of the file `path`.
 ///
-/// gamma  how codes of a .ppm or .png become linear values, see to_linear()
+/// gamma  how codes of all but a .pfm become linear values, see to_linear()
 Image decode_image(const std::string& path, const std::string& bytes, float gamma = 0);
 /// The comment that write_image put into a .ppm or .png; empty where there is none.
 std::string decode_comment(const std::string& path, const std::string& bytes);

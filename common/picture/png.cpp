@@ -1,5 +1,6 @@
 #include "common/picture/png.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -26,6 +27,8 @@ void* limited_realloc(void* old, size_t size) {
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_TGA
 #define STBI_NO_STDIO
 #define STBI_MALLOC(size) limited_realloc(nullptr, size)
 #define STBI_REALLOC limited_realloc
@@ -40,6 +43,7 @@ void* limited_realloc(void* old, size_t size) {
 
 namespace {
 
+constexpr size_t most_bytes = size_t{1} << 30;
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view comment_key = {"Comment\0", 8};
 
@@ -86,6 +90,52 @@ void for_chunks(const std::string& path, std::string_view bytes, const Visit& vi
     }
 }
 
+/// Whether a .tga file has fewer pixels than its header says: stb would make them up.
+bool tga_is_cut(const std::string& bytes) {
+    auto byte = [&](size_t i) { return size_t{static_cast<uint8_t>(bytes[i])}; };
+    constexpr size_t header = 18;
+    if (bytes.size() < header) return true;
+    size_t palette = (byte(5) + 256 * byte(6)) * ((byte(7) + 7) / 8), each = (byte(16) + 7) / 8;
+    size_t left = (byte(12) + 256 * byte(13)) * (byte(14) + 256 * byte(15));
+    size_t at = header + byte(0) + (byte(1) != 0 ? palette : 0);
+    bool is_packed = byte(2) >= 8;
+    if (!is_packed) return bytes.size() < at + left * each;
+    while (left > 0 && at < bytes.size()) {
+        size_t pixels = 1 + (byte(at) & 127);
+        at += 1 + (byte(at) & 128 ? 1 : pixels) * each;
+        left -= std::min(left, pixels);
+    }
+    return left > 0 || at > bytes.size();
+}
+
+/// What stb makes of a file, in linear values.
+Image decode(const std::string& path, const std::string& file, float gamma,
+             const std::string& damaged) {
+    auto* data = reinterpret_cast<const unsigned char*>(file.data());
+    int size = static_cast<int>(file.size()), width, height, channels;
+    constexpr int64_t most = 1032;  // times smaller is what the .png format can make of it
+    most_memory = 1 << 16;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
+        int64_t{width} * height > std::min(int64_t{most_pixels}, 8 * most * int64_t{size}))
+        fail({path}, damaged + ", or one of more than 2^28 pixels");
+    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+    most_memory += 2 * file.size() + 32 * pixels;
+    // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
+    std::unique_ptr<uint16_t, void (*)(void*)> codes(
+        stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+    if (!codes) fail({path}, damaged);
+    std::vector<float> linear(65536);
+    for (size_t i = 0; i < linear.size(); i++) {
+        linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
+    }
+    Image image(width, height);
+    for (size_t i = 0; i < pixels; i++) {
+        const uint16_t* code = codes.get() + 3 * i;
+        image.pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
+    }
+    return image;
+}
+
 }  // namespace
 
 std::string png_chunk(const std::string& kind_and_data) {
@@ -113,29 +163,15 @@ Image decode_png(const std::string& path, const std::string& bytes, float gamma)
         if (kind == "IEND" || !data.empty())
             file += png_chunk(std::string(kind) + std::string(data));
     });
-    auto* data = reinterpret_cast<const unsigned char*>(file.data());
-    int size = static_cast<int>(file.size()), width, height, channels;
-    constexpr int64_t most = 1032;  // times smaller is what the format can make of it
-    most_memory = 1 << 16;
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
-        int64_t{width} * height > std::min(int64_t{most_pixels}, 8 * most * int64_t{size}))
-        fail({path}, "a damaged .png picture, or one of more than 2^28 pixels");
-    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
-    most_memory += 2 * file.size() + 32 * pixels;
-    // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
-    std::unique_ptr<uint16_t, void (*)(void*)> codes(
-        stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
-    if (!codes) fail({path}, "a damaged .png picture");
-    std::vector<float> linear(65536);
-    for (size_t i = 0; i < linear.size(); i++) {
-        linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
-    }
-    Image image(width, height);
-    for (size_t i = 0; i < pixels; i++) {
-        const uint16_t* code = codes.get() + 3 * i;
-        image.pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
-    }
-    return image;
+    return decode(path, file, gamma, "a damaged .png picture");
+}
+
+bool is_jpg(const std::string& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
+
+Image decode_jpg_or_tga(const std::string& path, const std::string& bytes, float gamma) {
+    bool is_cut = is_jpg(bytes) ? bytes.rfind("\xff\xd9") == std::string::npos : tga_is_cut(bytes);
+    if (is_cut || bytes.size() > most_bytes) fail({path}, "the picture is cut short, or too large");
+    return decode(path, bytes, gamma, "a damaged picture, or of a kind that is not read");
 }
 
 std::string png_comment(const std::string& path, const std::string& bytes) {

@@ -1,4 +1,4 @@
-// The .png format, for image.h.
+// The .png format, and others that are only read, for image.h.
 #pragma once
 #include "common/picture/image.h"
 
@@ -10,6 +10,12 @@ std::string encode_png(int width, int height, const std::string& codes, const st
 /// Reads any kind of .png: grey, with a palette, of 16 bits; transparency is left out. Throws
 /// InputError where a chunk does not have its checksum, or is missing.
 Image decode_png(const std::string& path, const std::string& bytes, float gamma = 0);
+
+bool is_jpg(const std::string& bytes);
+
+/// Reads a .jpg or .tga picture. Throws InputError for one that is damaged, as far as that can be
+/// seen: they have no checksums.
+Image decode_jpg_or_tga(const std::string& path, const std::string& bytes, float gamma);
 
 /// A chunk of a file, with its length and its checksum.
 std::string png_chunk(const std::string& kind_and_data);

@@ -76,8 +76,10 @@ bool agree(const PictureFacts& a, const PictureFacts& b, const std::string& name
     return !x.empty() && x == value_of(b.notes, name);
 }
 
+/// A picture with stand-ins shows another scene than one without.
 bool show_different_scenes(const PictureFacts& a, const PictureFacts& b) {
-    return differ(a, b, "checksum");
+    return differ(a, b, "checksum") ||
+           value_of(a.notes, "stand-ins") != value_of(b.notes, "stand-ins");
 }
 
 /// A value that may come from a damaged file.
@@ -134,7 +136,12 @@ std::vector<std::string> doubts(const PictureFacts& a, const PictureFacts& b) {
         if (!value_of(facts->notes, "checksum").empty()) continue;
         unknown += (unknown.empty() ? "" : " and ") + facts->file;
     }
-    if (show_different_scenes(a, b)) {
+    for (const PictureFacts* facts : {&a, &b}) {
+        if (value_of(facts->notes, "stand-ins").empty()) continue;
+        warn(facts->file + " is not what its scene describes, but has stand-ins: " +
+             printable(value_of(facts->notes, "stand-ins")));
+    }
+    if (differ(a, b, "checksum")) {
         warn(agree(a, b, "scene") ? "A and B show different versions of " + shown(a, "scene")
                                   : "A shows " + shown(a, "scene") + ", B " + shown(b, "scene"));
     }

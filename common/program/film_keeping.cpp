@@ -29,6 +29,13 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
         {"spp", has_strata ? std::to_string(scene.spp) : "any"},
         {"paths", o.paths}};
     options.insert(options.end(), o.own.begin(), o.own.end());
+    // Without folders: the same on every machine.
+    std::string stand_ins;
+    for (UsedStandIn used : scene.stand_ins) {
+        used.first.file = std::filesystem::path(used.first.file).filename().string();
+        stand_ins += (stand_ins.empty() ? "" : "; ") + used.text();
+    }
+    if (!stand_ins.empty()) options.push_back({"stand-ins", stand_ins});
     return options;
 }
 

@@ -12,7 +12,7 @@
 namespace {
 
 /// Reads the scene, and prints its notes even if an error follows.
-Scene load_and_tell(const std::string& path, const Report& report, LoadingProgress& progress) {
+Scene load_and_tell(const RenderOptions& options, const Report& report, LoadingProgress& progress) {
     struct Notes {
         LoadingProgress& progress;
         std::vector<std::string> lines = {};
@@ -21,7 +21,7 @@ Scene load_and_tell(const std::string& path, const Report& report, LoadingProgre
             for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
         }
     } notes{progress};
-    return load_scene(path, &notes.lines, report);
+    return load_scene(options.scene, &notes.lines, report, options.stand_in);
 }
 
 }  // namespace
@@ -35,8 +35,8 @@ Scene load(const RenderOptions& options, Features features) {
     }
     Scene scene;
     try {
-        scene = options.quiet ? load_scene(options.scene, nullptr)
-                              : load_and_tell(options.scene, report, progress);
+        scene = options.quiet ? load_scene(options.scene, nullptr, {}, options.stand_in)
+                              : load_and_tell(options, report, progress);
     } catch (const std::bad_alloc&) {
         fail({options.scene}, "out of memory while it was read, with the files that it names");
     }

@@ -170,6 +170,8 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
          [&](const std::string& text) { o.film_every = parse_interval(text); }},
         {"part", "K/N", "take the K-th of N parts of the samples; build/merge adds their films",
          [&](const std::string& text) { parse_part(text, o); }},
+        {"stand-in", "", "render what is not modelled as something like it, and say so",
+         [&](const std::string&) { o.stand_in = true; }},
         {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
     };
     if (!takes.empty()) refuse_all_but(takes, name, options);

@@ -45,6 +45,7 @@ struct RenderOptions {
     LightSearch search = LightSearch::aims;
     /// The chapter's own options, with their values.
     std::vector<std::pair<std::string, std::string>> own = {};
+    bool stand_in = false;  // for what is not modelled in the scene
     bool quiet = false;
     std::string map;  // chapter 19: picture of how many samples each pixel has
 };

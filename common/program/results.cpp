@@ -47,6 +47,9 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("max_depth", scene.max_depth);
     json.add("seed", uint64_t{options.seed});
     json.add("notes", lines_of(notes_of(scene, options, r)));
+    std::vector<std::string> stand_ins;
+    for (const UsedStandIn& used : scene.stand_ins) stand_ins.push_back(printable(used.text()));
+    if (!stand_ins.empty()) json.add("stand_ins", stand_ins);
     json.add("threads", options.threads);
     json.add("seconds", s.seconds);
     json.add("samples_per_second", per_second(r.film.samples(), s.samples_before, s));
@@ -74,6 +77,9 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), printable(scene.file).c_str(),
                 r.film.width, r.film.height, json_number(r.film.spp()).c_str(),
                 s.interrupted ? " (interrupted)" : "");
+    for (const UsedStandIn& used : scene.stand_ins) {
+        std::printf("stand-in: %s\n", printable(used.text()).c_str());
+    }
     std::printf("%s\n", mean_and_error(r.film).c_str());
     for (const std::string& line : warnings_of(scene, options, r)) {
         std::printf("warning: %s\n", line.c_str());

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "common/base/position.h"
 #include "common/geometry/bvh.h"
 #include "common/geometry/geometry.h"
 #include "common/material/material.h"
@@ -57,10 +58,28 @@ struct Camera {
     int line = 0, column = 0;   // where the scene file sets it up, for messages
 };
 
+/// Something in the scene that is not modelled, and what is rendered in its place.
+struct UsedStandIn {
+    std::string what, instead;
+    size_t places = 0;  // in the scene files
+    Position first;
+
+    /// `Shape "curve" as nothing (3 places, first scene.pbrt:4:1)`.
+    std::string text() const {
+        std::string place = first.file;
+        if (first.line > 0) {
+            place += ':' + std::to_string(first.line) + ':' + std::to_string(first.column);
+        }
+        return what + " as " + instead + " (" + std::to_string(places) +
+               (places == 1 ? " place, " : " places, first ") + place + ')';
+    }
+};
+
 struct Scene {
     std::string file;             // as named by the user, for messages
     std::set<std::string> files;  // all that it was read from
     uint64_t files_checksum = 0;  // of their bytes
+    std::vector<UsedStandIn> stand_ins;
     Geometry geometry;
     std::vector<Shape> shapes;
     std::vector<Material> materials;

@@ -1,5 +1,6 @@
 #include "common/scene_file/directives.h"
 
+#include "common/material/metal.h"
 #include "common/scene_file/transforms.h"
 
 Token expect_string(Lexer& lexer, const Token& word, const std::string& what) {
@@ -78,6 +79,35 @@ void Directives::color_space(Lexer& lexer, const Token& word) {
     }
     fail_unknown(lexer.at(token), "ColorSpace", std::string(token.text),
                  {"aces2065-1", "dci-p3", "rec2020", "srgb"});
+}
+
+void Directives::make_named_medium(Lexer& lexer, const Token& word) {
+    expect_string(lexer, word, "a name");
+    Params params(lexer, word, notes_, false);
+    params.stand_in(params.at(), "a medium", "MakeNamedMedium is not supported");
+    params.ignore_rest();
+    params.finish();
+}
+
+void Directives::medium_interface(Lexer& lexer, const Token& word) {
+    bool is_empty = expect_string(lexer, word, "the name of a medium").text.empty();
+    if (lexer.peek().type == Token::string) is_empty &= lexer.next().text.empty();
+    if (is_empty) return;
+    if (!notes_.stand_ins()) {
+        fail(lexer.at(word), "MediumInterface is not supported" + or_stand_in("a medium"));
+    }
+    notes_.stand_in(lexer.at(word), "a medium");
+}
+
+void Directives::transform_times(Lexer& lexer, const Token& word) {
+    double start = lexer.number(lexer.next(), "TransformTimes");
+    double end = lexer.number(lexer.next(), "TransformTimes");
+    if (start == 0 && end == 1) return;
+    if (!notes_.stand_ins()) {
+        fail(lexer.at(word),
+             "TransformTimes other than 0 1 is not supported" + or_stand_in("TransformTimes"));
+    }
+    notes_.stand_in(lexer.at(word), "TransformTimes");
 }
 
 void Directives::accelerator(Lexer& lexer, const Token& word) {
@@ -159,10 +189,16 @@ void Directives::end(Lexer& lexer, const Token& word) {
 void Directives::light_source(Lexer& lexer, const Token& word) {
     Params params = read_params(lexer, word, "light");
     if (params.type() == "infinite" && params.find("string", "filename")) {
-        if (has_sky_image_) fail(params.at(), "a second picture of the sky");
-        has_sky_image_ = true;  // also when it cannot be read: then it is not read again
-        scene_.sky_image = read_sky_image(params, still_transform(params), files_);
-        return;
+        if (has_sky_image_) {
+            params.stand_in(params.at(), "a second picture of the sky",
+                            "a second picture of the sky");
+            params.ignore("string", {"filename"});
+            if (!params.may_stand_in()) params.finish();
+        } else {
+            has_sky_image_ = true;  // also when it cannot be read: then it is not read again
+            scene_.sky_image = read_sky_image(params, still_transform(params), files_);
+            if (scene_.sky_image) return;
+        }
     }
     Light light = read_light(params, still_transform(params));
     if (!is_black(light.L)) scene_.lights.push_back(light);
@@ -177,13 +213,39 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
     NamedMaterial& named = named_materials_[name];
     if (named.defined) fail(lexer.at(token), "a second material " + quote(name));
     named.defined = true;
-    scene_.materials[index] = read_material(params, textures_);
+    std::optional<Material> material = read_any_material(params);
+    if (!material) absent_.insert(index);
+    if (material) scene_.materials[index] = *material;
 }
 
 void Directives::material(Lexer& lexer, const Token& word) {
     Params params = read_params(lexer, word, "material");
-    scene_.materials.push_back(read_material(params, textures_));
+    std::optional<Material> material = read_any_material(params);
+    scene_.materials.push_back(material.value_or(Material{}));
     state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
+    if (!material) absent_.insert(state_.material);
+}
+
+std::optional<Material> Directives::read_any_material(Params& params) {
+    if (params.type() == "mix" && params.stands_in()) return read_mix(params);
+    return read_material(params, textures_);
+}
+
+// The stand-in for a mix: the one of two materials that has the larger share.
+std::optional<Material> Directives::read_mix(Params& params) {
+    const Param* names = params.find_exactly("string", "materials", 2);
+    if (!names) fail(params.at(), params.owner() + " needs \"string materials\"");
+    bool is_second = textures_.number(params, "amount", 0.5f) > 0.5f;
+    const std::string& name = names->strings[is_second];
+    params.ignore_rest();
+    params.finish();
+    if (name == "interface") return {};
+    uint32_t index = find_material(name, names->at);
+    if (!named_materials_[name].defined) {
+        fail(names->at, "the material " + quote(name) + " must be made before the mix");
+    }
+    if (absent_.contains(index)) return {};
+    return scene_.materials[index];
 }
 
 void Directives::named_material(Lexer& lexer, const Token& word) {
@@ -246,22 +308,42 @@ void Directives::shape(Lexer& lexer, const Token& word) {
     kept.emission = {};
 }
 
+// Whether a shape is not there: its material is that of a mere boundary, or its stand-in is
+// nothing.
+bool Directives::is_left_out(Params& params, const State& where) {
+    if (absent_.contains(where.material)) return true;
+    if (params.type() == "curve" && params.stands_in()) return true;
+    for (const Param& param : params.all()) {
+        bool is_clear = param.name == "alpha" && param.numbers == std::vector<double>{0};
+        if (!is_clear || where.emission || !notes_.stand_ins()) continue;
+        notes_.stand_in(param.at, "alpha");
+        return true;
+    }
+    return false;
+}
+
 void Directives::place(Params& params, const State& where) {
+    if (is_left_out(params, where)) return;
+    if (where.start != where.end && where.emission && notes_.stand_ins()) {
+        notes_.stand_in(params.at(), "a light or camera that moves");
+        State still = where;
+        still.end = still.start;
+        return place(params, still);
+    }
     ShapeState state = {where.start, where.material, where.emission, where.reverse_orientation};
     state.primitives_elsewhere = moving_primitives_;
     state.vertices_elsewhere = moving_vertices_;
     size_t before = scene_.geometry.size() + moving_primitives_;
-    if (where.start == where.end) {
-        read_shape(params, state, limits_, files_, scene_, notes_);
-    } else {
-        read_mover(params, where, state);
-    }
+    bool is_there = where.start == where.end
+                        ? read_shape(params, state, limits_, files_, scene_, notes_)
+                        : read_mover(params, where, state);
+    if (!is_there) return;
     if (scene_.geometry.size() + moving_primitives_ > before) return;
     if (!too_small_) too_small_ = params.at();
     if (!too_small_light_ && where.emission) too_small_light_ = params.at();
 }
 
-void Directives::texture(Lexer& lexer, const Token& word) { textures_.read(lexer, word, notes_); }
+void Directives::texture(Lexer& lexer, const Token& word) { textures_.read(lexer, word); }
 
 uint64_t Directives::bytes() const {
     uint64_t sum = scene_.shapes.size() * sizeof(Shape) + scene_.lights.size() * sizeof(Light) +
@@ -280,8 +362,11 @@ uint64_t Directives::bytes() const {
     return sum;
 }
 
-void Directives::read_mover(Params& params, const State& where, ShapeState& state) {
-    if (state.emission) params.not_supported(params.at(), "a shape that moves cannot shine");
+bool Directives::read_mover(Params& params, const State& where, ShapeState& state) {
+    if (state.emission) {
+        params.stand_in(params.at(), "a light or camera that moves",
+                        "a shape that moves cannot shine");
+    }
     constexpr size_t most = 1000;
     if (scene_.movers.size() == most) fail(params.at(), "more than 1000 shapes that move");
     Mover mover(where.start, where.end);
@@ -290,12 +375,13 @@ void Directives::read_mover(Params& params, const State& where, ShapeState& stat
     state.vertices_elsewhere += scene_.geometry.positions.size();
 
     std::swap(scene_.geometry, mover.geometry);
-    read_shape(params, state, limits_, files_, scene_, notes_);
+    bool is_there = read_shape(params, state, limits_, files_, scene_, notes_);
     std::swap(scene_.geometry, mover.geometry);
-    if (mover.geometry.size() == 0) return;
+    if (mover.geometry.size() == 0) return is_there;
     moving_primitives_ += mover.geometry.size();
     moving_vertices_ += mover.geometry.positions.size();
     scene_.movers.push_back(std::move(mover));
+    return true;
 }
 
 // The number of the named material, which may be defined after its use.
@@ -311,7 +397,7 @@ uint32_t Directives::find_material(const std::string& name, const Position& at) 
 // The current transform; not supported where it moves while the shutter is open.
 const Transform& Directives::still_transform(Params& params) const {
     if (state_.start != state_.end) {
-        params.not_supported(params.at(), "only shapes can move");
+        params.stand_in(params.at(), "a light or camera that moves", "only shapes can move");
     }
     return state_.start;
 }
@@ -336,26 +422,65 @@ void Directives::check_materials() const {
 }
 
 // A mesh may be given a material whose texture is named later.
-void Directives::check_uvs(const Geometry& g) const {
+void Directives::check_uvs(const Geometry& g) {
     for (const Triangle& t : g.triangles) {
         uint32_t material = scene_.shapes[t.shape].material;
         if (scene_.materials[material].texture == 0) continue;
         if (!g.uvs.empty() && !std::isnan(g.uvs[t.v[0]].x)) continue;
+        if (notes_.stand_ins()) {
+            Material plain = scene_.materials[material];
+            plain.reflectance = textures_.mean(plain.texture - 1u);
+            if (plain.type == MaterialType::conductor)
+                plain.k = k_of_reflectance(plain.reflectance);
+            plain.texture = 0;
+            notes_.stand_in({scene_.file, plain.line, plain.column}, no_uv);
+            scene_.shapes[t.shape].material = static_cast<uint32_t>(scene_.materials.size());
+            scene_.materials.push_back(plain);
+            continue;
+        }
         for (const auto& [name, named] : named_materials_) {
             if (named.index != material) continue;
             fail(named.first_use, "a mesh of material " + quote(name) +
-                                      " has no usable uv, which its texture needs");
+                                      " has no usable uv, which its texture needs" +
+                                      or_stand_in(no_uv));
         }
     }
 }
 
-void Directives::check_complete() const {
+// What pbrt renders without complaint, and we only with stand-ins.
+void Directives::stand_in_for_missing() {
+    Position file = {scene_.file};
+    if (!has_camera_) {
+        notes_.stand_in(file, "a scene without a camera");
+        scene_.camera.right = {1, 0, 0}, scene_.camera.up = {0, 1, 0};
+        scene_.camera.forward = {0, 0, 1};
+        has_camera_ = true;
+    }
+    if (scene_.lights.empty() && !scene_.sky_image) {
+        notes_.stand_in(file, "a scene without light");
+        Light sky;
+        sky.type = LightType::infinite;
+        sky.L = {0.5f, 0.5f, 0.5f};
+        scene_.lights.push_back(sky);
+    }
+}
+
+void Directives::check_complete() {
     Position file = {scene_.file};
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
     check_materials();
     check_uvs(scene_.geometry);
     for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
+    for (const auto& [name, named] : named_materials_) {
+        auto is_of_it = [&, index = named.index](const Shape& s) { return s.material == index; };
+        if (!absent_.contains(named.index) ||
+            std::none_of(scene_.shapes.begin(), scene_.shapes.end(), is_of_it))
+            continue;
+        fail(named.first_use, "the material " + quote(name) +
+                                  ", of which shapes are left out, must be made before its use");
+    }
     if (!in_world_) fail(file, "no WorldBegin");
+    if (notes_.stand_ins()) stand_in_for_missing();
     if (!has_camera_) fail(file, "no Camera");
 
     // Where something is missing, it may be what was too small to keep.
@@ -364,7 +489,11 @@ void Directives::check_complete() const {
     bool has_shape = scene_.geometry.size() > 0 || !scene_.movers.empty();
     bool has_light = !scene_.lights.empty() || scene_.sky_image;
     if (!has_shape && too_small_) fail(*too_small_, "no Shape is left" + too_small);
-    if (!has_shape) fail(file, "no Shape");
+    if (!has_shape && notes_.stand_ins()) {
+        notes_.stand_in(file, "a scene without shapes");
+    } else if (!has_shape) {
+        fail(file, "no Shape");
+    }
     if (!has_light && too_small_light_) fail(*too_small_light_, "no light is left" + too_small);
     if (!has_light) fail(file, "no light: the picture would be black");
 }

@@ -9,7 +9,8 @@
 /// which reads what follows the directive's word.
 class Directives {
 public:
-    Directives(const std::string& path, const Limits& limits, const Report& report, Messages& notes)
+    Directives(const std::string& path, const Limits& limits, const Report& report,
+               SceneNotes& notes)
         : limits_(limits), files_(path, limits, report), notes_(notes) {
         scene_.file = path;
         scene_.materials.emplace_back();  // of shapes that are given none
@@ -17,6 +18,8 @@ public:
 
     NamedFiles& files() { return files_; }
     bool in_world() const { return in_world_; }
+    /// How many blocks are open.
+    size_t depth() const { return saved_.size(); }
     /// The memory that the scene takes, about.
     uint64_t bytes() const;
     /// The scene, once all directives are read; throws for what is missing.
@@ -29,6 +32,9 @@ public:
     void coordinate_system(Lexer& lexer, const Token& word);
     void coord_sys_transform(Lexer& lexer, const Token& word);
     void color_space(Lexer& lexer, const Token& word);
+    void make_named_medium(Lexer& lexer, const Token& word);
+    void medium_interface(Lexer& lexer, const Token& word);
+    void transform_times(Lexer& lexer, const Token& word);
     // Before WorldBegin.
     void accelerator(Lexer& lexer, const Token& word);
     void camera(Lexer& lexer, const Token& word);
@@ -85,20 +91,25 @@ private:
     void place(Params& params, const State& where);
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(Params& params) const;
+    std::optional<Material> read_any_material(Params& params);
+    std::optional<Material> read_mix(Params& params);
+    bool is_left_out(Params& params, const State& where);
     void check_materials() const;
-    void check_uvs(const Geometry& g) const;
-    void check_complete() const;
-    void read_mover(Params& params, const State& where, ShapeState& state);
+    void check_uvs(const Geometry& g);
+    void check_complete();
+    void stand_in_for_missing();
+    bool read_mover(Params& params, const State& where, ShapeState& state);
 
     Scene scene_;
     const Limits limits_;
     NamedFiles files_;
-    TextureReader textures_{limits_, files_};
-    Messages& notes_;
+    SceneNotes& notes_;
+    TextureReader textures_{limits_, files_, notes_};
     Exposure exposure_;
     State state_;
     std::vector<SavedState> saved_;
     std::map<std::string, NamedMaterial> named_materials_;
+    std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
     std::map<std::string, Object> objects_;
     Object* open_object_ = nullptr;  // the one that is being defined

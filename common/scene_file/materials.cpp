@@ -1,6 +1,6 @@
 #include "common/scene_file/materials.h"
 
-#include <array>
+#include <algorithm>
 
 #include "common/material/metal.h"
 #include "common/picture/image.h"
@@ -8,6 +8,7 @@
 
 namespace {
 
+constexpr const char* unknown_name = "a spectrum of unknown name or from a file";
 constexpr float smooth_below = 1e-3f;  // the alpha under which pbrt takes a surface for smooth
 
 Rgb read_rgb(const Param& param) {
@@ -26,17 +27,19 @@ bool read_reflectance(Params& params, const TextureReader& textures, Material& m
 }
 
 /// The roughness as GGX's alpha; sqrt(roughness) unless remaproughness is false.
-float read_alpha(Params& params) {
-    float roughness = params.number("roughness", 0);
-    float u = params.number("uroughness", roughness), v = params.number("vroughness", roughness);
+float read_alpha(Params& params, TextureReader& textures, const std::string& prefix = "") {
+    float roughness = textures.number(params, prefix + "roughness", 0);
+    float u = textures.number(params, prefix + "uroughness", roughness);
+    float v = textures.number(params, prefix + "vroughness", roughness);
     bool remap = params.boolean("remaproughness", true);
     constexpr float roughest = 100;
     if (!(std::min(u, v) >= 0 && std::max(u, v) <= roughest)) {
         fail(params.at(), "roughness must be from 0 to 100");
     }
     if (u != v) {
-        params.not_supported(params.at(),
-                             "uroughness and vroughness that differ are not supported");
+        params.stand_in(params.at(), "a roughness that differs between u and v",
+                        "uroughness and vroughness that differ are not supported");
+        u = std::sqrt(u * v);
     }
     return remap ? std::sqrt(u) : u;
 }
@@ -61,17 +64,19 @@ std::optional<Rgb> read_metal(Params& params, const std::string& name) {
         MetalIor ior = *metal_ior(symbol);
         if (spectrum->strings[0] == "metal-" + symbol + "-eta") return ior.eta;
         if (spectrum->strings[0] == "metal-" + symbol + "-k") return ior.k;
-        known.push_back("metal-" + symbol + '-' + name);
+        known.push_back("metal-" + symbol + '-' + name.substr(name.rfind('.') + 1));
     }
-    params.not_supported(spectrum->at, unknown_spectrum(spectrum->strings[0], known));
+    params.stand_in(spectrum->at, unknown_name, unknown_spectrum(spectrum->strings[0], known));
     return {};
 }
 
-Material read_conductor(Params& params, const TextureReader& textures) {
+// `prefix` is what the names of its parameters begin with.
+Material read_conductor(Params& params, TextureReader& textures, const std::string& prefix = "") {
     Material material;
     material.type = MaterialType::conductor;
     bool has_reflectance = read_reflectance(params, textures, material);
-    std::optional<Rgb> eta = read_metal(params, "eta"), k = read_metal(params, "k");
+    std::optional<Rgb> eta = read_metal(params, prefix + "eta");
+    std::optional<Rgb> k = read_metal(params, prefix + "k");
     if (has_reflectance && (eta || k)) {
         fail(params.at(), "a conductor has either reflectance or eta and k");
     }
@@ -83,7 +88,7 @@ Material read_conductor(Params& params, const TextureReader& textures) {
         material.eta = {1, 1, 1};
         material.k = k_of_reflectance(material.reflectance);
     }
-    float alpha = read_alpha(params);
+    float alpha = read_alpha(params, textures, prefix);
     material.alpha = alpha >= smooth_below ? alpha : 0;
     return material;
 }
@@ -93,7 +98,9 @@ void read_glass(Params& params, Material& material) {
     const Param* spectrum = params.find("spectrum", "eta");
     if (!spectrum) return;
     if (spectrum->strings.size() != 1) {
-        params.not_supported(spectrum->at, "\"eta\" must be a float or the name of a glass");
+        params.stand_in(spectrum->at, "an index of refraction as a list",
+                        "\"eta\" must be a float or the name of a glass");
+        if (params.may_stand_in()) material.ior = average(mean_rgb(read_spectrum(*spectrum)));
         return;
     }
     std::vector<std::string> known;
@@ -105,10 +112,10 @@ void read_glass(Params& params, Material& material) {
         }
         known.push_back(glass.name);
     }
-    params.not_supported(spectrum->at, unknown_spectrum(spectrum->strings[0], known));
+    params.stand_in(spectrum->at, unknown_name, unknown_spectrum(spectrum->strings[0], known));
 }
 
-Material read_dielectric(Params& params) {
+Material read_dielectric(Params& params, TextureReader& textures) {
     Material material;
     material.type = MaterialType::dielectric;
     material.ior = params.number("eta", 1.5f);
@@ -116,8 +123,8 @@ Material read_dielectric(Params& params) {
     if (!(material.ior >= 1e-4f && material.ior <= 1e4f)) {
         fail(params.at("eta"), "\"eta\" must be from 1e-4 to 1e4");
     }
-    if (read_alpha(params) >= smooth_below) {
-        params.not_supported(params.at(), "a rough dielectric is not supported");
+    if (read_alpha(params, textures) >= smooth_below) {
+        params.stand_in(params.at(), "rough glass", "a rough dielectric is not supported");
     }
     return material;
 }
@@ -142,6 +149,13 @@ Vec3 read_position(Params& params, const Transform& world_from_light) {
     return p;
 }
 
+// By which the power of a spot light is divided to get its intensity, as pbrt does it.
+float solid_angle_of_spot(Params& params) {
+    float edge = params.number("coneangle", 30), width = params.number("conedeltaangle", 5);
+    float outer = std::cos(edge * pi / 180), inner = std::cos((edge - width) * pi / 180);
+    return std::max(1e-3f, 2 * pi * (1 - (inner + outer) / 2));
+}
+
 // The unit vector towards a distant light.
 Vec3 read_direction(Params& params, const Transform& world_from_light) {
     Vec3d from = read_point(params, "from", {0, 0, 0}), to = read_point(params, "to", {0, 0, 1});
@@ -156,16 +170,29 @@ void check_brightness(const Params& params, Rgb L) {
     fail(params.at(), params.owner() + " shines brighter than 1e15: choose a larger unit");
 }
 
-Material read_material(Params& params, const TextureReader& textures) {
+std::optional<Material> read_material(Params& params, TextureReader& textures) {
     Material material;
-    if (params.type() == "diffuse") {
+    const std::string& type = params.type();
+    if (type == "diffuse") {
         read_reflectance(params, textures, material);
-    } else if (params.type() == "conductor") {
+    } else if (type == "conductor") {
         material = read_conductor(params, textures);
-    } else if (params.type() == "dielectric") {
-        material = read_dielectric(params);
+    } else if (type == "dielectric") {
+        material = read_dielectric(params, textures);
+    } else if (type == "interface" || type.empty()) {
+        params.finish();
+        return {};
+    } else if (params.stands_in()) {
+        if (type == "coatedconductor") {
+            material = read_conductor(params, textures, "conductor.");
+        } else {
+            if (type == "diffusetransmission") material.reflectance = {0.25f, 0.25f, 0.25f};
+            read_reflectance(params, textures, material);
+        }
+        params.ignore_rest();
+        if (type == "thindielectric") return {};
     } else {
-        params.fail_type({"conductor", "dielectric", "diffuse"});
+        params.fail_type({"conductor", "dielectric", "diffuse", "interface"});
     }
     material.line = params.at().line;
     material.column = params.at().column;
@@ -176,7 +203,8 @@ Material read_material(Params& params, const TextureReader& textures) {
 AreaEmission read_area_light(Params& params) {
     if (params.type() != "diffuse") params.fail_type({"diffuse"});
     if (params.find("string", "filename")) {
-        params.not_supported(params.at("filename"), "an image on an area light is not supported");
+        params.stand_in(params.at("filename"), "an image on an area light",
+                        "an image on an area light is not supported");
     }
     AreaEmission emission;
     emission.L = params.illuminant("L", {1, 1, 1}) * read_factor(params, "scale", 1);
@@ -190,7 +218,8 @@ AreaEmission read_area_light(Params& params) {
     return emission;
 }
 
-SkyImage read_sky_image(Params& params, const Transform& world_from_light, NamedFiles& files) {
+std::optional<SkyImage> read_sky_image(Params& params, const Transform& world_from_light,
+                                       NamedFiles& files) {
     SkyImage sky;
     sky.line = params.at().line;
     sky.column = params.at().column;
@@ -205,8 +234,14 @@ SkyImage read_sky_image(Params& params, const Transform& world_from_light, Named
     Position at = params.at("filename");
     std::string path = files.find(at, params.string("filename", ""));
     Image image;
-    params.read([&] { image = decode_image(path, files.read(path, at)); });
+    if (const Param* illuminance = params.find("float", "illuminance")) {
+        params.stand_in(illuminance->at, "the illuminance of a picture of the sky",
+                        "\"illuminance\" of a picture of the sky is not supported");
+    }
+    bool is_read = params.read([&] { image = decode_image(path, files.read(path, at)); },
+                               "a picture that cannot be read");
     params.finish();
+    if (!is_read) return {};
     if (image.width != image.height && image.width != 2 * image.height) {
         fail(at, quote_file(path) +
                      " must be a square (equal areas), or twice as wide as high (longitude " +
@@ -232,20 +267,27 @@ Light read_light(Params& params, const Transform& world_from_light) {
     light.line = params.at().line;
     light.column = params.at().column;
     float scale = read_factor(params, "scale", 1);
-    if (params.type() == "point") {
+    bool is_spot = params.type() == "spot";
+    bool is_beam = is_spot || params.type() == "goniometric" || params.type() == "projection";
+    if (params.type() == "point" || (is_beam && params.stands_in())) {
         light.type = LightType::point;
         light.p = read_position(params, world_from_light);
         light.L = params.illuminant("I", {1, 1, 1}) * scale;
         if (params.find("float", "power")) {
-            light.L *= read_factor(params, "power", 0) / (4 * pi);
+            float angle = is_spot ? solid_angle_of_spot(params) : 4 * pi;
+            light.L *= read_factor(params, "power", 0) / angle;
         }
+        if (is_beam) params.ignore_rest();
     } else if (params.type() == "distant") {
         light.type = LightType::distant;
         light.p = read_direction(params, world_from_light);
         light.L = params.illuminant("L", {1, 1, 1}) * scale * read_factor(params, "illuminance", 1);
     } else if (params.type() == "infinite") {
         light.type = LightType::infinite;
-        light.L = params.illuminant("L", {1, 1, 1}) * scale;
+        // The mean of a picture is not known: it could not be read.
+        bool is_picture = params.find("string", "filename");
+        light.L = is_picture ? Rgb{0.5f, 0.5f, 0.5f} : params.illuminant("L", {1, 1, 1});
+        light.L *= scale;
         if (params.find("float", "illuminance")) {
             light.L *= read_factor(params, "illuminance", 0) / pi;
         }

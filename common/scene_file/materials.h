@@ -6,7 +6,9 @@
 #include "common/scene/scene.h"
 #include "common/scene_file/textures.h"
 
-Material read_material(Params& params, const TextureReader& textures);
+/// Nothing for a material that is as if the surface were not there: it only bounds media. "mix" is
+/// read elsewhere.
+std::optional<Material> read_material(Params& params, TextureReader& textures);
 
 /// What AreaLightSource says about the shapes after it.
 struct AreaEmission {
@@ -20,7 +22,9 @@ AreaEmission read_area_light(Params& params);
 inline bool too_bright(Rgb L) { return !(is_finite(L) && max_component(L) <= 1e15f); }
 void check_brightness(const Params& params, Rgb L);
 
-/// The picture that an infinite light names: square or twice as wide as high, see SkyImage.
-SkyImage read_sky_image(Params& params, const Transform& world_from_light, NamedFiles& files);
+/// The picture that an infinite light names: square or twice as wide as high, see SkyImage. Nothing
+/// where its stand-in is to be taken, a sky that is grey.
+std::optional<SkyImage> read_sky_image(Params& params, const Transform& world_from_light,
+                                       NamedFiles& files);
 
 Light read_light(Params& params, const Transform& world_from_light);

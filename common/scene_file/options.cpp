@@ -26,7 +26,7 @@ void accept(Params& params, const std::vector<Kind>& kinds) {
     params.fail_type(known);
 }
 
-void note(Messages& notes, const Params& params, const std::string& text) {
+void note(SceneNotes& notes, const Params& params, const std::string& text) {
     notes.add(params.at(), params.owner() + ' ' + text);
 }
 
@@ -74,12 +74,25 @@ void read_screen(Params& params, Camera& camera) {
     }
 }
 
+// Makes a perspective camera that shows about what one of the other types does.
+void stand_in_for(const std::string& type, Camera& camera) {
+    camera.lens_radius = 0;
+    constexpr float far = 200;  // units, of which the view of an orthographic camera is 2 wide
+    if (type == "orthographic") {
+        camera.o = camera.o - far * camera.forward;
+        camera.fov = 2 * std::atan(1 / far) * 180 / pi;
+    } else if (type == "realistic") {
+        camera.fov = 40;
+    }
+}
+
 void read_lens(Params& params, Camera& camera) {
     camera.lens_radius = params.number("lensradius", 0);
     camera.focal_distance = params.number("focaldistance", 1e6f);
     if (!(camera.lens_radius >= 0 && camera.lens_radius <= 1e6f)) {
         fail(params.at("lensradius"), "lensradius must be from 0 to 1e6");
     }
+    if (camera.lens_radius == 0) camera.focal_distance = 1e6f;  // of a pinhole it means nothing
     if (!(camera.focal_distance >= 1e-6f && camera.focal_distance <= 1e9f)) {
         fail(params.at("focaldistance"), "focaldistance must be from 1e-6 to 1e9");
     }
@@ -91,11 +104,13 @@ void read_lens(Params& params, Camera& camera) {
 
 void read_camera(Params& params, const Transform& camera_from_world, Camera& camera,
                  Exposure& exposure) {
-    if (params.type() != "perspective") params.fail_type({"perspective"});
+    bool stands_in = params.type() != "perspective" && params.stands_in();
+    if (params.type() != "perspective" && !stands_in) params.fail_type({"perspective"});
     camera = {};
     place_camera(params, inverse(camera_from_world), camera);
     read_screen(params, camera);
     read_lens(params, camera);
+    if (stands_in) stand_in_for(params.type(), camera);
     camera.shutter_open = params.number("shutteropen", 0);
     camera.shutter_close = params.number("shutterclose", 1);
     // A pinhole has no size, so the unit of its axes is free: near 1, their products are neither
@@ -106,6 +121,7 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
             *axis = std::ldexp(1.0f, -exponent) * *axis;
         }
     }
+    if (stands_in) params.ignore_rest();
     exposure.shutter = camera.shutter_close - camera.shutter_open;
     if (!(exposure.shutter > 0)) {
         fail(params.at("shutterclose"), "shutterclose must be after shutteropen");
@@ -113,8 +129,9 @@ void read_camera(Params& params, const Transform& camera_from_world, Camera& cam
     params.finish();
 }
 
-void read_film(Params& params, Scene& scene, Exposure& exposure, Messages& notes) {
-    if (params.type() != "rgb") params.fail_type({"rgb"});
+void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& notes) {
+    bool stands_in = params.type() != "rgb" && params.stands_in();
+    if (params.type() != "rgb" && !stands_in) params.fail_type({"rgb"});
     constexpr int widest = 1 << 16;
     constexpr int64_t most_pixels = 1 << 28;
     scene.width = params.integer("xresolution", 1280, 1, widest);
@@ -126,17 +143,21 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, Messages& notes
     if (!(exposure.iso > 0)) fail(params.at("iso"), "iso must be greater than 0");
 
     if (params.find_exactly("float", "cropwindow", 4)) {
-        params.not_supported(params.at("cropwindow"), "cropwindow is not supported");
+        params.stand_in(params.at("cropwindow"), "a part of the film",
+                        "cropwindow is not supported");
     }
     if (params.find_exactly("integer", "pixelbounds", 4)) {
-        params.not_supported(params.at("pixelbounds"), "pixelbounds is not supported");
+        params.stand_in(params.at("pixelbounds"), "a part of the film",
+                        "pixelbounds is not supported");
     }
     std::string sensor = params.string("sensor", "cie1931");
     if (sensor != "cie1931") {
-        params.not_supported(params.at("sensor"), unknown("sensor", sensor, {"cie1931"}));
+        params.stand_in(params.at("sensor"), "a sensor or white balance",
+                        unknown("sensor", sensor, {"cie1931"}));
     }
     if (params.number("whitebalance", 0) != 0) {
-        params.not_supported(params.at("whitebalance"), "whitebalance is not supported");
+        params.stand_in(params.at("whitebalance"), "a sensor or white balance",
+                        "whitebalance is not supported");
     }
     if (params.find("float", "maxcomponentvalue")) {
         note(notes, params, "maxcomponentvalue is ignored: nothing is clamped");
@@ -144,10 +165,11 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, Messages& notes
     params.ignore("string", {"filename"});
     params.ignore("float", {"diagonal"});
     params.ignore("bool", {"savefp16"});
+    if (stands_in) params.ignore_rest();
     params.finish();
 }
 
-void read_pixel_filter(Params& params, Messages& notes) {
+void read_pixel_filter(Params& params, SceneNotes& notes) {
     float radius = params.type() == "box" ? 0.5f : 0;
     if (params.type() == "box") {
         radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
@@ -160,7 +182,7 @@ void read_pixel_filter(Params& params, Messages& notes) {
     if (radius != 0.5f) note(notes, params, "is replaced by the box of one pixel");
 }
 
-void read_sampler(Params& params, Scene& scene, Messages& notes) {
+void read_sampler(Params& params, Scene& scene, SceneNotes& notes) {
     constexpr int most = 1 << 24;
     if (params.type() == "stratified") {
         int x = params.integer("xsamples", 4, 1, 4096), y = params.integer("ysamples", 4, 1, 4096);
@@ -179,7 +201,7 @@ void read_sampler(Params& params, Scene& scene, Messages& notes) {
     if (params.type() != "independent") note(notes, params, "only sets the samples per pixel");
 }
 
-void read_integrator(Params& params, Scene& scene, Messages& notes) {
+void read_integrator(Params& params, Scene& scene, SceneNotes& notes) {
     bool has_depth = params.type() != "ambientocclusion";
     scene.max_depth = has_depth ? params.integer("maxdepth", 5, 0, 1 << 30) : 5;
     accept(params, {{"ambientocclusion", {}, {"maxdistance"}, {}, {"cossample"}},
@@ -204,7 +226,7 @@ void read_integrator(Params& params, Scene& scene, Messages& notes) {
         note(notes, params, "only sets the depth: the program is the integrator");
 }
 
-void read_accelerator(Params& params, Messages& notes) {
+void read_accelerator(Params& params, SceneNotes& notes) {
     accept(params, {{"bvh", {"maxnodeprims"}, {}, {"splitmethod"}, {}},
                     {"kdtree",
                      {"intersectcost", "traversalcost", "maxprims", "maxdepth"},
@@ -214,7 +236,7 @@ void read_accelerator(Params& params, Messages& notes) {
     if (params.type() != "bvh") note(notes, params, "is ignored: all programs use a BVH");
 }
 
-void read_option(const Position& at, const std::string& name, Messages& notes) {
+void read_option(const Position& at, const std::string& name, SceneNotes& notes) {
     // Compare as pbrt does, without regard to case, dashes and underscores.
     std::string plain;
     for (char c : name) {

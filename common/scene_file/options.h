@@ -11,10 +11,10 @@ struct Exposure {
 
 void read_camera(Params& params, const Transform& camera_from_world, Camera& camera,
                  Exposure& exposure);
-void read_film(Params& params, Scene& scene, Exposure& exposure, Messages& notes);
-void read_pixel_filter(Params& params, Messages& notes);
-void read_sampler(Params& params, Scene& scene, Messages& notes);
-void read_integrator(Params& params, Scene& scene, Messages& notes);
-void read_accelerator(Params& params, Messages& notes);
+void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& notes);
+void read_pixel_filter(Params& params, SceneNotes& notes);
+void read_sampler(Params& params, Scene& scene, SceneNotes& notes);
+void read_integrator(Params& params, Scene& scene, SceneNotes& notes);
+void read_accelerator(Params& params, SceneNotes& notes);
 /// `Option "disablepixeljitter" true`: all are ignored, with a note.
-void read_option(const Position& at, const std::string& name, Messages& notes);
+void read_option(const Position& at, const std::string& name, SceneNotes& notes);

@@ -40,9 +40,14 @@ const std::map<std::string, std::vector<std::string>> pbrt_v3 = {
       "substrate", "translucent", "uber"}},
     {"Sampler", {"02sequence", "lowdiscrepancy", "maxmindist", "random"}},
     {"Shape", {"cone", "heightfield", "hyperboloid", "nurbs", "paraboloid"}}};
-// Parameters that pbrt has and we do not.
-const std::vector<std::string> pbrt_only_params = {"alpha", "displacement", "edgelength",
-                                                   "normalmap", "portal"};
+// Parameters that pbrt has and we do not, with the names of their stand-ins.
+const std::map<std::string, std::string> pbrt_only_params = {
+    {"alpha", "alpha"},
+    {"displacement", "a bump or normal map"},
+    {"edgelength", "a bump or normal map"},
+    {"emissionfilename", "an image on an area light"},
+    {"normalmap", "a bump or normal map"},
+    {"portal", "a portal"}};
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
     return std::find(words.begin(), words.end(), word) != words.end();
@@ -78,9 +83,9 @@ std::string unknown_spectrum(const std::string& name, const std::vector<std::str
     return "files of spectra are not supported: " + quote_file(name);
 }
 
-Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type,
+Params::Params(Lexer& lexer, const Token& directive, SceneNotes& notes, bool has_type,
                const std::vector<Param>& defaults)
-    : at_(lexer.at(directive)), type_at_(at_), directive_(directive.text) {
+    : notes_(&notes), at_(lexer.at(directive)), type_at_(at_), directive_(directive.text) {
     if (has_type) {
         Token token = lexer.next();
         type_at_ = lexer.at(token);
@@ -90,7 +95,7 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_t
         type_ = lexer.unescape(token);
         refuse_old_type();
     }
-    while (lexer.peek().type == Token::string) add(read_param(lexer), notes);
+    while (lexer.peek().type == Token::string) add(read_param(lexer));
     for (const Param& param : defaults) {
         auto same_name = [&](const Param& other) { return other.name == param.name; };
         if (std::any_of(params_.begin(), params_.end(), same_name)) continue;
@@ -105,13 +110,13 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_t
 }
 
 // Of two with one name the first is forgotten, whatever its type is.
-void Params::add(Param param, Messages& notes) {
+void Params::add(Param param) {
     constexpr size_t most = 100;
     if (params_.size() == most) fail(param.at, owner() + " has more than 100 parameters");
     auto same_name = [&](const Param& other) { return other.name == param.name; };
     if (std::erase_if(params_, same_name) > 0) {
-        notes.add(param.at,
-                  quote(param.name) + " of " + owner() + " is given twice: the last one counts");
+        notes_->add(param.at,
+                    quote(param.name) + " of " + owner() + " is given twice: the last one counts");
     }
     params_.push_back(std::move(param));
 }
@@ -132,9 +137,16 @@ void Params::refuse_old_type() const {
                                "pbrt --upgrade old.pbrt > new.pbrt");
 }
 
+bool Params::stands_in() {
+    if (!may_stand_in() || !has_stand_in(table_name())) return false;
+    notes_->stand_in(type_at_, table_name());
+    return true;
+}
+
 void Params::fail_type(const std::vector<std::string>& known) const {
     if (contains(pbrt_only, type_) || contains(pbrt_only_textures, type_)) {
-        fail(type_at_, owner() + " is not supported (known: " + list(known) + ')');
+        fail(type_at_, owner() + " is not supported (known: " + list(known) + ')' +
+                           or_stand_in(table_name()));
     }
     fail_unknown(type_at_, directive_, type_, known);
 }
@@ -144,6 +156,10 @@ const Position& Params::at(const std::string& name) const {
         if (param.name == name) return param.at;
     }
     return at_;
+}
+
+std::string Params::table_name() const {
+    return (directive_ == "MakeNamedMaterial" ? "Material" : directive_) + ' ' + quote(type_);
 }
 
 std::string Params::owner() const {
@@ -218,7 +234,8 @@ Rgb Params::illuminant(const std::string& name, Rgb fallback) {
             return L;
         }
         if (std::optional<Rgb> L = illuminant_rgb(param->strings[0])) return *L;
-        not_supported(param->at, unknown_spectrum(param->strings[0], illuminant_names()));
+        stand_in(param->at, "a spectrum of unknown name or from a file",
+                 unknown_spectrum(param->strings[0], illuminant_names()));
         return fallback;
     }
     const Param* param = find_exactly("rgb", name, 3);
@@ -237,20 +254,52 @@ void Params::not_supported(const Position& at, const std::string& text) {
     wrong_.push_back(message_at(at, "error", text));
 }
 
-void Params::read(const std::function<void()>& reader) {
-    try {
-        reader();
-    } catch (const ReadingEnds&) {
-        throw;
-    } catch (const InputError& error) {
-        wrong_.push_back(error.what());
+void Params::stand_in(const Position& at, const std::string& what, const std::string& text) {
+    if (may_stand_in()) {
+        notes_->stand_in(at, what);
+    } else {
+        std::string hint = or_stand_in(what);
+        not_supported(at, text + (text.ends_with('?') ? hint.substr(1) : hint));
     }
 }
 
-void Params::finish() const {
+bool Params::read(const std::function<void()>& reader, const std::string& stand_in) {
+    try {
+        reader();
+        return true;
+    } catch (const ReadingEnds&) {
+        throw;
+    } catch (const InputError& error) {
+        std::string text = error.what();
+        if (!stand_in.empty() && may_stand_in()) {
+            notes_->stand_in(at_, stand_in);
+        } else {
+            // Files that are missing or damaged need a remedy, those of a format that pbrt reads
+            // and we do not may need a stand-in.
+            bool is_exr = text.find(".exr") != std::string::npos;
+            wrong_.push_back(text + (is_exr ? or_stand_in(stand_in) : ""));
+        }
+        return false;
+    }
+}
+
+void Params::ignore_rest() {
+    for (Param& param : params_) param.used = true;
+}
+
+void Params::finish() {
     std::vector<std::string> wrong = wrong_;
     for (const Param& param : params_) {
-        if (!param.used) wrong.push_back(message_at(param.at, "error", what_is_wrong_with(param)));
+        if (param.used) continue;
+        bool is_known = contains(known_names_, param.name);
+        auto only_pbrt = pbrt_only_params.find(param.name);
+        if (may_stand_in() && !is_known && only_pbrt != pbrt_only_params.end()) {
+            notes_->stand_in(param.at, only_pbrt->second);
+        } else if (may_stand_in() && is_known && param.type == "texture") {
+            notes_->stand_in(param.at, "a texture that is no reflectance");
+        } else {
+            wrong.push_back(message_at(param.at, "error", what_is_wrong_with(param)));
+        }
     }
     if (!wrong.empty()) throw InputError(join_lines(wrong));
 }
@@ -263,8 +312,10 @@ std::string Params::what_is_wrong_with(const Param& param) const {
         if (known_names_[i] != param.name) continue;
         types += (types.empty() ? "" : " or ") + known_types_[i];
     }
-    if (types.empty() && contains(pbrt_only_params, param.name)) {
-        return quote(param.name) + " of " + owner() + " is not supported";
+    auto only_pbrt = pbrt_only_params.find(param.name);
+    if (types.empty() && only_pbrt != pbrt_only_params.end()) {
+        return quote(param.name) + " of " + owner() + " is not supported" +
+               or_stand_in(only_pbrt->second);
     }
     if (types.empty()) {
         std::vector<std::string> known = known_names_;
@@ -272,7 +323,11 @@ std::string Params::what_is_wrong_with(const Param& param) const {
         known.erase(std::unique(known.begin(), known.end()), known.end());
         return unknown(owner() + " parameter", param.name, known);
     }
-    std::string hint = param.type == "texture" ? " (only a reflectance can be a texture)" : "";
+    std::string hint;
+    if (param.type == "texture") {
+        hint = " (only a reflectance can be a texture)" +
+               or_stand_in("a texture that is no reflectance");
+    }
     return quote(param.name) + " of " + owner() + " must be of type " + types + ", not " +
            param.type + hint;
 }

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "common/base/vec.h"
-#include "common/scene_file/messages.h"
 #include "common/scene_file/param.h"
 #include "common/scene_file/spectra.h"
+#include "common/scene_file/stand_ins.h"
 
 /// The spectrum that a parameter lists; throws for one that is not in order, or negative.
 Spectrum read_spectrum(const Param& param);
@@ -25,13 +25,15 @@ public:
     ///
     /// defaults  parameters that Attribute has given: they count where the directive has none of
     ///           that name, and may be such as the directive does not know
-    Params(Lexer& lexer, const Token& directive, Messages& notes, bool has_type = true,
+    Params(Lexer& lexer, const Token& directive, SceneNotes& notes, bool has_type = true,
            const std::vector<Param>& defaults = {});
 
     const std::string& type() const { return type_; }
     const std::vector<Param>& all() const { return params_; }
     /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
     void read_type();
+    /// Whether the type has a stand-in that is to be taken, which is remembered.
+    bool stands_in();
     /// Throws for a type that is none of the known ones.
     [[noreturn]] void fail_type(const std::vector<std::string>& known) const;
 
@@ -58,17 +60,27 @@ public:
     void ignore(const std::string& type, const std::vector<std::string>& names);
     /// Remembers something that we have not, for finish() to throw: so one run names all of it.
     void not_supported(const Position& at, const std::string& text);
-    /// Reads something, such as a file that a parameter names. What is wrong with it is remembered
-    /// too, unless reading ends with it.
-    void read(const std::function<void()>& reader);
+    /// The same for what has a stand-in, by its name in the table: where stand-ins are allowed it
+    /// is remembered, and no error.
+    void stand_in(const Position& at, const std::string& what, const std::string& text);
+    /// Whether stand-ins are allowed.
+    bool may_stand_in() const { return notes_->stand_ins(); }
+    /// Reads something, such as a file that a parameter names, and returns whether that worked.
+    /// What is wrong with it is remembered too, unless reading ends with it, or a stand-in is
+    /// taken.
+    bool read(const std::function<void()>& reader, const std::string& stand_in = "");
+    /// Accepts all parameters that have not been asked for.
+    void ignore_rest();
     /// Throws for what is not supported, and for parameters that have not been asked for.
-    void finish() const;
+    void finish();
 
 private:
-    void add(Param param, Messages& notes);
+    void add(Param param);
     void refuse_old_type() const;
+    std::string table_name() const;
     std::string what_is_wrong_with(const Param& param) const;
 
+    SceneNotes* notes_;
     Position at_, type_at_;
     std::string directive_, type_;
     std::vector<Param> params_;

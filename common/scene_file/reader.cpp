@@ -7,14 +7,14 @@
 
 namespace {
 
-// Where a directive may stand, and what reads it; null: pbrt has it and we do not.
+// Where a directive may stand, and what reads it.
 enum class Block { options, world, both };
 struct Directive {
     Block block;
     void (Directives::*read)(Lexer&, const Token&);
 };
 
-// All but Include, which is read here.
+// All but Include and Import, which are read here.
 using D = Directives;
 const std::map<std::string, Directive, std::less<>> known_directives = {
     {"Accelerator", {Block::options, &D::accelerator}},
@@ -30,14 +30,13 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"CoordinateSystem", {Block::both, &D::coordinate_system}},
     {"Film", {Block::options, &D::film}},
     {"Identity", {Block::both, &D::move}},
-    {"Import", {Block::both, nullptr}},
     {"Integrator", {Block::options, &D::integrator}},
     {"LightSource", {Block::world, &D::light_source}},
     {"LookAt", {Block::both, &D::move}},
     {"MakeNamedMaterial", {Block::world, &D::make_named_material}},
-    {"MakeNamedMedium", {Block::both, nullptr}},
+    {"MakeNamedMedium", {Block::both, &D::make_named_medium}},
     {"Material", {Block::world, &D::material}},
-    {"MediumInterface", {Block::both, nullptr}},
+    {"MediumInterface", {Block::both, &D::medium_interface}},
     {"NamedMaterial", {Block::world, &D::named_material}},
     {"ObjectBegin", {Block::world, &D::object_begin}},
     {"ObjectEnd", {Block::world, &D::object_end}},
@@ -53,7 +52,7 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"Transform", {Block::both, &D::move}},
     {"TransformBegin", {Block::world, &D::begin}},
     {"TransformEnd", {Block::world, &D::end}},
-    {"TransformTimes", {Block::both, nullptr}},
+    {"TransformTimes", {Block::options, &D::transform_times}},
     {"Translate", {Block::both, &D::move}},
     {"WorldBegin", {Block::options, &D::world_begin}},
 };
@@ -63,11 +62,11 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
 class Reader {
 public:
     Reader(const std::string& path, const Limits& limits, const Report& report,
-           std::vector<std::string>& notes)
+           std::vector<std::string>& notes, bool stand_ins)
         : main_file_(path),
           limits_(limits),
           report_(report),
-          notes_("note", notes),
+          notes_(notes, stand_ins),
           directives_(path, limits, report, notes_) {}
 
     Scene read_scene(std::string text);
@@ -81,7 +80,7 @@ private:
     const std::string main_file_;
     const Limits limits_;
     const Report report_;
-    Messages notes_;
+    SceneNotes notes_;
     std::vector<std::string> error_lines_;
     Messages errors_{"error", error_lines_};
     Directives directives_;
@@ -107,6 +106,7 @@ Scene Reader::read_scene(std::string text) {
         // What is missing may be in what could not be used.
         if (error_lines_.empty()) {
             Scene scene = directives_.finish();
+            scene.stand_ins = notes_.used();
             scene.files_checksum = directives_.files().checksum();
             scene.files = directives_.files().files_read();
             scene.files.insert(main_file_);
@@ -149,20 +149,17 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
         fail(at, "expected a directive, not " + Lexer::describe(word));
     }
     std::string name(word.text);
-    if (name == "Include") return include(lexer, word);
+    if (name == "Include" || name == "Import") return include(lexer, word);
     auto found = known_directives.find(name);
     if (found == known_directives.end()) {
         if (name == "WorldEnd") fail(at, "WorldEnd is not part of pbrt-v4: leave it out");
-        std::vector<std::string> known = {"Include"};
-        for (const auto& [directive, how] : known_directives) {
-            if (how.read) known.push_back(directive);
-        }
+        std::vector<std::string> known = {"Import", "Include"};
+        for (const auto& [directive, how] : known_directives) known.push_back(directive);
         begin_block(lexer, word, nearest_word(name, known));
         fail_unknown(at, "directive", name, known);
     }
     auto [block, read] = found->second;
     bool in_world = directives_.in_world();
-    if (!read) fail(at, name + " is not supported");
     if (name == "WorldBegin" && in_world) fail(at, "a second WorldBegin");
     if (block == Block::options && in_world) fail(at, name + " must stand before WorldBegin");
     if (block == Block::world && !in_world) fail(at, name + " must stand after WorldBegin");
@@ -201,18 +198,36 @@ void Reader::include(Lexer& lexer, const Token& word) {
     if (open_files_.size() > deepest)
         stop_reading(at, "files include each other more than 100 deep");
     if (++includes_ > most) stop_reading(at, "more than 10000 files are included");
-    read(path, directives_.files().read(path, at));
+    std::string text;
+    try {
+        text = directives_.files().read(path, at);
+    } catch (const ReadingEnds&) {
+        throw;
+    } catch (const InputError&) {
+        if (!notes_.stand_ins()) throw;
+        notes_.stand_in(at, "a scene file that cannot be read");
+        return;
+    }
+    if (word.text == "Include") return read(path, std::move(text));
+    // What Import changes, it changes for the file alone.
+    if (!directives_.in_world()) fail(lexer.at(word), "Import must stand after WorldBegin");
+    directives_.begin(lexer, word);
+    size_t depth = directives_.depth();
+    read(path, std::move(text));
+    if (directives_.depth() != depth) fail(at, quote_file(path) + " has a block without its end");
+    directives_.end(lexer, word);
 }
 
 }  // namespace
 
 Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes,
-                  const Report& report, const Limits& limits) {
+                  const Report& report, const Limits& limits, bool stand_ins) {
     std::vector<std::string> unread;
-    Reader reader(path, limits, report, notes ? *notes : unread);
+    Reader reader(path, limits, report, notes ? *notes : unread, stand_ins);
     return reader.read_scene(std::move(text));
 }
 
-Scene load_scene(const std::string& path, std::vector<std::string>* notes, const Report& report) {
-    return parse_scene(path, read_scene_file(path), notes, report);
+Scene load_scene(const std::string& path, std::vector<std::string>* notes, const Report& report,
+                 bool stand_ins) {
+    return parse_scene(path, read_scene_file(path), notes, report, {}, stand_ins);
 }

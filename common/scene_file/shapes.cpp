@@ -23,8 +23,11 @@ double uniform_scale(Params& params, const std::vector<Vec3d>& axes, const std::
         bool same = std::abs(length(next) - scale) <= tolerance * scale;
         bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
         if (same && right_angle) continue;
-        params.not_supported(params.at(), otherwise);
-        break;
+        params.stand_in(params.at(), "a sphere or disk scaled differently along its axes",
+                        otherwise);
+        double product = 1;
+        for (Vec3d axis : axes) product *= length(axis);
+        return std::pow(product, 1 / static_cast<double>(axes.size()));
     }
     return scale;
 }
@@ -37,7 +40,8 @@ float read_radius(Params& params) {
 
 // A parameter that has not the value at which the shape is whole is not supported.
 void require(Params& params, const std::string& name, float value, const std::string& otherwise) {
-    if (params.number(name, value) != value) params.not_supported(params.at(name), otherwise);
+    if (params.number(name, value) == value) return;
+    params.stand_in(params.at(name), "a part of a sphere or disk", otherwise);
 }
 
 // The number of the axes of a sphere or disk; -1 where they are the world's.
@@ -140,28 +144,37 @@ void add_shape(const Params& params, const ShapeState& state, std::vector<Primit
 
 }  // namespace
 
-void read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
-                Scene& scene, Messages& notes) {
+bool read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
+                Scene& scene, SceneNotes& notes) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
     check_room(params, state, g, 1, 0, limits);
     int axes = -1;
     auto add = [&](const TriangleMesh& mesh) {
-        if (scene.materials[state.material].texture != 0 && mesh.uvs.empty()) {
-            fail(params.at(), params.owner() + " has no usable uv, which its texture needs");
+        bool needs_uv = scene.materials[state.material].texture != 0 && !params.may_stand_in();
+        if (needs_uv && mesh.uvs.empty()) {
+            fail(params.at(), params.owner() + " has no usable uv, which its texture needs" +
+                                  or_stand_in(no_uv));
         }
         check_room(params, state, g, mesh.indices.size() / 3, mesh.positions.size(), limits);
         uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
         add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
     };
     bool is_patches = params.type() == "bilinearmesh", is_cylinder = params.type() == "cylinder";
-    if (params.type() == "trianglemesh" || is_patches || is_cylinder) {
+    bool is_control_mesh = params.type() == "loopsubdiv" && params.stands_in();
+    if (params.type() == "trianglemesh" || is_patches || is_cylinder || is_control_mesh) {
         TriangleMesh mesh =
             is_cylinder ? read_cylinder(params) : read_triangle_mesh(params, is_patches ? 4 : 3);
         if ((is_patches || is_cylinder) && state.emission && state.emission->power > 0) {
-            params.not_supported(params.at(),
-                                 "the \"power\" of a light of this shape is not supported");
+            params.stand_in(params.at(), "the power of a patch or cylinder",
+                            "the \"power\" of a light of this shape is not supported");
+            if (params.may_stand_in()) {
+                ShapeState without = state;
+                without.emission->power = 0;
+                return read_shape(params, without, limits, files, scene, notes);
+            }
         }
+        if (is_control_mesh) params.ignore_rest();
         params.finish();
         if (is_patches) notes.add(params.at(), "a bilinear patch is read as two triangles");
         if (is_cylinder) notes.add(params.at(), "a cylinder is read as 256 triangles");
@@ -171,9 +184,11 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
         const TriangleMesh* mesh = nullptr;
         if (name) {
             params.read(
-                [&] { mesh = &files.mesh(files.find(name->at, name->strings[0]), name->at); });
+                [&] { mesh = &files.mesh(files.find(name->at, name->strings[0]), name->at); },
+                "a mesh that cannot be read");
         }
         params.finish();
+        if (name && !mesh) return false;
         if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
         add(*mesh);
     } else if (params.type() == "sphere") {
@@ -187,6 +202,7 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
     add_shape(params, state, g.triangles, triangles, false, axes, scene);
     add_shape(params, state, g.spheres, spheres, state.reverse_orientation, axes, scene);
     add_shape(params, state, g.disks, disks, false, axes, scene);
+    return true;
 }
 
 void number_light_primitives(Scene& scene) {

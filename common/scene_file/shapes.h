@@ -4,6 +4,9 @@
 #include "common/scene_file/named_files.h"
 #include "common/scene_file/options.h"
 
+/// The name of the stand-in for a mesh that has no uv for its texture.
+inline constexpr const char* no_uv = "a textured mesh without usable uv";
+
 /// What is in force where a Shape directive stands.
 struct ShapeState {
     Transform world_from_object;
@@ -21,8 +24,10 @@ struct ShapeState {
 ///   sphere    outwards;   disk  object space's +z, carried along as a normal
 /// and ReverseOrientation turns each to the other side. Throws ReadingEnds when the scene grows
 /// beyond the limits.
-void read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
-                Scene& scene, Messages& notes);
+///
+/// Returns false where nothing is added, and that is the stand-in of the shape.
+bool read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
+                Scene& scene, SceneNotes& notes);
 
 /// Gives each area light its range of primitives, once all are read.
 void number_light_primitives(Scene& scene);

@@ -1,10 +1,14 @@
 #include "common/scene_file/textures.h"
 
+#include <algorithm>
+#include <array>
+
 #include "common/base/numbers.h"
 #include "common/picture/image.h"
 
 namespace {
 
+constexpr const char* unreadable_picture = "a picture that cannot be read";
 constexpr int deepest = 100;  // textures made of textures
 
 // A number of the mapping from (u, v) to the picture.
@@ -15,12 +19,17 @@ float read_mapping(Params& params, const std::string& name, float fallback) {
     fail(params.at(name), quote(name) + " must be from -1e9 to 1e9");
 }
 
-void read_mapping(Params& params, Texture& texture) {
-    if (params.string("mapping", "uv") != "uv") {
-        params.not_supported(params.at("mapping"), "only the mapping \"uv\" is supported");
+// Returns whether the mapping is "uv", not one that the mean of the texture stands in for.
+bool read_mapping(Params& params, Texture& texture) {
+    bool is_uv = params.string("mapping", "uv") == "uv";
+    if (!is_uv) {
+        params.ignore("vector3", {"v1", "v2"});
+        params.stand_in(params.at("mapping"), "a mapping other than \"uv\"",
+                        "only the mapping \"uv\" is supported");
     }
     texture.scale = {read_mapping(params, "uscale", 1), read_mapping(params, "vscale", 1)};
     texture.shift = {read_mapping(params, "udelta", 0), read_mapping(params, "vdelta", 0)};
+    return is_uv;
 }
 
 // How codes become linear values: to this power, or as sRGB codes (0).
@@ -41,11 +50,16 @@ Texture::Wrap read_wrap(Params& params) {
     if (wrap == "repeat") return Texture::Wrap::repeat;
     if (wrap == "clamp") return Texture::Wrap::clamp;
     if (wrap == "black") return Texture::Wrap::black;
+    if (wrap == "octahedralsphere") {
+        const std::string row = "wrap \"octahedralsphere\"";
+        params.stand_in(params.at("wrap"), row, row + " is not supported");
+        return Texture::Wrap::repeat;
+    }
     fail_unknown(params.at("wrap"), "wrap", wrap, {"black", "clamp", "repeat"});
 }
 
 // Whether the nearest texel alone counts.
-bool read_filter(Params& params, Messages& notes) {
+bool read_filter(Params& params, SceneNotes& notes) {
     params.ignore("float", {"maxanisotropy"});
     std::string filter = params.string("filter", "bilinear");
     if (filter == "point") return true;
@@ -78,7 +92,7 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
     return r;
 }
 
-void TextureReader::read(Lexer& lexer, const Token& word, Messages& notes) {
+void TextureReader::read(Lexer& lexer, const Token& word) {
     Token name_token = lexer.next(), type = lexer.next();
     for (const Token& token : {name_token, type}) {
         if (token.type == Token::string) continue;
@@ -86,16 +100,21 @@ void TextureReader::read(Lexer& lexer, const Token& word, Messages& notes) {
                                   Lexer::describe(token));
     }
     std::string name = lexer.unescape(name_token);
-    Params params(lexer, word, notes);
+    Params params(lexer, word, notes_);
     if (type.text != "spectrum" && type.text != "float") {
         fail_unknown(lexer.at(type), "type of texture", std::string(type.text),
                      {"float", "spectrum"});
     }
-    if (known_.contains(name)) fail(lexer.at(name_token), "a second texture " + quote(name));
+    bool is_float = type.text == "float";
+    if (is_float ? floats_.contains(name) : known_.contains(name)) {
+        fail(lexer.at(name_token), "a second texture " + quote(name));
+    }
+    if (is_float) {
+        floats_.insert({name, {params, {}}});
+        return;
+    }
     try {
-        std::optional<NamedTexture> texture;
-        if (type.text == "spectrum") texture = read_spectrum(params, notes);
-        known_[name] = texture;
+        known_[name] = read_spectrum(params);
     } catch (const InputError&) {
         known_[name] = NamedTexture{};  // so that who names it is not wrong too
         throw;
@@ -106,29 +125,86 @@ std::optional<NamedTexture> TextureReader::find(Params& params, const std::strin
     const Param* param = params.find_exactly("texture", name, 1);
     if (!param) return {};
     auto found = known_.find(param->strings[0]);
-    if (found == known_.end()) {
-        std::vector<std::string> names;
-        for (const auto& [known, texture] : known_) names.push_back(known);
-        fail_unknown(param->at, "texture", param->strings[0], names);
-    }
-    if (!found->second) {
-        fail(param->at, "the texture " + quote(found->first) +
+    if (found != known_.end()) return found->second;
+    if (floats_.contains(param->strings[0])) {
+        fail(param->at, "the texture " + quote(param->strings[0]) +
                             " is of type \"float\", and must be of type \"spectrum\"");
     }
-    return found->second;
+    std::vector<std::string> names;
+    for (const auto& [known, texture] : known_) names.push_back(known);
+    fail_unknown(param->at, "texture", param->strings[0], names);
 }
 
-NamedTexture TextureReader::read_spectrum(Params& params, Messages& notes) {
+float TextureReader::number(Params& params, const std::string& name, float fallback) {
+    const Param* texture = params.may_stand_in() ? params.find("texture", name) : nullptr;
+    if (!texture) return params.number(name, fallback);
+    params.stand_in(texture->at, "a texture that is no reflectance", "");
+    return mean_input(params, name, fallback, true).r;
+}
+
+// What an input of a texture is on average.
+Rgb TextureReader::mean_input(Params& params, const std::string& name, float fallback,
+                              bool is_float) {
+    const Param* param = params.find("texture", name);
+    if (!is_float) {
+        if (param) return find(params, name)->mean;
+        return read_reflectance(params, name).value_or(Rgb{fallback, fallback, fallback});
+    }
+    float value = param ? fallback : params.number(name, fallback);
+    auto found = param ? floats_.find(param->strings[0]) : floats_.end();
+    if (found != floats_.end()) {
+        FloatTexture& texture = found->second;
+        if (!texture.mean) {
+            texture.mean = fallback;  // of a texture that is made of itself
+            texture.mean = mean_of(texture.params, true).r;
+        }
+        value = *texture.mean;
+    }
+    return {value, value, value};
+}
+
+Rgb TextureReader::mean_of(Params& params, bool is_float) {
+    auto input = [&](const char* name, float fallback) {
+        return mean_input(params, name, fallback, is_float);
+    };
+    const std::string& kind = params.type();
+    if (kind == "constant") return input("value", 1);
+    if (kind == "scale") return input("tex", 1) * mean_input(params, "scale", 1, true);
+    if (kind == "checkerboard") return 0.5f * (input("tex1", 1) + input("tex2", 0));
+    if (kind == "dots") return input("outside", 0);
+    if (kind == "mix" || kind == "directionmix") {
+        Rgb share =
+            kind == "mix" ? mean_input(params, "amount", 0.5f, true) : Rgb{0.5f, 0.5f, 0.5f};
+        return (Rgb{1, 1, 1} - share) * input("tex1", 0) + share * input("tex2", 1);
+    }
+    if (kind == "bilerp") {
+        return 0.25f * (input("v00", 0) + input("v01", 1) + input("v10", 0) + input("v11", 1));
+    }
+    if (kind == "imagemap" && is_float) {
+        float mean = average(read_picture(params).mean);
+        return {mean, mean, mean};
+    }
+    return {0.5f, 0.5f, 0.5f};
+}
+
+NamedTexture TextureReader::read_spectrum(Params& params) {
     NamedTexture result;
     Texture texture;
+    auto constant = [&](Rgb value) {
+        params.ignore_rest();
+        texture.kind = Texture::Kind::constant;
+        texture.value = {std::clamp(value.r, 0.0f, 1.0f), std::clamp(value.g, 0.0f, 1.0f),
+                         std::clamp(value.b, 0.0f, 1.0f)};
+        return NamedTexture{0, texture.value, texture.value};
+    };
     if (params.type() == "imagemap") {
-        return read_picture(params, notes);
+        return read_picture(params);
     } else if (params.type() == "constant") {
         texture.value = read_reflectance(params, "value").value_or(texture.value);
-        result.most = texture.value;
+        result.most = result.mean = texture.value;
     } else if (params.type() == "scale") {
         NamedTexture input = read_input(params, "tex", {1, 1, 1});
-        float scale = params.number("scale", 1);
+        float scale = number(params, "scale", 1);
         if (!(scale >= 0 && scale <= 1e9f)) {
             fail(params.at("scale"), "\"scale\" must be from 0 to 1e9");
         }
@@ -137,28 +213,36 @@ NamedTexture TextureReader::read_spectrum(Params& params, Messages& notes) {
         texture.inputs = {input.index, input.index};
         result = input;
         result.depth++;
-        auto most = [&](float x) { return std::min(1.0f, scale * x); };
-        result.most = {most(input.most.r), most(input.most.g), most(input.most.b)};
+        auto scaled = [&](Rgb x) {
+            return Rgb{std::min(1.0f, scale * x.r), std::min(1.0f, scale * x.g),
+                       std::min(1.0f, scale * x.b)};
+        };
+        result.most = scaled(input.most), result.mean = scaled(input.mean);
     } else if (params.type() == "checkerboard") {
-        if (params.integer("dimension", 2, 2, 3) == 3) {
-            params.not_supported(params.at("dimension"),
-                                 "a checkerboard of 3 dimensions is not supported");
+        bool is_flat = params.integer("dimension", 2, 2, 3) == 2;
+        if (!is_flat) {
+            params.stand_in(params.at("dimension"), "a checkerboard of 3 dimensions",
+                            "a checkerboard of 3 dimensions is not supported");
         }
         NamedTexture a = read_input(params, "tex1", {1, 1, 1});
         NamedTexture b = read_input(params, "tex2", {0, 0, 0});
         texture.kind = Texture::Kind::checkerboard;
-        read_mapping(params, texture);
+        is_flat &= read_mapping(params, texture);
         texture.inputs = {a.index, b.index};
         result.most = {std::max(a.most.r, b.most.r), std::max(a.most.g, b.most.g),
                        std::max(a.most.b, b.most.b)};
+        result.mean = 0.5f * (a.mean + b.mean);
         result.needs_uv = true;
         result.depth = 1 + std::max(a.depth, b.depth);
+        if (!is_flat && params.may_stand_in()) result = constant(result.mean);
+    } else if (params.stands_in()) {
+        result = constant(mean_of(params, false));
     } else {
         params.fail_type({"checkerboard", "constant", "imagemap", "scale"});
     }
     params.finish();
     if (result.depth > deepest) fail(params.at(), "textures of textures, more than 100 deep");
-    result.index = add(params.at(), texture);
+    result.index = add(params.at(), texture, result.mean);
     return result;
 }
 
@@ -167,38 +251,52 @@ NamedTexture TextureReader::read_input(Params& params, const std::string& name, 
     if (std::optional<NamedTexture> texture = find(params, name)) return *texture;
     Texture constant;
     constant.value = read_reflectance(params, name).value_or(fallback);
-    return {add(params.at(), constant), constant.value};
+    return {add(params.at(), constant, constant.value), constant.value, constant.value};
 }
 
-NamedTexture TextureReader::read_picture(Params& params, Messages& notes) {
+NamedTexture TextureReader::read_picture(Params& params) {
     Texture texture;
     texture.kind = Texture::Kind::picture;
-    read_mapping(params, texture);
+    bool is_uv = read_mapping(params, texture);
     texture.wrap = read_wrap(params);
-    texture.nearest = read_filter(params, notes);
+    texture.nearest = read_filter(params, notes_);
     texture.inverted = params.boolean("invert", false);
     float scale = params.number("scale", 1), gamma = read_encoding(params);
     if (!(scale >= 0 && scale <= 1e9f)) fail(params.at("scale"), "\"scale\" must be from 0 to 1e9");
     texture.value = {scale, scale, scale};
     const Param* name = params.find_exactly("string", "filename", 1);
-    if (name) params.read([&] { texture.picture = picture(params, name->at, gamma); });
+    if (name) texture.picture = picture(params, name->at, gamma);
     params.finish();
     if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
 
     NamedTexture result;
     result.needs_uv = true;
-    for (Rgb r : textures_.pictures[texture.picture].texels) {
+    std::array<double, 3> sum = {};
+    const std::vector<Rgb>& texels = textures_.pictures[texture.picture].texels;
+    for (Rgb r : texels) {
         result.most = {std::max(result.most.r, r.r), std::max(result.most.g, r.g),
                        std::max(result.most.b, r.b)};
+        const std::array<float, 3> channels = {r.r, r.g, r.b};
+        for (size_t i = 0; i < 3; i++) sum[i] += double{std::min(1.0f, scale * channels[i])};
     }
     result.most *= scale;
     if (max_component(result.most) > 1) {
-        notes.add(params.at("filename"),
-                  "what is above 1 in " + quote_file(name->strings[0]) + " is read as 1");
+        notes_.add(params.at("filename"),
+                   "what is above 1 in " + quote_file(name->strings[0]) + " is read as 1");
     }
     auto most = [&](float x) { return texture.inverted ? 1 : std::min(x, 1.0f); };
     result.most = {most(result.most.r), most(result.most.g), most(result.most.b)};
-    result.index = add(params.at(), texture);
+    auto mean = [&](double of_all) {
+        float value = static_cast<float>(of_all / static_cast<double>(texels.size()));
+        return texture.inverted ? 1 - value : value;
+    };
+    result.mean = {mean(sum[0]), mean(sum[1]), mean(sum[2])};
+    if (!is_uv) {
+        texture = {};
+        texture.value = result.most = result.mean;
+        result.needs_uv = false;
+    }
+    result.index = add(params.at(), texture, result.mean);
     return result;
 }
 
@@ -207,15 +305,19 @@ uint32_t TextureReader::picture(Params& params, const Position& at, float gamma)
     std::string path = files_.find(at, params.string("filename", ""));
     auto [place, is_new] = pictures_.try_emplace({canonical(path), gamma});
     Picture& known = place->second;
-    if (!known.error.empty()) throw InputError(known.error);
     if (is_new) {
         known.number = static_cast<uint32_t>(textures_.pictures.size());
         try {
             read_texels(path, at, gamma);
+        } catch (const ReadingEnds&) {
+            throw;
         } catch (const InputError& error) {
             known.error = error.what();
-            throw;
+            if (params.may_stand_in()) textures_.pictures.push_back({1, 1, {{0.5f, 0.5f, 0.5f}}});
         }
+    }
+    if (!known.error.empty()) {
+        params.read([&] { throw InputError(known.error); }, unreadable_picture);
     }
     files_.add_number(known.number);
     return known.number;
@@ -235,9 +337,10 @@ void TextureReader::read_texels(const std::string& path, const Position& at, flo
     textures_.pictures.push_back({image.width, image.height, std::move(image.pixels)});
 }
 
-uint32_t TextureReader::add(const Position& at, const Texture& texture) {
+uint32_t TextureReader::add(const Position& at, const Texture& texture, Rgb mean) {
     constexpr size_t most = 65535;
     if (textures_.all.size() == most) stop_reading(at, "more than 65535 textures");
     textures_.all.push_back(texture);
+    means_.push_back(mean);
     return static_cast<uint32_t>(textures_.all.size() - 1);
 }

@@ -10,41 +10,55 @@
 /// A texture, and what a material that names it must know.
 struct NamedTexture {
     uint32_t index = 0;     // into Textures::all
-    Rgb most;               // an upper bound of its values
+    Rgb most, mean;         // an upper bound of its values, and what they are on average
     bool needs_uv = false;  // varies over the surface
     int depth = 1;          // of textures that are made of textures
 };
 
-/// Reads textures and finds them by name. Those of type "float" are known by name alone: a material
-/// that names one is refused.
+/// Reads textures and finds them by name. Those of type "float" are kept as they stand in the file:
+/// a stand-in for a material that names one asks for their mean.
 class TextureReader {
 public:
-    TextureReader(const Limits& limits, NamedFiles& files) : limits_(limits), files_(files) {}
+    TextureReader(const Limits& limits, NamedFiles& files, SceneNotes& notes)
+        : limits_(limits), files_(files), notes_(notes) {}
 
     /// Reads what stands after the word Texture.
-    void read(Lexer& lexer, const Token& word, Messages& notes);
+    void read(Lexer& lexer, const Token& word);
     /// The texture that a parameter "texture NAME" names; nothing where it is not given.
     std::optional<NamedTexture> find(Params& params, const std::string& name) const;
+    /// A number, or the mean of the texture that a parameter "texture NAME" names, as a stand-in.
+    float number(Params& params, const std::string& name, float fallback);
 
+    /// What the texture of this number is on average.
+    Rgb mean(uint32_t texture) const { return means_[texture]; }
     const Textures& textures() const { return textures_; }
     Textures take() { return std::move(textures_); }
 
 private:
     struct Picture {
         uint32_t number = 0;  // into Textures::pictures
-        std::string error;    // of a file that is no picture
+        std::string error;    // of a file that is no picture; the texel of its stand-in is grey
     };
-    NamedTexture read_spectrum(Params& params, Messages& notes);
+    NamedTexture read_spectrum(Params& params);
     NamedTexture read_input(Params& params, const std::string& name, Rgb fallback);
-    NamedTexture read_picture(Params& params, Messages& notes);
+    Rgb mean_input(Params& params, const std::string& name, float fallback, bool is_float);
+    Rgb mean_of(Params& params, bool is_float);
+    NamedTexture read_picture(Params& params);
     uint32_t picture(Params& params, const Position& at, float gamma);
     void read_texels(const std::string& path, const Position& at, float gamma);
-    uint32_t add(const Position& at, const Texture& texture);
+    uint32_t add(const Position& at, const Texture& texture, Rgb mean);
 
     const Limits limits_;
     NamedFiles& files_;
+    SceneNotes& notes_;
     Textures textures_;
-    std::map<std::string, std::optional<NamedTexture>> known_;   // nothing: of type "float"
+    std::vector<Rgb> means_;  // of each
+    struct FloatTexture {
+        Params params;
+        std::optional<float> mean;  // once it was asked for
+    };
+    std::map<std::string, NamedTexture> known_;
+    std::map<std::string, FloatTexture> floats_;
     std::map<std::pair<std::string, float>, Picture> pictures_;  // by canonical name and gamma
     uint64_t texels_ = 0;
 };

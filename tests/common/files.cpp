@@ -784,8 +784,8 @@ TEST_SUITE("pictures on disk") {
         struct {
             std::string bytes, error;
         } cases[] = {
-            {"", "not a .ppm (P6), .pfm or .png picture"},
-            {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6), .pfm or .png picture"},
+            {"", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
             {"\x89PNG\r\n\x1a\n", "the picture is cut short, or damaged"},
             {"P6", cut},
             {"P6\n", cut},
@@ -835,15 +835,15 @@ TEST_SUITE("pictures on disk") {
             {"PF\n1 1\n-1\n" + std::string(12 + 77, 'x'),
              "77 bytes are left over after the pixels"},
             {"Pf\n1 1\n-1\r\n" + std::string(6, 'x'), "3 bytes are left over after the pixels"},
-            {"P1 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"P2 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"P4 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"P5 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"P7 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"PF4 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"P63 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"p6 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
-            {"\xff\xd8\xff 1 1 255 000", "not a .ppm (P6), .pfm or .png picture"},
+            {"P1 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"P2 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"P4 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"P5 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"P7 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"PF4 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"P63 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"p6 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
+            {"\xff\xd8\xff 1 1 255 000", "the picture is cut short, or too large"},
         };
         for (const auto& c : cases) {
             CAPTURE(c.bytes);

@@ -153,7 +153,7 @@ TEST_SUITE("reader: large scenes") {
                 .ends_with("/a.ply:15:1: error: the file is too short for a list of this length"));
         CHECK(refuse(world + repeated(sky, 100), limits, folder.path() + "/") ==
               folder / "sky.pfm" + ": error: the picture is cut short\n" + folder / "scene.pbrt" +
-                  ":3:1: error: a second picture of the sky");
+                  ":3:1: error: a second picture of the sky; --stand-in renders it as grey (0.5)");
     }
 
     TEST_CASE("input: what does not fit into the memory is named, with its size") {
@@ -285,7 +285,10 @@ TEST_SUITE("reader: large scenes") {
                 scene + ":1:1: note: Sampler \"halton\" only sets the samples per pixel\n";
             if (std::string(quiet) == "--quiet") note.clear();
             CHECK(end.err ==
-                  note + scene + ":2:1: error: MakeNamedMedium is not supported\n" + scene +
+                  note + scene +
+                      ":2:1: error: MakeNamedMedium is not supported; --stand-in renders it as "
+                      "empty space\n" +
+                      scene +
                       ":3:1: error: unknown directive \"Camra\": did you mean \"Camera\"?\n");
         }
     }

@@ -232,7 +232,7 @@ TEST_SUITE("surroundings") {
         std::string all = help_of({}, {});
         CHECK(all.find("\n  --out FILE               .ppm, .pfm or .png; may be repeated (default "
                        "out/07_x.ppm)\n") != std::string::npos);
-        CHECK(std::count(all.begin(), all.end(), '\n') == 4 + 17 + 1);
+        CHECK(std::count(all.begin(), all.end(), '\n') == 4 + 18 + 1);
         // Each line has a name, and words behind it.
         for (size_t at = all.find("\n  --"); at != std::string::npos;
              at = all.find("\n  --", at + 1)) {

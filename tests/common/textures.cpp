@@ -324,13 +324,14 @@ TEST_SUITE("textures") {
         CHECK(
             gallery.error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]", "", "a.png") ==
             "scene.pbrt:4:1: error: Shape \"trianglemesh\" has no "
-            "usable uv, which its texture needs");
+            "usable uv, which its texture needs; --stand-in renders it as the mean of the texture");
         CHECK(gallery.error("NamedMaterial \"late\" Shape \"trianglemesh\" \"point3 P\" "
                             "[0 0 0 1 0 0 0 1 0]\nMakeNamedMaterial \"late\" \"string type\" "
                             "\"diffuse\" \"texture reflectance\" \"t\"",
                             "", "a.png") ==
               "scene.pbrt:4:15: error: a mesh of material \"late\" "
-              "has no usable uv, which its texture needs");
+              "has no usable uv, which its texture needs; --stand-in renders it as the mean of the "
+              "texture");
         std::string bytes = read_file(gallery.folder / "a.png");
         write_file_atomically(gallery.folder / "b.png", bytes.substr(0, bytes.size() - 20));
         CHECK(gallery.error(square_with_uv, "", "b.png") ==

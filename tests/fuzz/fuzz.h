@@ -231,7 +231,8 @@ inline void check_scene(const Scene& scene) {
     require(is_finite(c.o) && is_finite(c.right) && is_finite(c.up) && is_finite(c.forward),
             "camera is not finite");
     require(length(cross(c.right, c.up)) > 0 && length(c.forward) > 0, "camera is flat");
-    require(scene.geometry.size() > 0 || !scene.movers.empty(), "no shape");
+    require(scene.geometry.size() > 0 || !scene.movers.empty() || !scene.stand_ins.empty(),
+            "no shape");
     require(!scene.lights.empty() || scene.sky_image, "no light");
     for (const Shape& s : scene.shapes) {
         require(s.material < scene.materials.size(), "material");
@@ -294,7 +295,7 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count,
     const std::string folder = "tests/fuzz/corpus/";
     std::vector<std::pair<std::string, std::string>> corpus;
     for (const char* name : {"features.pbrt", "part.pbrt", "square-ascii.ply", "square-little.ply",
-                             "square-big.ply", "sky.pfm", "sky.png"}) {
+                             "square-big.ply", "sky.pfm", "sky.png", "sky.jpg", "sky.tga"}) {
         corpus.emplace_back(folder + name, read_file(folder + name));
     }
     for (const char* name :
@@ -304,6 +305,12 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count,
         corpus.emplace_back(path, read_file(path));
     }
 
+    // All that pbrt has, from line to line of another one of them.
+    std::string all = "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n";
+    for (const std::string& line : read_lines("tests/support/pbrt_v4.txt")) {
+        if (line.starts_with("w ")) all += "AttributeBegin " + line.substr(2) + " AttributeEnd\n";
+    }
+    corpus.emplace_back(folder + "all.pbrt", all);
     std::vector<std::string> words = read_lines("tests/fuzz/words.txt");
     FuzzResult result;
     for (uint32_t i = first; i < first + count; i++) {
@@ -333,7 +340,7 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count,
         std::vector<std::string> notes;
         double start = processor_seconds();
         try {
-            check_scene(parse_scene(path, bytes, &notes));
+            check_scene(parse_scene(path, bytes, &notes, {}, {}, dice.below(2) == 0));
             result.read++;
         } catch (const InputError& error) {
             check_message(error.what());

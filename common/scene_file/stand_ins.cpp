@@ -1,0 +1,94 @@
+#include "common/scene_file/stand_ins.h"
+
+#include <algorithm>
+
+const std::vector<StandIn>& all_stand_ins() {
+    static const std::vector<StandIn> all = {
+        {"Material \"coatedconductor\"", "the metal under the coat"},
+        {"Material \"coateddiffuse\"", "diffuse"},
+        {"Material \"diffusetransmission\"", "diffuse, without the light that passes"},
+        {"Material \"hair\"", "diffuse"},
+        {"Material \"measured\"", "diffuse"},
+        {"Material \"mix\"", "the one of its materials that has the larger share"},
+        {"Material \"subsurface\"", "diffuse"},
+        {"Material \"thindielectric\"", "nothing: light passes"},
+        {"rough glass", "smooth glass"},
+        {"a roughness that differs between u and v", "their geometric mean"},
+        {"an index of refraction as a list", "its mean"},
+        {"a spectrum of unknown name or from a file", "the default of its parameter"},
+        {"a bump or normal map", "none"},
+        {"alpha", "1, or nothing where it is 0 everywhere"},
+        {"a texture that is no reflectance", "its mean, or the default of its parameter"},
+        {"Texture \"bilerp\"", "its mean"},
+        {"Texture \"directionmix\"", "its mean"},
+        {"Texture \"dots\"", "the color between the dots"},
+        {"Texture \"marble\"", "grey (0.5)"},
+        {"Texture \"mix\"", "its mean"},
+        {"Texture \"ptex\"", "grey (0.5)"},
+        {"a checkerboard of 3 dimensions", "its mean"},
+        {"a mapping other than \"uv\"", "the mean of the texture"},
+        {"wrap \"octahedralsphere\"", "\"repeat\""},
+        {"a textured mesh without usable uv", "the mean of the texture"},
+        {"a picture that cannot be read", "grey (0.5)"},
+        {"a mesh that cannot be read", "nothing"},
+        {"a scene file that cannot be read", "nothing"},
+        {"Shape \"curve\"", "nothing"},
+        {"Shape \"loopsubdiv\"", "its control mesh"},
+        {"a part of a sphere or disk", "the whole"},
+        {"a sphere or disk scaled differently along its axes", "one of their mean size"},
+        {"a light or camera that moves", "one that rests as when the shutter opens"},
+        {"TransformTimes", "from 0 to 1 s"},
+        {"LightSource \"goniometric\"", "a point light"},
+        {"LightSource \"projection\"", "a point light"},
+        {"LightSource \"spot\"", "a point light"},
+        {"an image on an area light", "its L alone"},
+        {"the power of a patch or cylinder", "its L alone"},
+        {"the illuminance of a picture of the sky", "the picture as it is"},
+        {"a portal", "none: the light comes from everywhere"},
+        {"a second picture of the sky", "grey (0.5)"},
+        {"a scene without shapes", "its lights alone"},
+        {"a scene without light", "a grey sky (0.5)"},
+        {"a scene without a camera", "pbrt's default: at the origin, looking along +z"},
+        {"Camera \"orthographic\"", "a perspective one from far away"},
+        {"Camera \"realistic\"", "a pinhole camera of 40 degrees"},
+        {"Camera \"spherical\"", "a perspective camera of 90 degrees"},
+        {"Film \"gbuffer\"", "\"rgb\""},
+        {"Film \"spectral\"", "\"rgb\""},
+        {"a part of the film", "the whole"},
+        {"a sensor or white balance", "\"cie1931\""},
+        {"a medium", "empty space"},
+    };
+    return all;
+}
+
+static const StandIn* find(const std::string& what) {
+    for (const StandIn& stand_in : all_stand_ins()) {
+        if (stand_in.what == what) return &stand_in;
+    }
+    return nullptr;
+}
+
+bool has_stand_in(const std::string& what) { return find(what) != nullptr; }
+
+std::string or_stand_in(const std::string& what) {
+    const StandIn* stand_in = find(what);
+    return stand_in ? "; --stand-in renders it as " + stand_in->instead : "";
+}
+
+void SceneNotes::stand_in(const Position& at, const std::string& what) {
+    auto [place, is_new] = used_.try_emplace(what);
+    if (is_new) place->second.first = at;
+    place->second.all[at.file].insert({at.line, at.column});
+}
+
+std::vector<UsedStandIn> SceneNotes::used() const {
+    std::vector<UsedStandIn> list;
+    for (const auto& [what, instead] : all_stand_ins()) {
+        auto found = used_.find(what);
+        if (found == used_.end()) continue;
+        size_t places = 0;
+        for (const auto& [file, all] : found->second.all) places += all.size();
+        list.push_back({what, instead, places, found->second.first});
+    }
+    return list;
+}

@@ -1,0 +1,40 @@
+// Stand-ins: what --stand-in renders in the place of what the programs do not model.
+#pragma once
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/scene_file/messages.h"
+
+struct StandIn {
+    std::string what, instead;
+};
+/// All of them; scenes/README.md has the same table.
+const std::vector<StandIn>& all_stand_ins();
+/// Whether there is a stand-in for this, by its name in the table.
+bool has_stand_in(const std::string& what);
+/// "; --stand-in renders it as INSTEAD", which ends a message; empty where there is no stand-in.
+std::string or_stand_in(const std::string& what);
+
+/// Notes, and which stand-ins a scene takes, where they are allowed.
+class SceneNotes : public Messages {
+public:
+    SceneNotes(std::vector<std::string>& lines, bool stand_ins)
+        : Messages("note", lines), stand_ins_(stand_ins) {}
+
+    bool stand_ins() const { return stand_ins_; }
+    /// Remembers that a stand-in is taken at a place in the scene file.
+    void stand_in(const Position& at, const std::string& what);
+    /// Those that were taken, in the order of the table.
+    std::vector<UsedStandIn> used() const;
+
+private:
+    struct Places {
+        Position first;
+        std::map<std::string, std::set<std::pair<int, int>>> all;  // lines and columns, by file
+    };
+    bool stand_ins_;
+    std::map<std::string, Places> used_;
+};

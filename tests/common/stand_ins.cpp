@@ -1,0 +1,321 @@
+// Stand-ins: what is read with --stand-in, what is said of it, and where.
+#include "common/scene_file/stand_ins.h"
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "common/base/files.h"
+#include "common/picture/image.h"
+#include "common/picture/verdict.h"
+#include "common/scene/texture.h"
+#include "common/scene_file/spectra.h"
+#include "tests/support/folder.h"
+#include "tests/support/run_program.h"
+#include "tests/support/scenes.h"
+
+namespace {
+
+/// A scene with files beside it.
+struct Files {
+    TemporaryFolder folder;
+
+    Files() {
+        Image image(2, 2);
+        image.pixels = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+        write_image(folder / "a.pfm", image, "");
+        write_image(folder / "a.png", image, "");
+        write_file_atomically(folder / "a.exr", "\x76\x2f\x31\x01...");
+        write_file_atomically(folder / "a.pbrt", "Shape \"sphere\" Translate 1 0 0");
+        write_file_atomically(folder / "a.ply",
+                              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty "
+                              "float y\nproperty float z\nelement face 1\nproperty list uchar int "
+                              "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    }
+    Scene read(const std::string& text, bool stand_ins = true) const {
+        return parse_scene(folder / "s.pbrt", text, nullptr, {}, {}, stand_ins);
+    }
+    Scene world(const std::string& text) const {
+        return read("Camera \"perspective\" WorldBegin\n" + text + " Shape \"sphere\"");
+    }
+    /// Those that a world takes, with light, as text.
+    std::string taken(const std::string& text) const {
+        std::string all;
+        for (UsedStandIn used : world("LightSource \"infinite\" " + text).stand_ins) {
+            used.first.file = "s.pbrt";
+            all += used.text() + '\n';
+        }
+        return all;
+    }
+};
+
+const Material& last_material(const Scene& scene) {
+    return scene.materials[scene.shapes.back().material];
+}
+Rgb abs_of(Rgb a) { return {std::abs(a.r), std::abs(a.g), std::abs(a.b)}; }
+bool near(double a, double b) { return std::abs(a - b) < 1e-5 * (1 + std::abs(b)); }
+bool near(Rgb a, Rgb b) {
+    return near(double{a.r}, double{b.r}) && near(double{a.g}, double{b.g}) &&
+           near(double{a.b}, double{b.b});
+}
+
+}  // namespace
+
+TEST_SUITE("stand-ins") {
+    TEST_CASE("input: all that pbrt-v4's files may say is read, or has a stand-in") {
+        Files files;
+        std::istringstream lines(read_file("tests/support/pbrt_v4.txt"));
+        int read = 0, replaced = 0;
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("##")) continue;
+            CAPTURE(line);
+            std::string text = line.substr(2), camera = "\nCamera \"perspective\" ";
+            const std::string world =
+                "WorldBegin Texture \"noise\" \"float\" \"fbm\" Texture \"noise2\" \"float\" "
+                "\"constant\" Texture \"wood\" \"spectrum\" \"imagemap\" \"string filename\" "
+                "\"a.png\" ";
+            const std::string rest = "LightSource \"infinite\" Shape \"sphere\" ";
+            std::string scene =
+                text.find("Camera") == std::string::npos || line[0] == 'w' ? camera : std::string();
+            scene += line[0] == 'w' ? world + rest + text : text + ' ' + world + rest;
+            std::string refused = error_of([&] { files.read(scene, false); });
+            Scene with;
+            CHECK(error_of([&] { with = files.read(scene); }) == "");
+            CHECK(with.stand_ins.empty() == refused.empty());
+            std::istringstream errors(refused);
+            for (std::string error; std::getline(errors, error);) {
+                bool is_missing = error.ends_with("cannot read: No such file or directory");
+                CHECK((is_missing || error.find(" --stand-in renders it as ") != error.npos));
+            }
+            (refused.empty() ? read : replaced)++;
+        }
+        CHECK(read >= 50);
+        CHECK(replaced >= 90);
+    }
+
+    TEST_CASE("truth: each stand-in is named once, with the number of places and the first") {
+        Files files;
+        CHECK(files.taken("Shape \"sphere\"") == "");
+        CHECK(files.taken("\nMaterial \"coateddiffuse\"\n  Material \"coateddiffuse\" Shape "
+                          "\"curve\" MakeNamedMaterial \"a\" \"string type\" \"coateddiffuse\"") ==
+              "Material \"coateddiffuse\" as diffuse (3 places, first s.pbrt:3:10)\n"
+              "Shape \"curve\" as nothing (1 place, s.pbrt:4:34)\n");
+        // An object counts once, though it is placed often.
+        CHECK(files.taken("ObjectBegin \"o\" Shape \"curve\" ObjectEnd ObjectInstance \"o\" "
+                          "ObjectInstance \"o\"") ==
+              "Shape \"curve\" as nothing (1 place, s.pbrt:2:46)\n");
+        CHECK(files.read("WorldBegin Shape \"sphere\"").stand_ins.size() == 2);
+    }
+
+    TEST_CASE("truth: what stands in for materials and textures has their means") {
+        Files files;
+        const std::string light = "LightSource \"infinite\" ";
+        const std::string noise =
+            "Texture \"n\" \"float\" \"mix\" \"float tex1\" .1 \"float tex2\" .4 \"float amount\" "
+            ".5 Texture \"wood\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" ";
+        auto material = [&](const std::string& text) {
+            return last_material(files.world(light + noise + text));
+        };
+        CHECK(
+            near(material("Material \"coateddiffuse\" \"rgb reflectance\" [.1 .2 .3]").reflectance,
+                 {0.1f, 0.2f, 0.3f}));
+        Material metal = material(
+            "Material \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Au-eta\" \"spectrum "
+            "conductor.k\" \"metal-Au-k\" \"texture conductor.roughness\" \"n\"");
+        CHECK(metal.type == MaterialType::conductor);
+        CHECK(near(double{metal.alpha}, 0.5));
+        CHECK(near(metal.eta, metal_ior("Au")->eta));
+        CHECK(near(double{material("Material \"conductor\" \"float uroughness\" .1 \"float "
+                                   "vroughness\" .4 \"bool remaproughness\" false")
+                              .alpha},
+                   0.2));
+        Material glass =
+            material("Material \"dielectric\" \"float roughness\" .3 \"float eta\" 1.4");
+        CHECK(glass.type == MaterialType::dielectric);
+        CHECK(near(double{glass.ior}, 1.4));
+        const std::string both =
+            "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string "
+            "type\" \"conductor\" Material \"mix\" \"string materials\" [\"a\" \"b\"] ";
+        CHECK(material(both + "\"texture amount\" \"n\"").type == MaterialType::diffuse);
+        CHECK(material(both + "\"float amount\" .6").type == MaterialType::conductor);
+
+        auto texture = [&](const std::string& kind) {
+            return material("Texture \"t\" \"spectrum\" " + kind +
+                            " Material \"diffuse\" \"texture reflectance\" \"t\"");
+        };
+        Material mixed = texture(
+            "\"mix\" \"texture tex1\" \"wood\" \"rgb tex2\" [.1 .2 .3] \"texture amount\" \"n\"");
+        CHECK(mixed.texture == 0);
+        CHECK(near(mixed.reflectance, {0.4f, 0.425f, 0.45f}));
+        CHECK(near(texture("\"imagemap\" \"string filename\" \"a.png\" \"string mapping\" "
+                           "\"planar\" \"float scale\" .5")
+                       .reflectance,
+                   {0.25f, 0.25f, 0.25f}));
+        CHECK(near(texture("\"imagemap\" \"string filename\" \"a.exr\"").reflectance,
+                   {0.5f, 0.5f, 0.5f}));
+        // Also on meshes without uv, whose material may be made later.
+        Scene scene =
+            files.world(light + noise +
+                        "NamedMaterial \"late\" Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 "
+                        "0 0 1 0] MakeNamedMaterial \"late\" \"string type\" \"diffuse\" \"texture "
+                        "reflectance\" \"wood\"");
+        const Material& plain = scene.materials[scene.shapes[0].material];
+        CHECK(plain.texture == 0);
+        CHECK(near(plain.reflectance, {0.5f, 0.5f, 0.5f}));
+        CHECK(scene.stand_ins.size() == 1);
+        // A texture that is made of itself, or of 2^100 others, ends.
+        std::string doubled = noise;
+        for (int i = 0; i < 100; i++) {
+            std::string input = i == 0 ? "n" : "n" + std::to_string(i - 1);
+            doubled += "Texture \"n" + std::to_string(i) +
+                       "\" \"float\" \"mix\" \"texture tex1\" \"" + input +
+                       "\" \"texture tex2\" \"" + input + "\" ";
+        }
+        doubled += "Texture \"self\" \"float\" \"scale\" \"texture tex\" \"self\" ";
+        for (auto [name, alpha] : {std::pair("n99", 0.25), std::pair("self", 0.0)}) {
+            Scene many = files.world(light + doubled +
+                                     "Material \"conductor\" \"bool "
+                                     "remaproughness\" false \"texture roughness\" \"" +
+                                     name + "\"");
+            CHECK(near(double{last_material(many).alpha}, alpha));
+        }
+    }
+
+    TEST_CASE("truth: what stands in for lights, cameras and shapes") {
+        Files files;
+        Scene spot = files.world("LightSource \"spot\" \"point3 from\" [1 2 3] \"rgb I\" [4 5 6]");
+        CHECK(spot.lights[0].type == LightType::point);
+        CHECK(near(spot.lights[0].L, {4, 5, 6}));
+        // A hemisphere of constant intensity.
+        Scene power = files.world(
+            "LightSource \"spot\" \"float power\" 10 \"float coneangle\" 90 \"float "
+            "conedeltaangle\" 0");
+        CHECK(near(double{power.lights[0].L.g}, 10 / (2 * double{pi})));
+        Scene sky = files.world(
+            "LightSource \"infinite\" \"string filename\" \"a.exr\" \"float "
+            "scale\" 3");
+        CHECK(!sky.sky_image);
+        CHECK(near(double{sky.lights[0].L.g}, 1.5));
+        Scene lit = files.world(
+            "LightSource \"infinite\" \"string filename\" \"none.exr\" \"float "
+            "illuminance\" 3");
+        CHECK(near(double{lit.lights[0].L.g}, 1.5 / double{pi}));
+
+        // An orthographic camera shows [-1, 1] of a distant plane, and nearly so of a near one.
+        Scene from_far = files.read(
+            "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"orthographic\" Film \"rgb\" \"integer "
+            "xresolution\" 64 \"integer yresolution\" 64 WorldBegin LightSource \"infinite\" Shape "
+            "\"sphere\"");
+        CameraView view = camera_view(from_far.camera, 64, 64);
+        for (float z : {-4.0f, 0.0f, 4.0f}) {
+            Ray ray = camera_ray(view, {64, 32});
+            float t = (z - ray.o.z) / ray.d.z;
+            CHECK(std::abs(std::abs(ray.o.x + t * ray.d.x) - 1) < 0.05f);
+        }
+        // What is left out leaves no light behind; a clear shape is no shape, unless it shines.
+        Scene left = files.world(
+            "LightSource \"infinite\" AttributeBegin AreaLightSource \"diffuse\" Material "
+            "\"interface\" Shape \"sphere\" AttributeEnd Shape \"sphere\" \"float alpha\" 0");
+        CHECK(left.geometry.size() == 1);
+        CHECK(left.lights.size() == 1);
+        // pbrt imports a file as if it stood in a block.
+        Scene imported = files.world("LightSource \"infinite\" Import \"a.pbrt\"");
+        CHECK(imported.geometry.spheres[1].c.x == 0);
+        CHECK(imported.stand_ins.empty());
+    }
+
+    TEST_CASE("agreement: a picture with stand-ins is never compared as one without") {
+        PictureFacts a{"a.pfm", 0.01}, b{"b.pfm", 0.01};
+        a.notes = {{"checksum", "1"}, {"stand-ins", "Shape \"curve\" as nothing"}};
+        b.notes = {{"checksum", "1"}};
+        Comparison c;
+        c.mse = 1, c.mean_a = c.mean_b = 1;
+        const std::string refused =
+            "the pictures show different scenes, so their difference is no noise";
+        CHECK(verdict(c, 0.01, a, b) == refused);
+        CHECK(doubts(a, b)[0] ==
+              "warning: a.pfm is not what its scene describes, but has stand-ins: Shape \"curve\" "
+              "as nothing");
+        b.notes.clear();
+        CHECK(verdict(c, 0.01, a, b) == refused);
+        CHECK(verdict(c, 0.01, a, a) != refused);
+    }
+
+    TEST_CASE("truth: a .jpg and a .tga have the colors of the .png that they were made of") {
+        Image png = read_image("tests/fuzz/corpus/sky.png");
+        for (auto [file, error] : {std::pair("sky.tga", 0.0), std::pair("sky.jpg", 0.03)}) {
+            Image image = read_image("tests/fuzz/corpus/" + std::string(file));
+            REQUIRE(image.pixels.size() == png.pixels.size());
+            double sum = 0;
+            for (size_t i = 0; i < png.pixels.size(); i++) {
+                sum += double{max_component(abs_of(image.pixels[i] - png.pixels[i]))};
+            }
+            CHECK(sum <= error * static_cast<double>(png.pixels.size()));
+            std::string bytes = read_file("tests/fuzz/corpus/" + std::string(file));
+            for (size_t length = 0; length < bytes.size(); length++) {
+                CHECK(error_of([&] { decode_image(file, bytes.substr(0, length)); }) != "");
+            }
+        }
+    }
+
+    TEST_CASE("input: a room as others write them is read, with coated materials as stand-ins") {
+        Files files;
+        std::filesystem::copy("tests/fuzz/corpus/sky.tga", files.folder / "wood.tga");
+        std::filesystem::copy("tests/fuzz/corpus/sky.jpg", files.folder / "wall.jpg");
+        const std::string room = read_file("tests/support/room_by_others.pbrt");
+        Scene scene = files.read(room);
+        REQUIRE(scene.stand_ins.size() == 2);
+        CHECK(scene.stand_ins[0].what == "Material \"coatedconductor\"");
+        CHECK(scene.stand_ins[1].what == "Material \"coateddiffuse\"");
+        CHECK(scene.stand_ins[1].places == 2);
+        CHECK(scene.textures.pictures.size() == 2);
+        std::string refused = error_of([&] { files.read(room, false); });
+        CHECK(std::count(refused.begin(), refused.end(), '\n') == 1);
+    }
+
+    TEST_CASE(
+        "truth: a program says which stand-ins it takes, in print and in all that it writes") {
+        Files files;
+        write_file_atomically(files.folder / "s.pbrt",
+                              "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
+                              "Material \"coateddiffuse\" Shape \"sphere\" Shape \"curve\"");
+        const std::string film = files.folder / "a.film", stats = files.folder / "a.json",
+                          out = files.folder / "a.png", scene = files.folder / "s.pbrt";
+        const Words words = {scene, "--size", "4x4", "--spp",   "2",  "--out",
+                             out,   "--film", film,  "--stats", stats};
+        Words with = words;
+        with.push_back("--stand-in");
+        CHECK(run("09_light_sampling", words).code == 1);
+        Finished end = run("09_light_sampling", with);
+        CHECK(end.code == 0);
+        const std::string first = "Material \"coateddiffuse\" as diffuse (1 place, ",
+                          second = "Shape \"curve\" as nothing (1 place, ";
+        CHECK(end.out.find("\nstand-in: " + first + scene + ":2:10)\n") != std::string::npos);
+        CHECK(end.out.find("\nstand-in: " + second + scene + ":2:47)\n") != std::string::npos);
+        const std::string note = first + "s.pbrt:2:10); " + second + "s.pbrt:2:47)";
+        CHECK(value_of(notes_in(decode_comment(out, read_file(out))), "stand-ins") == note);
+        CHECK(read_file(film).find("option stand-ins " + note) != std::string::npos);
+        CHECK(read_file(stats).find("\"stand_ins\": [\"Material") != std::string::npos);
+        // What needs none says nothing.
+        Finished plain = run("09_light_sampling", {"scenes/cornell.pbrt", "--size", "4x4", "--spp",
+                                                   "1", "--stand-in", "--out", out});
+        CHECK(plain.code == 0);
+        CHECK(plain.out.find("stand-in") == std::string::npos);
+        CHECK(value_of(notes_in(decode_comment(out, read_file(out))), "stand-ins") == "");
+    }
+
+    TEST_CASE("text: scenes/README.md has the table of stand-ins") {
+        std::string table = "| not modelled | rendered as |\n|---|---|\n";
+        for (const StandIn& row : all_stand_ins()) {
+            auto code = [](std::string text) {
+                bool is_code = text.starts_with("Material") || text.starts_with("Texture") ||
+                               text.starts_with("Shape") || text.starts_with("LightSource") ||
+                               text.starts_with("Camera") || text.starts_with("Film");
+                return is_code ? '`' + text + '`' : text;
+            };
+            table += "| " + code(row.what) + " | " + row.instead + " |\n";
+        }
+        CAPTURE(table);
+        CHECK(read_file("scenes/README.md").find(table) != std::string::npos);
+    }
+}
