@@ -1,5 +1,5 @@
 # Pages, and what looks at the text of the code.
-.PHONY: diff steps lint pictures readmes tidy
+.PHONY: diff steps lint pictures readmes student-edition tidy
 
 #: make diff CH=08   what a chapter changes of the one before
 diff:
@@ -9,6 +9,9 @@ lint:
 	common/tools/check_text
 	common/tools/steps
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+#: make student-edition   student/: the project without solutions, answers and diffs; CH=09: with exercises up to 09
+student-edition: $(made)
+	@common/tools/student_edition $(CH)
 #: make steps        how large the step of each chapter is from the one before
 steps:
 	@common/tools/steps

@@ -56,6 +56,112 @@ double lesson_weight(const Scene& scene, const Endpoints& endpoints,
 
 }  // namespace
 
+// What can be said of the parts of the chapter as soon as each is written.
+TEST_SUITE("ch21 parts") {
+    /// A lamp of 2 x 2 that shines down on a floor of the same size, 2 below it.
+    Scene lamp_and_floor() {
+        return world_of("AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [3 2 1]\n" +
+                        square(1, false) + "AttributeEnd\n" +
+                        "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n" +
+                        square(-1, true));
+    }
+
+    TEST_CASE("truth: a vertex on a lamp has its emission, and one over its area as density") {
+        Scene scene = lamp_and_floor();
+        Endpoints endpoints = endpoints_of(scene);
+        for (float up : {1.0f, -1.0f}) {
+            Ray ray = {{0.1f, 0, 0.2f}, {0, up, 0}};
+            std::optional<Hit> x = intersect(scene, ray);
+            REQUIRE(x);
+            ch21::Vertex v = ch21::vertex_at(scene, endpoints, x, ray, {4, 5, 6});
+            CHECK(v.connectible);
+            CHECK(v.beta.g == 5);
+            CHECK(v.back.y == -up);
+            CHECK(v.Le.r == (up > 0 ? 3 : 0));
+            CHECK(std::abs(v.pdf - (up > 0 ? 0.25f : 0)) <= 1e-6f);
+        }
+    }
+
+    TEST_CASE("furnace: walks from the eye in a closed sphere add up to 1 / (1 - albedo)") {
+        Scene scene = scene_from("scenes/closed-sphere.pbrt", 16, 60);
+        Endpoints endpoints = endpoints_of(scene);
+        Sampler sampler(SamplerType::independent, 1, 1);
+        RunningStats sums;
+        for (uint32_t i = 0; i < 20000; i++) {
+            sampler.start(0, i);
+            Recorder recorder;
+            double sum = 0;
+            Ray ray = {{0, 0, 0}, uniform_direction(sampler.u2())};
+            ch21::Path path = ch21::random_walk(scene, endpoints, false, ray, sampler, recorder);
+            for (size_t k = 1; k < path.size(); k++) sum += double{(path[k].beta * path[k].Le).g};
+            sums.add(sum);
+        }
+        CHECK(std::abs(sums.mean() - 2) <= 5 * sums.standard_error() + 1e-6);
+        CHECK(sums.standard_error() <= 0.02);
+        CHECK(sums.variance() > 0);
+    }
+
+    TEST_CASE("truth: the flux of light paths is the power of the lamp, pi A Le") {
+        Scene scene = lamp_and_floor();
+        Endpoints endpoints = endpoints_of(scene);
+        Sampler sampler(SamplerType::independent, 2, 1);
+        RunningStats flux;
+        for (uint32_t i = 0; i < 1000; i++) {
+            sampler.start(0, i);
+            Recorder recorder;
+            ch21::Path path = ch21::light_subpath(scene, endpoints, sampler, recorder);
+            REQUIRE(path.size() >= 2);
+            CHECK(path[0].pdf == doctest::Approx(0.25).scale(0));
+            CHECK(path[0].beta.r == doctest::Approx(12).scale(0));
+            flux.add(double{path[1].beta.r});
+        }
+        CHECK(std::abs(flux.mean() / (4 * pi_exact * 3) - 1) <= 1e-5);
+    }
+
+    TEST_CASE("identity: a whole path begins at the light and ends at the eye") {
+        Scene scene = lamp_and_floor();
+        ch21::Path light(3), eye(3);
+        for (size_t i = 0; i < 3; i++) light[i].x.p.x = 1 + float(i), eye[i].x.p.x = 6 - float(i);
+        for (int s : {0, 1, 2, 3}) {
+            for (int t : {1, 2, 3}) {
+                if (s + t < 2) continue;
+                ch21::Path whole = ch21::whole_path(scene, light, s, eye, t);
+                REQUIRE(whole.size() == static_cast<size_t>(s + t));
+                for (int i = 0; i < s + t; i++)
+                    CHECK(whole[static_cast<size_t>(i)].x.p.x ==
+                          static_cast<float>(i < s ? 1 + i : 6 - (s + t - 1 - i)));
+            }
+        }
+    }
+
+    TEST_CASE("density: walks leave paint with cos / pi, and lamps with cos / pi or 1 / (4 pi)") {
+        Scene scene = lamp_and_floor();
+        std::optional<Hit> x = intersect(scene, {{0, 0, 0}, {0, -1, 0}});
+        REQUIRE(x);
+        Vec3 from = normalize({1, 1, 0}), to = normalize({-1, 3, 2});
+        for (bool from_light : {false, true})
+            CHECK(ch21::pdf_onwards(scene, from_light, *x, from, to) ==
+                  doctest::Approx(double{to.y} / pi_exact).scale(0));
+        ch21::Vertex lamp, point;
+        lamp.x.ng = {0, 1, 0}, point.type = LightType::point;
+        CHECK(ch21::pdf_emission(lamp, to) == doctest::Approx(double{to.y} / pi_exact).scale(0));
+        CHECK(ch21::pdf_emission(point, to) == doctest::Approx(0.25 / pi_exact).scale(0));
+    }
+
+    TEST_CASE(
+        "jacobian: from the lamp the floor below it is met with 1 / (4 pi) per square metre") {
+        Scene scene = lamp_and_floor();
+        Endpoints endpoints = endpoints_of(scene);
+        ch21::Path path(2);
+        path[0].x.p = {0, 1, 0}, path[0].x.ng = {0, -1, 0}, path[0].pdf = 0.25f;
+        path[1].x = intersect(scene, {{0, 0, 0}, {0, -1, 0}}).value();
+        std::vector<double> pdf_A = ch21::densities(scene, endpoints, true, path);
+        REQUIRE(pdf_A.size() == 2);
+        CHECK(pdf_A[0] == doctest::Approx(0.25).scale(0));
+        CHECK(pdf_A[1] == doctest::Approx(0.25 / pi_exact).scale(0));
+    }
+}
+
 TEST_SUITE("ch21 weights") {
     TEST_CASE("identity: weights are p_s / sum p_i over the densities of whole paths") {
         struct {

@@ -1,5 +1,5 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check checkers names mistakes verdicts
+.PHONY: exercise check checkers names mistakes stages verdicts
 
 #: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
 exercise:
@@ -23,6 +23,9 @@ check: checkers $(made) \
 #: make verdicts     does make check say of right, wrong and endless files what they are? (20 s)
 verdicts: checkers $(BUILD)/01_monte_carlo_pi $(BUILD)/compare
 	@tests/check/verdicts $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))
+#: make stages CH=21     after which function of the exercise can each claim be decided? (minutes)
+stages: checkers
+	@tests/check/stages $(BUILD) $(CH) -- $(CXX) $(filter-out -I.,$(CXXFLAGS))
 # All chapters in one, for the references that make check compares with (2 minutes): build/names --references
 $(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp)) $$(patsubst %.cpp,$$(BUILD)/obj/%.o,$$(methods)) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
