@@ -7,6 +7,7 @@
 #include "chapters/26_radiosity/settings.h"
 #include "chapters/26_radiosity/tessellate.h"
 #include "chapters/26_radiosity/variants.h"
+#include "common/base/system.h"
 #include "common/path/trace.h"
 #include "common/picture/notes.h"
 #include "common/program/code_hash.h"
@@ -155,7 +156,7 @@ private:
         start(patch, solution_);
         check_numbers(scene_.file, patch, solution_);
         std::error_code none;
-        if (!film_.empty() && std::filesystem::exists(film_, none)) {
+        if (!film_.empty() && std::filesystem::exists(file_path(film_), none)) {
             read_numbers(film_, label(), numbers_of(solution_));
             check_numbers(film_, patch, solution_);
             check_balance(film_, balance_of(patch, solution_));

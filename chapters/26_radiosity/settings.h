@@ -7,6 +7,7 @@
 #include "chapters/26_radiosity/variants.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/system.h"
 #include "common/program/command_line.h"
 #include "common/program/outputs.h"
 
@@ -79,7 +80,7 @@ inline std::string numbered(const std::string& path, uint64_t shots) {
 
 /// Whether a file in the folder of the first picture has the name of one that --every may write.
 inline bool is_numbered(const std::string& name, const std::string& path, const Settings& s) {
-    std::string file = std::filesystem::path(path).filename().string();
+    std::string file = file_name(file_path(path).filename());
     size_t dot = file.rfind('.');
     if (name.size() <= dot || name.compare(0, dot, file, 0, dot) != 0) return false;
     uint64_t shots = std::strtoull(name.c_str() + dot + 1, nullptr, 10);

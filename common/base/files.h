@@ -25,11 +25,9 @@ public:
     void commit();
 
 private:
-    bool lock() const;
-
     std::string path_;                // as named, for messages
     std::string target_, temporary_;  // after all links; beside it. Empty for a device
-    int fd_ = -1;
+    int file_ = -1;
 };
 
 /// Writes `bytes` to a new file beside `path` and renames it over `path`: a full disk or a kill

@@ -1,25 +1,16 @@
 #include "common/base/numbers.h"
 
-#include <locale.h>
-#ifdef __APPLE__
-#include <xlocale.h>
-#endif
-
 #include <charconv>
 #include <cstdlib>
 #include <string>
 #include <version>
 
+#include "common/base/system.h"
+
 namespace {
 
 std::string_view without_plus(std::string_view text) {
     return text.starts_with('+') && !text.starts_with("+-") ? text.substr(1) : text;
-}
-
-// strtod where a point is a point, whatever the user's language makes of it.
-double plain_strtod(const char* text, char** end) {
-    static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", locale_t{});
-    return ::strtod_l(text, end, plain);
 }
 
 }  // namespace

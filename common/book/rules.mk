@@ -1,12 +1,12 @@
 # The book: all pages as HTML, and in them the programs of all chapters as one WebAssembly module.
 .PHONY: book slides
-#: make book         all pages as HTML, with chapters that run in them: out/book/index.html
+#: reading: make book         all pages as HTML, with chapters that run in them: out/book/index.html
 book: $(made)
 	@command -v em++ >/dev/null || common/tools/install emscripten || true
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
 	    common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
 
-#: make slides       slides of each chapter, from its page: out/slides/, one HTML file each; the browser prints them
+#: teaching: make slides       slides of each chapter, from its page: out/slides/, one HTML file each; the browser prints them
 slides:
 	@common/book/make_slides out/slides
 

@@ -1,6 +1,6 @@
 // Memory for large arrays that are read all over the place.
 #pragma once
-#include <cstdlib>
+#include <cstddef>
 #include <new>
 #ifdef __linux__
 #include <sys/mman.h>
@@ -17,16 +17,13 @@ struct PageAllocator {
     PageAllocator(PageAllocator<U>) {}
 
     T* allocate(size_t n) {
-        constexpr size_t cache_line = 64, large_page = size_t{2} << 20;
-        size_t bytes = n * sizeof(T), align = bytes < 2 * large_page ? cache_line : large_page;
-        void* p = std::aligned_alloc(align, (bytes + align - 1) / align * align);
-        if (p == nullptr) throw std::bad_alloc();
+        void* p = ::operator new (n * sizeof(T), std::align_val_t{alignment(n)});
 #ifdef MADV_HUGEPAGE
-        if (align == large_page) madvise(p, bytes, MADV_HUGEPAGE);
+        if (alignment(n) == large_page) madvise(p, n * sizeof(T), MADV_HUGEPAGE);
 #endif
         return static_cast<T*>(p);
     }
-    void deallocate(T* p, size_t) { std::free(p); }
+    void deallocate(T* p, size_t n) { ::operator delete (p, std::align_val_t{alignment(n)}); }
     /// Leaves new elements unwritten, unless they are given a value.
     template <typename U>
     void construct(U* p) {
@@ -35,5 +32,11 @@ struct PageAllocator {
     template <typename U>
     bool operator==(PageAllocator<U>) const {
         return true;
+    }
+
+private:
+    static constexpr size_t cache_line = 64, large_page = size_t{2} << 20;
+    static size_t alignment(size_t n) {
+        return n * sizeof(T) < 2 * large_page ? cache_line : large_page;
     }
 };

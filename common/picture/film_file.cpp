@@ -1,9 +1,5 @@
 #include "common/picture/film_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -13,6 +9,7 @@
 #include "common/base/checksum.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
+#include "common/base/system.h"
 
 namespace {
 
@@ -61,15 +58,15 @@ bool is_consistent(const Film& film, const FilmLabel& label) {
 class FilmReader {
 public:
     explicit FilmReader(const std::string& path) : path_(path) {
-        if (std::error_code none; std::filesystem::is_directory(path, none)) {
+        if (std::error_code none; std::filesystem::is_directory(file_path(path), none)) {
             errno = EISDIR;
         } else {
             check_film_is_file(path);
-            fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+            file_ = open_file(path);
         }
-        if (fd_ < 0) refuse(std::string("cannot read: ") + std::strerror(errno));
+        if (file_ < 0) refuse(std::string("cannot read: ") + std::strerror(errno));
     }
-    ~FilmReader() { ::close(fd_); }
+    ~FilmReader() { close_file(file_); }
     FilmReader(const FilmReader&) = delete;
     FilmReader& operator=(const FilmReader&) = delete;
 
@@ -85,8 +82,7 @@ private:
     size_t read_some(char* to, size_t size) {
         size_t done = 0;
         while (done < size) {
-            ssize_t n = ::read(fd_, to + done, std::min<size_t>(size - done, 1 << 20));
-            if (n < 0 && errno == EINTR) continue;
+            ptrdiff_t n = read_bytes(file_, to + done, std::min<size_t>(size - done, 1 << 20));
             if (n < 0) refuse(std::string("cannot read: ") + std::strerror(errno));
             if (n == 0) break;
             done += static_cast<size_t>(n);
@@ -98,7 +94,7 @@ private:
     void read_pixels(Film& film, const FilmShape& shape);
 
     std::string path_;
-    int fd_ = -1;
+    int file_ = -1;
     Checksum checksum_;
 };
 
@@ -144,13 +140,9 @@ void FilmReader::read_pixels(Film& film, const FilmShape& shape) {
 LabeledFilm FilmReader::read() {
     auto [label, shape] = parse_label(path_, read_text());
     // Ask first whether there are so many bytes: a label alone must not take all memory.
-    struct stat file = {};
     uint64_t pixels = static_cast<uint64_t>(shape.width) * static_cast<uint64_t>(shape.height);
     uint64_t least = pixels * (shape.takes_splats ? 3 : 1) + (shape.kind == 2 ? pixels : 0);
-    if (::fstat(fd_, &file) != 0 ||
-        static_cast<uint64_t>(file.st_size) < least * sizeof(PixelSum)) {
-        refuse("the film is cut short");
-    }
+    if (bytes_in(file_) < least * sizeof(PixelSum)) refuse("the film is cut short");
     Film film(shape.width, shape.height, shape.takes_splats);
     if (shape.kind == 2) film.start_halves();
     if (shape.kind == 3) film.start_batches();
@@ -189,7 +181,7 @@ void write_film(const std::string& path, const FilmLabel& label, const Film& fil
 
 void check_film_is_file(const std::string& path) {
     std::error_code none;
-    std::filesystem::file_status status = std::filesystem::status(path, none);
+    std::filesystem::file_status status = std::filesystem::status(file_path(path), none);
     if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
     fail({path}, "a film must be a file: what this is cannot be read and replaced");
 }

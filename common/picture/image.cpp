@@ -10,6 +10,7 @@
 #include "common/base/files.h"
 #include "common/base/numbers.h"
 #include "common/base/position.h"
+#include "common/base/system.h"
 #include "common/picture/png.h"
 
 static_assert(std::endian::native == std::endian::little, "pfm rows are written as they lie");
@@ -31,8 +32,9 @@ float from_srgb(float code) {
 namespace {
 
 std::string extension(const std::string& path) {
-    size_t dot = path.find_last_of("./");
-    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+    std::string name = file_name(file_path(path));
+    size_t dot = name.find_last_of("./");
+    return dot == std::string::npos || name[dot] == '/' ? "" : name.substr(dot);
 }
 
 // The colour of pixels that are not finite, in formats that cannot store them: magenta.

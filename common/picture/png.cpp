@@ -112,7 +112,7 @@ bool tga_is_cut(const std::string& bytes) {
 Image decode(const std::string& path, const std::string& file, float gamma,
              const std::string& damaged) {
     auto* data = reinterpret_cast<const unsigned char*>(file.data());
-    int size = static_cast<int>(file.size()), width, height, channels;
+    int size = static_cast<int>(file.size()), width = 0, height = 0, channels = 0;
     constexpr int64_t most = 1032;  // times smaller is what the .png format can make of it
     most_memory = 1 << 16;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||

@@ -5,16 +5,17 @@
 
 #include "common/base/files.h"
 #include "common/base/numbers.h"
+#include "common/base/system.h"
 
 static constexpr const char* blanks = " \t\r\n";
 
 std::string StatsFile::path_beside(const std::string& picture) {
-    return std::filesystem::path(picture).replace_extension(".json").string();
+    return file_name(file_path(picture).replace_extension(".json"));
 }
 
 std::optional<StatsFile> StatsFile::beside(const std::string& picture) {
     std::string path = path_beside(picture);
-    if (!std::filesystem::exists(path)) return {};
+    if (!std::filesystem::exists(file_path(path))) return {};
     return StatsFile(read_file(path));
 }
 

@@ -8,6 +8,7 @@
 #include "common/base/numbers.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
+#include "common/base/system.h"
 #include "common/picture/stats_file.h"
 
 namespace {
@@ -114,8 +115,8 @@ PictureFacts facts_of(const std::string& picture, const Image& image) {
             facts.known_from = path;
         }
     }
-    std::string path = std::filesystem::path(picture).replace_extension(".err.pfm").string();
-    if (std::filesystem::exists(path)) {
+    std::string path = file_name(file_path(picture).replace_extension(".err.pfm"));
+    if (std::filesystem::exists(file_path(path))) {
         Image errors = read_image(path);
         check_comparable(image, picture, errors, path);
         facts.standard_error = error_of_mean(errors);

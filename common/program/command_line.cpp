@@ -1,12 +1,8 @@
 #include "common/program/command_line.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +12,7 @@
 #include "common/base/nearest.h"
 #include "common/base/numbers.h"
 #include "common/base/position.h"
+#include "common/base/system.h"
 
 namespace {
 
@@ -40,14 +37,6 @@ namespace {
     }
     flush_stdout();
     std::exit(0);
-}
-
-// Opens /dev/null for each of stdin, stdout and stderr that is closed. Else the next file opened
-// would take its number, and printed text would end up in that file.
-void open_missing_streams() {
-    for (int fd = 0; fd <= 2; fd++) {
-        if (::fcntl(fd, F_GETFD) == -1) ::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
-    }
 }
 
 // Sets the option in argv[i]; returns the index of the last word that belongs to it.
@@ -158,9 +147,7 @@ std::string command_line(int argc, char** argv) {
 }
 
 int run_program(const std::function<int()>& program) {
-    open_missing_streams();
-    // Writing beyond a file size limit or to a closed pipe: fail with a message, not by a signal.
-    for (int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+    prepare_streams();
     auto report = [](const std::string& line, int code) {
         std::fprintf(stderr, "%s\n", printable(line).c_str());
         return code;

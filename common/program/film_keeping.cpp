@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/position.h"
+#include "common/base/system.h"
 #include "common/program/code_hash.h"
 
 namespace {
@@ -21,7 +22,7 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     std::vector<std::pair<std::string, std::string>> options = {
         {"chapter", o.name},
         {"code", code_hash(o.name)},
-        {"file", printable(std::filesystem::path(scene.file).filename().string())},
+        {"file", printable(file_name(file_path(scene.file).filename()))},
         {"scene", scene_bytes},
         {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
         {"max-depth", std::to_string(scene.max_depth)},
@@ -32,7 +33,7 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     // Without folders: the same on every machine.
     std::string stand_ins;
     for (UsedStandIn used : scene.stand_ins) {
-        used.first.file = std::filesystem::path(used.first.file).filename().string();
+        used.first.file = file_name(file_path(used.first.file).filename());
         stand_ins += (stand_ins.empty() ? "" : "; ") + used.text();
     }
     if (!stand_ins.empty()) options.push_back({"stand-ins", stand_ins});
@@ -63,7 +64,7 @@ SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
 
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering) {
     std::error_code none;
-    if (options.film.empty() || !std::filesystem::exists(options.film, none)) return;
+    if (options.film.empty() || !std::filesystem::exists(file_path(options.film), none)) return;
     LabeledFilm found = read_film(options.film);
     check_options(options.film, found.label, film_options(scene, options));
     if (found.label.samples.empty()) return;  // it was stopped before it had samples

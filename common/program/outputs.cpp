@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
+#include "common/base/system.h"
 #include "common/picture/film_file.h"
 
 namespace fs = std::filesystem;
@@ -16,7 +17,7 @@ namespace {
 /// long names, or the sheet of all.
 bool is_of_split(const fs::path& name) {
     if (name.extension() != ".pfm" && name.extension() != ".png") return false;
-    std::string stem = name.stem().string();
+    std::string stem = file_name(name.stem());
     if (stem == "longer" || stem == "classes") return true;
     return stem.size() >= 2 && stem.front() == 'L' && stem.back() == 'E' &&
            stem.find_first_not_of("DS", 1) == stem.size() - 1;
@@ -28,13 +29,13 @@ void add_later(const std::string& folder, const std::vector<std::string>& others
                const IsWritten& is_written, std::vector<std::string>& files) {
     std::vector<std::string> names;
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, none))
-        names.push_back(entry.path().filename().string());
-    for (const std::string& other : others) names.push_back(fs::path(other).filename().string());
+    for (const auto& entry : fs::directory_iterator(file_path(folder.empty() ? "." : folder), none))
+        names.push_back(file_name(entry.path().filename()));
+    for (const std::string& other : others) names.push_back(file_name(file_path(other).filename()));
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     for (const std::string& name : names) {
-        if (is_written(name)) files.push_back((fs::path(folder) / name).string());
+        if (is_written(name)) files.push_back(file_name(file_path(folder) / file_path(name)));
     }
 }
 
@@ -53,7 +54,7 @@ void check_space(const Scene& scene, const std::vector<std::string>& files) {
 }  // namespace
 
 std::string drawing_path(const RenderOptions& options) {
-    return fs::path(options.out[0]).replace_extension(".svg").string();
+    return file_name(file_path(options.out[0]).replace_extension(".svg"));
 }
 
 void check_outputs(const Scene& scene, const RenderOptions& options,
@@ -74,7 +75,7 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
         add_later(options.split, others, is_of_split, files);
     }
     if (is_beside) {
-        add_later(fs::path(options.out[0]).parent_path().string(), others, is_beside, files);
+        add_later(file_name(file_path(options.out[0]).parent_path()), others, is_beside, files);
     }
     check_outputs(files, inputs);
     check_space(scene, files);

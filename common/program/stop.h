@@ -1,11 +1,10 @@
 // Stops work on Ctrl-C and similar signals, so that results so far are kept.
 #pragma once
-#include <csignal>
 
-/// While it exists, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP asks for a stop. The same signal
-/// ends the program if it comes again at least half a second later (timeout and others send it
-/// twice at once). Signals that the program was started to ignore, as by nohup, stay ignored. If
-/// several objects exist, only the first has an effect.
+/// While it exists, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (on Windows: SIGBREAK) asks for a
+/// stop. The same signal ends the program if it comes again at least half a second later (timeout
+/// and others send it twice at once). Signals that the program was started to ignore, as by nohup,
+/// stay ignored. If several objects exist, only the first has an effect.
 class StopOnSignal {
 public:
     StopOnSignal();
@@ -17,8 +16,4 @@ public:
     /// Whether a signal came; resets it, so that the signal ends one part of the work but not the
     /// next.
     bool take_request();
-
-private:
-    static constexpr int signals_[] = {SIGINT, SIGTERM, SIGHUP};
-    struct sigaction before_[3];
 };

@@ -6,6 +6,7 @@
 
 #include "common/base/files.h"
 #include "common/base/stats.h"
+#include "common/base/system.h"
 
 std::string digits(double x, int significant) {
     if (std::isnan(x)) return "unknown";
@@ -64,7 +65,8 @@ void write_results(const TableOptions& options, const Table& table, const std::s
     if (!options.quiet) std::printf("%s\n%s", aligned(table).c_str(), notes.c_str());
     for (const std::string& path : options.out) {
         std::error_code ignored;  // the write reports it
-        if (path.starts_with("out/")) std::filesystem::create_directories("out", ignored);
+        if (file_name(file_path(path)).starts_with("out/"))
+            std::filesystem::create_directories("out", ignored);
         if (path.ends_with(".tsv")) {
             write_file_atomically(path, tab_separated(table));
         } else {

@@ -35,8 +35,8 @@ public:
 
 private:
     static double now() {
-        std::timespec t{};
-        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+        timespec t{};
+        ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
         return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
     }
     double start_ = now();

@@ -4,13 +4,14 @@
 #include <filesystem>
 
 #include "common/base/files.h"
+#include "common/base/system.h"
 #include "common/scene_file/messages.h"
 
 namespace fs = std::filesystem;
 
 std::string read_scene_file(const std::string& path) {
     std::error_code none;
-    fs::file_type type = fs::status(path, none).type();
+    fs::file_type type = fs::status(file_path(path), none).type();
     bool is_device = type == fs::file_type::character || type == fs::file_type::block;
     bool is_pipe = type == fs::file_type::fifo || type == fs::file_type::socket;
     if (is_device) fail({path}, "cannot read: a device and no file");
@@ -18,25 +19,25 @@ std::string read_scene_file(const std::string& path) {
     try {
         return read_file(path);
     } catch (const std::bad_alloc&) {
-        uintmax_t bytes = fs::file_size(path, none);
+        uintmax_t bytes = fs::file_size(file_path(path), none);
         fail({path}, "out of memory: the file has " + whole_megabytes(none ? 0 : bytes));
     }
 }
 
 std::string canonical(const std::string& path) {
     std::error_code none;
-    return fs::weakly_canonical(path, none).string();
+    return file_name(fs::weakly_canonical(file_path(path), none));
 }
 
 NamedFiles::NamedFiles(std::string main_file, const Limits& limits, const Report& report)
     : main_file_(std::move(main_file)), limits_(limits), report_(report) {}
 
 std::string NamedFiles::find(const Position& at, const std::string& name) const {
-    fs::path path = fs::path(at.file).parent_path() / name;
-    fs::path from_main = fs::path(main_file_).parent_path() / name;
+    fs::path path = file_path(at.file).parent_path() / file_path(name);
+    fs::path from_main = file_path(main_file_).parent_path() / file_path(name);
     std::error_code none;
     bool only_there = !fs::exists(path, none) && fs::exists(from_main, none);
-    return (only_there ? from_main : path).string();
+    return file_name(only_there ? from_main : path);
 }
 
 std::string NamedFiles::read(const std::string& path, const Position& at) {

@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/percent.h"
+#include "common/base/system.h"
 #include "common/picture/comparison.h"
 #include "common/picture/verdict.h"
 #include "common/program/command_line.h"
@@ -54,9 +55,8 @@ CompareOptions parse(int argc, char** argv) {
 std::vector<std::string> all_read(const CompareOptions& o) {
     std::vector<std::string> files = o.pictures;
     for (const std::string& picture : o.pictures) {
-        std::filesystem::path errors = picture;
-        errors.replace_extension(".err.pfm");
-        if (std::filesystem::exists(errors)) files.push_back(errors.string());
+        std::filesystem::path errors = file_path(picture).replace_extension(".err.pfm");
+        if (std::filesystem::exists(errors)) files.push_back(file_name(errors));
     }
     return files;
 }

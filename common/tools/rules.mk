@@ -1,37 +1,41 @@
 # Pages, and what looks at the text of the code.
 .PHONY: diff steps lint pictures readmes student-edition tidy
 
-#: make diff CH=08   what a chapter changes of the one before
+#: reading: make diff CH=08   what a chapter changes of the one before
 diff:
 	@common/tools/chapter_diff '$(CH)'
-#: make lint         the rules that the text of the code keeps
+#: maintaining: make lint         the rules that the text of the code keeps
 lint:
 	common/tools/check_text
 	common/tools/steps
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
-#: make student-edition   student/: the project without solutions, answers and diffs; CH=09: with exercises up to 09
+#: teaching: make student-edition   student/: the project without solutions, answers and diffs; CH=09: with exercises up to 09
 student-edition: $(made)
 	@common/tools/student_edition $(CH)
-#: make steps        how large the step of each chapter is from the one before
+#: maintaining: make steps        how large the step of each chapter is from the one before
 steps:
 	@common/tools/steps
-#: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
+#: maintaining: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
 pictures: programs
 	common/tools/make_pictures $(BUILD)
 	common/tools/make_strips $(BUILD)
-#: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
+#: maintaining: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
 readmes: programs
 	common/tools/fill_readmes $(if $(SLOW),--slow)
 
+# What programs print is checked of the main build alone; the pages not at all on Windows, which has no links.
+check_pages = $(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check \
+                $(if $(filter build,$(BUILD)),,--text))
+
 # One entry for each file that is compiled, in the form that editors and clang-tidy read.
 compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp)))
-#: make compile_commands.json   tells editors how files are compiled
+#: maintaining: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
 	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
 	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
 	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
 	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
-#: make tidy         clang-tidy's checks, those in .clang-tidy (5 minutes)
+#: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy
 tidy: compile_commands.json
 	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
 	printf '%s\n' $(compiled) | xargs -n 1 -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet -p .

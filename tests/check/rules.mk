@@ -1,7 +1,7 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
 .PHONY: exercise check checkers names mistakes stages verdicts
 
-#: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
+#: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
 exercise:
 	@common/tools/exercise '$(CH)'
 	@MAKEFLAGS= $(MAKE) --no-print-directory checkers
@@ -12,15 +12,15 @@ $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
 # Compiled in advance, with the flags that tests/check/check compiles with. g++ takes a header for the one in here only if its
 # time is the same: not that of another folder, from ccache.
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
-	@echo "compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -MMD -MP -MF $(BUILD)/obj/check_support.d \
+	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -MMD -MP -MF $(BUILD)/obj/check_support.d \
 	    -x c++-header $< -o $@
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
-#: make check CH=09      is it right? one line for each claim, and what is off (a minute); NAME=1: the name of the mistake
+#: teaching: make check CH=09      is it right? one line for each claim, and what is off; NAME=1: the name of the mistake
 check: checkers $(made) \
        $(if $(wildcard tests/measure/method_$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
-#: make verdicts     does make check say of right, wrong and endless files what they are? (20 s)
+#: maintaining: make verdicts     does make check say of right, wrong and endless files what they are?
 verdicts: checkers $(BUILD)/01_monte_carlo_pi $(BUILD)/compare
 	@tests/check/verdicts $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: make stages CH=21     after which function of the exercise can each claim be decided? (minutes)
@@ -28,11 +28,11 @@ stages: checkers
 	@tests/check/stages $(BUILD) $(CH) -- $(CXX) $(filter-out -I.,$(CXXFLAGS))
 # All chapters in one, for the references that make check compares with (2 minutes): build/names --references
 $(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp)) $$(patsubst %.cpp,$$(BUILD)/obj/%.o,$$(methods)) $(common)
-	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-#: make names        plant the mistakes of the pages, and write down how make check names them (15 minutes)
+	$(link)
+#: maintaining: make names        plant the mistakes of the pages, and write down how make check names them
 names: $(checkers) $(common) $(made)
 	@tests/check/plant $(BUILD) '$(M)' $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))
-#: make mistakes     change code as students might, and count what make check notices and names (CH=09, N=, SEED=, FILL=1, PREDICT=1)
+#: maintaining: make mistakes     change code as students might, and count what make check notices and names (CH=09, N=, SEED=, FILL=1, PREDICT=1)
 mistakes: $(checkers) $(common) $(made)
 	@tests/check/mistakes $(BUILD) $(CH:%=--chapters %) $(N:%=--n %) $(SEED:%=--seed %) $(if $(LIST),--list) \
 	  $(if $(PREDICT),--predict) $(if $(FILL),--fill) -- $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))

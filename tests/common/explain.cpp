@@ -172,20 +172,20 @@ TEST_SUITE("explain") {
     TEST_CASE("teeth: a chapter that does not report all that it adds is told so") {
         for (bool forgets : {false, true}) {
             TemporaryFolder folder;
-            Finished end = Process([&] {
-                               Scene scene = world_of("LightSource \"point\" Shape \"sphere\"", 4);
-                               RenderOptions options;
-                               options.out = {folder / "a.ppm"};
-                               SplatTrace trace = [&](const Scene&, Ray, Splats& splats, Sampler&,
-                                                      Recorder& recorder) {
-                                   splats.push_back({5, {1, 1, 2}});
-                                   recorder.connected({1, 1, 2}, 2, 1, 1, 5);
-                                   recorder.emitted({1, 1, 1});
-                                   Rgb lost = forgets ? Rgb{0.5f, 0, 0} : Rgb{};
-                                   return Rgb{1, 1, 1} + lost;
-                               };
-                               return explain(scene, options, trace, false);
-                           }).wait();
+            Finished end = captured([&] {
+                Scene scene = world_of("LightSource \"point\" Shape \"sphere\"", 4);
+                RenderOptions options;
+                options.out = {folder / "a.ppm"};
+                SplatTrace trace = [&](const Scene&, Ray, Splats& splats, Sampler&,
+                                       Recorder& recorder) {
+                    splats.push_back({5, {1, 1, 2}});
+                    recorder.connected({1, 1, 2}, 2, 1, 1, 5);
+                    recorder.emitted({1, 1, 1});
+                    Rgb lost = forgets ? Rgb{0.5f, 0, 0} : Rgb{};
+                    return Rgb{1, 1, 1} + lost;
+                };
+                return explain(scene, options, trace, false);
+            });
             CHECK(end.code == 0);
             CHECK((end.out.find("warning: the sample is (2.5, 2, 3), though") !=
                    std::string::npos) == forgets);

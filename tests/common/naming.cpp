@@ -9,7 +9,6 @@
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/check/probes.h"
-#include "tests/support/process.h"
 
 namespace {
 
@@ -52,12 +51,6 @@ std::string named(const char* chapter, const Change& change, const Change& of_ot
 bool says(const std::string& text, const std::string& words) {
     CAPTURE(text);
     return text.find(words) != std::string::npos;
-}
-
-/// Writes the exercise of a chapter, and returns what the script printed.
-std::string exercise(const std::string& number, const TemporaryFolder& folder) {
-    std::string command = "common/tools/exercise " + number + " " + folder.path() + " 2>&1";
-    return Process([&] { return std::system(command.c_str()) == 0 ? 0 : 1; }).wait().out;
 }
 
 }  // namespace
@@ -172,38 +165,5 @@ TEST_SUITE("naming") {
             CHECK(scene.width == 16);
             CHECK(references.find("\n" + probe.name + "\tsamples\t") != std::string::npos);
         }
-    }
-}
-
-TEST_SUITE("exercises") {
-    TEST_CASE("identity: an exercise keeps signatures, docstrings and headlines, and no more") {
-        TemporaryFolder folder;
-        CHECK(says(exercise("09", folder), "sample_area_light, sample_one_light, sample_light, "));
-        std::string text = read_file(folder / "09_light_sampling/estimator.h");
-        CHECK(says(text, "///   by area:  pdf_w = pdf_A d^2 / cos_y"));
-        CHECK(says(text, "inline LightSample sample_light(const Scene& scene, const Hit& x,"));
-        CHECK(says(text, "    // Sample a light.\n"));
-        CHECK(says(text, "    // Yours. As it was: chapters/08_russian_roulette/estimator.h\n"));
-        CHECK(says(text, "    return x.material->reflectance / pi;"));  // as in chapter 08
-        CHECK_FALSE(says(text, "y.pdf_w /= static_cast<float>(N);"));
-        CHECK_FALSE(says(text, "direct_light(scene, *x"));
-    }
-
-    TEST_CASE("identity: every chapter has an exercise, and a reader's file is never touched") {
-        TemporaryFolder folder;
-        for (const auto& entry : std::filesystem::directory_iterator("chapters")) {
-            std::string topic = entry.path().filename().string();
-            if (!entry.is_directory()) continue;
-            CAPTURE(topic);
-            std::string number = topic.substr(0, 2), mine = folder / (topic + "/estimator.h");
-            CHECK(says(exercise(number, folder), "wrote " + mine));
-            std::string whole = read_file("chapters/" + topic + "/estimator.h");
-            CHECK(says(read_file(mine), "// Yours."));
-            CHECK(read_file(mine).size() < whole.size());
-            write_file_atomically(mine, "mine");
-            CHECK(says(exercise(number, folder), "stays as it is"));
-            CHECK(read_file(mine) == "mine");
-        }
-        CHECK(says(exercise("99", folder), "usage: make exercise CH=09"));
     }
 }

@@ -52,7 +52,7 @@ Rendering rendering_of(size_t empty = 0) {
 }
 
 Finished written(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    return Process([&] { return write_results(scene, options, r); }).wait();
+    return captured([&] { return write_results(scene, options, r); });
 }
 
 }  // namespace
@@ -213,12 +213,12 @@ TEST_SUITE("printed") {
         TableOptions options;
         options.out = {folder / "a.tsv", folder / "a.ppm", folder / "a.pfm"};
         options.comment = comment_of({{"n", "3"}});
-        Finished end = Process([&] {
-                           write_results(options, table, "notes\n", picture);
-                           options.quiet = true;
-                           write_results(options, table, "notes\n", picture);
-                           return 0;
-                       }).wait();
+        Finished end = captured([&] {
+            write_results(options, table, "notes\n", picture);
+            options.quiet = true;
+            write_results(options, table, "notes\n", picture);
+            return 0;
+        });
         CHECK(end.out == "a  b\n1  2\n\nnotes\n");
         CHECK(read_file(folder / "a.tsv") == "a\tb\n1\t2\n");
         CHECK(read_image(folder / "a.ppm").at(1, 0) == Rgb{1, 1, 1});
@@ -244,7 +244,7 @@ TEST_SUITE("printed") {
             return met + connected + lost;
         };
         auto explained = [&](bool halves = false) {
-            return Process([&] { return explain(scene, options, trace, halves); }).wait();
+            return captured([&] { return explain(scene, options, trace, halves); });
         };
         const std::string head = "pixel  vertex   found by  class    mis    R     G  B\n",
                           first = "1,2         0  light met     LE      1  0.5  0.25  0\n",
@@ -318,11 +318,11 @@ TEST_SUITE("printed") {
             options.explain_x = x, options.explain_y = y, options.explain_sample = sample;
             options.time = time;
             std::string text;
-            Finished end = Process([&] {
-                               text = error_of([&] { explain(scene, options, trace, halves); });
-                               std::fprintf(stderr, "%s", text.c_str());
-                               return 0;
-                           }).wait();
+            Finished end = captured([&] {
+                text = error_of([&] { explain(scene, options, trace, halves); });
+                std::fprintf(stderr, "%s", text.c_str());
+                return 0;
+            });
             return end.err;
         };
         const std::string late =
@@ -343,12 +343,12 @@ TEST_SUITE("printed") {
         r.stats.largest_x = 3, r.stats.largest_y = 4, r.stats.largest_sample = 2;
         r.stats.largest = 40;
         auto printed = [&] {
-            Finished end = Process([&] {
-                               RenderOptions found = explain_brightest(options, r);
-                               std::printf("%d %d %d %d %d", found.explain, found.explain_brightest,
-                                           found.explain_x, found.explain_y, found.explain_sample);
-                               return 0;
-                           }).wait();
+            Finished end = captured([&] {
+                RenderOptions found = explain_brightest(options, r);
+                std::printf("%d %d %d %d %d", found.explain, found.explain_brightest,
+                            found.explain_x, found.explain_y, found.explain_sample);
+                return 0;
+            });
             return end.out;
         };
         const std::string again =

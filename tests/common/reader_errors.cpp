@@ -1,6 +1,5 @@
 // Scenes and files that the reader must refuse, each with its own line.
 #include <doctest/doctest.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -220,26 +219,6 @@ TEST_SUITE("reader: malformed input") {
         CHECK(notes ==
               std::vector<std::string>{"scene.pbrt:1:1: note: Sampler \"halton\" only sets "
                                        "the samples per pixel"});
-    }
-
-    TEST_CASE("files: a device and a pipe are refused at once, as a scene and as a mesh") {
-        TemporaryFolder folder;
-        std::string pipe = folder / "pipe";
-        REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-        const std::string device_text = "cannot read: a device and no file",
-                          pipe_text = "cannot read: a pipe and no file";
-        CHECK(refuse_file("/dev/zero") == "/dev/zero: error: " + device_text);
-        CHECK(refuse_file("/dev/null") == "/dev/null: error: " + device_text);
-        CHECK(refuse_file(pipe) == pipe + ": error: " + pipe_text);
-        for (const std::string what : {"Include ", "Shape \"plymesh\" \"string filename\" "}) {
-            std::string before = "Camera \"perspective\" WorldBegin " + what;
-            size_t named = std::min(before.find("\"string"), before.size());
-            std::string at = "scene.pbrt:1:" + std::to_string(named + 1);
-            CHECK(refuse(before + "\"/dev/zero\"") ==
-                  at + ": error: \"/dev/zero\": " + device_text);
-            CHECK(refuse(before + '"' + pipe + '"') ==
-                  at + ": error: \"" + pipe + "\": " + pipe_text);
-        }
     }
 
     TEST_CASE("files: a missing file, a folder and a huge file have their own messages") {

@@ -7,8 +7,7 @@
 #include "common/program/loading_progress.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/folder.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
+#include "tests/support/run_program.h"
 
 namespace {
 
@@ -31,15 +30,6 @@ std::string square_ply(size_t padding = 0) {
            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
            "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 }
-
-// Sanitizers end a program that has no more memory.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool has_sanitizers = true;
-#elif defined(__has_feature)
-constexpr bool has_sanitizers = __has_feature(address_sanitizer);
-#else
-constexpr bool has_sanitizers = false;
-#endif
 
 struct Told {
     std::string what;
@@ -156,48 +146,6 @@ TEST_SUITE("reader: large scenes") {
                   ":3:1: error: a second picture of the sky; --stand-in renders it as grey (0.5)");
     }
 
-    TEST_CASE("input: what does not fit into the memory is named, with its size") {
-        if (has_sanitizers || !exists_here("/proc/self/statm")) return;
-        constexpr size_t vertices = 1'000'000, mega = 1'000'000;
-        TemporaryFolder folder;
-        write_file_atomically(
-            folder / "big.ply",
-            "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) +
-                "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                "property list uchar int vertex_indices\nend_header\n" +
-                std::string(12 * vertices, '\0') + '\3' + std::string(12, '\0'));
-        const std::string ply = "Shape \"plymesh\" \"string filename\" \"big.ply\"\n";
-        std::string numbers = "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [" +
-                              repeated("0 0 1 ", 1'000'000) + "]\n";
-        // Read with so much memory beyond what the process has.
-        auto read_within = [&](const std::string& text, size_t more) {
-            Process reader([&] {
-                size_t pages = 0;
-                std::FILE* file = std::fopen("/proc/self/statm", "r");
-                if (std::fscanf(file, "%zu", &pages) != 1) return 1;
-                std::fclose(file);
-                rlim_t most = pages * static_cast<size_t>(::sysconf(_SC_PAGESIZE)) + more;
-                rlimit limit = {most, most};
-                ::setrlimit(RLIMIT_AS, &limit);
-                std::printf("%s", refuse(text, {}, folder.path() + "/").c_str());
-                return 0;
-            });
-            return reader.wait().out;
-        };
-        const std::string place = folder / "scene.pbrt" + ":2:";
-        CHECK(read_within(world + ply, 8 * mega) == place + "17: error: \"" + folder / "big.ply" +
-                                                        "\": out of memory: the file has 13 MB");
-        std::string said = read_within(world + repeated(ply, 50), 100 * mega);
-        CAPTURE(said);
-        CHECK(said.find(
-                  ": error: out of memory: Shape needs more, and what was read before takes ") !=
-              std::string::npos);
-        CHECK(said.ends_with(" MB"));
-        CHECK(read_within(world + numbers, 20 * mega) ==
-              place +
-                  "1: error: out of memory: Shape needs more, and what was read before takes 1 MB");
-    }
-
     TEST_CASE("truth: a hundred thousand wrong names are refused in seconds, with few lines") {
         std::string named, defined, wrong;
         for (int i = 0; i < 100'000; i++) {
@@ -270,15 +218,7 @@ TEST_SUITE("reader: large scenes") {
         std::string scene = folder / "scene.pbrt";
         write_file_atomically(scene, "Sampler \"halton\"\nMakeNamedMedium \"a\"\nCamra");
         for (const char* quiet : {"--quiet", "--spp=1"}) {
-            Process program([&] {
-                std::vector<std::string> words = program_words("07_path_tracing");
-                words.insert(words.end(), {scene, quiet});
-                std::vector<char*> argv;
-                for (std::string& word : words) argv.push_back(word.data());
-                argv.push_back(nullptr);
-                return ::execvp(argv[0], argv.data());
-            });
-            Finished end = program.wait();
+            Finished end = run(path_tracer, {scene, quiet});
             CHECK(end.code == 1);
             CHECK(end.out == "");
             std::string note =

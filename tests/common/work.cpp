@@ -15,12 +15,12 @@ TEST_SUITE("work") {
     }
 
     TEST_CASE("truth: in a file work says what it is, and no more while it is short") {
-        Finished end = Process([] {
-                           Work work("chart: 3 scenes", 3, 600);
-                           for (const char* name : {"a", "b", "c"}) work.next(name);
-                           say_wrote("out/chart.tsv");
-                           return 0;
-                       }).wait();
+        Finished end = captured([] {
+            Work work("chart: 3 scenes", 3, 600);
+            for (const char* name : {"a", "b", "c"}) work.next(name);
+            say_wrote("out/chart.tsv");
+            return 0;
+        });
         CHECK(end.out == "");
         CHECK(end.err == "chart: 3 scenes, about 10 min\nwrote out/chart.tsv\n");
     }

@@ -8,55 +8,55 @@ quick      = $(if $(QUICK),$(1))
 .PHONY: chart front stability agree efficiency compare radiosity references bench teeth break
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
-	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
-$(BUILD)/bench: LIBS := $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
+	$(link)
+$(BUILD)/bench: LIBS += $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
 $(BUILD)/gnuplot:
 	@command -v gnuplot >/dev/null || common/tools/install gnuplot-nox; mkdir -p $(@D); touch $@
 
-#: make chart        error against time of all chapters, and how time grows (QUICK=1: 2 minutes; SCENE=cornell)
+#: measuring: make chart        error against time of all chapters, and how time grows (QUICK=1: 2 minutes; SCENE=cornell)
 chart: $(BUILD)/chart $(BUILD)/growth $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
 	$(if $(SCENE),,$(BUILD)/growth $(call quick,--quick))
-#: make front        the chart of the front page, anew (3 minutes)
+#: measuring: make front        the chart of the front page, anew
 front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart cornell --methods all --seconds 60
 	cp out/chart-cornell.svg tests/measure/front.svg; cp out/chart-summary.tsv tests/measure/front.tsv
 	common/tools/fill_readmes --text README.md
-#: make stability    do methods fail where theory says, as it says, and nowhere else?
+#: measuring: make stability    do methods fail where theory says, as it says, and nowhere else?
 stability: $(BUILD)/stability $(made)
 	$<
-#: make agree        z values of every chapter against the others, on every scene
+#: measuring: make agree        z values of every chapter against the others, on every scene
 agree: $(BUILD)/agree $(BUILD)/gnuplot $(made)
 	$< $(SCENE)
-#: make efficiency CH=14   a chapter's error, time and efficiency beside the one before
+#: measuring: make efficiency CH=14   a chapter's error, time and efficiency beside the one before
 efficiency: $(BUILD)/efficiency $(made)
 	@$< $(or $(CH),$(SCENE),cornell) $(chosen)
-#: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time
+#: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time
 compare: $(BUILD)/efficiency $(made)
 	@$< $(or $(SCENE),cornell) $(chosen) --equal-time
-#: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
+#: measuring: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
 radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
 	@$< $(SCENE)
-#: make references   render what the charts compare with
+#: measuring: make references   render what the charts compare with
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
-#: make bench        rays per second of each step of chapter 06, beside Embree (2 minutes)
+#: measuring: make bench        rays per second of each step of chapter 06, beside Embree
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
 harness := $(common) $(BUILD)/obj/tests/support/main.o
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
-#: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's)
+#: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's)
 teeth: $(harness) $(made)
 	@$(teeth)
-#: make break CH=09 N=2   plant the second mistake of that page's "Break it", and show its test red
+#: teaching: make break CH=09 N=2   plant the second mistake of that page's "Break it", and show its test red
 break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
-#: make kills        end renders by 300 signals at random moments: no film or picture is lost (8 minutes)
+#: maintaining: make kills        end renders by 300 signals at random moments: no film or picture is lost
 kills: $(BUILD)/15_mis_ris $(BUILD)/07_path_tracing
 	tests/kills $(BUILD)
-#: make parts        render parts by GNU parallel and Slurm: the same bytes as one run
+#: maintaining: make parts        render parts by GNU parallel and Slurm: the same bytes as one run
 parts: $(BUILD)/15_mis_ris $(BUILD)/merge
 	tests/parts $(BUILD)
 .PHONY: kills parts

@@ -6,17 +6,22 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <set>
 #include <string>
 
 #include "common/base/error.h"
+#include "common/base/system.h"
 
 /// A new folder, removed with all that is in it.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "path-XXXXXX").string();
-        path_ = ::mkdtemp(name.data()) ? name : throw std::runtime_error("mkdtemp");
+        std::random_device random;
+        auto name = "path-" + std::to_string(random()) + std::to_string(random());
+        std::filesystem::path path = std::filesystem::temp_directory_path() / name;
+        if (!std::filesystem::create_directory(path)) throw std::runtime_error("no folder");
+        path_ = file_name(path);
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -31,7 +36,7 @@ public:
     std::set<std::string> names() const {
         std::set<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-            names.insert(entry.path().filename().string());
+            names.insert(file_name(entry.path().filename()));
         }
         return names;
     }
@@ -45,6 +50,21 @@ inline bool exists_here(const char* path) {
     bool exists = ::access(path, F_OK) == 0;
     if (!exists) MESSAGE("skipped: there is no " << path << " here");
     return exists;
+}
+
+/// The device that takes everything.
+#ifdef _WIN32
+inline const std::string null_device = "NUL";
+#else
+inline const std::string null_device = "/dev/null";
+#endif
+
+/// Makes a symbolic link; says so when the test must do without, as on Windows.
+inline bool make_link(const std::string& target, const std::string& link) {
+    std::error_code error;
+    std::filesystem::create_symlink(target, link, error);
+    if (error) MESSAGE("skipped: no symbolic links here");
+    return !error;
 }
 
 /// The text of the InputError or UsageError that `work` throws; empty when it does not.

@@ -1,15 +1,18 @@
-// Helper of the tests that need a process of its own: what it prints and how it ends.
+// Helpers of the tests: programs that run beside the test, and what work prints.
 #pragma once
 #include <doctest/doctest.h>
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
+#ifndef _WIN32
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#endif
 
 #include "common/base/files.h"
+#include "common/base/system.h"
 #include "tests/support/folder.h"
 
 /// How a process ended: its exit code, or -1 after a signal; and the seconds of processor time that
@@ -20,6 +23,56 @@ struct Finished {
     std::string out, err;
 };
 
+/// Does `work` in this process, and returns what it prints and returns.
+template <typename Work>
+Finished captured(const Work& work) {
+    TemporaryFolder folder;
+    struct Redirected {
+        Redirected(int stream, const std::string& name) : stream_(stream), before_(::dup(stream)) {
+            std::fflush(nullptr);
+            int file = open_new_file(name);
+            ::dup2(file, stream);
+            close_file(file);
+        }
+        ~Redirected() {
+            std::fflush(nullptr);
+            ::dup2(before_, stream_);
+            ::close(before_);
+        }
+        int stream_, before_;
+    };
+    Finished end;
+    {
+        Redirected out(STDOUT_FILENO, folder / "out"), err(STDERR_FILENO, folder / "err");
+        end.code = work();
+    }
+    end.out = read_file(folder / "out");
+    end.err = read_file(folder / "err");
+    return end;
+}
+
+#ifdef _WIN32
+
+constexpr int SIGKILL = 9;
+
+/// A program that runs, with the words of its command line.
+class Process {
+public:
+    explicit Process(const std::vector<std::string>& words);
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+    void kill(int signal);
+    Finished wait();
+
+private:
+    TemporaryFolder folder_;
+    void* handle_ = nullptr;
+    int killed_by_ = 0;
+};
+
+#else
+
 /// Of the processors, in s: what getrusage() or wait4() counted.
 inline double processor_seconds(const rusage& used) {
     double microseconds =
@@ -27,9 +80,21 @@ inline double processor_seconds(const rusage& used) {
     return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1e-6 * microseconds;
 }
 
-/// A process that does `work` and exits with what it returns.
+/// Becomes the program.
+inline int execute_words(std::vector<std::string> words) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    ::execvp(argv[0], argv.data());
+    return 127;
+}
+
+/// A program that runs, with the words of its command line; or, in tests/posix, a process that does
+/// `work` and exits with what it returns.
 class Process {
 public:
+    explicit Process(const std::vector<std::string>& words)
+        : Process([&] { return execute_words(words); }) {}
     template <typename Work>
     explicit Process(const Work& work) {
         std::fflush(nullptr);
@@ -43,7 +108,7 @@ public:
         if (id_ == 0) {
             rlimit none = {0, 0};
             ::setrlimit(RLIMIT_CORE, &none);
-            for (int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+            for (int signal : stop_signals) std::signal(signal, SIG_DFL);
             ::sigprocmask(SIG_SETMASK, &before, nullptr);
             std::freopen((folder_ / "out").c_str(), "w", stdout);
             std::freopen((folder_ / "err").c_str(), "w", stderr);
@@ -55,7 +120,7 @@ public:
     ~Process() {
         if (id_ > 0) kill(SIGKILL), wait();
     }
-    void kill(int signal) const { ::kill(id_, signal); }
+    void kill(int signal) { ::kill(id_, signal); }
     Finished wait() {
         int status = 0;
         rusage used = {};
@@ -75,3 +140,5 @@ private:
     TemporaryFolder folder_;
     pid_t id_ = 0;
 };
+
+#endif

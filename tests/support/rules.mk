@@ -16,6 +16,6 @@ $(advance): own_flags += -include $(included) -fpch-preprocess -Wno-array-bounds
 $(advance): $(included).gch
 $(included).gch: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(if $(filter -O3,$(OPT)),-O1)
 $(included).gch: tests/support/included.h $(BUILD)/flags | $(BUILD)/packages
-	@mkdir -p $(@D); echo "compile $<"; echo '#include "$<"' >$(included)
+	@mkdir -p $(@D); echo "$(counted)compile $<"; echo '#include "$<"' >$(included)
 	@$(CXX) $(CXXFLAGS) $(own_flags) -w -MMD -MP -x c++-header $(included) -o $@
 endif

@@ -10,19 +10,21 @@ using Words = std::vector<std::string>;
 inline const std::string spheres = "scenes/cornell-spheres.pbrt";
 inline const std::string path_tracer = "07_path_tracing", light_tracer = "20_light_tracing";
 
-/// Becomes the program.
-inline int execute(const std::string& program, const Words& words) {
+inline Words with_words(const std::string& program, const Words& words) {
     Words all = program_words(program);
     all.insert(all.end(), words.begin(), words.end());
-    std::vector<char*> argv;
-    for (std::string& word : all) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    ::execvp(argv[0], argv.data());
-    return 127;
+    return all;
 }
 
+#ifndef _WIN32
+/// Becomes the program.
+inline int execute(const std::string& program, const Words& words) {
+    return execute_words(with_words(program, words));
+}
+#endif
+
 inline Process start(const std::string& program, const Words& words) {
-    return Process([&] { return execute(program, words); });
+    return Process(with_words(program, words));
 }
 
 inline Finished run(const std::string& program, const Words& words) {
@@ -34,7 +36,7 @@ inline std::vector<std::string> programs(bool render) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator("chapters")) {
         if (!entry.is_directory()) continue;
-        std::string name = entry.path().filename().string();
+        std::string name = file_name(entry.path().filename());
         if (name == "06_bvh") continue;        // draws work instead of light: has tests of its own
         if (name == "26_radiosity") continue;  // renders no mirrors: has its own
         std::string help = run(name, {"--help"}).out;

@@ -9,7 +9,7 @@
 inline int seal(int result) {
     char number[16];
     if (result != 0 || std::getenv("SEALED") == nullptr) return result;
-    bool passed = ::read(10, number, sizeof number) == sizeof number &&
-                  ::write(11, number, sizeof number) == sizeof number;
+    bool passed = ::read(10, number, sizeof number) == static_cast<int>(sizeof number) &&
+                  ::write(11, number, sizeof number) == static_cast<int>(sizeof number);
     return passed ? 0 : 1;
 }

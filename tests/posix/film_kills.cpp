@@ -7,16 +7,9 @@
 namespace {
 
 Finished run_script(const char* script, const std::vector<std::string>& arguments) {
-    return Process([&] {
-               std::vector<std::string> words = {"bash", script, program_folder};
-               words.insert(words.end(), arguments.begin(), arguments.end());
-               std::vector<char*> argv;
-               for (std::string& word : words) argv.push_back(word.data());
-               argv.push_back(nullptr);
-               ::execvp("bash", argv.data());
-               return 127;
-           })
-        .wait();
+    std::vector<std::string> words = {"bash", script, program_folder};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return Process(words).wait();
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+# How files are compiled and linked on each system, and what is said of it.
+link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
+
+# Windows, by MinGW-w64, natively or from Linux. Programs need no other file there, and end in .exe:
+# for make and scripts a link has the name without it, which MSYS2 knows by itself. Without AVX, as
+# gcc's code stores 32 bytes where the stack of Windows is aligned to 16 (its bug 54412).
+ifneq ($(findstring mingw,$(machine)),)
+CXXFLAGS += -mno-avx
+LIBS     += -static -municode
+link      = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS) && { [ -e $@ ] || ln -s $(@F).exe $@; }
+tests    := $(filter-out $(BUILD)/obj/tests/posix/%,$(tests))
+ifneq ($(OS),Windows_NT)
+CXXFLAGS += -isystem $(BUILD)/include
+$(BUILD)/packages: | $(BUILD)/include/stb
+$(BUILD)/include/stb: # of Debian's own compiler
+	@mkdir -p $(@D); ln -sfn /usr/include/doctest /usr/include/stb $(@D)
+endif
+endif
+
+# Changes when the compiler or its flags do: then all is compiled again.
+$(BUILD)/flags: $(if $(COUNT),,always)
+	@mkdir -p $(@D); echo '$(CXX) $(CXXFLAGS)' | cmp -s - $@ || echo '$(CXX) $(CXXFLAGS)' >$@
+# The two libraries that the programs are compiled with, from Debian when they are missing.
+$(BUILD)/packages:
+	@mkdir -p $(@D); printf '#include <doctest/doctest.h>\n#include <stb/stb_image_write.h>\n' | \
+	    $(CXX) $(CXXFLAGS) -x c++ -fsyntax-only - 2>/dev/null || common/tools/install doctest-dev libstb-dev
+	@touch $@
+
+# "[12 of 228, 4 min left] ": a dry run counts, once the first file is to be compiled. COUNT: it is that run.
+counted  = $(if $(COUNT),,$(eval done := $(done) x)[$(words $(done)) of $(total)$(left)] )
+total    = $(eval total := $(shell MAKEFLAGS= $(MAKE) --dry-run MAKE=: COUNT=1 $(MAKEOVERRIDES) $(counting) | \
+             grep -c 'echo "compile '))$(total)
+counting = $(filter-out book test-book,$(or $(MAKECMDGOALS),all))
+left     = $(eval begun := $(or $(begun),$(shell date +%s)))$(shell \
+             n=$$(($(words $(done)) - 1)) seconds=$$(($$(date +%s) - $(begun))); [ $$seconds -lt 10 ] || \
+             echo ", $$(((seconds * ($(total) - n) / n + 59) / 60)) min left")

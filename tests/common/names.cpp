@@ -1,0 +1,170 @@
+// Names of files as each system has them, files that are open elsewhere, and the ends of lines.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "common/picture/image.h"
+#include "common/scene_file/reader.h"
+#include "tests/support/run_program.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string
+    strange = "Größe 日本 🎨",
+    triangle =
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n";
+
+/// The text with CR LF for each LF.
+std::string with_cr(const std::string& text) {
+    std::string changed;
+    for (char c : text) changed += c == '\n' ? "\r\n" : std::string(1, c);
+    return changed;
+}
+
+/// With the backslashes of Windows.
+std::string backslashed(std::string path) {
+    std::replace(path.begin(), path.end(), '/', '\\');
+    return path;
+}
+
+}  // namespace
+
+TEST_SUITE("names") {
+    TEST_CASE("identity: a name comes back from the form that the system has") {
+        for (const std::string& name :
+             {std::string("a/b.ppm"), strange, std::string(), "/" + strange})
+            CHECK(file_name(file_path(name)) == name);
+    }
+
+    TEST_CASE("files: names in any language are written, replaced, found and listed") {
+        TemporaryFolder folder;
+        std::string place = folder / strange, file = place + "/" + strange + ".pfm";
+        make_folder(place);
+        for (const char* bytes : {"old", "new"}) write_file_atomically(file, bytes);
+        CHECK(read_file(file) == "new");
+        CHECK(folder.names() == std::set<std::string>{strange});
+        CHECK(same_file(file, place + "/../" + strange + "/" + strange + ".pfm"));
+        CHECK(error_of([&] { check_outputs({file}, {file}); }).find(strange) != std::string::npos);
+        CHECK(error_of([&] { read_file(file + "x"); }) ==
+              file + "x: error: cannot read: No such file or directory");
+    }
+
+    TEST_CASE("files: programs take names in any language, and a scene finds its files by them") {
+        TemporaryFolder folder;
+        std::string scene = folder / strange + ".pbrt", out = folder / strange + ".pfm";
+        write_file_atomically(folder / strange + ".ply",
+                              "ply\nformat ascii 1.0\n" + triangle + "0 0 3 1 0 3 0 1 3 3 0 1 2\n");
+        write_file_atomically(
+            scene,
+            "PixelFilter \"box\" Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+            "Shape \"plymesh\" \"string filename\" \"" +
+                strange + ".ply\"\n");
+        Words words = {scene,   "--size", "9x7",
+                       "--spp", "1",      "--out",
+                       out,     "--film", folder / strange + ".film"};
+        for (int times = 0; times < 2; times++) {
+            Finished end = run(path_tracer, words);
+            CHECK(end.code == 0);
+            CHECK(end.err == "");
+            CHECK(end.out.find(strange) != std::string::npos);
+        }
+        CHECK(read_image(out).width == 9);
+        words[0] = folder / strange + ".none";
+        CHECK(run(path_tracer, words).err ==
+              words[0] + ": error: cannot read: No such file or directory\n");
+    }
+
+    TEST_CASE("files: a backslash is a letter of a name, or stands between folders on Windows") {
+        TemporaryFolder folder;
+        fs::create_directory(folder / "d");
+        write_file_atomically(folder / "d\\a.b", "x");
+        write_file_atomically(folder / "a.pbrt", read_file(spheres));
+#ifdef _WIN32
+        CHECK(read_file(folder / "d/a.b") == "x");
+        CHECK(same_file(folder / "d/a.b", backslashed(folder / "D/A.B")));
+        CHECK(folder.path()[1] == ':');  // a drive, and after it the folders
+        std::string scene = backslashed(folder / "a.pbrt"), out = backslashed(folder / "d.e/a.ppm");
+        make_folder(backslashed(folder / "d.e"));
+        Words words = {scene, "--size", "9x7", "--spp", "1", "--quiet", "--out", out};
+        Finished end = run(path_tracer, words);
+        CHECK(end.err == "");
+        CHECK(read_image(folder / "d.e/a.ppm").width == 9);
+        words.back() = scene;
+        CHECK(run(path_tracer, words).code == 2);  // would overwrite its scene
+        words.back() = backslashed(folder / "d.e/a");
+        CHECK(run(path_tracer, words).code == 2);  // no ending
+#else
+        CHECK(folder.names().contains("d\\a.b"));
+        CHECK_FALSE(same_file(folder / "d/a.b", backslashed("d/a.b")));
+#endif
+    }
+
+    TEST_CASE(
+        "files: a file that is open is replaced, or the result is kept beside it on Windows") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "f", "old");
+        int reader = open_file(folder / "f");
+        REQUIRE(reader >= 0);
+        std::string error = error_of([&] { write_file_atomically(folder / "f", "new"); });
+        char bytes[4] = {};
+        CHECK(read_bytes(reader, bytes, 3) == 3);
+        CHECK(std::string(bytes) == "old");
+        close_file(reader);
+        if (error.empty()) {
+            CHECK(read_file(folder / "f") == "new");
+        } else {
+            size_t at = error.find("; what was to be written is ");
+            REQUIRE(at != std::string::npos);
+            CHECK(read_file(error.substr(error.rfind(' ') + 1)) == "new");
+            CHECK(read_file(folder / "f") == "old");
+        }
+        write_file_atomically(folder / "f", "newer");
+        CHECK(read_file(folder / "f") == "newer");
+    }
+
+    TEST_CASE("files: what is being written is not removed, what was left over is") {
+        TemporaryFolder folder;
+        write_file_atomically(folder / "f.part-abcdefghijkl", "of a run that was killed");
+        {
+            NewFile file(folder / "f");
+            file.write("half of i");
+            CHECK(folder.names().size() == 1);
+            check_writable(folder / "f");
+            write_file_atomically(folder / "f", "by another");
+            CHECK(folder.names().size() == 2);
+            file.write("t");
+            file.commit();
+        }
+        CHECK(read_file(folder / "f") == "half of it");
+        CHECK(folder.names() == std::set<std::string>{"f"});
+    }
+
+    TEST_CASE("input: CR LF and LF end lines alike, in scenes and in headers of meshes") {
+        TemporaryFolder folder;
+        const std::string vertices(
+            "\0\0\0\0\0\0\0\0\0\0\200?\0\0\200?\0\0\0\0\0\0\200?\0\0\0\0\0\0\200?\0\0\200?", 36),
+            face("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+        const std::string text =
+            "Camera \"perspective\"\nWorldBegin # a comment\nLightSource \"infinite\"\n"
+            "Shape \"plymesh\"\n  \"string filename\" \"binary.ply\"\n"
+            "Shape \"plymesh\" \"string filename\" \"ascii.ply\"\n";
+        for (bool cr : {false, true}) {
+            auto ends = [&](const std::string& lines) { return cr ? with_cr(lines) : lines; };
+            write_file_atomically(
+                folder / "binary.ply",
+                ends("ply\nformat binary_little_endian 1.0\n" + triangle) + vertices + face);
+            write_file_atomically(folder / "ascii.ply", ends("ply\nformat ascii 1.0\n" + triangle +
+                                                             "0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n"));
+            Scene scene = parse_scene(folder / "a.pbrt", ends(text), nullptr);
+            REQUIRE(scene.geometry.positions.size() == 6);
+            for (size_t i = 0; i < 3; i++)
+                CHECK(scene.geometry.positions[i].z == scene.geometry.positions[i + 3].z);
+            CHECK(error_of([&] {
+                      parse_scene("a.pbrt", ends(text + "\n  Shap"), nullptr);
+                  }).find("a.pbrt:8:3: error: ") != std::string::npos);
+        }
+    }
+}

@@ -1,0 +1,62 @@
+// Signals that end a program, or that it ignores.
+#include "common/program/render.h"
+
+#include <doctest/doctest.h>
+
+#include <csignal>
+
+#include "common/program/stop.h"
+#include "tests/support/process.h"
+#include "tests/support/stand_ins.h"
+
+namespace {
+
+RenderOptions quiet_options(int threads = 2) {
+    RenderOptions options;
+    options.name = "stand_in";
+    options.command = "build/stand_in --spp 4";
+    options.threads = threads;
+    options.quiet = true;
+    return options;
+}
+
+}  // namespace
+
+TEST_SUITE("render loop") {
+    TEST_CASE("truth: the same signal later ends the program; an ignored one does nothing") {
+        for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
+            auto raising = [=](const Scene&, Ray, Sampler&, Recorder&) {
+                std::raise(signal);
+                return Rgb{};
+            };
+            CHECK(Process([&] {
+                      std::signal(signal, SIG_DFL);
+                      StopOnSignal stop;
+                      std::raise(signal);
+                      ::usleep(600'000);
+                      std::raise(signal);
+                      return 0;
+                  })
+                      .wait()
+                      .signal == signal);
+            // timeout sends each signal twice at once, and a terminal that closes others with it.
+            CHECK(Process([&] {
+                      for (int all : {SIGINT, SIGTERM, SIGHUP}) std::signal(all, SIG_DFL);
+                      StopOnSignal until_the_end;
+                      Rendering r =
+                          render_film(empty_scene(300, 300, 1000), quiet_options(1), raising);
+                      for (int other : {SIGINT, SIGTERM, SIGHUP}) std::raise(other);
+                      return r.stats.interrupted ? 3 : 0;
+                  })
+                      .wait()
+                      .code == 3);
+            CHECK(Process([&] {
+                      std::signal(signal, SIG_IGN);  // as nohup does
+                      Rendering r = render_film(empty_scene(3, 3, 2), quiet_options(1), raising);
+                      return r.stats.interrupted ? 1 : static_cast<int>(r.film.spp());
+                  })
+                      .wait()
+                      .code == 2);
+        }
+    }
+}
