@@ -14,10 +14,10 @@ HEADERS = set("""algorithm array atomic bit cassert cfloat climits cmath complex
     optional ostream queue random ranges set span sstream stack stdexcept string string_view tuple type_traits
     unordered_map unordered_set utility variant vector""".split())
 # What ends the program, reaches files, processes and other programs, or what decides on claims.
-WORDS = set("""abort alarm asm at_quick_exit atexit basic_filebuf basic_fstream basic_ifstream basic_ofstream creat
+WORDS = set("""abort alarm asm at_quick_exit atexit basic_filebuf basic_fstream basic_ifstream basic_ofstream cin creat
     dlopen dlsym doctest dprintf dup dup2 environ exit extern fcntl fdopen filebuf fileno filesystem fopen freopen
     fork fstream getenv gnu ifstream import ioctl longjmp mmap module mprotect ofstream open openat popen pread ptrace
-    pwrite quick_exit raise read readv set_terminate setjmp sigaction signal syscall system terminate vdprintf vfork
+    pwrite quick_exit raise read readv reinterpret_cast set_terminate setjmp sigaction signal stdin syscall system terminate vdprintf vfork
     write writev""".split())
 
 
