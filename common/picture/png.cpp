@@ -108,6 +108,24 @@ bool tga_is_cut(const std::string& bytes) {
     return left > 0 || at > bytes.size();
 }
 
+/// Whether a .jpg file has no end, or a Huffman table of more than 256 codes: stb has no room for
+/// more. A table stands where the bytes FF C4 do.
+bool jpg_is_damaged(const std::string& bytes) {
+    auto byte = [&](size_t i) {
+        return i < bytes.size() ? size_t{static_cast<uint8_t>(bytes[i])} : 0;
+    };
+    for (size_t at = 0; (at = bytes.find("\xff\xc4", at)) != std::string::npos; at += 2) {
+        size_t table = at + 4, end = at + 2 + 256 * byte(at + 2) + byte(at + 3);
+        while (table < end && table < bytes.size()) {
+            size_t codes = 0;
+            for (size_t i = 1; i <= 16; i++) codes += byte(table + i);
+            if (codes > 256) return true;
+            table += 17 + codes;
+        }
+    }
+    return bytes.rfind("\xff\xd9") == std::string::npos;
+}
+
 /// What stb makes of a file, in linear values.
 Image decode(const std::string& path, const std::string& file, float gamma,
              const std::string& damaged) {
@@ -169,7 +187,7 @@ Image decode_png(const std::string& path, const std::string& bytes, float gamma)
 bool is_jpg(const std::string& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
 Image decode_jpg_or_tga(const std::string& path, const std::string& bytes, float gamma) {
-    bool is_cut = is_jpg(bytes) ? bytes.rfind("\xff\xd9") == std::string::npos : tga_is_cut(bytes);
+    bool is_cut = is_jpg(bytes) ? jpg_is_damaged(bytes) : tga_is_cut(bytes);
     if (is_cut || bytes.size() > most_bytes) fail({path}, "the picture is cut short, or too large");
     return decode(path, bytes, gamma, "a damaged picture, or of a kind that is not read");
 }

@@ -304,6 +304,20 @@ TEST_SUITE("stand-ins") {
         CHECK(value_of(notes_in(decode_comment(out, read_file(out))), "stand-ins") == "");
     }
 
+    TEST_CASE("text: scenes/TUTORIAL.md explains every directive that is read") {
+        const std::string tutorial = read_file("scenes/TUTORIAL.md");
+        const std::string reader = read_file("common/scene_file/reader.cpp");
+        size_t directives = 0;
+        const std::string before = "    {\"";
+        for (size_t at = 0; (at = reader.find(before, at)) != std::string::npos; directives++) {
+            at += before.size();
+            std::string word = reader.substr(at, reader.find('"', at) - at);
+            CAPTURE(word);
+            CHECK(tutorial.find('`' + word + '`') != std::string::npos);
+        }
+        CHECK(directives == 38);
+    }
+
     TEST_CASE("text: scenes/README.md has the table of stand-ins") {
         std::string table = "| not modelled | rendered as |\n|---|---|\n";
         for (const StandIn& row : all_stand_ins()) {
