@@ -25,16 +25,18 @@ function layers(live) {
         const share = picture => mean(picture) / mean(whole);
         found.sort((a, b) => share(b) - share(a));
         live.viewer.set([whole, found[0]]);
-        list.append(...[whole, ...found].map(picture => {
-            const button = make('button', {type: 'button'},
-                `${picture.name} ${(100 * share(picture)).toFixed(1)} %`);
-            button.onclick = () => {
-                live.viewer.left = 0, live.viewer.right = 1, live.viewer.slider = 0;
-                live.viewer.range.value = 0;
-                live.viewer.set([whole, picture]);
-            };
-            return button;
-        }));
+        const button = picture => make('button', {type: 'button', onclick: () => {
+            live.viewer.left = 0, live.viewer.right = 1, live.viewer.slider = 0;
+            live.viewer.range.value = 0;
+            live.viewer.set([whole, picture]);
+        }}, `${picture.name} ${(100 * share(picture)).toFixed(1)} %`);
+        const large = found.filter((picture, i) => i < 8 && share(picture) >= 0.01), rest = found.slice(large.length);
+        list.append(...[whole, ...large].map(button));
+        if (rest.length === 0) return;
+        const sum = rest.reduce((all, picture) => all + share(picture), 0);
+        list.append(make('details', {class: 'rest'},
+            make('summary', {}, `${rest.length} more classes, together ${(100 * sum).toFixed(1)} %`),
+            ...rest.map(button)));
     };
     return make('div', {class: 'by-class'}, split, list);
 }
@@ -73,26 +75,27 @@ function common_words(live) {
     return words.filter((_, i) => shared.includes(words[i % 2 ? i - 1 : i]));
 }
 
-/// Runs both methods for the same time. Held against the reference where there is one of the scene
-/// and of this size; else the error is the one that each film tells of itself.
+/// Runs both methods for the same time. If there is a reference of the scene, both render in its size and
+/// are compared with it; else the error is the one that each film tells of itself.
 async function run_race({live, viewer, chart, said, seconds}, methods) {
     const scene = live.sceneName(), untouched = live.editing.value === live.data.scenes[scene];
     const file = untouched && live.data.references[scene];
     const reference = file && {...readPfm(file), name: 'reference'};
-    const shown = [];
+    const shown = [], own = reference && `${reference.width}x${reference.height}`;
     for (const method of methods) method.points = [];
     said.textContent = 'working';
-    const runs = methods.map((method, k) => live.start(method.name, [scene, ...method.words, '--time', `${seconds}`,
+    const sized = words => own ? [...words.filter((word, i) => word !== '--size' && words[i - 1] !== '--size'),
+        '--size', own] : words;
+    const runs = methods.map((method, k) => live.start(method.name, [scene, ...sized(method.words), '--time', `${seconds}`,
         '--film', 'out/x.film', '--film-every', '0.1', '--out', 'out/picture.pfm', '--stats', 'out/stats.json'
     ], message => {
         shown[k] = {...message, name: method.name};
-        const isHeld = reference && reference.width === message.width && reference.height === message.height;
-        const error = isHeld ? relMse(message, reference) : (message.error / message.mean) ** 2;
-        method.measure = isHeld ? 'relMSE' : '(standard error of the mean / mean)²';
+        const error = reference ? relMse(message, reference) : (message.error / message.mean) ** 2;
+        method.measure = reference ? 'relMSE' : '(standard error of the mean / mean)²';
         if (error > 0 && Number.isFinite(error)) method.points.push([message.seconds, error]);
         if (shown[0] && shown[1]) {
             viewer.node.hidden = false;
-            viewer.set([...shown, ...isHeld ? [reference] : []]);
+            viewer.set([...shown, ...reference ? [reference] : []]);
         }
         draw_chart(chart, methods);
     }));
@@ -105,7 +108,8 @@ async function run_race({live, viewer, chart, said, seconds}, methods) {
     const last = methods.map(method => method.points.at(-1)?.[1]);
     said.textContent = last[0] && last[1] ?
         `${methods[0].measure}: ${methods[0].name} ${number3(last[0])}, ${methods[1].name} ${number3(last[1])}; ` +
-        `in equal time the first is ${number3(last[1] / last[0])} times as efficient` : 'too little time';
+        `in equal time the first is ${number3(last[1] / last[0])} times as efficient` +
+        (own ? `. Both rendered ${own} pixels, the size of the reference.` : '') : 'too little time';
 }
 
 /// Error against time, both logarithmic.

@@ -59,7 +59,13 @@ async function unpack() {
     }
     const {'live.js': glue, 'live.wasm': wasm, ...files} = data.files;
     const worker = URL.createObjectURL(new Blob([glue, workerText], {type: 'text/javascript'}));
-    return {...data, files, worker, module: await WebAssembly.compile(wasm), size: wasm.length};
+    const all = {...data, files, worker, module: await WebAssembly.compile(wasm), size: wasm.length};
+    await Promise.all(made.map(async name => {
+        const program = name.replace(/scenes\/(.*)\..*/, 'make_$1'), written = name.replace('scenes', 'out');
+        const content = (await new Run(all, program, [written], {}, () => {}).done).files[written];
+        if (name.endsWith('.pbrt')) all.scenes[name] = text(content); else all.files[name] = content;
+    }));
+    return all;
 }
 const engine = unpack();
 

@@ -19,7 +19,7 @@ end
 function Link(link)
     local path, anchor = link.target:match("^([^#]*)(.*)$")
     if path == "" or path:match("^%a+:") then return nil end
-    if not path:match("%.%w+$") and path ~= "LICENSE" then path = path:gsub("/?$", "/README.md") end
+    if is_file(in_project(path) .. "/README.md") then path = path:gsub("/?$", "/README.md") end
     local file = in_project(path)
     if not is_file(file) then error("a link to " .. file .. ", which is no file") end
     found:write(file .. "\n")
@@ -40,6 +40,11 @@ function Image(image)
     if image.src:match("^%a+:") then error("a picture from elsewhere: " .. image.src) end
     local file = in_project(image.src)
     image.attributes["data-file"] = file
+    local chapter = file:match("^chapters/(%d%d)_[^/]*/strip.png$")
+    if chapter then
+        local names = pandoc.pipe("common/tools/make_strips", {"--names", chapter}, "")
+        image.attributes["data-names"] = names:gsub("\n$", "")
+    end
     image.src = "data:" .. kinds[file:match("%w+$")] .. ";base64," ..
         pandoc.pipe("base64", {"-w0", file}, "")
     return image

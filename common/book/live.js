@@ -26,7 +26,7 @@ class Live {
             this.form, this.errors, this.viewer.node, this.status, this.text);
         if (this.about.kind === 'film') this.node.append(layers(this), race(this));
         if (this.about.kind !== 'table') this.node.insertBefore(this.editor(), this.errors);
-        if (this.about.kind === 'film') this.viewer.canvas.onclick = event => this.tell(event);
+        if (this.about.kind === 'film') this.viewer.pick = ([x, y]) => this.tell(x, y);
     }
 
     fields() {
@@ -208,10 +208,9 @@ class Live {
         this.editing.scrollTop = (row - 4) * height;
     }
 
-    /// The story of a path through the pixel that was clicked, drawn into the picture.
-    async tell(event) {
+    /// The story of a path through a pixel, drawn into the picture.
+    async tell(x, y) {
         if (!this.result) return;
-        const [x, y] = this.viewer.pixelAt(event);
         if (this.told?.x === x && this.told.y === y) this.told.sample++;
         else this.told = {x, y, sample: 0};
         const spp = Math.max(1, +this.form.elements.spp.value), sample = this.told.sample % spp;
@@ -221,16 +220,16 @@ class Live {
         if (done.code !== 0) return;
         this.text.hidden = false;
         this.text.textContent = done.out.filter(line => !line.startsWith('wrote ')).join('\n') +
-            '\n\nOnce more on the same pixel: its next sample.';
+            '\n\nClick the same pixel again (or press Enter) to see its next sample.';
         this.lay(new TextDecoder().decode(done.files['out/path.svg']));
     }
     /// Lays the drawing of a path over the picture: of its two panels that of the camera, whose frame
-    /// is the first rectangle without a filling, and without the small picture that is in it.
+    /// is the first rectangle without a filling; without the background and the small picture that are in it.
     lay(text) {
         const over = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement;
         const frame = over.querySelector('rect[fill="none"]');
         if (!frame) return;
-        for (const image of over.querySelectorAll('image')) image.remove();
+        for (const cover of over.querySelectorAll('image, rect[fill="white"]')) cover.remove();
         const sides = ['x', 'y', 'width', 'height'].map(name => frame.getAttribute(name));
         over.setAttribute('viewBox', sides.join(' '));
         over.removeAttribute('width'), over.removeAttribute('height');

@@ -31,10 +31,12 @@ class Viewer {
         this.slider = 0.5, this.pictures = [];
         this.canvas = make('canvas', {tabindex: 0, role: 'img', width: 256, height: 256});
         this.overlay = make('div', {class: 'overlay'});
+        this.mark = make('div', {class: 'mark', hidden: true});  // around the pixel that keys have chosen
+        this.pick = null;  // called with the pixel that is clicked, or chosen by keys and Enter
         this.stage = make('div', {class: 'stage'},
-            make('div', {class: 'sheet'}, this.canvas, this.overlay));
+            make('div', {class: 'sheet'}, this.canvas, this.overlay, this.mark));
         this.choices = make('span', {class: 'choices', role: 'group', 'aria-label': 'picture'});
-        this.readout = make('output', {class: 'readout'}, 'point at a pixel to read its values');
+        this.readout = make('output', {class: 'readout'}, 'point at a pixel to read its values, or move by the arrow keys');
         this.range = make('input', {
             type: 'range', min: 0, max: 1, step: 0.005, value: 0.5, hidden: true,
             'aria-label': 'slider between two pictures',
@@ -45,8 +47,10 @@ class Viewer {
             ['d', 'error view', () => this.toggleError()], ['z', 'zoom', () => this.magnify()]
         ].map(([key, name, act]) => make('button', {type: 'button', title: `key ${key}`, onclick: act}, name)));
         this.node = make('div', {class: 'viewer'}, this.stage, this.range, this.choices, this.buttons, this.readout);
-        this.canvas.onpointermove = event => this.read(event);
-        this.canvas.onpointerdown = event => this.read(event);
+        this.canvas.onpointermove = event => this.read(this.pixelAt(event));
+        this.canvas.onpointerdown = event => this.read(this.pixelAt(event));
+        this.canvas.onclick = event => this.pick?.(this.pixelAt(event));
+        this.canvas.onblur = () => { this.mark.hidden = true; };
         this.node.onkeydown = event => this.press(event);
     }
 
@@ -86,11 +90,28 @@ class Viewer {
     press(event) {
         const act = {
             e: () => this.expose(-0.5), E: () => this.expose(0.5), d: () => this.toggleError(),
-            z: () => this.magnify()
+            z: () => this.magnify(),
+            ...event.target === this.canvas && {
+                ArrowLeft: () => this.move(-1, 0, event), ArrowRight: () => this.move(1, 0, event),
+                ArrowUp: () => this.move(0, -1, event), ArrowDown: () => this.move(0, 1, event),
+                Enter: () => this.at && this.pick?.(this.at)
+            }
         }[event.key] || (/^[1-9]$/.test(event.key) && (() => this.show(event.key - 1)));
         if (!act || event.target.closest('input:not([type=range]), textarea, select')) return;
         act();
         event.preventDefault();
+    }
+
+    /// Moves the mark by one pixel, with Shift by ten, and reads the pixel that it is around.
+    move(dx, dy, event) {
+        const {width, height} = this.canvas, step = event.shiftKey ? 10 : 1;
+        const [x, y] = this.at || [width >> 1, height >> 1], inside = (v, n) => Math.min(n - 1, Math.max(0, v));
+        this.at = this.at && this.at[0] < width && this.at[1] < height ?
+            [inside(x + step * dx, width), inside(y + step * dy, height)] : [width >> 1, height >> 1];
+        this.mark.hidden = false;
+        this.mark.style.left = `${100 * (this.at[0] + 0.5) / width}%`;
+        this.mark.style.top = `${100 * (this.at[1] + 0.5) / height}%`;
+        this.read(this.at);
     }
 
     draw() {
@@ -136,9 +157,9 @@ class Viewer {
         const y = Math.floor((event.clientY - box.top) / box.height * height);
         return [Math.min(width - 1, Math.max(0, x)), Math.min(height - 1, Math.max(0, y))];
     }
-    read(event) {
+    read([x, y]) {
         if (this.pictures.length === 0) return;
-        const [x, y] = this.pixelAt(event), i = 4 * (y * this.canvas.width + x);
+        const i = 4 * (y * this.canvas.width + x);
         const a = this.pictures[this.left], b = this.pictures[this.right];
         const values = p => [...p.pixels.subarray(i, i + 3)];
         const said = p => `${p.name} (${values(p).map(digits).join(', ')})`;
@@ -159,12 +180,12 @@ function picturesOf(img) {
     const tiles = isStrip ? width / (side + 2 * border) : 1;
     const canvas = make('canvas', {width, height}), paint = canvas.getContext('2d');
     paint.drawImage(img, 0, 0);
-    const names = (img.alt.includes('|') ? img.alt.split('|') : []).map(name => name.trim());
+    const names = (img.dataset.names || '').split('|');
     return Array.from({length: tiles}, (_, t) => {
         const data = isStrip ? paint.getImageData(t * (side + 2 * border) + border, label, side, side) :
             paint.getImageData(0, 0, width, height);
         const pixels = Float32Array.from(data.data, (code, i) => i % 4 === 3 ? 1 : fromSrgb[code]);
-        const name = names.length === tiles ? names[t] : isStrip ? `tile ${t + 1}` : img.alt || 'picture';
+        const name = isStrip && names.length === tiles ? names[t] : img.alt || 'picture';
         return {name, width: data.width, height: data.height, pixels};
     });
 }

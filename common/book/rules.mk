@@ -4,7 +4,7 @@
 book: $(made)
 	@command -v em++ >/dev/null || common/tools/install emscripten || true
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
-	    common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
+	    MADE='$(made_here)' common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
 
 #: teaching: make slides       slides of each chapter, from its page: out/slides/, one HTML file each; the browser prints them
 slides:
@@ -12,8 +12,12 @@ slides:
 
 # The module has a film_clock.cpp of its own, in live.cpp.
 wasm          := $(BUILD)/wasm
-wasm_programs := $(chapters) merge
-wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
+# What the module makes itself, with the same bytes; it has another exp() than the skies were made with.
+made_here     := $(filter-out %.pfm,$(made))
+makers        := $(patsubst scenes/%,make_%,$(basename $(made_here)))
+wasm_programs := $(chapters) merge compare $(makers)
+wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp common/tools/compare.cpp \
+    $(makers:%=scenes/%.cpp) \
     $(filter-out common/tools/% common/program/film_clock.cpp,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
@@ -25,15 +29,16 @@ $(wasm)/live.js: $(patsubst %.cpp,$(wasm)/obj/%.o,$(wasm_code))
 	@echo "link $@"; NODE_PATH=/usr/share/nodejs em++ $(wasm_flags) $(wasm_link) $^ -o $@
 $(wasm)/obj/%.o: %.cpp common/book/missing.h | $(wasm)/include/programs.h
 	@mkdir -p $(@D); echo "compile $< for the book"; em++ $(wasm_flags) $(main_as) -MMD -MP -c $< -o $@
+$(wasm)/obj/common/book/live.o: $(wasm)/include/programs.h
 $(wasm)/obj/common/program/code_hash.o: $(BUILD)/include/code_hashes.h
 $(wasm)/obj/chapters/%/main.o: main_as = -Dmain=main_$(notdir $(<D))
-$(wasm)/obj/common/tools/merge.o: main_as = -Dmain=main_merge
+$(wasm)/obj/common/tools/%.o $(wasm)/obj/scenes/%.o: main_as = -Dmain=main_$(subst -,_,$(notdir $*))
 -include $(shell find $(wasm)/obj -name '*.d' 2>/dev/null)
 # The names of the programs; and stb, which is not in the compiler's own folders.
-$(wasm)/include/programs.h: $(chapters:%=chapters/%/main.cpp) | $(BUILD)/packages
-	@mkdir -p $(@D); { printf 'int main_%s(int, char**);\n' $(wasm_programs); \
+$(wasm)/include/programs.h: $(chapters:%=chapters/%/main.cpp) common/book/rules.mk | $(BUILD)/packages
+	@mkdir -p $(@D); { printf 'int main_%s(int, char**);\n' $(subst -,_,$(wasm_programs)); \
 	    echo 'struct Program { const char* name; int (*main)(int, char**); };'; \
 	    echo 'inline constexpr Program programs[] = {'; \
-	    for name in $(wasm_programs); do echo "    {\"$$name\", main_$$name},"; done; echo '};'; } >$@
+	    for name in $(wasm_programs); do echo "    {\"$$name\", main_$${name//-/_}},"; done; echo '};'; } >$@
 	@ln -sfn "$$(echo '#include <stb/stb_image.h>' | $(CXX) $(CXXFLAGS) -M -x c++ - | tr ' ' '\n' | \
 	    sed -n 's|/stb_image.h$$||p')" $(@D)/stb

@@ -127,7 +127,7 @@ void write_classes(const Scene& scene, const RenderOptions& options, const Rende
         std::string name = options.split + "/" + path_class;
         writer.write(
             name + ".pfm",
-            [&, &film = film] {
+            [&, &path_class = path_class, &film = film] {
                 for (const char* kind : {".png", ".pfm"}) {
                     write_image(name + kind, film.image(),
                                 comment_of(notes_of(scene, options, r, path_class)));

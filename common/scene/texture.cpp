@@ -39,9 +39,12 @@ Rgb from_0_to_1(Rgb a) {
     return {std::clamp(a.r, 0.f, 1.f), std::clamp(a.g, 0.f, 1.f), std::clamp(a.b, 0.f, 1.f)};
 }
 
+// In radians. Computed in double: in float the last bit differs between libraries.
+float angle(float y, float x) { return static_cast<float>(std::atan2(double{y}, double{x})); }
+
 // What part of a turn the direction (x, y) is after (1, 0), in [0,1).
 float part_of_turn(float x, float y) {
-    float u = std::atan2(y, x) * (1 / (2 * pi));
+    float u = angle(y, x) * (1 / (2 * pi));
     return u < 0 ? std::min(u + 1, 0x1.fffffep-1f) : u;
 }
 
@@ -63,7 +66,7 @@ Vec2 coordinates(const Scene& scene, const Geometry& g, const PrimHit& found, Ve
             Axes axes = axes_of(sphere.shape);
             Vec3 d = p - sphere.c;
             float x = dot(d, axes.x), y = dot(d, axes.y), z = dot(d, axes.z);
-            return Vec2{part_of_turn(x, y), 1 - std::atan2(std::sqrt(x * x + y * y), z) / pi};
+            return Vec2{part_of_turn(x, y), 1 - angle(std::sqrt(x * x + y * y), z) / pi};
         },
         [&](const Disk& disk) {
             Axes axes = axes_of(disk.shape);

@@ -1,5 +1,7 @@
 #include "common/scene_file/transforms.h"
 
+#include <array>
+
 namespace {
 
 Vec3d read_three(Lexer& lexer, const std::string& name) {

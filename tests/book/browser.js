@@ -71,6 +71,9 @@ class Browser {
         return this.send('Emulation.setDeviceMetricsOverride',
             {width, height, deviceScaleFactor: 1, mobile: width < 600});
     }
+    dark(is) {
+        return this.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: is ? 'dark' : 'light'}]});
+    }
     key(key) { return this.send('Input.dispatchKeyEvent', {type: 'keyDown', key, text: key.length === 1 ? key : undefined}); }
     async click(x, y) {
         for (const type of ['mousePressed', 'mouseReleased']) {

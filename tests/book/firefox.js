@@ -5,11 +5,12 @@ const settings = {
     'marionette.port': 0,  // one that is free
     'devtools.console.stdout.content': true,
     'browser.dom.window.dump.enabled': true,
+    'layout.css.prefers-color-scheme.content-override': 0,  // dark
     'network.proxy.type': 1,  // no network: all goes to a port where nobody is
     ...Object.fromEntries(['http', 'ssl', 'socks'].flatMap(kind =>
         [[`network.proxy.${kind}`, '127.0.0.1'], [`network.proxy.${kind}_port`, 9]])),
 };
-const keys = {ArrowRight: '\uE014', ArrowLeft: '\uE012'};
+const keys = {ArrowRight: '\uE014', ArrowLeft: '\uE012', ArrowDown: '\uE015', Enter: '\uE007'};
 
 /// What Browser (browser.js) is for Chromium.
 class Firefox {

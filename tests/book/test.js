@@ -20,10 +20,28 @@ function pages(folder = book) {
     });
 }
 
-/// Every page, wide and narrow: no error, no link to nowhere, no picture without words, none too wide.
+/// The colours of a part of the window, as it is on the screen: r, g, b, a of one pixel after the other.
+async function on_screen(browser, {x, y, width, height}) {
+    const file = `${build}/book-test.png`;
+    await browser.screenshot(file);
+    const png = fs.readFileSync(file).toString('base64');
+    fs.rmSync(file);
+    return browser.value(`fetch('data:image/png;base64,${png}').then(answer => answer.blob()).then(createImageBitmap)
+        .then(picture => { const canvas = document.createElement('canvas');
+            canvas.width = ${width}, canvas.height = ${height};
+            const paint = canvas.getContext('2d');
+            paint.drawImage(picture, ${-x}, ${-y});
+            return [...paint.getImageData(0, 0, ${width}, ${height}).data]; })`);
+}
+const box_of = (browser, selector) => browser.value(`(() => { const node = document.querySelector('${selector}');
+    node.scrollIntoView({block: 'center'});
+    const {x, y, width, height} = node.getBoundingClientRect();
+    return {x: Math.round(x), y: Math.round(y), width: Math.round(width), height: Math.round(height)}; })()`);
+
+/// Every page, wide and narrow: no error, no link to nowhere, no picture without words, nothing too wide or cut off.
 async function every_page(browser) {
     const anchors = new Map(), links = [], bad = [];
-    for (const width of [1200, 390]) {
+    for (const width of [1400, 390]) {
         await browser.width(width);
         for (const file of pages()) {
             await browser.open(file);
@@ -31,12 +49,18 @@ async function every_page(browser) {
                 ids: [...document.querySelectorAll('[id]')].map(e => e.id),
                 links: [...document.querySelectorAll('a[href]')].map(a => a.href),
                 pictures: [...document.images].filter(i => !i.naturalWidth || !(i.alt || i.matches('.thumbnail'))).length,
-                wide: document.documentElement.scrollWidth - innerWidth
+                wide: document.documentElement.scrollWidth - innerWidth,
+                bars: [...document.querySelectorAll('.formula')].filter(f => f.offsetWidth > f.clientWidth).length,
+                cut: [...document.querySelectorAll('main table, main pre, .formula')].filter(node =>
+                    node.scrollWidth > node.clientWidth + 1 && getComputedStyle(node).overflowX !== 'auto' ||
+                    node.getBoundingClientRect().right > innerWidth).length
             })`);
             anchors.set(file, new Set(seen.ids));
-            if (width === 1200) links.push(...seen.links.map(link => [file, link]));
+            if (width === 1400) links.push(...seen.links.map(link => [file, link]));
             const name = path.relative(book, file);
             if (seen.pictures > 0) bad.push(`${name}: ${seen.pictures} pictures are missing or have no words`);
+            if (seen.bars > 0) bad.push(`${name}: ${seen.bars} formulas with a vertical scroll bar`);
+            if (seen.cut > 0) bad.push(`${name}: ${seen.cut} tables, listings or formulas are cut off at ${width}`);
             if (seen.wide > 0) bad.push(`${name}: ${seen.wide} pixels too wide for ${width}`);
         }
     }
@@ -46,7 +70,7 @@ async function every_page(browser) {
         const known = anchors.get(target);
         if (!known || (anchor && !known.has(anchor))) bad.push(`${path.relative(book, file)} links to ${link}`);
     }
-    check(`${anchors.size} pages, 1200 and 390 pixels wide, and ${links.length} links`, bad.length === 0,
+    check(`${anchors.size} pages, 1400 and 390 pixels wide, and ${links.length} links`, bad.length === 0,
         bad.slice(0, 10).join('; '));
 }
 
@@ -62,6 +86,17 @@ async function same_bytes(browser, chapter, set, args) {
     const native = fs.readFileSync(file).toString('latin1');
     fs.rmSync(file);
     check(`the same bytes as the program: ${chapter}`, here === native);
+}
+/// Files that the module makes when the page is opened, instead of being packed.
+async function same_scenes(browser) {
+    await browser.open(page('15_mis_ris'));
+    const made = await browser.value(`engine.then(async data => {
+        const bytes = name => data.files[name] || new TextEncoder().encode(data.scenes[name]);
+        const hash = async name => [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes(name)))].join(' ');
+        return Promise.all(made.map(async name => [name, await hash(name)])); })`);
+    const native = name => [...require('crypto').createHash('sha256').update(fs.readFileSync(name)).digest()].join(' ');
+    check(`the page makes the same ${made.length} scenes and meshes`, made.length > 3 && made.every(([name, hash]) => hash === native(name)),
+        made.filter(([name, hash]) => hash !== native(name)).map(([name]) => name).join(', '));
 }
 async function all_same_bytes(browser, chapters) {
     for (const [chapter, {kind, n}] of Object.entries(chapters)) {
@@ -81,7 +116,7 @@ async function all_same_bytes(browser, chapters) {
 }
 
 async function live(browser) {
-    await browser.width(1200);
+    await browser.width(1400);
     await browser.open(page('15_mis_ris'));
     await browser.until(`document.querySelector('.go')`);
     await browser.value(`live.fill({scene: 'cornell', spp: 4})`);
@@ -97,6 +132,7 @@ async function live(browser) {
     check('the picture is there', values > 30000);
 
     await path_story(browser);
+    await path_by_keys(browser);
     await layers_and_viewer(browser);
     await wrong_scene(browser);
     await browser.value(`live.fill({scene: 'thousand-lights', spp: 100000}); document.querySelector('.go').click()`);
@@ -109,8 +145,12 @@ async function path_story(browser) {
     const {x, y} = await browser.value(`(() => { live.viewer.canvas.scrollIntoView({block: 'center'});
         const box = live.viewer.canvas.getBoundingClientRect();
         return {x: box.x + box.width / 2, y: box.y + 0.8 * box.height}; })()`);
+    const canvas = await box_of(browser, '.live canvas'), before = await on_screen(browser, canvas);
     await browser.click(x, y);
     await browser.until(`live.viewer.overlay.querySelector('svg circle')`);
+    const after = await on_screen(browser, canvas);
+    const same = before.filter((v, i) => i % 4 === 1 && Math.abs(v - after[i]) < 8).length / (before.length / 4);
+    check('the drawing of a path leaves the picture visible', same > 0.7 && same < 0.999, `${(100 * same).toFixed(0)} % of it`);
     const story = await browser.value('live.text.textContent');
     const [, a, b] = story.match(/pixel (\d+),(\d+) sample 0/) || [];
     check('a click tells the path of its pixel', Math.abs(a - 128) <= 1 && Math.abs(b - 204) <= 1, `pixel ${a},${b}`);
@@ -118,11 +158,21 @@ async function path_story(browser) {
         .getBoundingClientRect(); return [box.x + box.width / 2 - ${x}, box.y + box.height / 2 - ${y}]; })()`);
     check('its first vertex is drawn there', Math.hypot(...off) <= 4, `${off.map(Math.round)} pixels off`);
 }
+/// The same by keys alone.
+async function path_by_keys(browser) {
+    await browser.value(`live.viewer.overlay.replaceChildren(); live.viewer.canvas.focus()`);
+    for (const key of ['ArrowDown', 'ArrowDown', 'ArrowRight', 'Enter']) await browser.key(key);
+    await browser.until(`live.viewer.overlay.querySelector('svg circle')`);
+    const story = await browser.value('live.text.textContent');
+    check('arrow keys choose a pixel, and Enter tells its path', story.includes('pixel 129,129 sample 0'), story.slice(0, 60));
+}
 async function layers_and_viewer(browser) {
     await browser.value(`document.querySelector('.by-class button').click()`);
     await browser.until(`document.querySelectorAll('.layers button').length > 3`, 60);
     const shares = await browser.value(`[...document.querySelectorAll('.layers button')].map(b => b.textContent)`);
     const sum = shares.slice(1).reduce((s, text) => s + parseFloat(text.split(' ')[1]), 0);
+    const offered = await browser.value(`[...document.querySelectorAll('.layers button')].filter(b => b.checkVisibility()).length`);
+    check('at most nine classes are offered at first', offered <= 9 && offered > 3, `${offered}`);
     check('the classes of path sum to the picture', Math.abs(sum - 100) < 0.5, shares.slice(0, 5).join(', '));
     const before = await browser.value(`live.viewer.canvas.toDataURL()`);
     await browser.value(`live.viewer.canvas.focus()`);
@@ -179,13 +229,14 @@ function size(folder = book) {
 async function races(browser) {
     await browser.open(page('15_mis_ris'));
     await browser.until(`document.querySelector('.go')`);
-    await browser.value(`live.fill({scene: 'veach-mis', size: '64x64'}); document.querySelector('.race').open = true;
+    await browser.value(`live.fill({scene: 'veach-mis'}); document.querySelector('.race').open = true;
         { const form = document.querySelector('.race form'); form.elements.time.value = 4;
         form.elements.other.value = '13_glossy'; form.requestSubmit(); }`);
     await browser.until(`document.querySelector('.race .status').textContent.includes('relMSE')`, 30);
     const said = await browser.value(`document.querySelector('.race .status').textContent`);
     const [mis] = await browser.value(`[...document.querySelectorAll('.race .curve')].map(curve =>
         curve.getAttribute('points').split(' ').map(point => +point.split(',')[1]))`);
+    check('the race has a reference, whatever the size of the picture', /relMSE.*64x64/s.test(said));
     check('two methods in equal time: the error of MIS falls, and it wins',
         mis.length > 5 && mis.at(-1) > mis[0] && parseFloat(said.match(/first is (\S+)/)[1]) > 2, said);
 }
@@ -196,10 +247,80 @@ async function holding(browser) {
     const [open, text] = await browser.value(`(() => { const d = document.querySelector('dialog');
         return [d.open, d.querySelector('canvas').getAttribute('aria-label')]; })()`);
     check('a picture of the page can be held', open && text.length > 0, text);
+    const tiles = await browser.value(`[...document.querySelectorAll('dialog .choices button')].map(b => b.textContent)`);
+    check('its tiles have names', tiles.length === 4 && tiles[0].includes('14, 40 samples') && tiles[3].includes('error of 15'),
+        tiles.join('; '));
     await browser.value(`document.querySelector('dialog .close').click()`);
     await browser.key('ArrowRight');
     await browser.until(`location.href.includes('16_lens_and_shutter')`);
     check('an arrow turns the page', true);
+}
+
+/// Formulas have the book's own font; text and figures can be read in light and in dark.
+async function look(browser, dark) {
+    await browser.dark?.(dark);
+    await browser.open(page('14_mis'));
+    const fonts = await browser.value(`document.fonts.load('16px "Book Math"').then(fonts => fonts.map(font => font.status))`);
+    check('the font of formulas is in the book', fonts.length === 1 && fonts[0] === 'loaded');
+    const contrast = await browser.value(`(() => { const shade = colour => { const [r, g, b] = colour.match(/[\\d.]+/g).map(v => (v / 255) ** 2.2);
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05; };
+        const paper = shade(getComputedStyle(document.documentElement).backgroundColor), ratios = [];
+        for (const node of document.querySelectorAll('main p, main a, main td, .sidebar a, .sourceCode .co, .sourceCode .kw, .sourceCode .st')) {
+            const ink = shade(getComputedStyle(node).color);
+            ratios.push(Math.max(ink, paper) / Math.min(ink, paper));
+        } return [paper, Math.min(...ratios)]; })()`);
+    check(`${dark ? 'dark' : 'light'}: the text stands out from the paper`, contrast[0] > 0.5 !== dark && contrast[1] > 4.5,
+        `at least ${contrast[1].toFixed(1)} to 1`);
+    const box = await box_of(browser, 'main img[src^="data:image/svg"]'), figure = await on_screen(browser, box);
+    const light = figure.filter((v, i) => i % 4 === 1 && v > 200).length / (figure.length / 4);
+    check(`${dark ? 'dark' : 'light'}: a figure has a light background`, light > 0.5, `${(100 * light).toFixed(0)} %`);
+    await browser.dark?.(false);
+}
+
+async function searching(browser) {
+    await browser.open(page('07_path_tracing'));
+    await browser.value(`{ const form = document.querySelector('.sidebar .find');
+        form.elements.q.value = 'Neyman 1934'; form.querySelector('button').click(); }`);
+    await browser.until(`location.href.includes('search.html') && document.querySelector('.results a')`);
+    const [first, said] = await browser.value(`[document.querySelector('.results a')?.href,
+        document.querySelector('main .status').textContent]`);
+    check('the search finds a word on its page', first?.includes('19_adaptive'), `${said}: ${first}`);
+    const [target, anchor] = decodeURIComponent((first || '').slice(7)).split('#');
+    check('its link leads to the section', fs.existsSync(target) && fs.readFileSync(target, 'utf8').includes(`id="${anchor}"`));
+    await browser.value(`{ const q = document.querySelector('main input[name=q]'); q.value = 'xyzzyx'; q.oninput(); }`);
+    const none = await browser.value(`[document.querySelectorAll('.results li').length, document.querySelector('main .status').textContent]`);
+    check('the search says when it finds nothing', none[0] === 0 && none[1].includes('xyzzyx'), none[1]);
+}
+
+/// Two files of the reader's own, and what the program `compare` says of them.
+async function own_pictures(browser) {
+    await browser.open(`${book}/common/book/own_pictures.html`);
+    const files = ['a', 'b'].flatMap((name, seed) => ['pfm', 'ppm', 'png'].map(kind => {
+        const file = `${build}/book-test-${name}.${kind}`;
+        execFileSync(`${build}/15_mis_ris`, ['scenes/cornell.pbrt', '--size', '48x32', '--spp', '4', '--seed', `${seed}`,
+            '--out', file, '--quiet']);
+        return file;
+    }));
+    const give = (k, file, bytes) => browser.value(`(() => { const all = new DataTransfer();
+        all.items.add(new File([Uint8Array.from(atob('${bytes.toString('base64')}'), c => c.charCodeAt(0))], '${path.basename(file)}'));
+        inputs[${k}].files = all.files; inputs[${k}].dispatchEvent(new Event('change')); })()`);
+    for (const i of [0, 1, 2]) {
+        const [a, b] = [files[i], files[i + 3]], kind = path.extname(a);
+        await browser.open(`${book}/common/book/own_pictures.html`);
+        await give(0, a, fs.readFileSync(a));
+        await give(1, b, fs.readFileSync(b));
+        await browser.until(`said.textContent.includes('verdict:')`, 60);
+        const here = (await browser.value('said.textContent')).trim();
+        const native = String(execFileSync(`${build}/compare`, [a, b])).trim().replaceAll(a, `in/A${kind}`).replaceAll(b, `in/B${kind}`);
+        const words = text => text.replace(/\s+/g, ' ');
+        check(`two ${kind} files of the reader's own: the verdict of compare`, words(here) === words(native), here.split('\n').at(-1));
+        const seen = await browser.value(`[viewer.pictures.length, viewer.pictures[0].width, viewer.pictures[0].pixels.filter(x => x > 0.01).length]`);
+        check('and both are shown', seen[0] === 2 && seen[1] === 48 && seen[2] > 2000, `${seen}`);
+    }
+    await give(1, 'broken.pfm', Buffer.from('no picture'));
+    await browser.until(`problem.textContent !== ''`);
+    check('a file that is no picture is named', (await browser.value('problem.textContent')).includes('broken.pfm'));
+    for (const file of files) fs.rmSync(file);
 }
 
 async function main() {
@@ -210,8 +331,12 @@ async function main() {
             await browser.start();
             await every_page(browser);
             await holding(browser);
+            for (const dark of browser instanceof Firefox ? [true] : [false, true]) await look(browser, dark);
+            await searching(browser);
+            await own_pictures(browser);
             await live(browser);
             await races(browser);
+            await same_scenes(browser);
             await all_same_bytes(browser, await browser.value('chapters'));
             await speed(browser);
             check('no error, and nothing asked of the network', browser.problems.length === 0,
