@@ -28,7 +28,7 @@ check_pages = $(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --c
                 $(if $(filter build,$(BUILD)),,--text))
 
 # One entry for each file that is compiled, in the form that editors and clang-tidy read.
-compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp)))
+compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
 #: maintaining: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
 	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \

@@ -1,7 +1,7 @@
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 # Most tests run for less time than it takes to compile them by -O3.
-brief := $(filter-out %/exact_hits.o $(BUILD)/obj/tests/check/%,$(tests))
+brief := $(filter-out %/exact_hits.o $(BUILD)/obj/tests/check/% $(BUILD)/obj/tests/diagnose/%,$(tests))
 $(brief): own_flags += $(if $(filter -O3,$(OPT)),-O1)
 
 # g++ compiles what most tests include once: a test then compiles in three quarters of the time. With such a file,

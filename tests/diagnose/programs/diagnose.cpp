@@ -1,0 +1,50 @@
+// diagnose FOLDER: says what is wrong with a renderer, from its pictures of the small scenes.
+// diagnose --write FOLDER: writes these scenes, and the page that states them.
+#include <cstdio>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/program/command_line.h"
+#include "tests/diagnose/judge.h"
+
+namespace {
+
+int write_scenes(const std::string& folder) {
+    make_folder(folder);
+    for (const SmallScene& scene : small_scenes())
+        write_file_atomically(folder + "/" + scene.name + ".pbrt", scene.pbrt);
+    write_file_atomically(folder + "/PROBES.md", small_scenes_page());
+    std::printf("wrote %zu scenes, and %s/PROBES.md, which states them in words and numbers\n",
+                small_scenes().size(), folder.c_str());
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        std::string to;
+        std::vector<std::string> words;
+        parse_options(argc, argv, "FOLDER",
+                      "Says what is wrong with a renderer, from its pictures of the small scenes.",
+                      {{"write", "DIR", "write the scenes, and the page that states them",
+                        [&](const std::string& text) { to = text; }}},
+                      [&](const std::string& word) { words.push_back(word); });
+        if (!to.empty()) return write_scenes(to);
+        if (words.size() != 1) throw UsageError("error: one folder of pictures is needed");
+        Folder folder = read_folder(words[0]);
+        for (const std::string& note : folder.notes) std::fprintf(stderr, "%s\n", note.c_str());
+        if (folder.scenes.empty())
+            throw InputError(
+                words[0] +
+                ": error: no picture that can be judged, such as floor.pfm with floor.2.pfm");
+        References references = read_references();
+        Diagnosis d = judge(folder, references, read_effects(references));
+        bool open = d.noisy > 0 || folder.notes.size() > 0;
+        std::printf("%sverdict: %s\n", d.text.c_str(),
+                    d.off  ? "wrong"
+                    : open ? "undecided"
+                           : "right");
+        return d.off ? 1 : 0;
+    });
+}

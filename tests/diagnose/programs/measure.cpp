@@ -1,0 +1,292 @@
+// Measures, of the small scenes, what make diagnose compares with: with --references what several
+// chapters agree on; else, in the copies that tests/diagnose/plant makes, what each mistake does.
+#include "tests/measure/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <regex>
+#include <sstream>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/stats.h"
+#include "common/scene/prepare.h"
+#include "common/scene_file/reader.h"
+#include "tests/diagnose/planted.h"
+#include "tests/diagnose/tiles.h"
+
+namespace {
+
+using Change = std::function<void(Scene&)>;
+
+Image picture_of(const std::string& text, const Method& method, const MeasureOptions& o, int spp,
+                 uint32_t seed, const Change& change = {}) {
+    bool shines = text.find("rgb L") != std::string::npos;  // a scene must have a light
+    std::string dim = shines ? "" : "LightSource \"infinite\" \"rgb L\" [1e-9 1e-9 1e-9]\n";
+    Scene scene = parse_scene("small.pbrt", text + dim, nullptr);
+    if (change) change(scene);
+    prepare(scene, o.threads);
+    return render_once(method, scene, o, spp, seed).film.image();
+}
+
+/// The references: by chapters that find light in different ways.
+int write_references(const MeasureOptions& o, const std::string& only) {
+    constexpr int batches = 8;
+    std::string text =
+        "# What the 4 x 4 tiles of the small scenes should be, row by row (of coloured scenes "
+        "first\n"
+        "# those of red), and a standard error. By chapters 08, 10, 14, 15 and 21, which agree:\n"
+        "# make diagnose-references.\n";
+    int disagree = 0;
+    std::string before = only.empty() ? "" : read_file(references_file);
+    for (const SmallScene& scene : small_scenes()) {
+        size_t at = before.find("\n" + scene.name + "\t");
+        if (!only.empty() && scene.name != only && at != std::string::npos) {
+            text += before.substr(at + 1, before.find('\n', at + 1) - at);
+            continue;
+        }
+        std::vector<Tiles> answers;
+        for (const Method& method : methods_named({"08", "10", "14", "15", "21"})) {
+            std::vector<RunningStats> stats(count_tiles(scene));
+            for (uint32_t batch = 0; batch < batches; batch++) {
+                Image image = picture_of(scene.pbrt, method, o, o.spp / batches, 1 + batch);
+                for (size_t i = 0; i < stats.size(); i++) {
+                    double sum = 0, n = 0;
+                    visit_tile(
+                        i, scene.coloured, image.width, image.height,
+                        [&](int x, int y, int c) { sum += channel(image.at(x, y), c), n++; });
+                    stats[i].add(sum / n);
+                }
+            }
+            // An error from eight batches is rough: that of all tiles together is better.
+            double squares = 0, mean = 0;
+            Tiles tiles;
+            for (const RunningStats& s : stats)
+                squares += s.standard_error() * s.standard_error(), mean += s.mean();
+            double se = std::sqrt(squares / static_cast<double>(stats.size()));
+            for (const RunningStats& s : stats) tiles.push_back({s.mean(), se + 1e-7 * mean});
+            answers.push_back(tiles);
+        }
+        text += scene.name + "\t";
+        double error = 0;
+        for (size_t i = 0; i < count_tiles(scene); i++) {
+            double weights = 0, sum = 0;
+            for (const Tiles& t : answers)
+                weights += 1 / (t[i].se * t[i].se + 1e-20),
+                    sum += t[i].mean / (t[i].se * t[i].se + 1e-20);
+            double mean = sum / weights;
+            for (const Tiles& t : answers) {
+                if (std::abs(t[i].mean - mean) <= 5.5 * t[i].se + 1e-9) continue;
+                std::printf("%s, tile %zu: %g +- %g beside %g\n", scene.name.c_str(), i, t[i].mean,
+                            t[i].se, mean);
+                disagree++;
+            }
+            char number[40];
+            std::snprintf(number, sizeof number, "%s%.5g", i == 0 ? "" : " ", mean);
+            text += number, error = 1 / std::sqrt(weights);
+        }
+        char number[40];
+        std::snprintf(number, sizeof number, "\t%.1g\n", error);
+        text += number;
+    }
+    write_file_atomically(references_file, text);
+    std::printf("wrote %s; %d tiles disagree\n", references_file, disagree);
+    return disagree == 0 ? 0 : 1;
+}
+
+/// What a row that is no code does to a picture that is right.
+Image changed(const Image& right, const std::string& how) {
+    Image image = right;
+    double power = how.starts_with("power ") ? std::stod(how.substr(6)) : 1;
+    for (int y = 0; y < image.height; y++)
+        for (int x = 0; x < image.width; x++) {
+            int mx = how == "mirrored" || how == "turned" ? image.width - 1 - x : x;
+            int my = how == "upside down" || how == "turned" ? image.height - 1 - y : y;
+            if (how == "transposed" && image.width == image.height) std::swap(mx, my);
+            Rgb c = right.at(mx, my);
+            auto each = [&](auto of) { c = {of(c.r), of(c.g), of(c.b)}; };
+            auto code = [](float v) {
+                return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
+            };
+            if (how == "sRGB codes") each(code);
+            if (how == "linear twice") each([](float v) { return from_srgb(v); });
+            if (power != 1) each([&](float v) { return std::pow(v, static_cast<float>(power)); });
+            if (how == "clamped") each([](float v) { return std::min(v, 1.0f); });
+            if (how == "reinhard") each([](float v) { return v / (1 + v); });
+            if (how == "exponential") each([](float v) { return 1 - std::exp(-v); });
+            if (how == "blue first") std::swap(c.r, c.b);
+            if (how == "green first") c = {c.g, c.b, c.r};
+            if (how == "grey") c = {average(c), average(c), average(c)};
+            image.at(x, y) = c;
+        }
+    return image;
+}
+
+/// What such a row does to a scene.
+Change change_of(const std::string& how) {
+    std::istringstream words(how);
+    std::string what, argument;
+    words >> what >> argument;
+    return [=](Scene& s) {
+        double half = double{s.camera.fov} * std::numbers::pi / 360;
+        double aspect = static_cast<double>(s.width) / s.height, tangent = std::tan(half);
+        if (argument == "half") tangent /= 2;
+        if (argument == "radians") tangent = half;
+        if (argument == "longer") tangent /= aspect;
+        if (argument == "2") tangent = std::min(std::tan(std::min(2 * half, 1.57)), 1e3);
+        if (what == "fov")
+            s.camera.fov = static_cast<float>(360 / std::numbers::pi * std::atan(tangent));
+        if (how == "aspect") s.camera.frame_aspect = 1;
+        if (what == "radius")
+            for (Sphere& sphere : s.geometry.spheres) sphere.r *= std::stof(argument);
+        if (how != "watts of lamps" && how != "by area") return;
+        for (Light& light : s.lights) {
+            if (light.type != LightType::area) continue;
+            double area = 0;
+            for (uint32_t i = light.first_prim; i < light.first_prim + light.prims; i++)
+                area += visit(
+                    s.geometry, i,
+                    [&](const Triangle& t) {
+                        const std::vector<Vec3>& p = s.geometry.positions;
+                        return double{length(cross(p[t.v[1]] - p[t.v[0]], p[t.v[2]] - p[t.v[0]]))} /
+                               2;
+                    },
+                    [](const Sphere& b) {
+                        return 4 * std::numbers::pi * double{b.r} * double{b.r};
+                    },
+                    [](const Disk&) { return 1.0; });
+            double by = area * (how == "by area" ? 1 : std::numbers::pi);
+            light.L = light.L / static_cast<float>(by);
+        }
+    };
+}
+
+/// The tiles of a picture with a mistake over those of one without, with errors from the pixels.
+Tiles effects_on(const SmallScene& scene, const Tiles& should, const Image& p, const Image& b) {
+    Tiles tiles;
+    for (size_t i = 0; i < should.size(); i++) {
+        double sum_p = 0, sum_b = 0, squares = 0, n = 0, scale = scale_of(should, i);
+        bool dark = key_of(scene.name, should, i).ends_with(" dark");
+        visit_tile(i, scene.coloured, b.width, b.height, [&](int x, int y, int c) {
+            sum_p += channel(p.at(x, y), c), sum_b += channel(b.at(x, y), c), n++;
+        });
+        double r = dark || sum_b == 0 ? sum_p / n / scale : sum_p / sum_b;
+        visit_tile(i, scene.coloured, b.width, b.height, [&](int x, int y, int c) {
+            double right = dark ? sum_p / n : r * channel(b.at(x, y), c);
+            double d = channel(p.at(x, y), c) - right;
+            squares += d * d * (scene.coloured ? 1 : 3);
+        });
+        tiles.push_back({r, std::sqrt(squares) / n / scale});
+    }
+    return tiles;
+}
+/// Whether two rows say the same.
+bool are_alike(const std::map<std::string, Tiles>& one, const std::map<std::string, Tiles>& two) {
+    for (const auto& [scene, tiles] : one)
+        for (size_t i = 0; i < tiles.size(); i++) {
+            Quantity a = tiles[i], b = two.at(scene)[i];
+            double error = std::hypot(3.5 * a.se, 3.5 * b.se, 0.004 * a.mean);
+            if (std::abs(a.mean - b.mean) > error + 1e-4) return false;
+        }
+    return true;
+}
+
+/// Measures the effects, and writes them down.
+int write_effects(const MeasureOptions& o, const std::string& rows, const std::string& only) {
+    struct Way {
+        const char* method;
+        bool cosine;
+        int times;  // the samples
+    };
+    const std::map<char, Way> ways = {{'u', {"07", false, 2}},
+                                      {'c', {"07", true, 2}},
+                                      {'n', {"09-area", false, 1}},
+                                      {'a', {"09-area", true, 1}},
+                                      {'m', {"14", true, 1}}};
+    const References references = read_references();
+    std::map<std::string, Image> right, briefly;  // by way and scene
+    std::string text =
+        "# What planted mistakes do to the tiles of the small scenes, over what these should be: "
+        "the way\n"
+        "# of finding light, the mistake, and each scene in which something is off, with a "
+        "standard\n"
+        "# error. One number: all tiles alike. Of tiles that should be black: over the scene's "
+        "mean.\n"
+        "# By make effects.\n";
+    std::map<std::string, std::vector<std::map<std::string, Tiles>>> known;  // by words
+    std::istringstream lines(read_file(rows));
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream stream(line);
+        std::string cells[6];
+        for (std::string& cell : cells) std::getline(stream, cell, '\t');
+        const std::string& how = cells[3];
+        if (!only.empty() && cells[2].find(only) == std::string::npos) continue;
+        for (char name : cells[1]) {
+            bool is_code = ways.contains(name);
+            const Way& way = ways.at(is_code ? name : 'm');
+            const Method method = methods_named({way.method}).at(0);
+            planted::cosine = way.cosine;
+            std::string effects;
+            std::map<std::string, Tiles> all;
+            for (const SmallScene& scene : small_scenes()) {
+                std::string key = std::string(is_code ? 1 : 0, name) + "/" + scene.name;
+                auto render = [&](const std::string& in, int mistake, const Change& change,
+                                  int spp) {
+                    planted::mistake = mistake;
+                    return picture_of(in, method, o, spp * way.times, 1, change);
+                };
+                if (!right.contains(key)) {
+                    right[key] = render(scene.pbrt, 0, {}, o.spp);
+                    briefly[key] = render(scene.pbrt, 0, {}, 16);
+                }
+                const Image& b = right[key];
+                Image p = name == 'p' ? changed(b, how) : b;
+                int mistake = is_code ? std::stoi(cells[0]) : 0;
+                bool same =
+                    is_code && render(scene.pbrt, mistake, {}, 16).pixels == briefly[key].pixels;
+                if (is_code && !same) p = render(scene.pbrt, mistake, {}, o.spp);
+                if (name == 's')
+                    p = render(std::regex_replace(scene.pbrt, std::regex(cells[4]), cells[5]), 0,
+                               {}, o.spp);
+                if (name == 'p' && p.pixels == b.pixels)
+                    p = render(scene.pbrt, 0, change_of(how), o.spp);
+                const Tiles& should = references.at(scene.name);
+                Tiles tiles = effects_on(scene, should, p, b);
+                all[scene.name] = tiles;
+                std::string effect = effect_text(scene.name, should, tiles);
+                if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
+            }
+            std::printf("%s %c %s: %zu letters\n", cells[0].c_str(), name, cells[2].c_str(),
+                        effects.size());
+            std::fflush(stdout);
+            auto& others = known[cells[2]];  // the same may be known of another way
+            if (effects.empty() ||
+                std::any_of(others.begin(), others.end(),
+                            [&](const auto& other) { return are_alike(all, other); }))
+                continue;
+            others.push_back(all);
+            text += std::string(1, name) + "\t" + cells[2] + "\t" + effects + "\n";
+        }
+    }
+    write_file_atomically(only.empty() ? effects_file : "/dev/stdout", text);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program([&] {
+        bool references = false;
+        std::string only;
+        std::vector<Option> flags = {
+            {"references", "", "what is right", [&](const std::string&) { references = true; }},
+            {"only", "WORDS",
+             "print the effects of mistakes with these words; measure only this scene's references",
+             [&](const std::string& words) { only = words; }}};
+        MeasureOptions o =
+            parse_measure_options(argc, argv, "ROWS", "Measures the small scenes.", {}, flags);
+        return references ? write_references(o, only) : write_effects(o, o.words.at(0), only);
+    });
+}

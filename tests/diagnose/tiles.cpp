@@ -1,0 +1,99 @@
+#include "tests/diagnose/tiles.h"
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "common/base/files.h"
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char at) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+    return parts;
+}
+bool is_dark(const Tiles& references, size_t tile) {
+    return references[tile].mean < std::max(1e-3 * mean_of(references), 1e-4);
+}
+
+}  // namespace
+
+double mean_of(const Tiles& tiles) {
+    double sum = 0;
+    for (Quantity q : tiles) sum += q.mean;
+    return sum / static_cast<double>(tiles.size());
+}
+double scale_of(const Tiles& references, size_t tile) {
+    return is_dark(references, tile) ? std::max(mean_of(references), 0.01) : references[tile].mean;
+}
+std::string key_of(const std::string& scene, const Tiles& references, size_t tile) {
+    return scene + "/" + std::to_string(tile) + (is_dark(references, tile) ? " dark" : "");
+}
+
+References read_references() {
+    References references;
+    for (const std::string& line : split(read_file(references_file), '\n')) {
+        std::vector<std::string> cells = split(line, '\t');
+        if (line[0] == '#' || cells.size() < 3) continue;
+        for (const std::string& number : split(cells[1], ' '))
+            references[cells[0]].push_back({std::stod(number), std::stod(cells[2])});
+    }
+    return references;
+}
+
+std::string effect_text(const std::string& scene, const Tiles& references, const Tiles& tiles) {
+    double weights = 0, sum = 0, squares = 0, most = 0;
+    bool is_off = false, is_even = true;
+    for (size_t i = 0; i < tiles.size(); i++) {
+        double should = is_dark(references, i) ? 0 : 1, off = std::abs(tiles[i].mean - should);
+        is_off |= off > std::max(3.5 * tiles[i].se, should > 0 ? 0.005 : 2e-3);
+        squares += tiles[i].se * tiles[i].se;
+        if (should == 0) is_even &= off < 2e-3;
+        if (should == 0) continue;
+        double weight = 1 / (tiles[i].se * tiles[i].se + 1e-6);
+        weights += weight, sum += weight * tiles[i].mean;
+    }
+    if (!is_off) return "";
+    double mean = sum / weights;
+    for (size_t i = 0; i < tiles.size(); i++)
+        if (!is_dark(references, i))
+            most =
+                std::max(most, std::abs(tiles[i].mean - mean) / (tiles[i].se + 5e-4 * mean + 1e-6));
+    is_even &= most < 4;
+    std::string text = scene + "=";
+    char number[40];
+    for (size_t i = 0; i < (is_even ? 1 : tiles.size()); i++) {
+        std::snprintf(number, sizeof number, "%s%.3g", i == 0 ? "" : " ",
+                      is_even ? mean : tiles[i].mean);
+        text += number;
+    }
+    double se = std::sqrt(is_even ? 1 / weights : squares / static_cast<double>(tiles.size()));
+    std::snprintf(number, sizeof number, "~%.1g", se);
+    return text + number;
+}
+
+std::vector<Hypothesis> read_effects(const References& references) {
+    std::vector<Hypothesis> effects;
+    for (const std::string& line : split(read_file(effects_file), '\n')) {
+        std::vector<std::string> cells = split(line, '\t');
+        if (line[0] == '#' || cells.size() < 3) continue;
+        Hypothesis h{"-", cells[1], {}, true};
+        for (const std::string& effect : split(cells[2], ';')) {
+            size_t equal = effect.find('='), error = effect.find('~');
+            std::string scene = effect.substr(0, equal);
+            std::vector<std::string> numbers =
+                split(effect.substr(equal + 1, error - equal - 1), ' ');
+            const Tiles& should = references.at(scene);
+            for (size_t i = 0; i < should.size(); i++) {
+                if (numbers.size() == 1 && is_dark(should, i)) continue;
+                h.predicted[key_of(scene, should, i)] = {
+                    std::stod(numbers.size() == 1 ? numbers[0] : numbers.at(i)),
+                    std::stod(effect.substr(error + 1))};
+            }
+        }
+        effects.push_back(h);
+    }
+    return effects;
+}

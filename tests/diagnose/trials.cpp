@@ -1,0 +1,166 @@
+#include <doctest/doctest.h>
+
+#include "common/base/files.h"
+#include "common/material/optics.h"
+#include "common/path/camera_sample.h"
+#include "common/scene/intersect.h"
+#include "common/scene/prepare.h"
+#include "common/scene_file/reader.h"
+#include "tests/check/probes.h"
+#include "tests/diagnose/judge.h"
+#include "tests/support/folder.h"
+#include "tests/support/run_program.h"
+
+namespace {
+
+/// Pictures of all scenes as they should be, but where a mistake says otherwise, with normal noise.
+Folder pictures_of(const References& references, const Hypothesis& mistake, double noise) {
+    Folder folder;
+    Sampler sampler(SamplerType::independent, 1, 1);
+    sampler.start(0, 0);
+    for (const SmallScene& scene : small_scenes()) {
+        Measured& m = folder.scenes[scene.name];
+        const Tiles& should = references.at(scene.name);
+        for (size_t i = 0; i < should.size(); i++) {
+            auto found = mistake.predicted.find(key_of(scene.name, should, i));
+            double mean = should[i].mean, normal = -6;
+            if (found != mistake.predicted.end()) mean = found->second.mean * scale_of(should, i);
+            for (int k = 0; k < 12; k++) normal += double{sampler.u1()};
+            m.tiles.push_back({mean * (1 + noise * normal), noise * mean});
+        }
+    }
+    return folder;
+}
+
+/// A small picture, grey but for noise of this seed.
+Image grey(uint32_t seed, int width = 16, float value = 0.03f) {
+    Image image(width, 16);
+    Sampler sampler(SamplerType::independent, seed, 1);
+    sampler.start(0, 0);
+    for (Rgb& pixel : image.pixels) {
+        float x = value * (0.9f + 0.2f * sampler.u1());
+        pixel = {x, x, x};
+    }
+    return image;
+}
+
+}  // namespace
+
+TEST_SUITE("diagnose") {
+    TEST_CASE("identity: the small scenes of make probes show what the probes of make check show") {
+        int compared = 0;
+        for (const SmallScene& small : small_scenes())
+            for (const Probe& probe : all_probes()) {
+                if (probe.name != small.name) continue;
+                CAPTURE(probe.name);
+                Scene a = parse_scene("a", probe.text, nullptr),
+                      b = parse_scene("b", small.pbrt, nullptr);
+                prepare(a, 1), prepare(b, 1);
+                CHECK(a.max_depth == b.max_depth);
+                CHECK(a.lights.size() == b.lights.size());
+                for (float y = 0.5f; y < 16; y++)
+                    for (float x = 0.5f; x < 16; x++) {
+                        Ray ray = camera_ray(camera_view(a.camera, 16, 16), {x, y});
+                        Ray same = camera_ray(camera_view(b.camera, 16, 16), {x, y});
+                        CHECK(length(ray.d - same.d) < 1e-5f);
+                        // What the camera sees, and what is above that.
+                        std::optional<Hit> p = intersect(a, ray), q = intersect(b, same);
+                        for (int step = 0; step < 2 && p; step++) {
+                            REQUIRE(q);
+                            CHECK(length(p->p - q->p) < 1e-4f * (1 + length(p->p)));
+                            CHECK(length(p->n - q->n) < 1e-4f);
+                            CHECK(p->front == q->front);
+                            CHECK(average(emission(a, *p)) == average(emission(b, *q)));
+                            CHECK(p->material->type == q->material->type);
+                            Vec3 up = reflect(-ray.d, p->n);
+                            p = intersect(a, spawn_ray(*p, up)),
+                            q = intersect(b, spawn_ray(*q, up));
+                        }
+                        CHECK(p.has_value() == q.has_value());
+                    }
+                compared++;
+            }
+        CHECK(compared >= 20);
+    }
+
+    TEST_CASE("truth: the mistake in another renderer's pictures is named") {
+        References references = read_references();
+        std::vector<Hypothesis> effects = read_effects(references);
+        for (double noise : {0.003, 0.01, 0.05})
+            CHECK(judge(pictures_of(references, {}, noise), references, effects).off == 0);
+        int named = 0, tried = 0;
+        for (size_t i = 0; i < effects.size(); i += 7) {
+            CAPTURE(effects[i].text);
+            Diagnosis d = judge(pictures_of(references, effects[i], 0.004), references, effects);
+            CAPTURE(d.text);
+            tried++, named += d.name == effects[i].text;
+            CHECK((d.name.empty() || d.name.find(effects[i].text) != std::string::npos));
+        }
+        CHECK(named > tried / 2);
+    }
+
+    TEST_CASE("input: pictures that cannot be judged, and why") {
+        TemporaryFolder folder;
+        auto notes = [&] {
+            std::string text;
+            for (const std::string& note : read_folder(folder.path()).notes) text += note + "\n";
+            return text.substr(std::min(text.find("floor"), text.size()));
+        };
+        CHECK(read_folder(folder.path()).missing.size() == small_scenes().size());
+        write_file_atomically(folder / "floor.exr", "");
+        CHECK(
+            notes() ==
+            "floor.exr: error: this format is not read; the page shows how to make a .pfm of it\n");
+        write_image(folder / "floor.pfm", grey(1), "");
+        CHECK(notes() ==
+              "floor: error: how noisy is it? There is neither floor.2.pfm (another seed) nor "
+              "floor.err.pfm\n");
+        write_image(folder / "floor.2.pfm", grey(2, 20), "");
+        CHECK(notes() == "floor.2.pfm: error: 20 x 16 pixels, not 16 x 16\n");
+        Image bad = grey(2);
+        bad.at(3, 4).g = NAN;
+        write_image(folder / "floor.2.pfm", bad, "");
+        CHECK(notes() ==
+              "floor.2.pfm: error: a pixel is not finite, column 4 of row 5 from the top\n");
+        write_image(folder / "floor.2.pfm", grey(2), "");
+        CHECK(notes().empty());
+        // The error of a tile is that of the mean of two renders of 16 pixels.
+        Measured m = read_folder(folder.path()).scenes.at("floor");
+        double expected = 0.03 * 0.2 / std::sqrt(12.0) / std::sqrt(32.0);
+        for (Quantity q : m.tiles) CHECK(std::abs(q.mean - 0.03) < 5 * expected);
+        for (Quantity q : m.tiles) CHECK((q.se > 0.5 * expected && q.se < 2 * expected));
+        for (const SmallScene& scene : small_scenes()) {
+            write_image(folder / (scene.name + ".pfm"), grey(1, scene.name == "wide" ? 32 : 16),
+                        "");
+            write_image(folder / (scene.name + ".2.pfm"), grey(1, scene.name == "wide" ? 32 : 16),
+                        "");
+        }
+        Folder same = read_folder(folder.path());
+        CHECK(same.scenes.empty());
+        CHECK(same.notes.at(0).ends_with("are the same: they need different seeds"));
+    }
+
+    TEST_CASE("truth: mistakes in a tracer of another style are named") {
+        if (std::system("command -v node >/dev/null") != 0) return;  // it is JavaScript
+        TemporaryFolder folder;
+        std::string scenes = "SCENES='frame floor slant far sky mirror sphere-2 pearl' ";
+        for (const char* words :
+             {"rows of the file from the top", "distance instead of its square"}) {
+            std::string command = scenes + "tests/diagnose/trial " + program_folder.string() +
+                                  " '" + words + "' >" + (folder / "says");
+            CHECK(std::system(command.c_str()) == 0);
+            std::string says = read_file(folder / "says");
+            CAPTURE(says);
+            CHECK(says.find("| yes |") != std::string::npos);
+        }
+    }
+}
+
+TEST_SUITE("diagnose slow") {
+    TEST_CASE("truth: correct variants of a tracer of another style are called right") {
+        if (std::system("command -v node >/dev/null") != 0) return;
+        CHECK(std::system(
+                  ("tests/diagnose/trial " + program_folder.string() + " c >/dev/null").c_str()) ==
+              0);
+    }
+}
