@@ -35,7 +35,7 @@ function Math(formula)
     if formula.mathtype == "DisplayMath" then return pandoc.Span({formula}, {class = "formula"}) end
 end
 
-local kinds = {png = "image/png", svg = "image/svg+xml"}
+local kinds = {jpg = "image/jpeg", png = "image/png", svg = "image/svg+xml"}
 function Image(image)
     if image.src:match("^%a+:") then error("a picture from elsewhere: " .. image.src) end
     local file = in_project(image.src)

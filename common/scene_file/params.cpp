@@ -100,7 +100,7 @@ Params::Params(Lexer& lexer, const Token& directive, SceneNotes& notes, bool has
         auto same_name = [&](const Param& other) { return other.name == param.name; };
         if (std::any_of(params_.begin(), params_.end(), same_name)) continue;
         params_.push_back(param);
-        params_.back().used = true;
+        params_.back().used = !pbrt_only_params.contains(param.name);
     }
     // Say here what is wrong, not where a parameter behind it is missing.
     const Token& after = lexer.peek();

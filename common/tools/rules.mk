@@ -1,5 +1,5 @@
 # Pages, and what looks at the text of the code.
-.PHONY: diff steps lint pictures readmes student-edition tidy
+.PHONY: diff steps lint pictures gallery readmes student-edition tidy
 
 #: reading: make diff CH=08   what a chapter changes of the one before
 diff:
@@ -19,6 +19,12 @@ steps:
 pictures: programs
 	common/tools/make_pictures $(BUILD)
 	common/tools/make_strips $(BUILD)
+#: maintaining: make gallery      render the six pictures of 1280x720 at the top of README.md, in 25 minutes
+gallery: programs $(BUILD)/make_gallery $(BUILD)/make_knot
+	$(BUILD)/make_gallery $(BUILD)/gallery
+	$(BUILD)/make_knot $(BUILD)/gallery/knot.ply
+	common/tools/make_gallery $(BUILD)
+	common/tools/fill_readmes --text README.md
 #: maintaining: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
 readmes: programs
 	common/tools/fill_readmes $(if $(SLOW),--slow)
