@@ -23,7 +23,7 @@ check: checkers $(made) \
 #: maintaining: make verdicts     does make check say of right, wrong and endless files what they are?
 verdicts: checkers $(BUILD)/01_monte_carlo_pi $(BUILD)/compare
 	@tests/check/verdicts $(BUILD) $(CXX) $(filter-out -I.,$(CXXFLAGS))
-#: make stages CH=21     after which function of the exercise can each claim be decided? (minutes)
+#: maintaining: make stages CH=21     after which function of the exercise can each claim be decided? (minutes)
 stages: checkers
 	@tests/check/stages $(BUILD) $(CH) -- $(CXX) $(filter-out -I.,$(CXXFLAGS))
 # All chapters in one, for the references that make check compares with (2 minutes): build/names --references

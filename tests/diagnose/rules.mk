@@ -6,13 +6,13 @@ planted_methods := 07 09 14
 $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS -O1
 
 .PHONY: probes diagnose effects diagnose-references diagnose-trial
-#: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes
+#: teaching: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes
 probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 test test-slow: $(BUILD)/diagnose
-#: make effects      measure anew what mistakes do to the small scenes (10 minutes; ONLY='eta')
+#: maintaining: make effects      measure anew what mistakes do to the small scenes (10 minutes; ONLY='eta')
 effects: $(BUILD)/diagnose_effects
 	@$< $(BUILD)/diagnosed/rows.tsv --spp 256 $(if $(ONLY),--only '$(ONLY)')
 $(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.tsv tests/diagnose/plant tests/diagnose/planted.h
@@ -26,6 +26,6 @@ diagnose-references: $(BUILD)/diagnose_references
 	@$< --references --spp 8192 $(if $(ONLY),--only '$(ONLY)')
 $(BUILD)/diagnose_references: $(patsubst %,$(BUILD)/obj/tests/measure/method_%.o,08 10 14 15 21) $(measuring_small) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-#: make diagnose-trial   plant mistakes in a tracer of another style, and count what build/diagnose names (5 minutes; FILL=1, ONLY=)
+#: maintaining: make diagnose-trial   plant mistakes in a tracer of another style, and count what build/diagnose names (5 minutes; FILL=1, ONLY=)
 diagnose-trial: $(BUILD)/diagnose
 	@tests/diagnose/trial $(BUILD) '$(ONLY)' $(FILL)
