@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 #include <stdio.h>
 #include <windows.h>
 
+#include <atomic>
 #include <deque>
 #include <vector>
 
@@ -143,18 +144,20 @@ double plain_strtod(const char* text, char** end) {
     return _strtod_l(text, end, plain);
 }
 
-// The signals; the library calls their handlers in a thread of its own.
 namespace {
 
 void (*handlers_before[std::size(stop_signals)])(int);
-void (*of_window)(int) = nullptr;
+std::atomic<void (*)(int)> caught_by = nullptr;
 
-// The window is closed, or the user logs off: Windows ends the program when this returns, or 5 s
-// later.
-BOOL WINAPI window_closes(DWORD event) {
-    if (event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT || of_window == nullptr) return FALSE;
-    of_window(SIGTERM);
-    Sleep(INFINITE);
+// Windows calls this in a thread of its own. When the window is closed or the user logs off, it
+// ends the program when this returns, or 5 s later; so it waits until the work is done. The library
+// may call the handler of Ctrl-C before this, as std::signal says.
+BOOL WINAPI console_event(DWORD event) {
+    void (*handler)(int) = caught_by;
+    if (handler == nullptr) TerminateProcess(GetCurrentProcess(), ended_by_signal);
+    bool is_key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
+    handler(!is_key ? SIGTERM : event == CTRL_C_EVENT ? SIGINT : SIGBREAK);
+    for (int i = 0; i < 45 && !is_key && caught_by != nullptr; i++) Sleep(100);
     return TRUE;
 }
 
@@ -165,23 +168,15 @@ void catch_stop_signals(void (*handler)(int)) {
         handlers_before[i] = std::signal(stop_signals[i], handler);
         if (handlers_before[i] == SIG_IGN) std::signal(stop_signals[i], SIG_IGN);
     }
-    of_window = handler;
-    SetConsoleCtrlHandler(window_closes, TRUE);
+    caught_by = handler;
 }
 void release_stop_signals() {
-    SetConsoleCtrlHandler(window_closes, FALSE);
-    of_window = nullptr;
+    caught_by = nullptr;
     for (size_t i = 0; i < std::size(stop_signals); i++)
         std::signal(stop_signals[i], handlers_before[i]);
 }
 void keep_catching(int signal, void (*handler)(int)) { std::signal(signal, handler); }
 void end_by_signal(int) { TerminateProcess(GetCurrentProcess(), ended_by_signal); }
-
-// What Windows does for Ctrl-C, but Wine ends a program with code 0.
-static BOOL WINAPI terminal_ends(DWORD) {
-    TerminateProcess(GetCurrentProcess(), ended_by_signal);
-    return TRUE;
-}
 
 void prepare_streams() {}
 
@@ -191,7 +186,7 @@ int main(int, char**);
 extern "C" int wmain(int argc, wchar_t** argv);
 extern "C" int wmain(int argc, wchar_t** argv) {
     for (FILE* stream : {stdin, stdout, stderr}) _setmode(_fileno(stream), _O_BINARY);
-    SetConsoleCtrlHandler(terminal_ends, TRUE);
+    SetConsoleCtrlHandler(console_event, TRUE);
     SetConsoleOutputCP(CP_UTF8);
     HANDLE terminal = GetStdHandle(STD_ERROR_HANDLE);
     if (DWORD mode = 0; GetConsoleMode(terminal, &mode))

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <random>
 
 #include "common/base/checksum.h"
+#include "common/base/system.h"
 #include "common/picture/film_file.h"
 #include "common/program/results.h"
 #include "common/program/warnings.h"
@@ -50,9 +52,11 @@ public:
     FilmFuzzer() {
         // In memory where the system has such a folder: films are written through to the disk.
         std::filesystem::path memory = "/dev/shm", disk = std::filesystem::temp_directory_path();
-        std::string name =
-            ((std::filesystem::exists(memory) ? memory : disk) / "films-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
+        std::random_device random;
+        std::string name = "films-" + std::to_string(random()) + std::to_string(random());
+        std::filesystem::path folder = (std::filesystem::exists(memory) ? memory : disk) / name;
+        std::filesystem::create_directory(folder);
+        folder_ = file_name(folder);
         for (auto [kind, takes_splats] :
              {std::pair(0, false), {1, false}, {2, false}, {3, false}, {0, true}, {1, true}}) {
             for (uint32_t first : {0u, 3u, 4u}) {

@@ -135,9 +135,7 @@ void Process::kill(int signal) {
     Sleep(1000);  // where it has just been started, it has no handlers yet
     auto send = reinterpret_cast<LPTHREAD_START_ROUTINE>(reinterpret_cast<void*>(
         GetProcAddress(GetModuleHandleW(L"kernelbase.dll"), "CtrlRoutine")));
-    uintptr_t event = signal == SIGINT     ? CTRL_C_EVENT
-                      : signal == SIGBREAK ? CTRL_BREAK_EVENT
-                                           : CTRL_CLOSE_EVENT;
+    uintptr_t event = signal == SIGINT ? CTRL_C_EVENT : CTRL_BREAK_EVENT;
     HANDLE thread =
         CreateRemoteThread(handle_, nullptr, 0, send, reinterpret_cast<void*>(event), 0, nullptr);
     if (thread != nullptr) CloseHandle(thread);
