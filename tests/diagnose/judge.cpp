@@ -49,9 +49,9 @@ std::optional<Image> read_picture(const std::string& stem, const SmallScene& sce
 }
 
 /// The tiles of a picture and another one: a second render, or the errors of the pixels.
-Measured measure(const SmallScene& scene, const Image& a, const Image& b, bool is_error,
-                 bool coarse) {
-    Measured m;
+SmallPicture measure(const SmallScene& scene, const Image& a, const Image& b, bool is_error,
+                     bool coarse) {
+    SmallPicture m;
     m.coarse = coarse;
     for (size_t i = 0; i < count_tiles(scene); i++) {
         double sum = 0, noise = 0, n = 0, step = 0, pixel = 0;

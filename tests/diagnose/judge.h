@@ -4,13 +4,13 @@
 
 /// Somebody's pictures of a scene: the means of the tiles with their standard errors. A tile that
 /// cannot be judged has an error of infinity.
-struct Measured {
+struct SmallPicture {
     Tiles tiles;
     bool coarse = false;  // 8 bits
 };
 /// What a folder holds.
 struct Folder {
-    std::map<std::string, Measured> scenes;
+    std::map<std::string, SmallPicture> scenes;
     std::vector<std::string> missing;  // scenes without a picture
     std::vector<std::string> notes;    // "NAME.pfm: error: ..." or "...: warning: ..."
 };

@@ -19,7 +19,7 @@ Folder pictures_of(const References& references, const Hypothesis& mistake, doub
     Sampler sampler(SamplerType::independent, 1, 1);
     sampler.start(0, 0);
     for (const SmallScene& scene : small_scenes()) {
-        Measured& m = folder.scenes[scene.name];
+        SmallPicture& m = folder.scenes[scene.name];
         const Tiles& should = references.at(scene.name);
         for (size_t i = 0; i < should.size(); i++) {
             auto found = mistake.predicted.find(key_of(scene.name, should, i));
@@ -125,7 +125,7 @@ TEST_SUITE("diagnose") {
         write_image(folder / "floor.2.pfm", grey(2), "");
         CHECK(notes().empty());
         // The error of a tile is that of the mean of two renders of 16 pixels.
-        Measured m = read_folder(folder.path()).scenes.at("floor");
+        SmallPicture m = read_folder(folder.path()).scenes.at("floor");
         double expected = 0.03 * 0.2 / std::sqrt(12.0) / std::sqrt(32.0);
         for (Quantity q : m.tiles) CHECK(std::abs(q.mean - 0.03) < 5 * expected);
         for (Quantity q : m.tiles) CHECK((q.se > 0.5 * expected && q.se < 2 * expected));
