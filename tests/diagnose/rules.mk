@@ -11,7 +11,7 @@ probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-test test-slow: $(BUILD)/diagnose
+programs: $(BUILD)/diagnose  # tests start it
 #: maintaining: make effects      measure anew what mistakes do to the small scenes (10 minutes; ONLY='eta')
 effects: $(BUILD)/diagnose_effects
 	@$< $(BUILD)/diagnosed/rows.tsv --spp 256 $(if $(ONLY),--only '$(ONLY)')
