@@ -324,7 +324,7 @@ async function own_pictures(browser) {
 }
 
 async function main() {
-    check('the book has less than 15 MB', size() < 15e6, `${(size() / 1e6).toFixed(1)} MB`);
+    check('the book has less than 20 MB', size() < 20e6, `${(size() / 1e6).toFixed(1)} MB`);
     for (const browser of [new Browser(chromium), ...(firefox ? [new Firefox(firefox)] : [])]) {
         console.log(`in ${browser.constructor === Firefox ? 'Firefox' : 'Chromium'}:`);
         try {
