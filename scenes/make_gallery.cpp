@@ -22,7 +22,10 @@ struct Random {
 template <typename... Args>
 std::string format(const char* pattern, Args... args) {
     char text[2000] = "";
-    std::snprintf(text, sizeof text, pattern, args...);
+    if constexpr (sizeof...(args) == 0)
+        std::snprintf(text, sizeof text, "%s", pattern);
+    else
+        std::snprintf(text, sizeof text, pattern, args...);
     std::replace(text, text + sizeof text, '\'', '"');
     return text;
 }

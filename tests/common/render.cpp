@@ -208,19 +208,22 @@ TEST_SUITE("render loop") {
     TEST_CASE("truth: a signal ends it at once, and each pixel has the mean of its own samples") {
         Scene scene = empty_scene(300, 200, 1000);
         int at[] = {1000, 5 * 60000 + 300, 7 * 60000};
-        for (size_t i = 0; i < 3; i++) {
-            RenderOptions options = quiet_options();
-            Rendering r = render_film(scene, options, noise_with_signal(stop_signals[i], at[i]));
+        for (size_t i = 0; i < 6; i++) {
+            bool alone = i < 3;
+            RenderOptions options = quiet_options(alone ? 1 : 2);
+            size_t k = i % 3;
+            Rendering r = render_film(scene, options, noise_with_signal(stop_signals[k], at[k]));
             CHECK(r.stats.interrupted);
             CHECK(static_cast<uint64_t>(calls) == r.film.samples());
-            CHECK(calls >= at[i]);
-            CHECK(calls < at[i] + 10000);
+            CHECK(calls >= at[k]);
+            // On a busy machine the other thread may go on for long before this one sends it.
+            if (alone) CHECK(calls < at[k] + 10000);
             Image image = r.film.image();
             for (auto [x, y] : {std::pair(0, 0), std::pair(299, 0), std::pair(150, 199)}) {
                 uint64_t n = r.film.pixels()[static_cast<size_t>(y * 300 + x)].n;
                 double sum = 0;
-                for (uint64_t k = 0; k < n; k++) {
-                    Rgb L = sample_of(scene, options, noise, x, y, static_cast<int>(k));
+                for (uint64_t j = 0; j < n; j++) {
+                    Rgb L = sample_of(scene, options, noise, x, y, static_cast<int>(j));
                     sum += static_cast<double>(L.r);
                 }
                 CHECK(image.at(x, y).r ==
