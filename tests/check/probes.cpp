@@ -248,8 +248,8 @@ void add_glass_and_metal(std::vector<Probe>& p) {
                      group(paint(0.5) + at(1, 0, 0) + turn(90, z_axis) + scale(3) + square(true)),
                  13});
     p.push_back({"metal", "rough metal, from above", on_metal(metal(1, rough), 8), 13});
-    p.push_back(
-        {"metal aslant", "rough metal, along its surface", on_metal(metal(1, rough), 0.25), 13});
+    p.push_back({"metal at an angle", "rough metal, along its surface",
+                 on_metal(metal(1, rough), 0.25), 13});
     std::string real =
         "Material \"conductor\" \"rgb eta\" [1.5 1.5 1.5] \"rgb k\" [1 1 1] " + rough + "\n";
     p.push_back({"real metal", "rough metal of real eta and k, along its surface",

@@ -1,4 +1,4 @@
-// The tools that hold pictures and measurements against each other.
+// The tools that compare pictures and measurements with each other.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -385,7 +385,7 @@ TEST_SUITE("measuring") {
         CHECK(v.others_mean == doctest::Approx(11.6).epsilon(1e-12).scale(0));
         CHECK(v.z == doctest::Approx(1.4 / std::sqrt(1.8)).epsilon(1e-12).scale(0));
         CHECK(!judge(e, 3).known);                          // too few lucky samples
-        CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);     // nothing to hold it against
+        CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);     // nothing to compare it with
         CHECK(!judge({{1, 1, 0}, {1, 1, 0, 2}}, 0).known);  // they missed more than their error
     }
 

@@ -109,7 +109,7 @@ TEST_SUITE("naming") {
         std::string text = named("10", {{"bulb", "LSDE", 3}});
         CHECK(says(text, "All of these are paths that pass a mirror or glass"));
         CHECK(says(text, "LSDE in a lamp in a ball of glass is 3 (3) of what it should be."));
-        Change lobes = {{"metal", "LDE", 0.7}, {"metal aslant", "LDE", 0.7}};
+        Change lobes = {{"metal", "LDE", 0.7}, {"metal at an angle", "LDE", 0.7}};
         CHECK(says(named("10", lobes), "in scenes with rough metal"));
     }
 

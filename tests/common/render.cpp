@@ -21,15 +21,6 @@
 
 namespace {
 
-RenderOptions quiet_options(int threads = 2) {
-    RenderOptions options;
-    options.name = "stand_in";
-    options.command = "build/stand_in --spp 4";
-    options.threads = threads;
-    options.quiet = true;
-    return options;
-}
-
 /// Depends on the ray and on the random numbers.
 Rgb noise(const Scene&, Ray ray, Sampler& sampler, Recorder&) {
     Rgb u = {sampler.u1(), sampler.u1(), sampler.u1()};
@@ -100,7 +91,7 @@ TEST_SUITE("render loop") {
     TEST_CASE("identity: the same bits for any number of threads and each sampler") {
         Scene scene = empty_scene(53, 37, 3);
         for (SamplerType type : samplers) {
-            RenderOptions options = quiet_options(1);
+            RenderOptions options = stand_in_options(1);
             options.sampler = type;
             Rendering one = render_film(scene, options, noise);
             for (int threads : {2, 3, 7, 1000}) {
@@ -116,7 +107,7 @@ TEST_SUITE("render loop") {
         Scene scene = empty_scene(21, 18, 3);
         for (SamplerType type : samplers) {
             for (uint32_t seed : {0u, 5u}) {
-                RenderOptions options = quiet_options();
+                RenderOptions options = stand_in_options();
                 options.sampler = type;
                 options.seed = seed;
                 Image image = render_film(scene, options, noise).film.image();
@@ -138,7 +129,7 @@ TEST_SUITE("render loop") {
         for (auto c : cases) {
             calls = 0;
             Rendering r =
-                render_film(empty_scene(c.width, c.height, c.spp), quiet_options(3), counting);
+                render_film(empty_scene(c.width, c.height, c.spp), stand_in_options(3), counting);
             CHECK(calls == c.width * c.height * c.spp);
             CHECK(r.film.spp() == c.spp);
             for (Rgb p : r.film.image().pixels) CHECK(p == Rgb{1, 1, 1});
@@ -152,7 +143,7 @@ TEST_SUITE("render loop") {
             double covered = 0, naive_squares = 0;
             constexpr uint32_t seeds = 200;
             for (uint32_t seed = 0; seed < seeds; seed++) {
-                RenderOptions options = quiet_options();
+                RenderOptions options = stand_in_options();
                 options.sampler = type;
                 options.seed = seed;
                 Film film = render_film(scene, options, smooth_and_rough).film;
@@ -176,7 +167,7 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("truth: the time ends it, or the samples do") {
         Scene scene = empty_scene(600, 600, 1 << 20);
-        RenderOptions options = quiet_options();
+        RenderOptions options = stand_in_options();
         options.time = 0.05;
         calls = 0;
         Rendering r = render_film(scene, options, counting);
@@ -193,7 +184,7 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("truth: the time ends it within a second, however large the picture") {
         Scene scene = empty_scene(4096, 4096, 1 << 20);
-        RenderOptions options = quiet_options();
+        RenderOptions options = stand_in_options();
         options.time = 0.1;
         auto slow = [](const Scene&, Ray, Sampler&, Recorder&) {  // a pass takes minutes
             std::this_thread::sleep_for(std::chrono::microseconds(20));
@@ -210,7 +201,7 @@ TEST_SUITE("render loop") {
         int at[] = {1000, 5 * 60000 + 300, 7 * 60000};
         for (size_t i = 0; i < 6; i++) {
             bool alone = i < 3;
-            RenderOptions options = quiet_options(alone ? 1 : 2);
+            RenderOptions options = stand_in_options(alone ? 1 : 2);
             size_t k = i % 3;
             Rendering r = render_film(scene, options, noise_with_signal(stop_signals[k], at[k]));
             CHECK(r.stats.interrupted);
@@ -234,7 +225,8 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("truth: passes double, so that an early end leaves few pixels with few samples") {
         Scene scene = empty_scene(64, 64, 1 << 20);
-        Rendering r = render_film(scene, quiet_options(), noise_with_signal(SIGINT, 3 * 4096 - 1));
+        Rendering r =
+            render_film(scene, stand_in_options(), noise_with_signal(SIGINT, 3 * 4096 - 1));
         uint64_t fewest = 1 << 20, most = 0;
         for (const PixelSum& p : r.film.pixels()) {
             fewest = std::min<uint64_t>(fewest, p.n), most = std::max<uint64_t>(most, p.n);
@@ -245,25 +237,26 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("truth: a signal in the last sample interrupts nothing, nor does one before") {
         Scene scene = empty_scene(2, 2, 1);
-        CHECK_FALSE(
-            render_film(scene, quiet_options(1), noise_with_signal(SIGINT, 4)).stats.interrupted);
-        CHECK_FALSE(render_film(scene, quiet_options(), counting).stats.interrupted);
+        CHECK_FALSE(render_film(scene, stand_in_options(1), noise_with_signal(SIGINT, 4))
+                        .stats.interrupted);
+        CHECK_FALSE(render_film(scene, stand_in_options(), counting).stats.interrupted);
     }
 
     TEST_CASE("truth: a signal before the first sample, or in the last one, is not forgotten") {
         StopOnSignal outer;
         std::raise(SIGTERM);
-        Rendering r = render_film(empty_scene(3, 3, 2), quiet_options(), counting);
+        Rendering r = render_film(empty_scene(3, 3, 2), stand_in_options(), counting);
         CHECK(r.stats.interrupted);
         CHECK(r.film.samples() == 0);
         CHECK(outer.take_request());
         CHECK_FALSE(outer.requested());
-        CHECK_FALSE(render_film(empty_scene(3, 3, 2), quiet_options(), counting).stats.interrupted);
+        CHECK_FALSE(
+            render_film(empty_scene(3, 3, 2), stand_in_options(), counting).stats.interrupted);
         auto raising = [](const Scene&, Ray, Sampler&, Recorder&) {
             std::raise(SIGINT);
             return Rgb{};
         };
-        render_film(empty_scene(1, 1, 1), quiet_options(), raising);
+        render_film(empty_scene(1, 1, 1), stand_in_options(), raising);
         CHECK(outer.requested());
     }
 
@@ -295,7 +288,7 @@ TEST_SUITE("render loop") {
         };
         for (SamplerType type : samplers) {
             for (bool by_signal : {false, true}) {
-                RenderOptions options = quiet_options();
+                RenderOptions options = stand_in_options();
                 options.sampler = type;
                 options.split = "unused";
                 if (!by_signal) options.time = 0.2;
@@ -318,14 +311,15 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("files: what a thread throws reaches the caller") {
         for (int threads : {1, 4}) {
-            CHECK_THROWS_AS(render_film(empty_scene(99, 99, 1), quiet_options(threads), throwing),
-                            std::bad_alloc);
+            CHECK_THROWS_AS(
+                render_film(empty_scene(99, 99, 1), stand_in_options(threads), throwing),
+                std::bad_alloc);
         }
     }
 
     TEST_CASE("identity: the classes of a split sum to the whole") {
         Scene scene = empty_scene(40, 30, 4);
-        RenderOptions options = quiet_options();
+        RenderOptions options = stand_in_options();
         options.split = "unused";
         Rendering r = render_film(scene, options, random_classes);
         CHECK(r.classes.size() == 128);  // 2^0 + ... + 2^6 letters D or S, and the longer ones
@@ -350,7 +344,7 @@ TEST_SUITE("render loop") {
 
     TEST_CASE("identity: a filter and its opposite sum to the whole") {
         Scene scene = empty_scene(40, 30, 4);
-        RenderOptions options = quiet_options();
+        RenderOptions options = stand_in_options();
         double whole = render_film(scene, options, random_classes).film.mean();
         options.paths = "LD.*E";
         double diffuse_first = render_film(scene, options, random_classes).film.mean();
@@ -364,7 +358,7 @@ TEST_SUITE("render loop") {
     TEST_CASE("failure: samples that are not finite are counted, and none is painted black") {
         Scene scene = empty_scene(40, 30, 4);
         for (int threads : {1, 5}) {
-            RenderOptions options = quiet_options(threads);
+            RenderOptions options = stand_in_options(threads);
             Rendering r = render_film(scene, options, sometimes_not_finite);
             uint64_t count = 0;
             Image image = r.film.image();
@@ -393,7 +387,7 @@ TEST_SUITE("render loop") {
         Finished end = captured([&] {
             Scene scene = empty_scene(8, 8, 4);
             scene.file = "a.pbrt";
-            RenderOptions options = quiet_options();
+            RenderOptions options = stand_in_options();
             options.out = {folder / "a.pfm", folder / "a.ppm"};
             options.stats = folder / "s.json";
             Rendering r{Film(8, 8), {}, {}};
@@ -428,7 +422,7 @@ TEST_SUITE("render loop") {
         Finished end = captured([&] {
             Scene scene = empty_scene(8, 8, 1);
             scene.file = "a.pbrt";
-            RenderOptions options = quiet_options();
+            RenderOptions options = stand_in_options();
             options.quiet = false;
             options.split = folder.path();
             Rendering r{sound, {}, {}};
@@ -454,7 +448,7 @@ TEST_SUITE("render loop") {
         scene.file = "a.pbrt";
         auto summary = [&](Rendering r) {
             Finished end = captured([&] {
-                RenderOptions options = quiet_options();
+                RenderOptions options = stand_in_options();
                 options.quiet = false;
                 options.stats = folder / "s.json";
                 return write_results(scene, options, r);

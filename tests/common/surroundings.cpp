@@ -17,19 +17,6 @@
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
-namespace {
-
-RenderOptions parsed(std::vector<std::string> words, std::vector<Option> extra = {},
-                     const std::vector<std::string>& takes = {}) {
-    words.insert(words.begin(), "build/07_x");
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    return parse_render_options(static_cast<int>(argv.size()), argv.data(), "07_x", "scenes/a.pbrt",
-                                extra, takes);
-}
-
-}  // namespace
-
 TEST_SUITE("surroundings") {
     TEST_CASE("truth: loading shows a line that goes away, or lines that stay") {
         auto told = [](bool is_terminal, double pause, bool clears) {

@@ -53,13 +53,13 @@ void run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& work
         }
     }
 
-    // Hold all of them against one long render of the quietest: the means of so few renders as
+    // Compare all of them with one long render of the quietest: the means of so few renders as
     // these miss pixels that are bright in one of them only.
     auto noise = [](const Contender& c) { return c.spread.rel_mse(c.spread.mean()); };
     Contender& best =
         *std::min_element(contenders.begin(), contenders.end(),
                           [&](const auto& a, const auto& b) { return noise(a) < noise(b); });
-    work.next(best.scene.file + ", the long render that all are held against");
+    work.next(best.scene.file + ", the long render that all are compared with");
     Image truth =
         render_once(*best.method, best.scene, o, 8 * best.spp, static_cast<uint32_t>(o.runs))
             .film.image();

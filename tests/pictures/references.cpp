@@ -35,7 +35,7 @@ struct Reference {
     }
 };
 
-/// Renders a scene and holds it against the reference, block by block.
+/// Renders a scene and compares it with the reference, block by block.
 ///
 /// make_trace  the chapter's trace, from the scene
 template <class MakeTrace>

@@ -9,19 +9,6 @@
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
-namespace {
-
-RenderOptions quiet_options(int threads = 2) {
-    RenderOptions options;
-    options.name = "stand_in";
-    options.command = "build/stand_in --spp 4";
-    options.threads = threads;
-    options.quiet = true;
-    return options;
-}
-
-}  // namespace
-
 TEST_SUITE("render loop") {
     TEST_CASE("truth: the same signal later ends the program; an ignored one does nothing") {
         for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -44,7 +31,7 @@ TEST_SUITE("render loop") {
                       for (int all : {SIGINT, SIGTERM, SIGHUP}) std::signal(all, SIG_DFL);
                       StopOnSignal until_the_end;
                       Rendering r =
-                          render_film(empty_scene(300, 300, 1000), quiet_options(1), raising);
+                          render_film(empty_scene(300, 300, 1000), stand_in_options(1), raising);
                       for (int other : {SIGINT, SIGTERM, SIGHUP}) std::raise(other);
                       return r.stats.interrupted ? 3 : 0;
                   })
@@ -52,7 +39,7 @@ TEST_SUITE("render loop") {
                       .code == 3);
             CHECK(Process([&] {
                       std::signal(signal, SIG_IGN);  // as nohup does
-                      Rendering r = render_film(empty_scene(3, 3, 2), quiet_options(1), raising);
+                      Rendering r = render_film(empty_scene(3, 3, 2), stand_in_options(1), raising);
                       return r.stats.interrupted ? 1 : static_cast<int>(r.film.spp());
                   })
                       .wait()

@@ -5,6 +5,7 @@
 #include "common/program/options.h"
 #include "common/program/progress.h"
 #include "tests/support/process.h"
+#include "tests/support/stand_ins.h"
 
 namespace {
 
@@ -41,15 +42,6 @@ std::string help_of(const std::vector<std::string>& takes, std::vector<Option> e
            })
         .wait()
         .out;
-}
-
-RenderOptions parsed(std::vector<std::string> words, std::vector<Option> extra = {},
-                     const std::vector<std::string>& takes = {}) {
-    words.insert(words.begin(), "build/07_x");
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    return parse_render_options(static_cast<int>(argv.size()), argv.data(), "07_x", "scenes/a.pbrt",
-                                extra, takes);
 }
 
 }  // namespace
