@@ -93,7 +93,7 @@ struct Ring {
     double radius, score;
 };
 inline constexpr Ring board[] = {{0.1, 10}, {0.3, 5}, {0.6, 2}, {1, 1}};
-inline constexpr double aim = 0.5;  // standard deviation of a hit, in x and in y
+inline constexpr double sigma = 0.5;  // standard deviation of a hit, in x and in y
 
 /// f(x), the score of a hit at x; 0 off the board.
 inline double score_board(Vec2 x) {
@@ -105,12 +105,12 @@ inline double score_board(Vec2 x) {
 
 /// Samples the point of a hit: normally distributed around the centre.
 ///
-///   r = aim sqrt(-2 ln(1 - u.x)),  angle = 2 pi u.y
+///   r = sigma sqrt(-2 ln(1 - u.x)),  angle = 2 pi u.y
 ///
 /// u       in [0,1)^2
 /// source  Box, Muller 1958      tested by  "density: hits of the dart board"
 inline Vec2 sample_hit(Vec2 u) {
-    double r = aim * std::sqrt(-2 * std::log1p(-double{u.x}));
+    double r = sigma * std::sqrt(-2 * std::log1p(-double{u.x}));
     double angle = 2 * std::numbers::pi * double{u.y};
     return {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle))};
 }
@@ -118,24 +118,25 @@ inline Vec2 sample_hit(Vec2 u) {
 /// The density of sample_hit per unit area.
 inline double pdf_hit(Vec2 x) {
     double r2 = std::pow(double{x.x}, 2) + std::pow(double{x.y}, 2);
-    return std::exp(-r2 / (2 * aim * aim)) / (2 * std::numbers::pi * aim * aim);
+    return std::exp(-r2 / (2 * sigma * sigma)) / (2 * std::numbers::pi * sigma * sigma);
 }
 
 /// The u for which sample_hit(u) is x.
 inline Vec2 invert_hit(Vec2 x) {
     double r2 = std::pow(double{x.x}, 2) + std::pow(double{x.y}, 2);
     double turns = std::atan2(double{x.y}, double{x.x}) / (2 * std::numbers::pi);
-    return {static_cast<float>(-std::expm1(-r2 / (2 * aim * aim))),
+    return {static_cast<float>(-std::expm1(-r2 / (2 * sigma * sigma))),
             static_cast<float>(turns < 0 ? turns + 1 : turns)};
 }
 
 /// The average score  E[f] = integral of f(x) p(x) dx, ring by ring in closed form.
 ///
-///   P(r <= R) = 1 - exp(-R^2 / (2 aim^2))      tested by  "truth: the average score of the board"
+///   P(r <= R) = 1 - exp(-R^2 / (2 sigma^2))      tested by  "truth: the average score of the
+///   board"
 inline double expected_score() {
     double expected = 0, outside = 1;
     for (Ring ring : board) {
-        double beyond = std::exp(-ring.radius * ring.radius / (2 * aim * aim));
+        double beyond = std::exp(-ring.radius * ring.radius / (2 * sigma * sigma));
         expected += ring.score * (outside - beyond);
         outside = beyond;
     }

@@ -29,7 +29,7 @@ inline double relative_variance(const PilotPixel& p) {
 
 /// Averages s over 5 neighbours in each row, and transposes: applied twice, it averages 5 x 5
 /// pixels, since the few samples of one pixel give a noisy variance.
-inline std::vector<double> smooth(const std::vector<double>& s, int width) {
+inline std::vector<double> filter_and_transpose(const std::vector<double>& s, int width) {
     int height = static_cast<int>(s.size()) / width;
     std::vector<double> result;
     for (int x = 0; x < width; x++) {
@@ -43,17 +43,19 @@ inline std::vector<double> smooth(const std::vector<double>& s, int width) {
     return result;
 }
 
-/// Each pixel's share of the samples (average 1), from the pilot's variances and numbers of rays.
+/// The relative density of samples in each pixel (average 1), from the pilot's variances and
+/// numbers of rays.
 ///
-///   share = s / (mean of s),    s = sqrt(v / c), smooth
+///   density = s / (mean of s),    s = sqrt(v / c), averaged over neighbours
 ///
-/// source  Neyman 1934      tested by  "truth: shares are those of the least error"
-inline std::vector<double> shares(const std::vector<PilotPixel>& pixels, int width) {
+/// source  Neyman 1934      tested by  "truth: sample densities are those of the least error"
+inline std::vector<double> sample_density(const std::vector<PilotPixel>& pixels, int width) {
     std::vector<double> s;
     for (const PilotPixel& p : pixels)
         s.push_back(std::sqrt(relative_variance(p) / std::max(p.rays, 1u)));
     int height = static_cast<int>(s.size()) / width;
-    for (int side : {width, height, width, height}) s = smooth(s, side);  // 5 x 5, twice
+    for (int side : {width, height, width, height})
+        s = filter_and_transpose(s, side);  // 5 x 5, twice
     double mean = 0;
     for (double s_i : s) mean += s_i / static_cast<double>(s.size());
     for (double& s_i : s) s_i = mean > 0 ? s_i / mean : 1;
@@ -66,55 +68,55 @@ inline std::vector<double> shares(const std::vector<PilotPixel>& pixels, int wid
 /// own    biased, too dark: where a pilot missed the light, few samples follow that could find it
 enum class Judge { other, own };
 
-/// What the user asks for, and what the pilot has decided: the shares of both halves.
-struct Shares {
+/// What the user asks for, and what the pilot has decided: the densities of both halves.
+struct SampleDensities {
     uint32_t pilot = 16;  // samples of each pixel, both halves together
     Judge judge = Judge::other;
     std::vector<double> of_half[2] = {};
 };
-inline void share_out(Shares& s, const Pilot& pilot, int threads) {
+inline void choose_densities(SampleDensities& s, const Pilot& pilot, int threads) {
     parallel_for(2, threads, [&](int half) {
         int judge = s.judge == Judge::other ? 1 - half : half;
-        s.of_half[half] = shares(pilot.half[judge], pilot.width);
+        s.of_half[half] = sample_density(pilot.half[judge], pilot.width);
     });
 }
 
-/// The factor `level` with which the average of max(least, level share) is `wanted`. Pixels with
+/// The factor `scale` with which the average of max(least, scale density) is `wanted`. Pixels with
 /// `least` leave fewer samples for the others: it is lowered until no more pixels get `least`.
-inline double level_of(const std::vector<double>& shares, double least, double wanted) {
-    for (double level = infinity;;) {
+inline double scale_to_budget(const std::vector<double>& density, double least, double wanted) {
+    for (double scale = infinity;;) {
         double sum = 0, left = 0;
-        for (double share : shares) {
-            bool asks = share * level > least;
-            sum += asks ? share : 0, left += asks ? wanted : wanted - least;
+        for (double d : density) {
+            bool asks = d * scale > least;
+            sum += asks ? d : 0, left += asks ? wanted : wanted - least;
         }
-        if (!(left / sum < level)) return level;
-        level = left / sum;
+        if (!(left / sum < scale)) return scale;
+        scale = left / sum;
     }
 }
 
 /// The number of samples in a half of each pixel, for `spp` samples per pixel on average.
 ///
-///   n = floor(level share + u),  at least pilot / 2 + 0.05 (spp - pilot) / 2, at most 8 spp
+///   n = floor(scale density + u),  at least pilot / 2 + 0.05 (spp - pilot) / 2, at most 8 spp
 ///
 /// At least: a pilot without noise may have missed some. At most: a pilot with one very bright
 /// sample may be wrong, too. u in [0,1) differs for each pixel and half: rounding is unbiased.
-/// tested by  "identity: samples are as many as the shares say"
-inline SamplesOf samples_of(std::shared_ptr<const Shares> s, int half, uint32_t spp) {
+/// tested by  "identity: samples are as many as the densities say"
+inline SamplesOf samples_of(std::shared_ptr<const SampleDensities> s, int half, uint32_t spp) {
     uint32_t pilot = std::min(spp, s->pilot), first = (pilot + (half == 0)) / 2;
     if (spp == pilot) return [=](size_t) { return first; };
     double more = (spp - pilot) / 2.0, least = first + 0.05 * more, most = 8.0 * spp;
-    double level = level_of(s->of_half[half], least, first + more);
+    double scale = scale_to_budget(s->of_half[half], least, first + more);
     return [=](size_t pixel) {
         double u = to_unit_float(hash32(static_cast<uint32_t>(pixel), static_cast<uint32_t>(half)));
-        return static_cast<uint32_t>(std::clamp(level * s->of_half[half][pixel], least, most) + u);
+        return static_cast<uint32_t>(std::clamp(scale * s->of_half[half][pixel], least, most) + u);
     };
 }
 
 /// The allocation for the render loop. A pixel is  (mean of half 0 + mean of half 1) / 2.
-inline Allocation allocation(const Shares& wanted) {
-    auto s = std::make_shared<Shares>(wanted);
-    return {wanted.pilot, [s](const auto&... decided) { share_out(*s, decided...); },
+inline Allocation allocation(const SampleDensities& wanted) {
+    auto s = std::make_shared<SampleDensities>(wanted);
+    return {wanted.pilot, [s](const auto&... decided) { choose_densities(*s, decided...); },
             [s](int half, uint32_t spp) { return samples_of(s, half, spp); }};
 }
 

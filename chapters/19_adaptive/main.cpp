@@ -4,19 +4,19 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        ch19::Shares shares;
+        ch19::SampleDensities densities;
         std::string map;
         Option pilot = {"pilot", "N", "samples of each pixel in the pilot (default 16)",
                         [&](const std::string& text) {
                             auto n = parse_integer("pilot", text, 4, 1 << 16);
-                            shares.pilot = static_cast<uint32_t>(n);
+                            densities.pilot = static_cast<uint32_t>(n);
                         },
                         "16"};
         Option judge = {"judge", "other|own",
                         "which half's pilot decides about a half; own is biased",
                         [&](const std::string& text) {
                             auto i = parse_choice("judge", text, {"other", "own"});
-                            shares.judge = static_cast<ch19::Judge>(i);
+                            densities.judge = static_cast<ch19::Judge>(i);
                         },
                         "other"};
         Option counts = {"map", "FILE",
@@ -28,6 +28,6 @@ int main(int argc, char** argv) {
         Scene scene = load(options, Features::dispersion);
         return render(scene, options,
                       trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()),
-                      ch19::allocation(shares));
+                      ch19::allocation(densities));
     });
 }

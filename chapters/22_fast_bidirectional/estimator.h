@@ -12,11 +12,11 @@ namespace ch22 {
 struct Bidirectional {
     Endpoints endpoints;
     many_lights::Lights lights;
-    int chances;  // 0: none, as in chapter 21
-    bool aims;    // direct light as in chapter 15; false: as in chapter 21
+    int chances;          // 0: none, as in chapter 21
+    bool light_sampling;  // direct light as in chapter 15; false: as in chapter 21
 };
-inline Bidirectional prepare(const Scene& scene, int chances = 16, bool aims = true) {
-    return {endpoints_of(scene), many_lights::prepare(scene), chances, aims};
+inline Bidirectional prepare(const Scene& scene, int chances = 16, bool light_sampling = true) {
+    return {endpoints_of(scene), many_lights::prepare(scene), chances, light_sampling};
 }
 
 /// What a vertex stores for the weights of all its connections.
@@ -220,12 +220,12 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
 
     // Connect every vertex of one path to every vertex of the other.
     Rgb sum;
-    bool aims = settings.aims && scene.max_depth > 0 && eye.path[1].connectible;
+    bool direct = settings.light_sampling && scene.max_depth > 0 && eye.path[1].connectible;
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
     for (size_t t = 1; t <= eye.path.size(); t++) {
         for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
             if (s == 0 && settings.chances > 0 && has_chances(eye, t)) continue;
-            if (aims && s + t == 3) continue;
+            if (direct && s + t == 3) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
             if (s == 2) place_light(scene, light.path[0], light.path[1]);
             Splat splat = unweighted(scene, endpoints, light.path, s, eye.path, t);
@@ -244,7 +244,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
         int number = static_cast<int>(t);
         sum += through_mirrors(scene, eye.path[t - 1], number, settings.chances, sampler, recorder);
     }
-    return aims ? sum + direct_light(scene, settings.lights, eye.path, sampler, recorder) : sum;
+    return direct ? sum + direct_light(scene, settings.lights, eye.path, sampler, recorder) : sum;
 }
 
 }  // namespace ch22

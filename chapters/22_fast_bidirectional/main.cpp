@@ -5,7 +5,7 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         int chances = 16;
-        bool aims = true;
+        bool light_sampling = true;
         Option chances_option = {
             "chances", "N", "extra samples of light that only random hits find; 0: none",
             [&](const std::string& text) {
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
         Option direct_by = {"direct-by", "CHAPTER",
                             "how direct light is found: as in chapter 15 or 21",
                             [&](const std::string& text) {
-                                aims = parse_choice("direct-by", text, {"15", "21"}) == 0;
+                                light_sampling = parse_choice("direct-by", text, {"15", "21"}) == 0;
                             },
                             "15"};
         RenderOptions options =
@@ -24,6 +24,6 @@ int main(int argc, char** argv) {
         options.search = LightSearch::both_ends;
         Scene scene = load(options);
         return render(scene, options,
-                      splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, aims)));
+                      splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, light_sampling)));
     });
 }

@@ -160,11 +160,11 @@ inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& sp
 
     // Connect every vertex of one path to every vertex of the other.
     Rgb sum;
-    bool aims = scene.max_depth > 0 && eye.path[1].connectible;
+    bool direct = scene.max_depth > 0 && eye.path[1].connectible;
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
     for (size_t t = 1; t <= eye.path.size(); t++) {
         for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
-            if (aims && s + t == 3) continue;
+            if (direct && s + t == 3) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
             if (s == 2) place_light(scene, light.path[0], light.path[1]);
             Splat splat = unweighted(scene, merging.endpoints, light.path, s, eye.path, t);
@@ -180,7 +180,7 @@ inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& sp
     // Merge every vertex of the path from the eye with the photons around it.
     for (size_t t = eye.path.size(); t > 1 && merging.area > 0; t--)
         sum += merge(scene, merging, eye, t, recorder);
-    return aims ? sum + direct_light(scene, merging.lights, eye.path, sampler, recorder) : sum;
+    return direct ? sum + direct_light(scene, merging.lights, eye.path, sampler, recorder) : sum;
 }
 
 /// Adds the vertices of one of N light paths to those of the pass, and photons where it may merge.

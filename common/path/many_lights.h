@@ -88,7 +88,7 @@ inline void choose_candidates(const Scene& scene, const Lights& lights, const Hi
 ///
 /// With random candidates, the probability that a light is included is unknown: min(1, candidates)
 /// is a heuristic for it. Any positive number keeps the estimate unbiased.
-inline float pdf_aimed(const Lights& lights, const Candidates& c, size_t light, float pdf_one) {
+inline float pdf_sampled(const Lights& lights, const Candidates& c, size_t light, float pdf_one) {
     return (lights.all() ? c.inclusion[light] : std::min(1.0f, lights.candidates[light])) * pdf_one;
 }
 
@@ -104,7 +104,7 @@ inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidat
     if (y.pdf_w == 0) return {};
     float pdf_l = lights.candidates[light] * c.inclusion[i] * y.pdf_w;
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
-    float mis_l = power_heuristic(pdf_aimed(lights, c, light, y.pdf_w), pdf_b);
+    float mis_l = power_heuristic(pdf_sampled(lights, c, light, y.pdf_w), pdf_b);
     Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / pdf_l);
     if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi, y.dist))) return {};
     recorder.direct(Ld, y.wi, pdf_l, pdf_b, mis_l);
@@ -134,7 +134,7 @@ inline float mis_emission(const Scene& scene, const Lights& lights, const Candid
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
     float pdf_one = pdf_beside_bsdf(scene, light, c.x, y);
-    return power_heuristic(pdf_b, pdf_aimed(lights, c, light, pdf_one));
+    return power_heuristic(pdf_b, pdf_sampled(lights, c, light, pdf_one));
 }
 
 }  // namespace many_lights

@@ -35,7 +35,7 @@ struct Allocation {
     uint32_t pilot = 0;  // samples of each pixel; 0: no allocation, all pixels get the same
 
     /// Decides the numbers of samples from the pilot. Empty: already decided.
-    std::function<void(const Pilot& pilot, int threads)> share_out = {};
+    std::function<void(const Pilot& pilot, int threads)> choose_densities = {};
 
     /// The numbers of samples in a half, for `spp` samples per pixel on average. They grow with
     /// spp, and are the same for all pixels up to the end of the pilot.

@@ -117,7 +117,7 @@ std::string of_search(LightSearch search, double chance) {
         case LightSearch::by_chance:
             std::snprintf(text, sizeof text,
                           "lights are met only by chance here, by about one path in %.2g: more "
-                          "samples find them, or a chapter that aims at lights (from 09 on)",
+                          "samples find them, or a chapter that samples lights (from 09 on)",
                           1 / chance);
             return text;
         case LightSearch::from_lights:
@@ -126,7 +126,7 @@ std::string of_search(LightSearch search, double chance) {
         case LightSearch::photons:
             return "photons begin at the lights, and few of them come to what the camera sees: "
                    "more photons, or a chapter whose paths begin at the camera";
-        case LightSearch::aims:
+        case LightSearch::light_sampling:
         case LightSearch::direct:
         case LightSearch::both_ends:
         case LightSearch::merging: break;
@@ -172,7 +172,7 @@ std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions
         causes.push_back("something stands between the lights and all that is in view");
     } else if (s.reach == Reach::through_glass) {
         causes.push_back(
-            "light comes to what is in view only through glass, where aiming at a light does not "
+            "light comes to what is in view only through glass, where light sampling does not "
             "find it: chapters 20 to 25 do");
     }
     if (s.reach != Reach::arrives && scene.max_depth == 1) {

@@ -66,7 +66,8 @@ double size_of_sky(const SkyImage& sky) {
 }
 
 /// Samples a light from x.
-Rgb aim(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo, Sampler& sampler) {
+Rgb light_sampling(const Scene& scene, const LightTable& lights, const Hit& x, Vec3 wo,
+                   Sampler& sampler) {
     double u = to_unit_double(sampler.u2());
     LightSample y = sample_light(scene, lights, x, u, sampler.u2());
     if (y.pdf_w == 0) return {};
@@ -88,7 +89,7 @@ Rgb light_along(const Scene& scene, const LightTable& lights, double paths, Ray 
         if (!x || depth == scene.max_depth) return L;
         by_nearly_mirror = is_nearly_mirror(*x->material, paths);
         count_emission = by_nearly_mirror || is_specular(*x->material);
-        if (!count_emission) L += beta * aim(scene, lights, *x, -ray.d, sampler);
+        if (!count_emission) L += beta * light_sampling(scene, lights, *x, -ray.d, sampler);
         float u1 = sampler.u1();
         BsdfSample s = sample_bsdf(*x, -ray.d, u1, sampler.u2());
         if (s.pdf_w == 0) return L;

@@ -9,13 +9,13 @@
 
 /// How a chapter finds light, which decides what it can know about its error.
 enum class LightSearch : uint8_t {
-    aims,         // samples lights, and hits at random those that it cannot sample
-    by_chance,    // never samples lights: random hits only
-    direct,       // samples lights, follows mirrors and glass; leaves out other light
-    from_lights,  // starts at lights; misses what the camera sees in mirrors and glass
-    both_ends,    // starts at lights and at the eye, and connects the two
-    photons,      // starts at lights; uses what arrives near visible points
-    merging       // as both_ends, and photons behind mirrors and glass
+    light_sampling,  // samples lights, and hits at random those that it cannot sample
+    by_chance,       // never samples lights: random hits only
+    direct,          // samples lights, follows mirrors and glass; leaves out other light
+    from_lights,     // starts at lights; misses what the camera sees in mirrors and glass
+    both_ends,       // starts at lights and at the eye, and connects the two
+    photons,         // starts at lights; uses what arrives near visible points
+    merging          // as both_ends, and photons behind mirrors and glass
 };
 
 /// The options of every chapter that renders a scene.
@@ -42,7 +42,7 @@ struct RenderOptions {
     std::string film;         // file for the sums; empty: none
     double film_every = 60;   // s, between two writings of the film
     int part = 1, parts = 1;  // render part number `part` of `parts`, from 1
-    LightSearch search = LightSearch::aims;
+    LightSearch search = LightSearch::light_sampling;
     /// The chapter's own options, with their values.
     std::vector<std::pair<std::string, std::string>> own = {};
     bool stand_in = false;  // for what is not modelled in the scene

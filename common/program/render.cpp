@@ -60,7 +60,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
             if (limit.reached()) break;
         }
         result.begun = std::max(result.begun, next);
-        renderer.aim_at(wanted.first + next);
+        renderer.set_goal(wanted.first + next);
         std::atomic<int> tiles = 0;
         parallel_for(renderer.tiles(), options.threads, [&](int tile) {
             renderer.render(tile);
@@ -75,8 +75,8 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         }
         done = next;
         bool decides = in_pilot && done == allocation.pilot && !limit.reached();
-        if (decides && allocation.share_out) {
-            allocation.share_out(renderer.take_pilot(), options.threads);
+        if (decides && allocation.choose_densities) {
+            allocation.choose_densities(renderer.take_pilot(), options.threads);
         }
     }
 }
@@ -102,7 +102,7 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     SampleRange wanted = wanted_samples(scene, options);
 
     // Render the pilot again if this render does not start with it.
-    Allocation shared_out = allocation;
+    Allocation decided = allocation;
     if (allocation.pilot > 0 && (wanted.first > 0 || result.film.samples() > 0)) {
         RenderOptions alone = options;
         alone.film.clear(), alone.split.clear();
@@ -110,9 +110,9 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
         again.film.start_halves();
         SampleRange pilot = {options.seed, 0, allocation.pilot};
         take_samples(scene, alone, trace, allocation, limit, pilot, again);
-        shared_out.share_out = {};
+        decided.choose_densities = {};
     }
-    take_samples(scene, options, trace, shared_out, limit, wanted, result);
+    take_samples(scene, options, trace, decided, limit, wanted, result);
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
     uint64_t all = uint64_t{static_cast<uint32_t>(scene.width)} *

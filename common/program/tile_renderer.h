@@ -80,7 +80,7 @@ public:
     int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
 
     /// From here on, render() takes samples up to `end`, the number of a sample.
-    void aim_at(uint32_t end) {
+    void set_goal(uint32_t end) {
         end_ = end;
         for (int half = 0; allocation_.pilot > 0 && half < halves(); half++)
             to_[half] = allocation_.samples(half, end);
@@ -133,7 +133,7 @@ public:
 
 private:
     int halves() const { return allocation_.pilot > 0 ? 2 : 1; }
-    bool has_pilot() const { return allocation_.share_out && first_ == 0; }
+    bool has_pilot() const { return allocation_.choose_densities && first_ == 0; }
 
     /// The number of the next sample of a pixel's half, and the end: one more than the last to
     /// take.

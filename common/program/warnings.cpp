@@ -130,7 +130,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
         return std::any_of(scene.lights.begin(), scene.lights.end(),
                            [&](const Light& light) { return is(light.type); });
     };
-    if (options.search == LightSearch::aims && any_material(is_receiver)) {
+    if (options.search == LightSearch::light_sampling && any_material(is_receiver)) {
         // By default, chapter 13 samples lights only; later chapters also sample the metal's BSDF.
         bool aims_alone = std::count(options.own.begin(), options.own.end(),
                                      std::pair<std::string, std::string>("strategy", "light")) > 0;
@@ -175,7 +175,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     } else if (any_light(is_delta)) {
         lines.push_back(light + "from a point or distant light is left out: nothing can meet it");
     }
-    if (options.search == LightSearch::aims && (any_light(is_area) || scene.sky_image)) {
+    if (options.search == LightSearch::light_sampling && (any_light(is_area) || scene.sky_image)) {
         lines.push_back(light + "is met only by chance: the error may not know of it");
     }
 }

@@ -101,9 +101,9 @@ void PathStory::is_cut() {
     text_ += format("    ends: the depth limit, %d scattering events\n", max_depth_);
 }
 
-void PathStory::aims(Vec3 wi, float pdf_l, float pdf_b) {
+void PathStory::samples_light(Vec3 wi, float pdf_l, float pdf_b) {
     tell_rays();
-    text_ += "    aims at a light along wi " + to_text(wi) +
+    text_ += "    samples a light along wi " + to_text(wi) +
              format(": pdf_l %.6g, pdf_b %.6g sr^-1\n", double{pdf_l}, double{pdf_b});
 }
 

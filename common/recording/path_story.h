@@ -26,7 +26,7 @@ public:
     void survives(float q, Rgb beta);
     void steps_back(int vertex);
     void is_cut();
-    void aims(Vec3 wi, float pdf_l, float pdf_b);
+    void samples_light(Vec3 wi, float pdf_l, float pdf_b);
     void adds(const Contribution& added);
     /// Adds the reason why the path ended.
     void ends();

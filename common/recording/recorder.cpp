@@ -87,9 +87,9 @@ void Recorder::note_emitted(Rgb Le, float mis_b) {
 
 void Recorder::note_direct(Rgb Ld, Vec3 wi, float pdf_l, float pdf_b, float mis_l) {
     if (is_black(Ld)) return;
-    if (story_) story_->aims(wi, pdf_l, pdf_b);
+    if (story_) story_->samples_light(wi, pdf_l, pdf_b);
     keep({class_of("LD", depth_), beta() * Ld, Contribution::own_pixel, current_vertex(),
-          "light aimed at", mis_l});
+          "light sampled", mis_l});
 }
 
 void Recorder::note_connected(Rgb L, int s, int t, float mis, size_t pixel) {

@@ -194,7 +194,7 @@ TEST_SUITE("ch01 dart board") {
     TEST_CASE("failure: the average of the places is 0, whatever the rings pay") {
         RunningStats s = throw_darts(
             [](Vec2 u) { return static_cast<double>(ch01::sample_hit(u).x); }, 1000000, 1);
-        check_mean(s, 0, ch01::aim * ch01::aim, 0.01);
+        check_mean(s, 0, ch01::sigma * ch01::sigma, 0.01);
         CHECK(ch01::expected_score() > 1.9);
     }
 }

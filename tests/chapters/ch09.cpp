@@ -474,7 +474,7 @@ TEST_SUITE("ch09 pictures") {
     }
 
     TEST_CASE(
-        "failure: nobody aims at a light in glass: all its light comes by LSS, found by chance") {
+        "failure: nobody samples a light in glass: all its light comes by LSS, found by chance") {
         Scene scene = scene_from("scenes/light-in-glass.pbrt", 32, 8);
         PathCensus census = census_of(scene, trace_by_angle, 40000, 1);
         for (const auto& [name_here, part] : census.by_class) {
@@ -496,7 +496,7 @@ TEST_SUITE("ch09 pictures") {
 
     TEST_CASE("failure: where intervals do not cover the truth, a warning says so") {
         // A lamp of radius 3 mm in the middle of a glass ball: its light goes straight through,
-        // less 4 % at each surface, and aiming at it meets the glass. A dim sky lights the floor as
+        // less 4 % at each surface, and a shadow ray meets the glass. A dim sky lights the floor as
         // well.
         auto room = [](bool in_glass) {
             std::string lamp =

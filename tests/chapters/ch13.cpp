@@ -352,7 +352,7 @@ TEST_SUITE("ch13 glossy") {
         }
     }
 
-    TEST_CASE("truth: point and distant lights, which only aiming finds") {
+    TEST_CASE("truth: point and distant lights, which only light sampling finds") {
         for (const auto& [light, E] : lights_without_size) {
             Scene scene = floor_under(light);
             RunningStats s = irradiance(scene, by(Strategy::light, scene), 100);
@@ -373,7 +373,7 @@ TEST_SUITE("ch13 glossy") {
             CHECK(irradiance(none, by(strategy, none), 100).mean() == 0);
     }
 
-    TEST_CASE("identity: without rough metal, aiming is chapter 11, path by path") {
+    TEST_CASE("identity: without rough metal, light sampling is chapter 11, path by path") {
         for (std::string name : {"cornell-spheres", "two-lights", "thousand-lights"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);

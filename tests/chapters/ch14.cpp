@@ -252,7 +252,7 @@ TEST_SUITE("ch14 mis") {
         }
     }
 
-    TEST_CASE("truth: point and distant lights, which only aiming finds: none is lost") {
+    TEST_CASE("truth: point and distant lights, which only light sampling finds: none is lost") {
         for (const auto& [light, E] : lights_without_size) {
             Scene scene = floor_under(light);
             for (Strategy strategy : {Strategy::light, Strategy::mis}) {
@@ -283,7 +283,8 @@ TEST_SUITE("ch14 mis") {
     }
 
     TEST_CASE(
-        "consistency: emission is weighed by the density with which it would have been aimed at") {
+        "consistency: emission is weighed by the density with which light sampling would have "
+        "found it") {
         Scene scene = floor_under("AttributeBegin " + shining + unit_square(0.5) +
                                   "AttributeEnd AttributeBegin " + shining +
                                   "Translate 1 2 0 Shape \"sphere\" AttributeEnd " +

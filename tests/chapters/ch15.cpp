@@ -1,4 +1,4 @@
-// Chapter 15: which two lights are aimed at, how likely each is, and that no heuristic moves the
+// Chapter 15: which two lights are sampled, how likely each is, and that no heuristic moves the
 // mean.
 #include <doctest/doctest.h>
 
@@ -251,7 +251,7 @@ TEST_SUITE("ch15 mis ris") {
         }
     }
 
-    TEST_CASE("truth: point and distant lights, which only aiming finds") {
+    TEST_CASE("truth: point and distant lights, which only light sampling finds") {
         for (const auto& [light, E] : lights_without_size) {
             Scene scene = floor_under(light);
             RunningStats s = irradiance(scene, by_fifteen(scene), 100);
@@ -329,7 +329,7 @@ TEST_SUITE("ch15 mis ris") {
     }
 
     TEST_CASE(
-        "variance: a thousand lights over rough metal: lobes that turn away are not aimed at") {
+        "variance: a thousand lights over rough metal: lobes that turn away are not sampled") {
         // Without lobe_share() it was 5 times as much.
         Scene scene = scene_from("scenes/thousand-lights.pbrt", 48, 1);
         Material& floor = scene.materials[scene.shapes[0].material];

@@ -286,7 +286,7 @@ TEST_SUITE("ch17 sky image") {
     }
 
     TEST_CASE("agreement: sky.pbrt's classes of paths, with the sky found by chance") {
-        // Chance alone: the same trace without aiming, by a sky that is not told.
+        // Chance alone: the same trace without light sampling, by a sky that is not told.
         Scene scene = under_sky(
             SkyImage::Map::wide, 16, 8,
             [](Vec3 d) {

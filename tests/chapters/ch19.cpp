@@ -24,11 +24,12 @@ RenderOptions quiet_options(uint32_t seed = 1) {
 }
 
 Rendering adaptive(Scene scene, const Trace& trace, int spp, uint32_t seed = 1,
-                   ch19::Shares shares = {}, SamplerType sampler = SamplerType::independent) {
+                   ch19::SampleDensities densities = {},
+                   SamplerType sampler = SamplerType::independent) {
     scene.spp = spp;
     RenderOptions options = quiet_options(seed);
     options.sampler = sampler;
-    return render_film(scene, options, trace, ch19::allocation(shares));
+    return render_film(scene, options, trace, ch19::allocation(densities));
 }
 
 Trace by_nineteen(const Scene& scene) {
@@ -60,7 +61,7 @@ double relative_error(const Image& a, const Image& b) {
 }  // namespace
 
 TEST_SUITE("ch19 adaptive") {
-    TEST_CASE("truth: shares are those of the least error") {
+    TEST_CASE("truth: sample densities are those of the least error") {
         // The left half of the picture varies four times as much as the right: its standard
         // deviation is four times as large, and its mean the same.
         constexpr int width = 64, height = 32;
@@ -75,14 +76,14 @@ TEST_SUITE("ch19 adaptive") {
             }
             pixel.rays = 200;
         }
-        std::vector<double> shares = ch19::shares(pilot, width);
+        std::vector<double> densities = ch19::sample_density(pilot, width);
         // n in proportion to s: (4 or 1) / 2.5
-        CHECK(shares[16 * width + 10] == doctest::Approx(1.6).epsilon(0.02).scale(0));
-        CHECK(shares[16 * width + 50] == doctest::Approx(0.4).epsilon(0.02).scale(0));
+        CHECK(densities[16 * width + 10] == doctest::Approx(1.6).epsilon(0.02).scale(0));
+        CHECK(densities[16 * width + 50] == doctest::Approx(0.4).epsilon(0.02).scale(0));
         double sum = 0;
-        for (double share : shares) sum += share;
+        for (double density : densities) sum += density;
         CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
-        // No other share of the same samples has less error.
+        // No other division of the same samples has less error.
         auto error = [](double left) { return 16 / left + 1 / (2 - left); };
         CHECK(error(1.6) < error(1.59));
         CHECK(error(1.6) < error(1.61));
@@ -91,10 +92,10 @@ TEST_SUITE("ch19 adaptive") {
         for (int i = 0; i < width * height; i++) {
             if (i % width < width / 2) pilot[static_cast<size_t>(i)].rays = 1800;
         }
-        shares = ch19::shares(pilot, width);
-        CHECK(shares[16 * width + 10] == doctest::Approx(8.0 / 7).epsilon(0.02).scale(0));
-        CHECK(shares[16 * width + 50] == doctest::Approx(6.0 / 7).epsilon(0.02).scale(0));
-        // The same error in less time: of all shares x and y with 9 x + y rays, the one with the
+        densities = ch19::sample_density(pilot, width);
+        CHECK(densities[16 * width + 10] == doctest::Approx(8.0 / 7).epsilon(0.02).scale(0));
+        CHECK(densities[16 * width + 50] == doctest::Approx(6.0 / 7).epsilon(0.02).scale(0));
+        // The same error in less time: of all densities x and y with 9 x + y rays, the one with the
         // least of 16 / x + 1 / y.
         auto error_at = [](double x) { return 16 / x + 1 / (13 - 9 * x); };
         CHECK(error_at(4.0 / 3) < error_at(1.32));
@@ -114,20 +115,20 @@ TEST_SUITE("ch19 adaptive") {
               doctest::Approx(v * 6 / 5).epsilon(1e-6).scale(0));  // 6 / 5: by their own mean
     }
 
-    TEST_CASE("truth: a picture of one color is shared out evenly, and a spike within bounds") {
+    TEST_CASE("truth: a picture of one color is sampled evenly, and a spike within bounds") {
         std::vector<PilotPixel> even(64), spiky(10000);
         for (PilotPixel& pixel : even) {
             for (int k = 0; k < 5; k++) pixel.add({0.3f, 0.2f, 0.1f});
         }
-        for (double share : ch19::shares(even, 8)) CHECK(share == 1);
+        for (double density : ch19::sample_density(even, 8)) CHECK(density == 1);
         for (size_t i = 0; i < 10000; i++) {
             for (int k = 0; k < 4; k++)
                 spiky[i].add(Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
         }
-        auto shares = std::make_shared<ch19::Shares>();
-        for (auto& half : shares->of_half) half = ch19::shares(spiky, 100);
+        auto densities = std::make_shared<ch19::SampleDensities>();
+        for (auto& half : densities->of_half) half = ch19::sample_density(spiky, 100);
         uint32_t most = 0, least = 1000;
-        auto counts = ch19::samples_of(shares, 0, 216);  // 108 on average
+        auto counts = ch19::samples_of(densities, 0, 216);  // 108 on average
         for (size_t i = 0; i < 10000; i++) {
             uint32_t n = counts(i);
             most = std::max(most, n);
@@ -137,11 +138,11 @@ TEST_SUITE("ch19 adaptive") {
         CHECK(most == 16 * 108);
     }
 
-    TEST_CASE("truth: pixels that have enough leave what their shares ask for to the others") {
-        // Shares of 0.1 and 1.9, a pilot of 16. Of 64 the former would get 6.4: they have more.
-        auto shares = std::make_shared<ch19::Shares>();
+    TEST_CASE("truth: pixels that have enough leave what their densities ask for to the others") {
+        // Densities of 0.1 and 1.9, a pilot of 16. Of 64 the former would get 6.4: they have more.
+        auto densities = std::make_shared<ch19::SampleDensities>();
         constexpr size_t pixels = 4000;
-        for (auto& half : shares->of_half) {
+        for (auto& half : densities->of_half) {
             for (size_t i = 0; i < pixels; i++) half.push_back(i % 2 == 0 ? 0.1 : 1.9);
         }
         struct Expected {
@@ -151,7 +152,7 @@ TEST_SUITE("ch19 adaptive") {
         for (auto [spp, few, many] : {Expected{64, 16 + 0.05 * 48, 128 - (16 + 0.05 * 48)},
                                       Expected{640, 0.1 * 640, 1.9 * 640}}) {
             CAPTURE(spp);
-            auto a = ch19::samples_of(shares, 0, spp), b = ch19::samples_of(shares, 1, spp);
+            auto a = ch19::samples_of(densities, 0, spp), b = ch19::samples_of(densities, 1, spp);
             double sum[2] = {};
             for (size_t i = 0; i < pixels; i++) sum[i % 2] += a(i) + b(i);
             double rounding = 5 * std::sqrt(2.0 / 4 / (pixels / 2));
@@ -160,11 +161,11 @@ TEST_SUITE("ch19 adaptive") {
         }
     }
 
-    TEST_CASE("identity: samples are as many as the shares say") {
-        auto shares = std::make_shared<ch19::Shares>();
-        shares->pilot = 7;  // 4 and 3
+    TEST_CASE("identity: samples are as many as the densities say") {
+        auto densities = std::make_shared<ch19::SampleDensities>();
+        densities->pilot = 7;  // 4 and 3
         constexpr size_t pixels = 4000;
-        for (auto& half : shares->of_half) {
+        for (auto& half : densities->of_half) {
             for (size_t i = 0; i < pixels; i++)
                 half.push_back(0.2 + 1.6 * (static_cast<double>(i) + 0.5) / pixels);
         }
@@ -172,8 +173,8 @@ TEST_SUITE("ch19 adaptive") {
             CAPTURE(spp);
             double sum = 0;
             for (int half : {0, 1}) {
-                auto counts = ch19::samples_of(shares, half, spp);
-                auto more = ch19::samples_of(shares, half, spp + 1);
+                auto counts = ch19::samples_of(densities, half, spp);
+                auto more = ch19::samples_of(densities, half, spp + 1);
                 for (size_t i = 0; i < pixels; i++) {
                     uint32_t n = counts(i);
                     sum += n;

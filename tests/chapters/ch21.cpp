@@ -29,7 +29,7 @@ const std::vector<Form> forms = {{"21", by_21, 4}, {"22", by_22, 1}};
 Measured of_strategy(const Scene& scene, const SplatTrace& trace, std::pair<int, int> s_t,
                      const std::string& path_class, int paths) {
     std::string way = "s " + std::to_string(s_t.first) + ", t " + std::to_string(s_t.second);
-    std::string in_22 = way == "s 1, t 2" ? "light aimed at" : way;  // which has that of 15
+    std::string in_22 = way == "s 1, t 2" ? "light sampled" : way;  // which has that of 15
     SplatTrace alone = [&](const Scene& its, Ray ray, Splats& splats, Sampler& sampler,
                            Recorder& recorder) {
         trace(its, ray, splats, sampler, recorder);

@@ -35,8 +35,8 @@ double relative(Rgb a, Rgb b) {
     return largest(d) / std::max({largest(a), largest(b), 1e-20});
 }
 
-SplatTrace by_22(const Scene& scene, int chances, bool aims = true) {
-    return splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, aims));
+SplatTrace by_22(const Scene& scene, int chances, bool light_sampling = true) {
+    return splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, light_sampling));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How near and how small lights may be: in every chapter that aims at lights.
+// How near and how small lights may be: in every chapter that samples lights.
 #include <cstdio>
 
 #include "tests/support/chapters.h"
@@ -7,7 +7,7 @@
 
 namespace {
 
-/// The chapters that differ where there is one light: it is aimed at in the same way by 09 to 13.
+/// The chapters that differ where there is one light: it is sampled in the same way by 09 to 13.
 std::vector<Chapter> some_chapters(const Scene& scene) {
     return {{"09", trace_with<ch09::trace>(ch09::LightMeasure::solid_angle)},
             {"14", trace_with<ch14::trace>(ch14::prepare(scene))},
@@ -256,7 +256,8 @@ TEST_SUITE("light limits") {
         }
     }
 
-    TEST_CASE("failure: on a light, but for rounding, it gives nothing by aiming, and no NaN") {
+    TEST_CASE(
+        "failure: on a light, but for rounding, it gives nothing by light sampling, and no NaN") {
         Sampler sampler(SamplerType::independent, 1, 1);
         Recorder recorder;
         for (std::string h : {"1e-18", "1e-38", "1e-44", "0"}) {

@@ -57,7 +57,7 @@ const std::vector<Promoted> promoted = {
      {"balance_heuristic", "power_heuristic", "sample_beside_bsdf", "pdf_beside_bsdf"}},
     {"15",
      "common/path/many_lights.h",
-     {"Lights", "prepare", "Candidates", "lobe_share", "choose_candidates", "pdf_aimed",
+     {"Lights", "prepare", "Candidates", "lobe_share", "choose_candidates", "pdf_sampled",
       "light_sample", "direct_light", "mis_emission"}},
     {"16", "common/path/lens.h", {"through_lens", "sample_time"}},
     {"17",

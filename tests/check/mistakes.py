@@ -3,6 +3,7 @@
 import glob
 import os
 import random
+import shutil
 import subprocess
 import sys
 
@@ -22,7 +23,7 @@ class Finder(places.Finder):
 
     def __init__(self, path, text):
         super().__init__(path, text)
-        self.functions, self.loops, self.of_min_or_max = [], [], False
+        self.functions, self.parts, self.loops, self.of_min_or_max = [], [], [], False
 
     def add(self, cursor, changes):
         count = len(self.places)
@@ -31,18 +32,22 @@ class Finder(places.Finder):
             super().add(cursor, changes)
         for place in self.places[count:]:
             place.function = self.functions[-1] if self.functions else ""
+            place.part = self.parts[0] if self.parts else ""
             place.state = ""
 
     def walk(self, cursor, parent=None):
         is_function = cursor.kind in places.FUNCTION_KINDS
         is_loop = cursor.kind in (Kind.FOR_STMT, Kind.WHILE_STMT) and len(self.functions) == 1
         if is_function:
+            parent = cursor.semantic_parent
             self.functions.append(cursor.spelling)
+            self.parts.append(parent.spelling if parent.kind in (Kind.STRUCT_DECL, Kind.CLASS_DECL) else cursor.spelling)
         if is_loop:
             self.loops.append(cursor.extent.start.offset)
         super().walk(cursor, parent)
         if is_function:
             self.functions.pop()
+            self.parts.pop()
         if is_loop:
             self.loops.pop()
 
@@ -116,8 +121,8 @@ def label(m, text):
     return f"`{short(m.edits[0][2])}` stands where `{old[0]}` belongs"
 
 
-def draw(path, n, seed):
-    """n places of a chapter, all kinds alike, and all states. Numbers stay the same for a seed."""
+def draw(path, n, seed, predicts):
+    """n places of a chapter, all kinds alike; to predict, also n states. Numbers stay the same for a seed."""
     found, text = find(path)
     dice = random.Random(f"{seed} {path}")
     by_kind = {}
@@ -130,9 +135,11 @@ def draw(path, n, seed):
         else:
             kind, edits = dice.choice(place.changes)
             by_kind.setdefault(kind, []).append((place, kind, edits))
-    chosen = by_kind.pop("state", [])
-    dice.shuffle(chosen)
-    chosen = chosen[:n]
+    states = by_kind.get("state", [])
+    dice.shuffle(states)
+    chosen = states[:n] if predicts else []
+    if predicts:
+        by_kind.pop("state", None)
     for options in by_kind.values():
         dice.shuffle(options)
     count = 0
@@ -147,14 +154,54 @@ def draw(path, n, seed):
     return mistakes, text
 
 
+def with_mistake(text, m):
+    """The text of a chapter with one mistake."""
+    for start, end, new in sorted(m.edits, reverse=True):
+        old = text[start:end]
+        if m.kind == "state":
+            new = f"(({new}) ? void() : void({old}))"
+        text = text[:start] + ("void()" if new is None else f"({new})") + text[end:]
+    return text
+
+
+def renamed(path, text):
+    """The text with other names for all variables of functions, so that none is the chapter's letter for letter."""
+    unit = Index.create().parse("mistakes.cpp", places.flags(),
+                                unsaved_files=[("mistakes.cpp", f'#include "{path}"\n'), (path, text)])
+    ends, functions = set(), places.FUNCTION_KINDS + (Kind.LAMBDA_EXPR,)
+
+    def is_local(variable):
+        return (variable and variable.kind in (Kind.VAR_DECL, Kind.PARM_DECL) and variable.spelling
+                and variable.location.file and variable.location.file.name.endswith(path)
+                and variable.semantic_parent and variable.semantic_parent.kind in functions)
+
+    def walk(cursor):
+        if cursor.location.file and cursor.location.file.name.endswith(path):
+            variable = cursor if is_local(cursor) else cursor.referenced
+            if cursor.kind in (Kind.VAR_DECL, Kind.PARM_DECL, Kind.DECL_REF_EXPR, Kind.VARIABLE_REF) and is_local(variable):
+                start, name = cursor.location.offset, variable.spelling
+                if text[start:start + len(name)] == name:
+                    ends.add(start + len(name))
+        for child in cursor.get_children():
+            walk(child)
+    for cursor in unit.cursor.get_children():
+        walk(cursor)
+    for end in sorted(ends, reverse=True):
+        text = text[:end] + "_" + text[end:]
+    return text
+
+
 class Program:
     """The pictures, or the tests, of a chapter with all its mistakes in one program."""
 
-    def __init__(self, build, chapter, n, seed, compiler):
+    def __init__(self, build, chapter, n, seed, predicts, compiler):
         self.folder, self.number = f"{build}/mistakes/{chapter}", chapter
         self.path = glob.glob(f"chapters/{chapter}_*/estimator.h")[0]
-        self.mistakes, self.text = draw(self.path, n, seed)
-        self.compiler, self.build_folder = compiler, build
+        self.mistakes, self.text = draw(self.path, n, seed, predicts)
+        self.compiler, self.build_folder, self.wanted = compiler, build, n
+        self.source = f"tests/measure/method_{chapter}.cpp"
+        if not os.path.exists(self.source):
+            self.source = f"tests/chapters/ch{chapter}.cpp"
         self.dropped = set()
         os.makedirs(os.path.dirname(f"{self.folder}/{self.path}"), exist_ok=True)
         self.common = [o for o in glob.glob(f"{build}/obj/common/*/*.o") if "/tools/" not in o]
@@ -173,7 +220,7 @@ class Program:
         while True:
             self.write()
             done = subprocess.run(self.flags + ["-fdiagnostics-column-unit=byte", "-fsyntax-only",
-                                                f"tests/measure/method_{self.number}.cpp"],
+                                                self.source],
                                   capture_output=True, text=True)
             if done.returncode == 0:
                 break
@@ -190,6 +237,11 @@ class Program:
                 sys.exit(f"error: {self.path} with mistakes does not compile:\n{done.stderr[:2000]}")
         self.mistakes = [m for m in self.mistakes if m.n not in self.dropped]
 
+    def compiles(self, path):
+        """Whether a file compiles in place of the chapter's."""
+        shutil.copy(path, f"{self.folder}/{self.path}")
+        return subprocess.run(self.flags + ["-fsyntax-only", self.source], capture_output=True).returncode == 0
+
     def build(self, name, source, objects):
         """Compiles and links one program; None if that fails."""
         to = f"{self.folder}/{name}"
@@ -204,10 +256,6 @@ class Program:
 
     def pictures(self):
         b = self.build_folder
-        return self.build("names", f"tests/measure/method_{self.number}.cpp",
+        return self.build("names", self.source,
                           glob.glob(f"{b}/obj/tests/check/*.o")
                           + [f"{b}/obj/tests/measure/methods.o", f"{b}/obj/tests/measure/measure.o"])
-
-    def tests(self):
-        return self.build("tests", f"tests/chapters/ch{self.number}.cpp",
-                          [f"{self.build_folder}/obj/tests/support/main.o"])

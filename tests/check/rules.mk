@@ -15,7 +15,7 @@ $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -MMD -MP -MF $(BUILD)/obj/check_support.d \
 	    -x c++-header $< -o $@
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
-#: teaching: make check CH=09      is it right? one line for each claim, and what is off; NAME=1: the name of the mistake
+#: teaching: make check CH=09      is it right? one line for each claim, and what is off; NAME=1: the function with the mistake
 check: checkers $(made) \
        $(if $(wildcard tests/measure/method_$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare
@@ -32,7 +32,7 @@ $(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp))
 #: maintaining: make names        plant the mistakes of the pages, and write down how make check names them
 names: $(checkers) $(common) $(made)
 	@tests/check/plant $(BUILD) '$(M)' $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))
-#: maintaining: make mistakes     change code as students might, and count what make check notices and names (CH=09, N=, SEED=, FILL=1, PREDICT=1)
+#: maintaining: make mistakes     change code as students might: what does make check notice, and does it find the function? (CH=09, N=, SEED=, FILL=1, PREDICT=1)
 mistakes: $(checkers) $(common) $(made)
 	@tests/check/mistakes $(BUILD) $(CH:%=--chapters %) $(N:%=--n %) $(SEED:%=--seed %) $(if $(LIST),--list) \
 	  $(if $(PREDICT),--predict) $(if $(FILL),--fill) -- $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))

@@ -46,7 +46,7 @@ struct Checked {
                     edges++;
                 }
                 first = false;
-            } else if (line.find("aims at a light") != std::string::npos) {
+            } else if (line.find("samples a light") != std::string::npos) {
                 REQUIRE(read(line, "along wi", v));
                 REQUIRE(read(line, "pdf_l", pdf_l));
                 REQUIRE(read(line, "pdf_b", pdf_b));
@@ -55,7 +55,7 @@ struct Checked {
             } else if (line.find(": adds ") != std::string::npos) {
                 REQUIRE(read(line, ", mis", mis));
                 CHECK(mis <= 1);
-                bool of_light = line.find("light aimed at") != std::string::npos;
+                bool of_light = line.find("light sampled") != std::string::npos;
                 if (of_light && aimed) {  // the power heuristic
                     double mis_l = pdf_l * pdf_l / (pdf_l * pdf_l + pdf_b * pdf_b);
                     CHECK(mis == doctest::Approx(mis_l).epsilon(1e-4).scale(0));

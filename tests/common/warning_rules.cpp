@@ -195,7 +195,7 @@ TEST_SUITE("warning rules") {
                               in(black, floor_2) + high_lamp + in(mirror, ball("2 2 2", "0.2"));
         struct {
             std::string world;
-            Lines aims, by_chance, direct, both_ends;
+            Lines light_sampling, by_chance, direct, both_ends;
         } cases[] = {
             {plain, {}, {}, {}, {}},
             {with_mirror, {leaves + met}, {}, {direct}, {both + met}},
@@ -219,7 +219,7 @@ TEST_SUITE("warning rules") {
         for (const auto& c : cases) {
             CAPTURE(c.world);
             Scene scene = seen(c.world);
-            CHECK(told(scene, LightSearch::aims) == c.aims);
+            CHECK(told(scene, LightSearch::light_sampling) == c.light_sampling);
             CHECK(told(scene, LightSearch::by_chance) == c.by_chance);
             CHECK(told(scene, LightSearch::direct) == c.direct);
             CHECK(told(scene, LightSearch::both_ends) == c.both_ends);
@@ -243,7 +243,7 @@ TEST_SUITE("warning rules") {
                 shape.area =
                     static_cast<float>(chance * 4 * pi_exact) * scene.radius * scene.radius;
             CHECK(told(scene, LightSearch::by_chance) == (chance < 0.049 ? rare : Lines{}));
-            CHECK(told(scene, LightSearch::aims) == Lines{});
+            CHECK(told(scene, LightSearch::light_sampling) == Lines{});
         }
         // Of two lamps one is too small; it counts from 1 % of all power on.
         for (float L : {0.3f, 3.0f}) {
@@ -300,13 +300,13 @@ TEST_SUITE("warning rules") {
                               "another chapter",
                           through =
                               "light comes to what is in view only through glass, where "
-                              "aiming at a light does not find it: chapters 20 to 25 do",
+                              "light sampling does not find it: chapters 20 to 25 do",
                           turned =
                               ": ReverseOrientation turns a light, \"bool twosided\" true "
                               "lights both sides",
                           away = "the lights face away from all that is in view";
-        auto causes = [](Scene scene, LightSearch search = LightSearch::aims, int depth = 5,
-                         const std::string& paths = "") {
+        auto causes = [](Scene scene, LightSearch search = LightSearch::light_sampling,
+                         int depth = 5, const std::string& paths = "") {
             RenderOptions options;
             options.search = search, options.paths = paths;
             scene.max_depth = depth;
@@ -315,11 +315,11 @@ TEST_SUITE("warning rules") {
         CHECK(causes(seen(floor + small_lamp)) == Lines{ways});
         CHECK(causes(seen(floor + small_lamp), LightSearch::direct) == Lines{ways});
         CHECK(causes(seen(floor + small_lamp), LightSearch::both_ends) == Lines{ways});
-        CHECK(causes(seen(floor + small_lamp), LightSearch::aims, 5, "LDE") ==
+        CHECK(causes(seen(floor + small_lamp), LightSearch::light_sampling, 5, "LDE") ==
               Lines{"--paths keeps no class of path that brings light", ways});
         CHECK(causes(seen(floor + small_lamp), LightSearch::by_chance) ==
               Lines{"lights are met only by chance here, by about one path in 50: more samples "
-                    "find them, or a chapter that aims at lights (from 09 on)"});
+                    "find them, or a chapter that samples lights (from 09 on)"});
         CHECK(causes(seen(floor + small_lamp), LightSearch::from_lights) ==
               Lines{"paths begin at the lights, and few of them come to what the camera sees: more "
                     "samples, or a chapter whose paths begin at the camera"});
@@ -327,11 +327,11 @@ TEST_SUITE("warning rules") {
               Lines{"photons begin at the lights, and few of them come to what the camera sees: "
                     "more photons, or a chapter whose paths begin at the camera"});
         CHECK(causes(seen(floor + small_lamp + wall)) == Lines{stands});
-        CHECK(causes(seen(floor + small_lamp + wall), LightSearch::aims, 1) ==
+        CHECK(causes(seen(floor + small_lamp + wall), LightSearch::light_sampling, 1) ==
               Lines{stands, straight});
         CHECK(causes(seen(floor + small_lamp + pane)) == Lines{through, ways});
         CHECK(causes(seen(floor + small_lamp + pane + wall)) == Lines{stands});
-        CHECK(causes(seen(floor + small_lamp), LightSearch::aims, 0) ==
+        CHECK(causes(seen(floor + small_lamp), LightSearch::light_sampling, 0) ==
               Lines{"with a depth of 0 only lights themselves are seen, and none is in view"});
         CHECK(causes(seen(floor + small_lamp, "0 2 -4  0 9 0  0 1 0")) ==
               Lines{"the camera sees no surface: see its LookAt, fov and Scale"});

@@ -149,7 +149,7 @@ TEST_SUITE("warnings") {
         };
         const std::string bright = "0.9 0.9 0.9",
                           warning = "via metal that is nearly a mirror is met only by chance";
-        // Nothing aims via the metal, and the lamp is small.
+        // No chapter samples lights via the metal, and the lamp is small.
         for (const char* program : {"13_glossy", "14_mis", "15_mis_ris", "16_lens_and_shutter",
                                     "17_sky_image", "18_dispersion", "19_adaptive"})
             for (const char* alpha : {"0.001", "0.002", "0.005", "0.01"}) {

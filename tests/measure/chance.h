@@ -1,4 +1,4 @@
-// The other way to the pictures of chapters 16 to 18: a path tracer that never aims at light,
+// The other way to the pictures of chapters 16 to 18: a path tracer that never samples a light,
 // written anew.
 #pragma once
 #include "common/material/bsdf.h"

@@ -8,7 +8,7 @@ static bool add(const char* name, const char* label, const char* color, LightMea
         {.name = name,
          .label = label,
          .color = color,
-         .finds_light = "by aim",
+         .finds_light = "by light sampling",
          .scenes = {"cornell", "near-light", "near-disk"},
          .refuse = {refuse_glossy},
          .render = by_trace([=](const Scene&) { return trace_with<ch09::trace>(measure); })});

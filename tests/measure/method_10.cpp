@@ -5,7 +5,7 @@
     add_method({.name = "10",
                 .label = "10 cosine sampling",
                 .color = "#17becf",
-                .finds_light = "by aim",
+                .finds_light = "by light sampling",
                 .scenes = {"cornell", "horizon-sky"},
                 .refuse = {refuse_glossy},
                 .render = by_trace([](const Scene&) { return trace_with<ch10::trace>(); })});

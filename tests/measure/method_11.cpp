@@ -5,7 +5,7 @@
     add_method({.name = "11",
                 .label = "11 light importance",
                 .color = "#2ca02c",
-                .finds_light = "by aim",
+                .finds_light = "by light sampling",
                 .scenes = {"thousand-lights", "two-lights", "far-and-near"},
                 .refuse = {refuse_glossy},
                 .render = by_trace([](const Scene& scene) {

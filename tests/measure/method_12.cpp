@@ -5,7 +5,7 @@ static bool add(const char* name, const char* label, const char* color, int M) {
     return add_method({.name = name,
                        .label = label,
                        .color = color,
-                       .finds_light = "by aim",
+                       .finds_light = "by light sampling",
                        .scenes = {"thousand-lights", "hidden-light"},
                        .refuse = {refuse_glossy},
                        .render = by_trace([=](const Scene& scene) {

@@ -24,6 +24,7 @@ static Method bsdf_alone() {
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(method("13", "13 glossy, by lights alone", "#9467bd", "by aim", Strategy::light)),
+    add_method(method("13", "13 glossy, by lights alone", "#9467bd", "by light sampling",
+                      Strategy::light)),
     add_method(bsdf_alone()),
 };

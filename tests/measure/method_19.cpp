@@ -11,12 +11,12 @@ static Method method(const char* name, const char* label, const char* color, Sam
             .render =
                 [=](const Scene& scene, RenderOptions options) {
                     if (sampler != SamplerType::independent) options.sampler = sampler;
-                    ch19::Shares shares;
-                    shares.judge = judge;
+                    ch19::SampleDensities densities;
+                    densities.judge = judge;
                     return render_film(
                         scene, options,
                         trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()),
-                        ch19::allocation(shares));
+                        ch19::allocation(densities));
                 },
             .biased = judge == ch19::Judge::own,
             .features = Features::dispersion};

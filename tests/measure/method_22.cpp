@@ -1,8 +1,8 @@
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, int chances, bool aims,
-                     SamplerType sampler) {
+static Method method(const char* name, const char* label, const char* color, int chances,
+                     bool light_sampling, SamplerType sampler) {
     return {.name = name,
             .label = label,
             .color = color,
@@ -13,7 +13,7 @@ static Method method(const char* name, const char* label, const char* color, int
                 if (sampler != SamplerType::independent) options.sampler = sampler;
                 return render_film(
                     scene, options,
-                    splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, aims)));
+                    splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, light_sampling)));
             }};
 }
 

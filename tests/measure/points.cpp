@@ -47,7 +47,7 @@ std::vector<LinePanel> darts(uint32_t largest, uint32_t runs) {
     auto board = [](Vec2 u) { return ch01::score_board(ch01::sample_hit(u)); };
     double mean = ch01::expected_score(), squares = 0, outside = 1;
     for (ch01::Ring ring : ch01::board) {
-        double beyond = std::exp(-ring.radius * ring.radius / (2 * ch01::aim * ch01::aim));
+        double beyond = std::exp(-ring.radius * ring.radius / (2 * ch01::sigma * ch01::sigma));
         squares += ring.score * ring.score * (outside - beyond);
         outside = beyond;
     }

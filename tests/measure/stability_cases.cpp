@@ -110,7 +110,7 @@ StabilityCase wall_under_light(double z) {
              {{"13-bsdf"}, {relvar(variance_by(seen, pdf_cosine))}}}};
 }
 
-/// So small that most runs of what does not aim see nothing, and claim an error of 0.
+/// So small that most runs of what does not sample lights see nothing, and claim an error of 0.
 StabilityCase small_light() {
     double hit = 1 / 10001.0, hit_uniform = 1 - 1 / std::sqrt(1.0001);
     auto misses = [](double p) {
@@ -199,7 +199,8 @@ StabilityCase two_points(bool hidden) {
 }
 
 /// The point light of before, and two of 1000 times its power, both behind a plate. Of three lights
-/// chapter 15 aims at two, the likelier the more they could give: seldom at the one that is seen.
+/// chapter 15 light_sampling at two, the likelier the more they could give: seldom at the one that
+/// is seen.
 StabilityCase two_hidden_points() {
     double power[] = {1, 1000, 1000}, w[] = {1, 250, 250};
     double mean = (w[0] + w[1] + w[2]) / 3, inclusion = 2 * (w[0] + mean / 9) / (3 * mean * 10 / 9);
@@ -278,7 +279,7 @@ std::string closed_sphere(const char* albedo, int max_depth) {
 
 /// No path ends by itself, and one in chapter 07 only at the limit.
 StabilityCase grey_sphere() {
-    WalkInside aims{{0.5, 0.5, 0.5}, false, true, true};
+    WalkInside light_sampling{{0.5, 0.5, 0.5}, false, true, true};
     Prediction endless{Metric::cut, 1, true};
     return {"closed sphere, albedo 0.5",
             closed_sphere("0.5 0.5 0.5", 60),
@@ -286,15 +287,15 @@ StabilityCase grey_sphere() {
             N,
             {{{"07"}, {relvar(0.125), endless}},
              {{"08", "09", "13-bsdf", "14", "15", "16"}},
-             {{"10", "11", "12", "13"}, {relvar(aims.relative_variance())}}}};
+             {{"10", "11", "12", "13"}, {relvar(light_sampling.relative_variance())}}}};
 }
 
 /// Red: with uniform directions the variance is infinite, since 4/3 0.9^2 > 1.
 StabilityCase red_sphere() {
     std::array<double, 3> albedo = {0.9, 0.1, 0.1};
     double truth = (1 / 0.1 + 2 / 0.9) / 3;
-    auto coverage = [&](bool roulette, bool aims) {
-        return bad_coverage(WalkInside{albedo, true, roulette, aims}.coverage(truth, N));
+    auto coverage = [&](bool roulette, bool light_sampling) {
+        return bad_coverage(WalkInside{albedo, true, roulette, light_sampling}.coverage(truth, N));
     };
     WalkInside by_cosine{albedo, false, true, true};
     return {"closed sphere, albedo 0.9, 0.1, 0.1",

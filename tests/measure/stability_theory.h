@@ -125,9 +125,9 @@ inline double coverage_of_rare(double p, int N) {
 /// A path inside a sphere whose wall emits 1 and reflects `albedo`: nothing but its throughputs.
 struct WalkInside {
     std::array<double, 3> albedo;
-    bool uniform;   // directions; else by the cosine
-    bool roulette;  // as in the chapters
-    bool aims;      // at each vertex, at the wall: brings exactly the albedo
+    bool uniform;         // directions; else by the cosine
+    bool roulette;        // as in the chapters
+    bool light_sampling;  // at each vertex, at the wall: brings exactly the albedo
 
     /// What one path of at most 100 bounces brings, averaged over the channels.
     /// u()  in [0,1)
@@ -142,11 +142,11 @@ struct WalkInside {
                 beta[i] *= c * albedo[i];
                 after += beta[i] / 3;
             }
-            if (aims) sum += before;
+            if (light_sampling) sum += before;
             double q = roulette ? survival(beta, depth) : 1;
             if (q < 1 && u() >= q) break;
             for (double& x : beta) x /= q;
-            if (!aims) sum += after / q;
+            if (!light_sampling) sum += after / q;
             if (after < 1e-7) break;
         }
         return sum;
