@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
             },
             "64"};
         Option sky = {"compensation", "on|off",
-                      "sample pixels of the sky's image by their excess over its mean, or by all",
+                      "sample pixels of the sky's image by their excess over its mean (default), "
+                      "or by all of their light",
                       [&](const std::string& text) {
                           compensate = parse_choice("compensation", text, {"on", "off"}) == 0;
                       },

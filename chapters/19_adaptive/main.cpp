@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
                         },
                         "16"};
         Option judge = {"judge", "other|own",
-                        "which half's pilot decides about a half; own is biased",
+                        "which half's pilot decides about a half: the other (default), or its own, "
+                        "which is biased",
                         [&](const std::string& text) {
                             auto i = parse_choice("judge", text, {"other", "own"});
                             densities.judge = static_cast<ch19::Judge>(i);

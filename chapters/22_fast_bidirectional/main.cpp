@@ -7,13 +7,13 @@ int main(int argc, char** argv) {
         int chances = 16;
         bool light_sampling = true;
         Option chances_option = {
-            "chances", "N", "extra samples of light that only random hits find; 0: none",
+            "chances", "N", "extra samples of light that only random hits find (default 16)",
             [&](const std::string& text) {
                 chances = static_cast<int>(parse_integer("chances", text, 0, 1000));
             },
             "16"};
         Option direct_by = {"direct-by", "CHAPTER",
-                            "how direct light is found: as in chapter 15 or 21",
+                            "how direct light is found: as in chapter 15 (default) or 21",
                             [&](const std::string& text) {
                                 light_sampling = parse_choice("direct-by", text, {"15", "21"}) == 0;
                             },

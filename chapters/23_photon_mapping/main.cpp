@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
              },
              "100000"},
             {"gather", "final|direct",
-             "gather photons after one more diffuse bounce, or at the visible point",
+             "gather photons after one more diffuse bounce (default), or at the visible point",
              [&](const std::string& text) {
                  s.final_gathering = parse_choice("gather", text, {"direct", "final"}) == 1;
              },

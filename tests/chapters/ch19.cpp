@@ -161,6 +161,25 @@ TEST_SUITE("ch19 adaptive") {
         }
     }
 
+    TEST_CASE("truth: the budget is met with three pixels, and each half has its own") {
+        // max(2, 0.1 s), 0.9 s and 2 s have the mean 20: 2 + 2.9 s = 60.
+        CHECK(ch19::scale_to_budget({0.1, 0.9, 2}, 2, 20) ==
+              doctest::Approx(20).epsilon(1e-12).scale(0));
+        // 0.1 s < 5 at s = 20: 5 + 2.9 s = 60.
+        CHECK(ch19::scale_to_budget({0.1, 0.9, 2}, 5, 20) ==
+              doctest::Approx(55 / 2.9).epsilon(1e-12).scale(0));
+        // Half 0 gives all to the first pixel, half 1 the same to all.
+        auto densities = std::make_shared<ch19::SampleDensities>();
+        densities->pilot = 8;
+        densities->of_half[0] = {4, 0, 0, 0};
+        densities->of_half[1] = {1, 1, 1, 1};
+        auto a = ch19::samples_of(densities, 0, 108), b = ch19::samples_of(densities, 1, 108);
+        for (size_t i = 0; i < 4; i++) {  // least: 4 + 0.05 * 50 = 6.5, rounded at random
+            CHECK(std::abs(a(i) - (i == 0 ? 216 - 3 * 6.5 : 6.5)) < 1);
+            CHECK(b(i) == 54);
+        }
+    }
+
     TEST_CASE("identity: samples are as many as the densities say") {
         auto densities = std::make_shared<ch19::SampleDensities>();
         densities->pilot = 7;  // 4 and 3

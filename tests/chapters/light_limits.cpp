@@ -243,6 +243,22 @@ TEST_SUITE("light limits") {
     TEST_CASE("truth: balls from near") { check_balls({.relative_se = 1e-2}); }
     TEST_CASE("truth: balls from afar") { check_small_balls({all_chapters, 64, 16, 1e-4}); }
 
+    TEST_CASE("identity: no shadow ray goes where the surface would reflect no light") {
+        // The lamp is behind the wall, and shines towards it: each path is one ray to the wall, and
+        // one on.
+        Scene scene = world_of("AttributeBegin Rotate -90 1 0 0 Scale 9 1 9 " + square(0, true) +
+                               "AttributeEnd\n" + shining + "Rotate -90 1 0 0 Translate 0 -1 0 " +
+                               square(0, true));
+        scene.width = scene.height = 8;
+        scene.max_depth = 1;
+        for (const Chapter& chapter : all_chapters(scene)) {
+            CAPTURE(chapter.name);
+            Rendering r = film_of(scene, chapter.trace, 4);
+            CHECK(r.stats.rays == 2 * 8 * 8 * 4);
+            CHECK(r.film.mean() == 0);
+        }
+    }
+
     TEST_CASE("truth: a tilted light far from the origin, as near as floats can tell") {
         // All numbers are about 1 and so known to 6e-8; a light 2e-5 above the patch, to 1 %.
         for (double h : {1e-1, 1e-2, 1e-3, 1e-4, 2e-5}) {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "common/base/files.h"
+#include "common/path/sampler.h"
 #include "common/picture/image.h"
 #include "common/radiosity/files.h"
 #include "common/radiosity/refuse.h"
@@ -66,6 +67,38 @@ TEST_SUITE("radiosity files and display") {
             CHECK(std::memcmp(at, &i, 4) == 0);
             at += 4;
         }
+    }
+
+    TEST_CASE("identity: no corner is negative, and a triangle cut off at 0 keeps its mean") {
+        // A grid of 6 x 6 squares, most of them nearly black.
+        Triangles triangles;
+        for (float x = 0; x < 6; x++)
+            for (float y = 0; y < 6; y++) {
+                Vec3 a = {x, y, 0}, b = {x + 1, y, 0}, c = {x + 1, y + 1, 0}, d = {x, y + 1, 0};
+                triangles.push_back({{a, b, c}}), triangles.push_back({{a, c, d}});
+            }
+        int cut_off = 0;
+        for (uint32_t seed = 0; seed < 20; seed++) {
+            CAPTURE(seed);
+            std::vector<Rgb> own;
+            for (uint32_t i = 0; i < triangles.size(); i++) {
+                float u = to_unit_float(hash32(seed, i));
+                own.push_back(u < 0.5f ? Rgb{0.1f, 0.5f, 0.01f} : Rgb{u, 9 * u * u, 50 * u});
+            }
+            auto everywhere = [](uint32_t, uint32_t) { return true; };
+            CornerColours corner = smooth_corners(triangles, own, 1e-3f, everywhere, 1);
+            for (size_t i = 0; i < triangles.size(); i++)
+                for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+                    float mean = 0, least = infinity;
+                    for (Rgb b : corner[i])
+                        mean += b.*channel / 3, least = std::min(least, b.*channel);
+                    CHECK(least >= 0);
+                    if (least > 1e-6f * mean) continue;
+                    cut_off++;
+                    CHECK(mean == doctest::Approx(own[i].*channel).epsilon(1e-4).scale(0));
+                }
+        }
+        CHECK(cut_off > 100);
     }
 
     TEST_CASE("input: mirrors of any shape are refused, with the place of their material") {

@@ -295,6 +295,20 @@ TEST_SUITE("reader: lights") {
 }
 
 TEST_SUITE("reader: spectra") {
+    TEST_CASE("truth: the observer's columns have the sums and centres of the CIE's table") {
+        const double sums[3] = {10.683642, 10.685779, 10.6769};
+        const double centres[3] = {6108.62642, 5986.08563, 4848.0652};  // sums of nm times column
+        for (size_t k = 0; k < 3; k++) {
+            double sum = 0, centre = 0;
+            for (size_t i = 0; i < observer.size(); i++) {
+                sum += observer[i][k];
+                centre += observer[i][k] * (380 + 10 * static_cast<double>(i));
+            }
+            CHECK(sum == doctest::Approx(sums[k]).epsilon(1e-9).scale(0));
+            CHECK(centre == doctest::Approx(centres[k]).epsilon(1e-9).scale(0));
+        }
+    }
+
     TEST_CASE("truth: colors of spectra, by quadrature") {
         // The observer and the spectrum as straight lines between what is known, in steps of 0.01
         // nm.
