@@ -44,7 +44,9 @@ inline float jitter_in_interval(uint32_t i, uint32_t n, float u) {
 ///
 /// Each axis by itself has n strata, for any n. The rows are in random order; in ascending order
 /// all points would be on the diagonal.
-/// source  Shirley 1991      tested by  "variance: for xy n x n strata fall as n^-4, N-rooks keep"
+/// source  Shirley 1991
+/// tested by  "variance: for xy n x n strata fall as n^-4, N-rooks keep the interaction",
+///            within 5 standard errors
 inline Vec2 jitter_rook(uint32_t i, uint32_t n, uint32_t seed, Vec2 u) {
     uint32_t row = permute(i, n, hash32(seed));
     return {jitter_in_interval(i, n, u.x), jitter_in_interval(row, n, u.y)};
@@ -70,7 +72,7 @@ inline Points make_points(PointSet set, uint32_t n, uint32_t seed) {
 ///
 /// bias 0 for points that are uniform on the square. Points of one set may depend on each other, so
 /// s^2/N is NOT the variance of the estimate: measure that from the estimates of many sets.
-/// tested by  "failure: s^2/N is 4.7 times the variance of 6 x 6 strata"
+/// tested by  "failure: s^2/N is 4.7 times the variance of 6 x 6 strata", to 2 %
 template <class Function>
 double estimate(const Points& points, Function f) {
     RunningStats stats;
@@ -90,7 +92,7 @@ inline double product(Vec2 x) { return double{x.x} * double{x.y}; }  // integral
 ///   V(u) = [a u.x + b u.y < p],   u: a point of the light, uniform on the square
 ///   fraction seen = (p^2 - (p-a)^2 - (p-b)^2 + (p-a-b)^2) / (2ab), squares of positive bases only
 ///
-/// tested by  "truth: the penumbra of a straight edge"
+/// tested by  "truth: the penumbra of a straight edge", to 1e-14; by counting points, within 1e-4
 inline constexpr double edge_a = 0.8, edge_b = 0.6;
 inline double sees_light(Vec2 u, double p) {
     return edge_a * double{u.x} + edge_b * double{u.y} < p ? 1 : 0;

@@ -13,7 +13,7 @@ namespace ch04 {
 ///
 /// u     in [0,1)
 /// zero  an i of probability 0 is never chosen, not even if u = 0 or after rounding at the end
-/// tested by  "density: choices by chance"
+/// tested by  "density: choices by chance", chi^2 at 1e-6
 inline size_t sample_pmf(const std::vector<double>& pmf, double u) {
     size_t last = 0;
     double sum = 0;

@@ -44,7 +44,7 @@ inline Box box_of(const Geometry& g, uint32_t prim) {
 /// A ray in the plane of a side gives 0 * infinity = NaN. Comparisons with NaN are false, so the
 /// side counts as touched. near and far are rounded, and so are hits of triangles. So near is made
 /// a bit smaller and far a bit larger: no ray misses what lies on the side of a box.
-/// source  Kay, Kajiya 1986      tested by  "brute: no step loses a ray"
+/// source  Kay, Kajiya 1986      tested by  "brute: no step loses a ray", hits exactly
 inline float enter(const Box& box, const Ray& ray, Vec3 inv_d) {
     float t0 = 0, t1 = ray.t_max;
     for (int axis = 0; axis < 3; axis++) {

@@ -56,7 +56,8 @@ inline float survival_probability(Rgb beta, int depth) {
 ///
 /// Unbiased up to scene.max_depth scattering events. The variance is large: a path contributes
 /// only if it happens to hit a light.
-/// source  Kajiya 1986; roulette: Arvo, Kirk 1990      tested by  "ch08 russian roulette"
+/// source  Kajiya 1986; roulette: Arvo, Kirk 1990      tested by  "ch08 russian roulette",
+///   within 5 standard errors
 inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     for (int depth = 0;; depth++) {

@@ -15,7 +15,7 @@ namespace ch10 {
 ///   r = sqrt(u1),  phi = 2 pi u2,  z = sqrt(1 - u1);      pdf_w = cos / pi
 ///
 /// A uniform point of the unit disk, projected up to the sphere. u in [0,1)^2; z in (0,1].
-/// source  Malley 1988      tested by  "density: cosine hemisphere"
+/// source  Malley 1988      tested by  "density: cosine hemisphere", chi^2 at 1e-6
 inline Vec3 sample_cosine_hemisphere(Vec2 u) {
     return from_cylindrical(std::sqrt(u.x), u.y, std::sqrt(1 - u.x));
 }
@@ -67,7 +67,7 @@ struct LightSample {
 ///
 /// zero    if y faces away, is edge-on, or is x itself (cos_y is then not a number)
 /// error   unbiased; Var < mean^2 / 3, however near the light is
-/// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
+/// source  Shirley et al. 1996      tested by  "variance: near-light", within 5 standard errors
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);
     Vec3 to_y = y.p - x.p;
@@ -133,7 +133,8 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, LightNumbers 
 /// Emission that the path hits counts only directly from the camera and after mirrors and glass.
 /// Elsewhere it is already part of Ld at the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
-/// source  Kajiya 1986, importance sampling      tested by  "ch10 cosine sampling"
+/// source  Kajiya 1986, importance sampling      tested by  "ch10 cosine sampling",
+///   within 5 standard errors
 inline Rgb trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
     bool count_emission = true;

@@ -107,7 +107,7 @@ inline Proposal prepare(const Scene& scene, int M) {
 ///
 /// Unbiased if p_hat > 0 wherever the light contributes.
 /// Var = Var_p / M + (1 - 1/M) Var_q: Var_q, caused by shadows, remains however large M is.
-/// source  Talbot, Cline, Egbert 2005      tested by  "truth: RIS on four lights, all tuples"
+/// source  Talbot et al. 2005      tested by  "truth: RIS on four lights, all tuples", to 1e-5
 inline Rgb direct_light(const Scene& scene, const Proposal& p, const Hit& x, Vec3 wo,
                         ResamplingNumbers u, Recorder& recorder) {
     if (x.material->type != MaterialType::diffuse || p.lights.empty()) return {};
@@ -128,7 +128,7 @@ inline Rgb direct_light(const Scene& scene, const Proposal& p, const Hit& x, Vec
 /// Emission that the path hits counts only directly from the camera and after mirrors and glass.
 /// Elsewhere it is already part of Ld at the vertex before.
 /// Unbiased up to scene.max_depth scattering events.
-/// source  Talbot et al. 2005      tested by  "ch12 ris"
+/// source  Talbot et al. 2005      tested by  "ch12 ris", within 5 standard errors
 inline Rgb trace(const Scene& scene, const Proposal& p, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};

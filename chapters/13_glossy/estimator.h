@@ -12,7 +12,7 @@ namespace ch13 {
 
 /// The GGX distribution of microfacet normals, in the frame where z is the surface normal:
 /// D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2)
-/// source  Walter et al. 2007      tested by  "density: GGX normals"
+/// source  Walter et al. 2007      tested by  "density: GGX normals", chi^2 at 1e-6
 inline float ggx_D(Vec3 h, float alpha) {
     float a2 = alpha * alpha, d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
     return a2 / (pi * d * d);
@@ -115,7 +115,7 @@ enum class Strategy : uint8_t { bsdf, light };
 /// bsdf: all emission that the path hits counts, and no light is sampled. light: emission counts
 /// only directly from the camera and after mirrors and glass.
 /// Unbiased; each strategy has lights that it hardly finds.      source  Veach, Guibas 1995, fig. 2
-/// tested by  "ch13 glossy"
+/// tested by  "ch13 glossy", within 5 standard errors; light: exactly as 11 without rough metal
 inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};

@@ -19,14 +19,14 @@ using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 ///   balance: a / (a + b);  power: a^2 / (a^2 + b^2)
 ///
 /// Computed from b / a, so that no square overflows. a > 0; an infinite a has weight 1.
-/// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1"
+/// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1", to 1e-6
 inline float balance_heuristic(float a, float b) { return 1 / (1 + b / a); }
 inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / a)); }
 
 /// Samples a light from x. The sky: uniformly, since BSDF sampling already samples it by the cosine
 /// (chapter 10), which finds too little of a sky that is bright only near the horizon.
 ///
-/// tested by  "variance: a sky at the horizon: a third of the error of chapter 10"
+/// tested by  "variance: a sky at the horizon: ...", relMSE below 2/3 of chapter 10's
 inline LightSample sample_beside_bsdf(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     if (scene.lights[light].type != LightType::infinite)
         return sample_one_light(scene, light, x, u);
@@ -81,7 +81,7 @@ inline float mis_emission(const Scene& scene, const Lights& lights, const Hit& x
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
 /// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
-/// source  Veach, Guibas 1995      tested by  "ch14 mis"
+/// source  Veach, Guibas 1995      tested by  "ch14 mis", within 5 standard errors
 inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};

@@ -118,7 +118,7 @@ inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidat
 ///
 /// Systematic sampling: put the inclusions end to end, a line of length 2; choose at u and u + 1.
 /// Mirrors and glass: 0, since their f is 0 for every direction that light sampling finds.
-/// source  Madow 1949      tested by  "truth: irradiance of all lights"
+/// source  Madow 1949      tested by  "truth: irradiance of all lights", within 5 standard errors
 inline Rgb direct_light(const Scene& scene, const Lights& lights, const Candidates& c,
                         const TwoLightNumbers& u, Recorder& recorder) {
     Rgb Ld;
@@ -145,7 +145,7 @@ inline float mis_emission(const Scene& scene, const Lights& lights, const Candid
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
 /// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
-/// source  Veach, Guibas 1995      tested by  "ch15 mis ris"
+/// source  Veach, Guibas 1995      tested by  "ch15 mis ris", within 5 standard errors
 inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};

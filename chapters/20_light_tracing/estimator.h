@@ -38,7 +38,7 @@ inline Pinhole pinhole_of(const Scene& scene) {
 ///
 /// From the pinhole, a patch dA of the film at distance d has solid angle dw = dA cos^3 / d^2. All
 /// points of the film have the same weight, so We cos = dA / dw / A = 1 / (A cos^3) with d = 1.
-/// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright as it should be"
+/// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright ...", to 1e-5
 inline float importance_cos(const Pinhole& camera, Vec3 away) {
     float cos_c = dot(away, camera.axis) / length(away);
     return 1 / (camera.area * cos_c * cos_c * cos_c);
@@ -51,8 +51,7 @@ struct CameraImportance {
 };
 
 /// The pixel in which the camera sees the point at `away` from its pinhole; nothing if outside.
-///
-/// tested by  "identity: a light point is in the pixel whose rays meet it, with any camera"
+/// tested by  "identity: a light point is in the pixel whose rays meet it, ...", exactly
 inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, Vec3 away) {
     float depth = dot(away, camera.axis);
     if (!(depth > 0)) return {};
@@ -99,8 +98,7 @@ inline Vec3 sample_sphere(Vec2 u) {
 ///   point    any direction:                 pdf = 1, 1 / (4 pi)
 ///   distant  a point of the scene's disk:   pdf = 1 / (pi R^2), 1
 ///   sky      such a point, any direction:   pdf = 1 / (pi R^2), 1 / (4 pi)
-///
-/// tested by  "identity: each light sends out its power"
+/// tested by  "identity: each light sends out its power", to 1e-4
 inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, double u, Vec2 u_y,
                                 Vec2 u_d) {
     size_t i = pick_light(endpoints.lights, u);
@@ -156,7 +154,8 @@ inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
 ///
 /// A path from the eye multiplies by |wi.n|. Flux arrives in proportion to |wi.ng|, and leaves in
 /// proportion to |wo.ng|. Where n = ng, only the cosine |wo.ng| is left.
-/// source  Veach 1997, sec. 5.3      tested by  "agreement: smoothed normals"
+/// source  Veach 1997, sec. 5.3
+/// tested by  "agreement: smoothed normals", within 5 standard errors
 inline Rgb adjoint_bsdf(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     Hit seen = seen_from(scene, x, wo);
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
@@ -178,9 +177,9 @@ inline std::optional<Splat> connect_to_camera(const Scene& scene, const Pinhole&
 }
 
 /// Samples the direction in which light from wi leaves x; s.f holds f cos of the adjoint BSDF.
-///
 /// Refraction scales radiance by 1 / eta^2, but not flux: that factor is removed again.
-/// source  Veach 1997, sec. 5.2      tested by  "agreement: a light in glass"
+/// source  Veach 1997, sec. 5.2
+/// tested by  "agreement: a light in glass", within 5 standard errors
 inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, float u1, Vec2 u2) {
     Hit y = x;
     if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // to sample every possible wo
@@ -200,7 +199,8 @@ inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, f
 ///
 /// Unbiased up to scene.max_depth scattering events, except that what the camera sees in mirrors or
 /// through glass is missing. Var ~ 1 / d^2 for surfaces at a small distance d from the pinhole.
-/// source  Arvo 1986; Dutre, Willems 1995      tested by  "ch20 light tracing"
+/// source  Arvo 1986; Dutre, Willems 1995
+/// tested by  "ch20 light tracing", within 5 standard errors
 inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& splats,
                         Sampler& sampler, Recorder& recorder) {
     // Choose a light, a point on it and a direction; connect the light to the camera.

@@ -97,7 +97,6 @@ inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sample
 }
 
 /// Sets position or normal of y, the point of a light, as seen from the vertex x that it lights.
-///
 /// Distant lights and skies: at the scene's radius from x. Point lights: facing x.
 inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
     if (is_far(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
@@ -162,7 +161,7 @@ inline std::vector<double> densities(const Scene& scene, const Endpoints& endpoi
 ///
 /// light, eye: densities of each vertex from either end. Only factors in which p_i and p_s differ
 /// are multiplied: no overflow. 0 if vertices coincide (0 / 0).   source  Veach 1997, sec. 10.2
-/// tested by  "identity: weights are p_s / sum p_i over the densities of whole paths"
+/// tested by  "identity: weights are p_s / sum p_i over the densities of whole paths", within 1e-3
 inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Path& path,
                         size_t s) {
     std::vector<double> light = densities(scene, endpoints, true, path);
@@ -211,7 +210,8 @@ inline Rgb connect(const Scene& scene, const Vertex& y, const Vertex& z, int s) 
 ///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
 ///
 /// Unbiased up to scene.max_depth scattering events.
-/// source  Lafortune, Willems 1993; Veach, Guibas 1994      tested by  "ch21 bidirectional"
+/// source  Lafortune, Willems 1993; Veach, Guibas 1994
+/// tested by  "ch21 bidirectional", within 5 standard errors
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
     // Walk from a light (with sampler dimensions of its own) and from the eye.

@@ -34,7 +34,8 @@ struct PhotonSettings {
 ///
 /// Flux arrives in proportion to |wi.ng|, but a camera path multiplies by wi.n, where n is the
 /// smoothed normal: so the photon carries the flux times their ratio.
-/// source  Jensen 1996      tested by  "truth: irradiance of all lights, by photons alone"
+/// source  Jensen 1996
+/// tested by  "truth: irradiance of all lights, by photons alone", within 5 standard errors + 0.3 %
 inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int paths,
                              Sampler& sampler, std::vector<LightVertex>& vertices) {
     if (scene.lights.empty()) return;
@@ -96,7 +97,8 @@ inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
 /// Photons count only if they lie on the same surface: their normal is within 45 degrees, and they
 /// are in a disk that is an eighth as thick as it is wide. `depth`: scattering events that are
 /// left. Biased: an average over the disk, which is half empty at an edge.
-/// source  Jensen 1996      tested by  "truth: light at an edge and in a corner"
+/// source  Jensen 1996
+/// tested by  "truth: light at an edge and in a corner", within 5 standard errors
 inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, int depth,
                   Recorder& recorder) {
     Rgb sum;
@@ -146,7 +148,7 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
 /// to a diffuse vertex, and gathers photons there or (final gathering) at the next one.
 ///
 /// Biased, since it uses photons near a point and not at it; more passes do not reduce the bias.
-/// source  Jensen 1996      tested by  "ch23 photon mapping"
+/// source  Jensen 1996      tested by  "ch23 photon mapping", within 5 standard errors + 1 %
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMaps& maps, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};

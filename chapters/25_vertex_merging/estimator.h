@@ -73,7 +73,7 @@ inline double sum_of_fewer(const Merging& merging, const Subpath& walk, size_t n
 /// The weight of connection (s, t): the balance heuristic, in constant time.
 ///
 ///   mis_s = p_s / sum over all connections and merges of p_i
-/// tested by  "identity: weights of connections and merges are p_i / sum p over whole paths"
+/// tested by  "identity: weights of connections and merges are ...", within 5e-3, on average 2e-5
 inline float mis_weight(const Scene& scene, const Merging& merging, const Subpath& light, size_t s,
                         const Subpath& eye, size_t t) {
     const Endpoints& endpoints = merging.endpoints;
@@ -145,7 +145,7 @@ inline Subpath walk_from_light(const Scene& scene, const Merging& merging, Sampl
 ///     + sum over t of     mis_merge (photons near the t-th vertex from the eye)
 ///
 /// Biased where paths merge; consistent, as the radius shrinks from pass to pass.
-/// tested by  "ch25 vertex merging"
+/// tested by  "ch25 vertex merging", within 5 standard errors; no mirror or glass: exactly as 22
 inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
     // Walk from a light and from the eye as in chapter 22.

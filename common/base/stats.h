@@ -9,7 +9,8 @@
 ///   delta = x - mean;   mean += delta / n;   m2 += delta (x - mean)
 ///
 /// source  Welford 1962; merge: Chan, Golub, LeVeque 1979
-/// tested by  "truth: Welford keeps the digits that E[x^2] - E[x]^2 loses"
+/// tested by  "truth: Welford keeps the digits that E[x^2] - E[x]^2 loses",
+///            mean to 1e-15, variance within 1e-6
 class RunningStats {
 public:
     void add(double x) {

@@ -17,7 +17,7 @@ struct LightSample {
 ///
 /// zero    if y faces away, is edge-on, or is x itself (cos_y is then not a number)
 /// error   unbiased; Var < mean^2 / 3, however near the light is
-/// source  Shirley, Wang, Zimmerman 1996      tested by  "variance: near-light"
+/// source  Shirley et al. 1996      tested by  "variance: near-light", within 5 standard errors
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);
     Vec3 to_y = y.p - x.p;

@@ -20,7 +20,7 @@ struct BsdfSample {
 ///
 ///   z = 1 - u1,  phi = 2 pi u2;      pdf_w = 1 / (2 pi)
 ///
-/// u in [0,1)^2; z in (0,1]      tested by  "density: uniform hemisphere"
+/// u in [0,1)^2; z in (0,1]      tested by  "density: uniform hemisphere", chi^2 at 1e-6
 inline Vec3 sample_uniform_hemisphere(Vec2 u) {
     float z = 1 - u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
     return from_cylindrical(r, u.y, z);

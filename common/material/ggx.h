@@ -7,7 +7,7 @@ namespace glossy_bsdf {
 
 /// The GGX distribution of microfacet normals, in the frame where z is the surface normal:
 /// D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2)
-/// source  Walter et al. 2007      tested by  "density: GGX normals"
+/// source  Walter et al. 2007      tested by  "density: GGX normals", chi^2 at 1e-6
 inline float ggx_D(Vec3 h, float alpha) {
     float a2 = alpha * alpha, d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
     return a2 / (pi * d * d);

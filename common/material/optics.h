@@ -28,7 +28,7 @@ inline std::optional<Vec3> refract(Vec3 wo, Vec3 n, float eta) {
 ///   R = (r_s^2 + r_p^2) / 2
 ///
 /// cos_i in [0,1]; eta: index beyond the surface over index here. 1 under total reflection.
-/// source  Fresnel 1823      tested by  "truth: Fresnel's equations for glass"
+/// source  Fresnel 1823      tested by  "truth: Fresnel's equations for glass", within 1e-6 / cos_t
 inline float fresnel_dielectric(float cos_i, float eta) {
     float sin2_t = std::max(0.0f, 1 - cos_i * cos_i) / (eta * eta);
     if (sin2_t >= 1) return 1;

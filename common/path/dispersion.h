@@ -27,7 +27,7 @@ struct Wavelength {
 ///
 ///   weight = share / p,   p = average of share's channels:   E[weight] = sum of shares = white
 ///
-/// tested by  "identity: all wavelengths together are white"
+/// tested by  "identity: all wavelengths together are white", weights to 1e-5, mean within 3e-4
 inline Wavelength sample_wavelength(const std::vector<Rgb>& shares, float u) {
     size_t i = 0;
     for (; i + 1 < shares.size() && u >= average(shares[i]); i++) u -= average(shares[i]);
@@ -48,7 +48,8 @@ inline void set_index(Hit& x, Wavelength& light) {
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
 /// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
-/// source  Veach, Guibas 1995      tested by  "ch18 dispersion"
+/// source  Veach, Guibas 1995      tested by  "ch18 dispersion",
+///   where nothing is new exactly as the chapter before, else within 5 standard errors
 inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vector<Rgb>& white,
                  Ray ray, Sampler& sampler, Recorder& recorder) {
     // Sample a point of the lens and a time.

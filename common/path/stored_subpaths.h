@@ -40,7 +40,7 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
 
 /// Direct light at the first vertex from the eye (neither mirror nor glass), as in chapter 15: from
 /// two sampled lights and from the emission that the next ray hits.
-/// tested by  "variance: direct light has the error of chapter 15"
+/// tested by  "variance: direct light has the error of chapter 15", variance below 1.3 times that
 inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, const Path& eye,
                         Sampler& sampler, Recorder& recorder) {
     sampler.jump(1 << 11);

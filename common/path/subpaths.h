@@ -94,7 +94,6 @@ inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sample
 }
 
 /// Sets position or normal of y, the point of a light, as seen from the vertex x that it lights.
-///
 /// Distant lights and skies: at the scene's radius from x. Point lights: facing x.
 inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
     if (is_far(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
