@@ -95,7 +95,7 @@ public:
         bool quickly = over && n() > 50000;
         Shown shown = shown_now(quickly ? Show::constant : settings_.show);
         if (!stopped && n() > 0) compare_paths(shown, [&] { return over || limit_.interrupted(); });
-        if (n() == 0) warnings_.push_back("it ended before there were patches");
+        if (n() == 0) warnings_.push_back("rendering ended before there were patches");
         double missing = n() > 0 ? -balance_of(patches_->patch, solution_).error() : 0;
         if (missing > 0.001) {
             warnings_.push_back("sweeps ended before " + percent(missing) +

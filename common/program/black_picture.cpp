@@ -115,10 +115,11 @@ std::string of_search(LightSearch search, double chance) {
     char text[200];
     switch (search) {
         case LightSearch::by_chance:
-            std::snprintf(text, sizeof text,
-                          "lights are met only by chance here, by about one path in %.2g: more "
-                          "samples find them, or a chapter that samples lights (from 09 on)",
-                          1 / chance);
+            std::snprintf(
+                text, sizeof text,
+                "this chapter finds lights only by chance, by about one path in %.2g: more "
+                "samples find them, or a chapter that samples lights (from 09 on)",
+                1 / chance);
             return text;
         case LightSearch::from_lights:
             return "paths begin at the lights, and few of them come to what the camera sees: more "

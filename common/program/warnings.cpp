@@ -92,8 +92,8 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     if (options.search == LightSearch::by_chance) {
         if (has_rare_light(scene, samples)) {
             lines.push_back(
-                "lights are met only by chance here, and one is so small that it is "
-                "rarely met: the error may not know of it");
+                "this chapter finds lights only by chance, and one is so small that few paths hit "
+                "it: the true error may be larger than the reported one");
         }
         return;
     }
@@ -104,15 +104,15 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
                                             : std::abs(metal.found - metal.expected) >
                                                   2 * std::hypot(error, metal.error);
         if (is_off && options.paths.empty()) {
-            lines.push_back(percent(metal.share) +
-                            " of the picture shows metal that is nearly a mirror: few paths from "
-                            "a light leave it towards the camera, and the error does not know of "
-                            "what they bring");
+            lines.push_back(
+                percent(metal.share) +
+                " of the picture shows metal that is nearly a mirror: few paths from a light leave "
+                "it towards the camera, so the true error may be larger than the reported one");
         }
         if (share > 0) {
             lines.push_back(percent(share) +
-                            " of the picture shows a mirror or glass: black, since no path from a "
-                            "light can be joined with the camera there");
+                            " of the picture shows a mirror or glass: this part is black, because "
+                            "no vertex on it can be connected to the camera");
         }
         return;
     }
@@ -132,21 +132,24 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     };
     if (options.search == LightSearch::light_sampling && any_material(is_receiver)) {
         // By default, chapter 13 samples lights only; later chapters also sample the metal's BSDF.
-        bool aims_alone = std::count(options.own.begin(), options.own.end(),
-                                     std::pair<std::string, std::string>("strategy", "light")) > 0;
-        double hidden = light_by_nearly_mirrors(scene, samples, !aims_alone);
+        bool lights_alone =
+            std::count(options.own.begin(), options.own.end(),
+                       std::pair<std::string, std::string>("strategy", "light")) > 0;
+        double hidden = light_by_nearly_mirrors(scene, samples, !lights_alone);
         if (hidden > 0 && !(hidden <= error)) {
             lines.push_back(
-                "light that reaches a surface via metal that is nearly a mirror is met only "
-                "by chance: the error may not know of it");
+                "light that reaches a surface by way of nearly smooth metal is found only by "
+                "chance: the true error may be larger than the reported one");
         }
     }
     bool is_lit_by_sky = scene.sky_light >= 0 && scene.max_depth > 0 && any_material(is_receiver);
     if (options.search == LightSearch::direct && is_lit_by_sky)
-        lines.push_back("light from the sky to a surface is left out: the sky is only seen");
+        lines.push_back(
+            "light that surfaces receive from the sky is left out: the sky is seen only directly "
+            "and in mirrors");
     bool leaves_out = options.search == LightSearch::direct && scene.max_depth > 1;
     if (leaves_out && !any_material(is_specular) && surfaces_face_each_other(scene))
-        lines.push_back("light from surface to surface is left out");
+        lines.push_back("light that one surface reflects to another is left out");
     if (!any_material(is_specular) || !any_material(is_receiver)) return;
     auto is_area = [](LightType type) { return type == LightType::area; };
     auto is_delta = [](LightType type) {
@@ -159,24 +162,29 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     if (merges && !any_material(is_rough_metal)) return;
     if (options.search == LightSearch::both_ends || merges) {
         const std::string both =
-            "light that comes via mirrors or glass to what the camera "
-            "sees via mirrors or glass ";
+            "light that goes through mirrors or glass to a surface that the camera sees in mirrors "
+            "or glass ";
         if (any_light(is_delta)) {
-            lines.push_back(both +
-                            "from a point or distant light is left out: nothing can meet it");
+            lines.push_back(
+                both + "from a point or distant light is left out: no path can hit such a light");
         } else if (any_light(is_area)) {
-            lines.push_back(both + "is met only by chance: the error may not know of it");
+            lines.push_back(
+                both +
+                "is found only by chance: the true error may be larger than the reported one");
         }
         return;
     }
-    const std::string light = "light that reaches a surface via mirrors or glass ";
+    const std::string light = "light that reaches a surface through mirrors or glass ";
     if (options.search == LightSearch::direct) {
-        lines.push_back(light + "is left out, as is light from surface to surface");
+        lines.push_back(light +
+                        "is left out, and so is light that one surface reflects to another");
     } else if (any_light(is_delta)) {
-        lines.push_back(light + "from a point or distant light is left out: nothing can meet it");
+        lines.push_back(light +
+                        "from a point or distant light is left out: no path can hit such a light");
     }
     if (options.search == LightSearch::light_sampling && (any_light(is_area) || scene.sky_image)) {
-        lines.push_back(light + "is met only by chance: the error may not know of it");
+        lines.push_back(
+            light + "is found only by chance: the true error may be larger than the reported one");
     }
 }
 
@@ -187,35 +195,38 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
     double samples = static_cast<double>(film.samples());
     double empty = static_cast<double>(film.empty_pixels());
     if (empty > 0) {
-        lines.push_back("it ended before " +
+        lines.push_back("rendering ended before " +
                         percent(empty / static_cast<double>(film.pixels().size())) +
                         " of the pixels had a sample: they are black");
     }
     double sum = film.mean() * samples;
     if (samples > 0 && sum == 0) lines.push_back("the picture is black: no sample found light");
     if (sum > 0 && counts.largest > too_much * sum) {
-        lines.push_back("one sample carries " + percent(counts.largest / sum) +
+        lines.push_back("one sample contains " + percent(counts.largest / sum) +
                         " of the whole picture");
     }
     double effective = film.effective_samples();
     if (effective > 0 && effective < few_samples) {
-        lines.push_back("as few as " + std::to_string(std::lround(effective)) +
-                        " samples carry the picture: the error is larger than it says");
+        lines.push_back(
+            "as few as " + std::to_string(std::lround(effective)) +
+            " samples determine the picture: the true error is larger than the reported one");
     }
     Film::ErrorBasis basis = film.error_basis();
     bool one_in_many = basis.pixels < few_pixels && basis.squares > 0 &&
                        counts.largest * counts.largest > 0.05 * basis.squares;
     if (one_in_many && effective >= few_samples) {
-        lines.push_back("a few bright samples make the error: it is larger than it says");
+        lines.push_back(
+            "a few bright samples determine the error: the true error is larger than the reported "
+            "one");
     }
     if (film.has_batches() && film.spp() > 1 && film.spp() < few_audits) {
-        lines.push_back("few passes tell the error: it may be half or twice as large");
+        lines.push_back(
+            "the error is estimated from few passes: the true one may be half or twice as large");
     }
     bool is_told_by_means = film.has_audits() || film.has_halves();
     if (is_told_by_means && basis.squares > 0 && basis.audits < few_audits) {
         lines.push_back(
-            "few pixels tell the error by two means of each: it may be "
-            "half or twice as large");
+            "the error is estimated from few pixels: the true one may be half or twice as large");
     }
     return lines;
 }

@@ -525,7 +525,7 @@ TEST_SUITE("ch09 pictures") {
         auto told = [](const Scene& s, const Rendering& r) {
             std::vector<std::string> lines = warnings_of(s, RenderOptions{}, r);
             return std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
-                return line.find("is met only by chance") != std::string::npos;
+                return line.find("is found only by chance") != std::string::npos;
             });
         };
         CHECK(told(scene, seen));

@@ -1168,7 +1168,8 @@ TEST_SUITE("ch26 program") {
         CHECK(end.seconds < 5);  // of some 30 that it would take
         CHECK(read_image(folder / "a.pfm").width == 33);
         CHECK(read_file(folder / "a.film") == "a film");
-        CHECK(end.out.find("warning: it ended before there were patches") != std::string::npos);
+        CHECK(end.out.find("warning: rendering ended before there were patches") !=
+              std::string::npos);
     }
 
     TEST_CASE("files: radiosity says its costs first, writes pictures on the way, and a mesh") {

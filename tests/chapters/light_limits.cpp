@@ -243,19 +243,27 @@ TEST_SUITE("light limits") {
     TEST_CASE("truth: balls from near") { check_balls({.relative_se = 1e-2}); }
     TEST_CASE("truth: balls from afar") { check_small_balls({all_chapters, 64, 16, 1e-4}); }
 
-    TEST_CASE("identity: no shadow ray goes where the surface would reflect no light") {
-        // The lamp is behind the wall, and shines towards it: each path is one ray to the wall, and
-        // one on.
-        Scene scene = world_of("AttributeBegin Rotate -90 1 0 0 Scale 9 1 9 " + square(0, true) +
-                               "AttributeEnd\n" + shining + "Rotate -90 1 0 0 Translate 0 -1 0 " +
-                               square(0, true));
-        scene.width = scene.height = 8;
-        scene.max_depth = 1;
-        for (const Chapter& chapter : all_chapters(scene)) {
-            CAPTURE(chapter.name);
-            Rendering r = film_of(scene, chapter.trace, 4);
-            CHECK(r.stats.rays == 2 * 8 * 8 * 4);
-            CHECK(r.film.mean() == 0);
+    TEST_CASE("identity: no shadow ray goes to light that would not come, or not be reflected") {
+        // The lamp is behind the wall and shines towards it, or in front of it and shines away:
+        // each path is one ray to the wall, and one on.
+        auto lit_from = [](bool behind) {
+            Scene scene =
+                world_of("AttributeBegin Rotate -90 1 0 0 Scale 9 1 9 " + square(0, true) +
+                         "AttributeEnd\n" + shining + "Rotate -90 1 0 0 Translate 0 " +
+                         (behind ? "-1 0 " : "9 0 ") + square(0, true));
+            scene.width = scene.height = 8;
+            scene.max_depth = 1;
+            return scene;
+        };
+        for (bool behind : {true, false}) {
+            CAPTURE(behind);
+            Scene scene = lit_from(behind);
+            for (const Chapter& chapter : all_chapters(scene)) {
+                CAPTURE(chapter.name);
+                Rendering r = film_of(scene, chapter.trace, 4);
+                CHECK(r.stats.rays == 2 * 8 * 8 * 4);
+                CHECK(r.film.mean() == 0);
+            }
         }
     }
 

@@ -69,6 +69,7 @@ TEST_SUITE("films of parts") {
         CHECK(has(out, "\nwarning: samples 4 to 5 of seed 3 are missing: part 5/5\n"));
         CHECK(has(read_file(folder / "s.json"), "sample 2 of seed 3 is missing: part 3/5"));
         CHECK(has(out, " +- "));
+        CHECK(has(out, "3 films  9x7  "));
         out = merged({"2"});
         CHECK(has(out, "\nwarning: samples 2 to 5 of seed 3 are missing: parts 3/5 to 5/5\n"));
         CHECK(has(out, ", standard error unknown (1 sample)\n"));

@@ -114,7 +114,8 @@ TEST_SUITE("printed") {
             "\"largest_sample_share\": 0.003666");
         says("\"effective_samples\": 297.0297");
         says(
-            "\"empty_pixels_share\": 0.25,\n  \"warnings\": [\"it ended before 25 % of the pixels "
+            "\"empty_pixels_share\": 0.25,\n  \"warnings\": [\"rendering ended before 25 % of the "
+            "pixels "
             "had a sample: they are black\", \"its own\"],\n  \"interrupted\": false\n}\n");
         size_t rgb = json.find("\"mean_rgb\": [1, 2, 0],");
         CHECK(rgb != std::string::npos);

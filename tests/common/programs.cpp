@@ -358,7 +358,12 @@ TEST_SUITE("programs") {
                   line("median of A/B over the pixels: %.5g\n", c.median_ratio),
                   line("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks,
                        c.worst_z, c.worst_x, c.worst_y, c.beyond_5),
-                  line("white %.3g\n", trim > 0 ? 0.3 : error_range(a, b))})
+                  line("white %.3g\n", trim > 0 ? 0.3 : error_range(a, b)),
+                  std::string("    below 5 standard errors"),
+                  std::string("    mean of (a-b)^2; its root; mean of"),
+                  std::string("    0.1 to 2 %: noise everywhere"),
+                  std::string("    of the middle pixel: 2 or 1/pi"),
+                  std::string("    how many standard errors a block differs by")})
                 CHECK(out.find(expected) != std::string::npos);
             std::string without = "without the worst 2 % of the pixels:\n";
             CHECK((out.find(without) != std::string::npos) == (trim > 0));
@@ -633,7 +638,7 @@ TEST_SUITE("programs") {
         Finished end = run(path_tracer, {spheres, "--size", "1024x1024", "--time", "0.000001",
                                          "--out", folder / "a.ppm"});
         CHECK(end.code == 0);
-        CHECK(end.out.find("\nwarning: it ended before 100 % of the pixels had a sample") !=
+        CHECK(end.out.find("\nwarning: rendering ended before 100 % of the pixels had a sample") !=
               std::string::npos);
         CHECK(read_image(folder / "a.ppm").width == 1024);
     }

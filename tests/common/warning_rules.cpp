@@ -94,10 +94,10 @@ TEST_SUITE("warning rules") {
         for (size_t i = 0; i < 75; i++)
             for (int s = 0; s < 4; s++) some.add(i, grey(1 + 0.01 * s));
         CHECK(told(some) ==
-              Lines{"it ended before 25 % of the pixels had a sample: they are black"});
+              Lines{"rendering ended before 25 % of the pixels had a sample: they are black"});
         Film none(10, 10);
         CHECK(told(none) ==
-              Lines{"it ended before 100 % of the pixels had a sample: they are black"});
+              Lines{"rendering ended before 100 % of the pixels had a sample: they are black"});
         CHECK(told(film_with(10, 10, 2, [](size_t, int) { return 0; })) ==
               Lines{"the picture is black: no sample found light"});
     }
@@ -105,8 +105,8 @@ TEST_SUITE("warning rules") {
     TEST_CASE("truth: a sample is named from 1 % of the picture on, with its share") {
         Film film = film_with(16, 16, 4, [](size_t, int) { return 1; });  // 1024 in all
         CHECK(told(film, 10.2) == Lines{});
-        CHECK(told(film, 10.3) == Lines{"one sample carries 1.01 % of the whole picture"});
-        CHECK(told(film, 512) == Lines{"one sample carries 50 % of the whole picture"});
+        CHECK(told(film, 10.3) == Lines{"one sample contains 1.01 % of the whole picture"});
+        CHECK(told(film, 512) == Lines{"one sample contains 50 % of the whole picture"});
     }
 
     TEST_CASE("truth: the samples that carry a picture are too few below 100") {
@@ -119,13 +119,16 @@ TEST_SUITE("warning rules") {
             Lines expected;
             if (n < 100)
                 expected.push_back("as few as " + std::to_string(n) +
-                                   " samples carry the picture: the error is larger than it says");
+                                   " samples determine the picture: the true error is larger than "
+                                   "the reported one");
             CHECK(told(film) == expected);
         }
     }
 
     TEST_CASE("truth: bright samples make the error where they alone do, and are few") {
-        const std::string line = "a few bright samples make the error: it is larger than it says";
+        const std::string line =
+            "a few bright samples determine the error: the true error is larger than the reported "
+            "one";
         // Noise in 256 pixels, and one sample of `bright` more in some.
         auto film = [&](size_t few, double bright) {
             return film_with(16, 16, 4, [=](size_t i, int s) {
@@ -148,11 +151,13 @@ TEST_SUITE("warning rules") {
             film.start_batches();
             Lines expected;
             if (spp > 1 && spp < 16)
-                expected = {"few passes tell the error: it may be half or twice as large"};
+                expected = {
+                    "the error is estimated from few passes: the true one may be half or twice as "
+                    "large"};
             CHECK(told(film) == expected);
         }
         const Lines few = {
-            "few pixels tell the error by two means of each: it may be half or twice as large"};
+            "the error is estimated from few pixels: the true one may be half or twice as large"};
         for (bool halves : {false, true})
             for (int noisy : {15, 17, 200}) {
                 CAPTURE(halves);
@@ -175,19 +180,20 @@ TEST_SUITE("warning rules") {
     }
 
     TEST_CASE("truth: what each search for light leaves out, scene by scene") {
-        const std::string leaves = "light that reaches a surface via mirrors or glass ",
-                          met = "is met only by chance: the error may not know of it",
-                          delta = "from a point or distant light is left out: nothing can meet it",
-                          both =
-                              "light that comes via mirrors or glass to what the camera "
-                              "sees via mirrors or glass ",
-                          blurred =
-                              "photons blur light within their radius: the reported error does not "
-                              "include this bias",
-                          direct = leaves + "is left out, as is light from surface to surface",
-                          by_sky =
-                              "light from the sky to a surface is left out: the sky is only "
-                              "seen";
+        const std::string
+            leaves = "light that reaches a surface through mirrors or glass ",
+            met = "is found only by chance: the true error may be larger than the reported one",
+            delta = "from a point or distant light is left out: no path can hit such a light",
+            both =
+                "light that goes through mirrors or glass to a surface that the camera sees in "
+                "mirrors or glass ",
+            blurred =
+                "photons blur light within their radius: the reported error does not "
+                "include this bias",
+            direct = leaves + "is left out, and so is light that one surface reflects to another",
+            by_sky =
+                "light that surfaces receive from the sky is left out: the sky is seen only "
+                "directly and in mirrors";
         const std::string floor = in(diffuse, floor_2), plain = floor + high_lamp,
                           with_mirror = plain + in(mirror, ball("2 2 2", "0.2")),
                           with_glass = plain + in(glass, ball("2 2 2", "0.2")),
@@ -233,8 +239,8 @@ TEST_SUITE("warning rules") {
 
     TEST_CASE("truth: a lamp is small for chance where 50 paths do not meet it") {
         const Lines rare = {
-            "lights are met only by chance here, and one is so small that it is rarely met: the "
-            "error may not know of it"};
+            "this chapter finds lights only by chance, and one is so small that few paths hit it: "
+            "the true error may be larger than the reported one"};
         // 1024 paths, each meets a share A / (4 pi R^2) of the scene's sphere.
         Scene scene = seen(in(diffuse, ball("0 0 0", "1")) + high_lamp + lamp(ball("2 0 0", "1")));
         for (double chance : {0.047, 0.05}) {
@@ -256,8 +262,8 @@ TEST_SUITE("warning rules") {
     TEST_CASE("truth: where paths begin at lights, the share that shows mirrors is told") {
         auto line = [](const std::string& share) {
             return Lines{share +
-                         " % of the picture shows a mirror or glass: black, since no path "
-                         "from a light can be joined with the camera there"};
+                         " % of the picture shows a mirror or glass: this part is black, because "
+                         "no vertex on it can be connected to the camera"};
         };
         // The left quarter of what is seen of a plane, and all of it.
         auto half = [&](const std::string& material, const std::string& left) {
@@ -317,9 +323,10 @@ TEST_SUITE("warning rules") {
         CHECK(causes(seen(floor + small_lamp), LightSearch::both_ends) == Lines{ways});
         CHECK(causes(seen(floor + small_lamp), LightSearch::light_sampling, 5, "LDE") ==
               Lines{"--paths keeps no class of path that brings light", ways});
-        CHECK(causes(seen(floor + small_lamp), LightSearch::by_chance) ==
-              Lines{"lights are met only by chance here, by about one path in 50: more samples "
-                    "find them, or a chapter that samples lights (from 09 on)"});
+        CHECK(
+            causes(seen(floor + small_lamp), LightSearch::by_chance) ==
+            Lines{"this chapter finds lights only by chance, by about one path in 50: more samples "
+                  "find them, or a chapter that samples lights (from 09 on)"});
         CHECK(causes(seen(floor + small_lamp), LightSearch::from_lights) ==
               Lines{"paths begin at the lights, and few of them come to what the camera sees: more "
                     "samples, or a chapter whose paths begin at the camera"});

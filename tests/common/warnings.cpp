@@ -85,7 +85,7 @@ TEST_SUITE("warnings") {
              {"--max-depth", "1"}},
             {"light comes to what is in view only through glass", plain,
              camera + grey_floor + speck + bulb},
-            {"lights are met only by chance here, by about one path in ", by_chance,
+            {"this chapter finds lights only by chance, by about one path in ", by_chance,
              camera + grey_floor + speck},
             {"few of them come to what the camera sees", by_light,
              "LookAt 0 2 -4  0 0.3 0  0 1 0 Camera \"perspective\" \"float fov\" 0.01 "
@@ -148,7 +148,7 @@ TEST_SUITE("warnings") {
                    grey_floor;
         };
         const std::string bright = "0.9 0.9 0.9",
-                          warning = "via metal that is nearly a mirror is met only by chance";
+                          warning = "by way of nearly smooth metal is found only by chance";
         // No chapter samples lights via the metal, and the lamp is small.
         for (const char* program : {"13_glossy", "14_mis", "15_mis_ris", "16_lens_and_shutter",
                                     "17_sky_image", "18_dispersion", "19_adaptive"})
@@ -216,7 +216,8 @@ TEST_SUITE("warnings") {
         "failure: chapter 05 says that it leaves out light from surface to surface and from the "
         "sky") {
         const std::string program = "05_ray_casting", high_lamp = lamp(ball("0 5 0", "0.3")),
-                          warning = "warning: light from surface to surface is left out\n";
+                          warning =
+                              "warning: light that one surface reflects to another is left out\n";
         auto beside_floor = [&](const std::string& reflectance) {
             return camera + grey_floor + high_lamp +
                    in("", "Translate 0 1 1 Rotate -90 1 0 0 " + floor_of(reflectance));
@@ -227,7 +228,8 @@ TEST_SUITE("warnings") {
             CHECK(four.mean + 2 * four.error < all.mean - 2 * all.error);
             CHECK(four.says(warning));
         }
-        const std::string sky_warning = "warning: light from the sky to a surface is left out",
+        const std::string sky_warning =
+                              "warning: light that surfaces receive from the sky is left out",
                           sky = "LightSource \"infinite\"\n";
         CHECK(said_of(program, camera + sky + grey_floor + high_lamp).says(sky_warning));
         CHECK_FALSE(said_of(program, camera + sky + floor_of("0 0 0")).says(sky_warning));

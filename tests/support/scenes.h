@@ -45,6 +45,17 @@ inline Scene world_of(const std::string& world, int size = 32) {
     return scene;
 }
 
+/// A rough wall whose normals lean, so that they are not the surface's, before a lamp and a sky.
+inline Scene leaning_wall() {
+    return world_of(
+        "LightSource \"infinite\" \"rgb L\" [0.2 0.3 0.4]\n"
+        "AttributeBegin AreaLightSource \"diffuse\" Translate 1 2 -2 Shape \"sphere\" \"float "
+        "radius\" 0.3 AttributeEnd\nMaterial \"diffuse\" Shape \"trianglemesh\" \"integer "
+        "indices\" [0 1 2 0 2 3] \"point3 P\" [-1 -1 0  -1 1 0  1 1 0  1 -1 0] \"normal N\" [0.4 "
+        "0.3 -1  0.1 0.2 -1  -0.3 0 -1  0 -0.4 -1]\n",
+        16);
+}
+
 /// A scene file at another size and depth.
 inline Scene scene_from(const std::string& path, int size, int max_depth) {
     Scene scene = scene_of(read_file(path));
