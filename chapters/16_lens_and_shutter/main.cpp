@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
                         "area"};
         RenderOptions options = parse_render_options(argc, argv, "16_lens_and_shutter",
                                                      "scenes/bokeh.pbrt", {candidates, pixel});
-        Scene scene = load(options, Features::lens_and_shutter);
+        Scene scene = load(options, features_of(16));
         scene.camera.pixel_centre = centre;
         return render(scene, options, trace_with<ch16::trace>(ch16::prepare(scene, M)));
     });

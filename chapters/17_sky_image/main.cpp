@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
                       "on"};
         RenderOptions options =
             parse_render_options(argc, argv, "17_sky_image", "scenes/sky.pbrt", {candidates, sky});
-        Scene scene = load(options, Features::sky_image);
+        Scene scene = load(options, features_of(17));
         return render(scene, options, trace_with<ch17::trace>(ch17::prepare(scene, M, compensate)));
     });
 }

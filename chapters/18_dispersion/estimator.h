@@ -16,7 +16,8 @@ using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
 using many_lights::Candidates, many_lights::choose_candidates;
 using many_lights::direct_light, many_lights::mis_emission;
 using sky_light::DirectNumbers, sky_light::LightsAndSky;
-using sky_light::draw_numbers, sky_light::image_emission, sky_light::prepare;
+using sky_light::draw_numbers, sky_light::image_emission;
+using sky_light::image_light, sky_light::prepare;
 
 /// The wavelength of a path, its weight in each channel, and the glass with the wavelength's index.
 struct Wavelength {
@@ -74,7 +75,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
-        if (!x) return L + beta * image_emission(scene, lights, ray.d, pdf_b, recorder);
+        if (!x) return L + beta * image_emission(scene, lights.image_cdf, ray.d, pdf_b, recorder);
         if (depth == scene.max_depth) {
             recorder.cut();
             return L;
@@ -95,7 +96,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
         DirectNumbers u = draw_numbers(scene, lights, sampler);
         choose_candidates(scene, lights, *x, wo, u.lights.candidates, c);
         L += beta * direct_light(scene, lights, c, u.lights, recorder);
-        if (u.image) L += beta * image_light(scene, lights, *x, wo, *u.image, recorder);
+        if (u.image) L += beta * image_light(scene, lights.image_cdf, *x, wo, *u.image, recorder);
 
         // Continue in that direction, and divide by its density.
         pdf_b = s.specular ? infinity : s.pdf_w;

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
             "64"};
         RenderOptions options =
             parse_render_options(argc, argv, "18_dispersion", "scenes/prism.pbrt", {candidates});
-        Scene scene = load(options, Features::dispersion);
+        Scene scene = load(options, features_of(18));
         return render(scene, options,
                       trace_with<ch18::trace>(ch18::prepare(scene, M), shares_of_white()));
     });

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
         RenderOptions options = parse_render_options(
             argc, argv, "19_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});
         options.map = map;
-        Scene scene = load(options, Features::dispersion);
+        Scene scene = load(options, features_of(19));
         return render(scene, options,
                       trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()),
                       ch19::allocation(densities));

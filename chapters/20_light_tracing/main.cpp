@@ -7,7 +7,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "20_light_tracing", "scenes/caustic.pbrt");
         options.search = LightSearch::from_lights;
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(20));
         return render(scene, options,
                       trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
     });

@@ -2,11 +2,9 @@
 //
 //   strategy (s, t): s vertices from the light, t from the eye;   mis_s = p_s / sum over i of p_i
 #pragma once
+#include "common/path/lens.h"
 #include "common/path/light_paths.h"
 #include "common/path/roulette.h"
-#include "common/path/sampler.h"
-#include "common/path/splats.h"
-#include "common/recording/recorder.h"
 
 namespace ch21 {
 
@@ -31,12 +29,21 @@ inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const st
                         const Ray& ray, Rgb beta) {
     Vertex v{x ? *x : Hit{}, -ray.d, beta, x && !is_specular(*x->material), {}};
     if (!x) v.x.ng = -ray.d;
+    float R = scene.radius, p_image = static_cast<float>(endpoints.p_image);
+    if (!x && scene.sky_image) {
+        Vec2 uv = point_of(*scene.sky_image, ray.d);
+        size_t pixel = scene.sky_image->pixel_at(uv);
+        v.Le = scene.sky_image->pixels[pixel], v.type = LightType::infinite;
+        v.pdf = p_image * pdf_image(*scene.sky_image, endpoints.image_cdf, pixel, uv) / (R * R);
+        return v;
+    }
     v.Le = x ? emission(scene, *x) : scene.sky;
     if (is_black(v.Le)) return v;
     size_t i = static_cast<size_t>(x ? x->light : scene.sky_light);
     v.type = scene.lights[i].type;
-    float pmf = pmf_light(endpoints.lights, i), sides = scene.lights[i].two_sided ? 2 : 1;
-    v.pdf = pmf * (x ? pdf_area(scene, i) / sides : 1 / (4 * pi * scene.radius * scene.radius));
+    float pmf = (1 - p_image) * pmf_light(endpoints.lights, i);
+    float sides = scene.lights[i].two_sided ? 2 : 1;
+    v.pdf = pmf * (x ? pdf_area(scene, i) / sides : 1 / (4 * pi * R * R));
     return v;
 }
 
@@ -78,16 +85,16 @@ inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool fro
 
 /// A path from a light; its first vertex is the point on the light.
 inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sampler& sampler,
-                          Recorder& recorder) {
+                          Recorder& recorder, float time = 0) {
     // Choose a light, a point on it and a direction.
-    if (scene.lights.empty()) return {};
+    if (scene.lights.empty() && endpoints.p_image == 0) return {};
     double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     recorder.start_at_light(e.y.p);
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w));
-    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
+    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d, infinity, time};
     Path path = random_walk(scene, endpoints, true, ray, sampler, recorder);
     for (Vertex& v : path) v.beta = flux * v.beta;
     float R = scene.radius, pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
@@ -177,18 +184,6 @@ inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Pa
     return sum > 0 ? static_cast<float>(1 / sum) : 0;
 }
 
-/// t = 1: connects y, the last vertex from the light, to the camera.      flux f cos We V / d^2
-inline Splat connect_to_camera(const Scene& scene, const Pinhole& camera, const Vertex& y) {
-    Vec3 away = y.x.p - camera.view.o;
-    std::optional<CameraImportance> importance = camera_importance(camera, away);
-    if (!importance) return {0, {}};
-    float d = length(away);
-    Vec3 wo = -1 / d * away;
-    Rgb L = y.beta * adjoint_bsdf(scene, y.x, y.back, wo) * (importance->We_cos / (d * d));
-    bool hidden = is_black(L) || occluded(scene, spawn_ray(y.x, wo, d));
-    return {importance->pixel, hidden ? Rgb{} : L};
-}
-
 /// s > 0, t > 1: connects y, the last vertex from the light, with z, the last one from the eye.
 ///
 ///   L = beta_z f_z cos_z  V / d^2  f_y cos_y beta_y,    s = 1: without f_y
@@ -215,12 +210,14 @@ inline Rgb connect(const Scene& scene, const Vertex& y, const Vertex& z, int s) 
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
     // Walk from a light (with sampler dimensions of its own) and from the eye.
+    if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
+    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
     sampler.jump(1 << 12);
-    Path light = light_subpath(scene, endpoints, sampler, recorder);
+    Path light = light_subpath(scene, endpoints, sampler, recorder, ray.time);
     sampler.jump(8);
     recorder.start_at_eye();
     Path eye = random_walk(scene, endpoints, false, ray, sampler, recorder);
-    eye[0].x.p = ray.o;
+    eye[0].x.p = ray.o, eye[0].connectible = scene.camera.lens_radius == 0;
 
     // Connect every vertex of one path to every vertex of the other.
     Rgb sum;
@@ -231,9 +228,10 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats
             size_t i = static_cast<size_t>(s);
             if (!can_make(path, i)) continue;
             Splat splat = {Contribution::own_pixel, {}};
-            if (s == 0) splat.L = path[0].beta * path[0].Le;
-            if (s > 0 && t > 1) splat.L = connect(scene, path[i - 1], path[i], s);
-            if (t == 1) splat = connect_to_camera(scene, endpoints.camera, path[i - 1]);
+            const Vertex& y = path[i > 0 ? i - 1 : 0];
+            if (s == 0) splat.L = y.beta * y.Le;
+            if (s > 0 && t > 1) splat.L = connect(scene, y, path[i], s);
+            if (t == 1) splat = connect_to_camera(scene, endpoints.camera, y.x, y.back, y.beta);
             if (is_black(splat.L)) continue;
 
             // Multiply by the MIS weight of this strategy.

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
             argc, argv, "21_bidirectional", "scenes/cornell-spheres.pbrt", {strategy, pyramid});
         options.search = LightSearch::both_ends;
         options.strategy = alone, options.unweighted = !alone.empty();
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(21));
         if (!sheet.empty())
             write_image(sheet, ch21::pyramid(scene, options),
                         comment_of(notes_of(label_of(scene, options), scene.spp)));

@@ -3,7 +3,6 @@
 //
 //   sum over i < s of p_i / p_s  =  r_s-1 (c_s-1 + r_s-2 (c_s-2 + r_s-3 (c_s-3 + ...)))
 #pragma once
-#include "common/path/many_lights.h"
 #include "common/path/subpaths.h"
 
 namespace ch22 {
@@ -117,8 +116,8 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
     if (s == 0) return {Contribution::own_pixel, z.beta * z.Le};
     const Vertex& y = light[s - 1];
     if ((s > 1 && !y.connectible) || !z.connectible) return {Contribution::own_pixel, {}};
-    if (t == 1) return connect_to_camera(scene, endpoints.camera, y);
-    return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
+    if (t > 1) return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
+    return connect_to_camera(scene, endpoints.camera, y.x, y.back, y.beta);
 }
 
 /// Direct light at the first vertex from the eye (neither mirror nor glass), as in chapter 15: from
@@ -144,8 +143,8 @@ inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, c
     return L + many_lights::direct_light(scene, lights, c, u, recorder);
 }
 
-/// Whether light that reaches the t-th vertex from the eye via mirrors or glass is found only by
-/// random hits: no two vertices of such a path can be connected.
+/// Whether no connection finds light that reaches the t-th vertex from the eye via mirrors or
+/// glass.
 inline bool only_chance(const Subpath& eye, size_t t) {
     const Path& path = eye.path;
     return t > 2 && path[t - 1].connectible && !path[t - 2].connectible && eye.kept[t - 1].sum == 0;
@@ -185,7 +184,7 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
             std::optional<Hit> y = intersect(scene, spawn_ray(v.x, s.wi));
             recorder.vertex(y);
             if (n > t + 1) {
-                Rgb Le = y ? emission(scene, *y) : scene.sky;
+                Rgb Le = y ? emission(scene, *y) : sky_towards(scene, s.wi);
                 Rgb L = v.beta * Le / static_cast<float>(chances);
                 sum += L;
                 recorder.connected(L, 0, n, 1.0f / static_cast<float>(chances));
@@ -201,18 +200,19 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
 ///
 ///   L = sum over s >= 0, t >= 1 of  mis_s,t  (path of s vertices from the light, t from the eye)
 ///
-/// Unbiased up to scene.max_depth scattering events. By the weights alone: chapter 21.
-/// tested by  "ch22 fast bidirectional", within 5 standard errors
+/// Unbiased up to max_depth.      tested by  "ch22 fast bidirectional", within 5 standard errors
 inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
     // Walk from a light and from the eye as in chapter 21; add the sums to both walks.
     const Endpoints& endpoints = settings.endpoints;
+    if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
+    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
     sampler.jump(1 << 12);
-    Subpath light = {true, light_subpath(scene, endpoints, sampler, recorder)};
+    Subpath light = {true, light_subpath(scene, endpoints, sampler, recorder, ray.time)};
     sampler.jump(8);
     recorder.start_at_eye();
     Subpath eye = {false, random_walk(scene, endpoints, false, ray, sampler, recorder)};
-    eye.path[0].x.p = ray.o;
+    eye.path[0].x.p = ray.o, eye.path[0].connectible = scene.camera.lens_radius == 0;
     place_light(scene, eye.path.back(), *(eye.path.end() - 2));
     if (light.path.size() > 1) place_light(scene, light.path[0], light.path[1]);
     add_sums(scene, endpoints, light);
@@ -220,7 +220,8 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
 
     // Connect every vertex of one path to every vertex of the other.
     Rgb sum;
-    bool direct = settings.light_sampling && scene.max_depth > 0 && eye.path[1].connectible;
+    bool direct = settings.light_sampling && !scene.sky_image && scene.max_depth > 0 &&
+                  eye.path[1].connectible;
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
     for (size_t t = 1; t <= eye.path.size(); t++) {
         for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
@@ -239,11 +240,10 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
     }
 
     // Take more samples of light that only random hits find.
-    for (size_t t = eye.path.size(); t > 2 && settings.chances > 0; t--) {
-        if (!only_chance(eye, t)) continue;
-        int number = static_cast<int>(t);
-        sum += through_mirrors(scene, eye.path[t - 1], number, settings.chances, sampler, recorder);
-    }
+    for (size_t t = eye.path.size(); t > 2 && settings.chances > 0; t--)
+        if (only_chance(eye, t))
+            sum += through_mirrors(scene, eye.path[t - 1], static_cast<int>(t), settings.chances,
+                                   sampler, recorder);
     return direct ? sum + direct_light(scene, settings.lights, eye.path, sampler, recorder) : sum;
 }
 

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "22_fast_bidirectional", "scenes/cornell-spheres.pbrt",
                                  {chances_option, direct_by});
         options.search = LightSearch::both_ends;
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(22));
         return render(scene, options,
                       splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, light_sampling)));
     });

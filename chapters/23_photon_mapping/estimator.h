@@ -10,6 +10,7 @@
 #include "common/base/parallel.h"
 #include "common/light/pdf_one_light.h"
 #include "common/path/camera_sample.h"
+#include "common/path/lens.h"
 #include "common/path/light_paths.h"
 #include "common/path/mis.h"
 #include "common/path/roulette.h"
@@ -17,7 +18,7 @@
 
 namespace ch23 {
 
-using glossy_bsdf::pdf_bsdf;
+using glossy_bsdf::pdf_bsdf, sky_light::image_emission, sky_light::image_light;
 
 /// What the user asks for.
 struct PhotonSettings {
@@ -38,7 +39,7 @@ struct PhotonSettings {
 /// tested by  "truth: irradiance of all lights, by photons alone", within 5 standard errors + 0.3 %
 inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int paths,
                              Sampler& sampler, std::vector<LightVertex>& vertices) {
-    if (scene.lights.empty()) return;
+    if (scene.lights.empty() && endpoints.p_image == 0) return;
     double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
@@ -151,6 +152,7 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
 /// source  Jensen 1996      tested by  "ch23 photon mapping", within 5 standard errors + 1 %
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMaps& maps, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
+    if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
     Rgb L, beta = {1, 1, 1};
     std::optional<Hit> last;  // the last vertex that is neither mirror nor glass
     float pdf_b = infinity;   // of the ray's direction; infinite after a mirror or the camera
@@ -165,6 +167,9 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
+        bool in_caustics = last && is_diffuse(*last->material) && pdf_b == infinity;
+        if (!x && !in_caustics)
+            L += beta * image_emission(scene, endpoints.image_cdf, ray.d, pdf_b, recorder);
         if (!x) return L;
         if (depth == scene.max_depth) {
             recorder.cut();
@@ -183,6 +188,10 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
         Vec3 wo = -ray.d;
         LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, endpoints, *x, wo, u, recorder);
+        if (scene.sky_image) {
+            LightNumbers u_image = {to_unit_double(sampler.u2()), sampler.u2()};
+            L += beta * image_light(scene, endpoints.image_cdf, *x, wo, u_image, recorder);
+        }
 
         // Sample the BSDF for the next direction.
         float u1 = sampler.u1();

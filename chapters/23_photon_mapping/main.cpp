@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
         RenderOptions options = parse_render_options(argc, argv, "23_photon_mapping",
                                                      "scenes/pool.pbrt", std::move(extra));
         options.search = LightSearch::photons;
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(23));
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch23::photon_passes(scene, s));
     });

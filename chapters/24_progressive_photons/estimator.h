@@ -6,13 +6,14 @@
 #include <memory>
 
 #include "common/light/pdf_one_light.h"
+#include "common/path/lens.h"
 #include "common/path/mis.h"
 #include "common/path/photons.h"
 #include "common/path/trace.h"
 
 namespace ch24 {
 
-using glossy_bsdf::pdf_bsdf;
+using glossy_bsdf::pdf_bsdf, sky_light::image_emission, sky_light::image_light;
 
 /// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.
 inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
@@ -79,6 +80,7 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
 /// source  Knaus, Zwicker 2011      tested by  "ch24 progressive photons", exactly as in 23
 inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMaps& maps, Ray ray,
                  Sampler& sampler, Recorder& recorder) {
+    if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
     Rgb L, beta = {1, 1, 1};
     std::optional<Hit> last;  // the last vertex that is neither mirror nor glass
     float pdf_b = infinity;   // of the ray's direction; infinite after a mirror or the camera
@@ -93,6 +95,9 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
+        bool in_caustics = last && is_diffuse(*last->material) && pdf_b == infinity;
+        if (!x && !in_caustics)
+            L += beta * image_emission(scene, endpoints.image_cdf, ray.d, pdf_b, recorder);
         if (!x) return L;
         if (depth == scene.max_depth) {
             recorder.cut();
@@ -111,6 +116,10 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
         Vec3 wo = -ray.d;
         LightNumbers u = {to_unit_double(sampler.u2()), sampler.u2()};
         L += beta * direct_light(scene, endpoints, *x, wo, u, recorder);
+        if (scene.sky_image) {
+            LightNumbers u_image = {to_unit_double(sampler.u2()), sampler.u2()};
+            L += beta * image_light(scene, endpoints.image_cdf, *x, wo, u_image, recorder);
+        }
 
         // Sample the BSDF for the next direction.
         float u1 = sampler.u1();

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
         RenderOptions options = parse_render_options(argc, argv, "24_progressive_photons",
                                                      "scenes/pool.pbrt", std::move(extra));
         options.search = LightSearch::photons;
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(24));
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch24::photon_passes(scene, s));
     });

@@ -70,9 +70,7 @@ inline double sum_of_fewer(const Merging& merging, const Subpath& walk, size_t n
     return static_cast<double>(pdf / own_pdf) * sum;
 }
 
-/// The weight of connection (s, t): the balance heuristic, in constant time.
-///
-///   mis_s = p_s / sum over all connections and merges of p_i
+/// The weight of connection (s, t):      mis_s = p_s / sum over all connections and merges of p_i
 /// tested by  "identity: weights of connections and merges are ...", within 5e-3, on average 2e-5
 inline float mis_weight(const Scene& scene, const Merging& merging, const Subpath& light, size_t s,
                         const Subpath& eye, size_t t) {
@@ -149,18 +147,19 @@ inline Subpath walk_from_light(const Scene& scene, const Merging& merging, Sampl
 inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& splats,
                  Sampler& sampler, Recorder& recorder) {
     // Walk from a light and from the eye as in chapter 22.
+    if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
     sampler.jump(1 << 12);
     Subpath light = walk_from_light(scene, merging, sampler, recorder);
     sampler.jump(8);
     recorder.start_at_eye();
     Subpath eye = {false, random_walk(scene, merging.endpoints, false, ray, sampler, recorder)};
-    eye.path[0].x.p = ray.o;
+    eye.path[0].x.p = ray.o, eye.path[0].connectible = scene.camera.lens_radius == 0;
     place_light(scene, eye.path.back(), *(eye.path.end() - 2));
     add_sums(scene, merging, eye);
 
     // Connect every vertex of one path to every vertex of the other.
     Rgb sum;
-    bool direct = scene.max_depth > 0 && eye.path[1].connectible;
+    bool direct = scene.max_depth > 0 && !scene.sky_image && eye.path[1].connectible;
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
     for (size_t t = 1; t <= eye.path.size(); t++) {
         for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
         RenderOptions options = parse_render_options(argc, argv, "25_vertex_merging",
                                                      "scenes/sds.pbrt", std::move(extra));
         options.search = LightSearch::merging;
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(25));
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch25::merging_passes(scene, s));
     });

@@ -26,9 +26,8 @@ inline std::vector<double> image_cdf(const SkyImage& image, bool compensate) {
     double mean = compensate ? (1 + 1e-6) * light / sphere : 0;
     for (size_t i = 0; i < image.pixels.size(); i++)
         cdf.push_back(cdf[i] + std::max(0.0, double{average(image.pixels[i])} - mean) * w[i]);
-    double sum = cdf.back();
-    if (sum > 0)
-        for (double& c : cdf) c /= sum;
+    double sum = cdf.back() > 0 ? cdf.back() : 1;
+    for (double& c : cdf) c /= sum;
     return cdf;
 }
 
@@ -48,36 +47,36 @@ inline float pdf_image(const SkyImage& image, const std::vector<double>& cdf, si
     return static_cast<float>(pmf * pixels) / solid_angle_per_area(image, uv);
 }
 
-/// Estimates the image's light that x scatters to wo, from a point of one pixel. Rounding may move
-/// the point into the next pixel, which may be black: Le and pdf are those of the sampled pixel.
-///
-///   Ld = mis_l f Le V cos / pdf_l      0 for an image of one colour
+/// Samples a direction. Le and pdf_w are the pixel's, even if rounding moves the point out of it.
+inline LightSample sample_image(const SkyImage& image, const std::vector<double>& cdf, double u,
+                                Vec2 u2) {
+    size_t i = static_cast<size_t>(std::upper_bound(&cdf[1], &cdf.back(), u) - &cdf[1]);
+    Vec2 uv = image.point_in(i, u2);
+    return {direction_of(image, uv), image.pixels[i], infinity, pdf_image(image, cdf, i, uv)};
+}
+
+/// Estimates the image's light that x scatters to wo; 0 for an image of one colour.
+///   Ld = mis_l f Le V cos / pdf_l
 /// tested by  "truth: skies of known irradiance", within 5 standard errors + 0.1 %
-inline Rgb image_light(const Scene& scene, const LightsAndSky& lights, const Hit& x, Vec3 wo,
+inline Rgb image_light(const Scene& scene, const std::vector<double>& cdf, const Hit& x, Vec3 wo,
                        LightNumbers u, Recorder& recorder) {
-    const std::vector<double>& cdf = lights.image_cdf;
     if (is_specular(*x.material) || cdf.back() == 0) return {};
-    const SkyImage& image = *scene.sky_image;
-    auto chosen = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u.light) - cdf.begin() - 1;
-    size_t i = static_cast<size_t>(chosen);
-    Vec2 uv = image.point_in(i, u.point);
-    Vec3 wi = direction_of(image, uv);
-    float pdf_l = pdf_image(image, cdf, i, uv), pdf_b = pdf_bsdf(x, wo, wi);
-    float mis_l = power_heuristic(pdf_l, pdf_b);
-    Rgb Ld = eval_bsdf(x, wo, wi) * image.pixels[i] * (mis_l * dot(wi, x.n) / pdf_l);
-    if (is_black(Ld) || occluded(scene, spawn_ray(x, wi))) return {};
-    recorder.direct(Ld, wi, pdf_l, pdf_b, mis_l);
+    LightSample y = sample_image(*scene.sky_image, cdf, u.light, u.point);
+    float pdf_b = pdf_bsdf(x, wo, y.wi), mis_l = power_heuristic(y.pdf_w, pdf_b);
+    Rgb Ld = eval_bsdf(x, wo, y.wi) * y.Le * (mis_l * dot(y.wi, x.n) / y.pdf_w);
+    if (is_black(Ld) || occluded(scene, spawn_ray(x, y.wi))) return {};
+    recorder.direct(Ld, y.wi, y.pdf_w, pdf_b, mis_l);
     return Ld;
 }
 
 /// The image's radiance in direction wi, in which the path left the scene, times mis_b. pdf_b: the
 /// density of wi; infinite if light sampling cannot sample wi, so that mis_b = 1.
-inline Rgb image_emission(const Scene& scene, const LightsAndSky& lights, Vec3 wi, float pdf_b,
+inline Rgb image_emission(const Scene& scene, const std::vector<double>& cdf, Vec3 wi, float pdf_b,
                           Recorder& recorder) {
     if (!scene.sky_image) return {};
     Vec2 uv = point_of(*scene.sky_image, wi);
     size_t i = scene.sky_image->pixel_at(uv);
-    float mis_b = power_heuristic(pdf_b, pdf_image(*scene.sky_image, lights.image_cdf, i, uv));
+    float mis_b = power_heuristic(pdf_b, pdf_image(*scene.sky_image, cdf, i, uv));
     recorder.emitted(scene.sky_image->pixels[i], mis_b);
     return scene.sky_image->pixels[i] * mis_b;
 }

@@ -1,12 +1,14 @@
 // taught by chapter 20
 // Paths from lights: how they start, scatter, and connect to the camera.
 #pragma once
-#include "common/light/light_table.h"
-#include "common/material/ggx.h"
+#include "common/path/image_light.h"
+#include "common/path/lens.h"
+#include "common/path/splats.h"
 #include "common/scene/camera.h"
 #include "common/scene/smooth_normal.h"
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::sample_bsdf;
+using sky_light::pdf_image, sky_light::sample_image;
 
 /// The camera, as connections from light paths need it.
 struct Pinhole {
@@ -60,13 +62,15 @@ inline std::optional<CameraImportance> camera_importance(const Pinhole& camera, 
 /// The ends of paths: the camera, and the table of lights (3/4 by power, 1/4 uniform).
 struct Endpoints {
     LightTable lights;
-    Vec3 centre;  // of the scene
     Pinhole camera;
+    std::vector<double> image_cdf = {};  // of the sky, as in chapter 17
+    double p_image = 0;                  // probability that a path starts there
 };
 inline Endpoints endpoints_of(const Scene& scene) {
-    Box box = bounds_of(scene.geometry);
     LightTable lights = build_light_table(light_pmf(scene, 0.25));  // as in chapter 11
-    return {lights, (box.low + box.high) / 2, pinhole_of(scene)};
+    std::vector<double> cdf = sky_light::prepare(scene, 1, false).image_cdf;
+    double p_image = cdf.empty() || cdf.back() == 0 ? 0 : lights.empty() ? 1 : 0.5;
+    return {lights, pinhole_of(scene), cdf, p_image};
 }
 
 /// A ray that leaves a light: its origin, direction, densities and radiance.
@@ -89,13 +93,23 @@ inline Vec3 sample_sphere(Vec2 u) {
 ///   area     any point, cosine direction:   pdf = 1 / A, cos / pi       (both sides: 1 / 2A)
 ///   point    any direction:                 pdf = 1, 1 / (4 pi)
 ///   distant  a point of the scene's disk:   pdf = 1 / (pi R^2), 1
-///   sky      such a point, any direction:   pdf = 1 / (pi R^2), 1 / (4 pi)
+///   sky      such a point, any direction:   pdf = 1 / (pi R^2), 1 / (4 pi)   (image: pdf_image)
 /// tested by  "identity: each light sends out its power", to 1e-4
 inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, double u, Vec2 u_y,
                                 Vec2 u_d) {
-    size_t i = pick_light(endpoints.lights, u);
+    auto far = [&](LightType type, float pmf, const LightSample& y) -> Emission {
+        float R = scene.radius;
+        Vec3 d = -y.wi, disk = from_cylindrical(R * std::sqrt(u_y.x), u_y.y, -R);
+        LightPoint p = {scene.centre + Frame(d).to_world(disk), d, 0, 1 / (pi * R * R)};
+        return {type, p, d, pmf, y.pdf_w, y.Le};
+    };
+    double q = endpoints.p_image;
+    if (u < q)
+        return far(LightType::infinite, static_cast<float>(q),
+                   sample_image(*scene.sky_image, endpoints.image_cdf, u / q, u_d));
+    size_t i = pick_light(endpoints.lights, (u - q) / (1 - q));
     const Light& light = scene.lights[i];
-    float pmf = pmf_light(endpoints.lights, i), R = scene.radius;
+    float pmf = static_cast<float>(1 - q) * pmf_light(endpoints.lights, i);
     if (light.type == LightType::point)
         return {light.type, {light.p, {}, 0, 1}, sample_sphere(u_d), pmf, 1 / (4 * pi), light.L};
     if (light.type == LightType::area) {
@@ -105,14 +119,10 @@ inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, 
         if (light.two_sided) y.pdf /= 2;
         if (back) y.n = -y.n;
         Vec3 d = sample_cosine_hemisphere(u_d);
-        float pdf_w = pdf_cosine_hemisphere(d.z);
-        return {light.type, y, Frame(y.n).to_world(d), pmf, pdf_w, light.L};
+        return {light.type, y, Frame(y.n).to_world(d), pmf, pdf_cosine_hemisphere(d.z), light.L};
     }
-    bool sky = light.type == LightType::infinite;
-    Vec3 d = sky ? sample_sphere(u_d) : -light.p;
-    Vec3 disk = from_cylindrical(R * std::sqrt(u_y.x), u_y.y, -R);
-    Vec3 p = endpoints.centre + Frame(d).to_world(disk);
-    return {light.type, {p, d, 0, 1 / (pi * R * R)}, d, pmf, sky ? 1 / (4 * pi) : 1, light.L};
+    if (light.type == LightType::distant) return far(light.type, pmf, {light.p, light.L, 0, 1});
+    return far(light.type, pmf, {-sample_sphere(u_d), light.L, 0, 1 / (4 * pi)});
 }
 
 /// x with its normals turned to the side of direction w.
@@ -136,6 +146,21 @@ inline Rgb adjoint_bsdf(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
 }
 
+/// Connects x, where flux arrives from wi, to the camera.      flux f cos We V / d^2
+///
+/// Mirrors and glass: nothing, since their f is 0 in the direction of the pinhole.
+inline Splat connect_to_camera(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi,
+                               Rgb flux) {
+    Vec3 away = x.p - camera.view.o;
+    std::optional<CameraImportance> importance = camera_importance(camera, away);
+    if (!importance || is_specular(*x.material)) return {};
+    float d = length(away);
+    Vec3 wo = -1 / d * away;
+    Rgb L = flux * adjoint_bsdf(scene, x, wi, wo) * (importance->We_cos / (d * d));
+    if (is_black(L) || occluded(scene, spawn_ray(x, wo, d))) return {};
+    return {importance->pixel, L};
+}
+
 /// Samples the direction in which light from wi leaves x; s.f holds f cos of the adjoint BSDF.
 /// Refraction scales radiance by 1 / eta^2, but not flux: that factor is removed again.
 /// source  Veach 1997, sec. 5.2
@@ -145,10 +170,8 @@ inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, f
     if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // to sample every possible wo
     BsdfSample s = sample_bsdf(y, wi, u1, u2);
     if (s.pdf_w == 0) return s;
-    if (!s.specular) {
-        s.f = adjoint_bsdf(scene, x, wi, s.wi);
-        return s;
-    }
+    if (!s.specular) s.f = adjoint_bsdf(scene, x, wi, s.wi);
+    if (!s.specular) return s;
     bool through = dot(s.wi, x.ng) < 0;
     float eta = x.front ? x.material->ior : 1 / x.material->ior;
     s.f *= std::abs(dot(wi, x.n) / dot(wi, x.ng) * dot(s.wi, x.ng)) * (through ? eta * eta : 1);

@@ -26,7 +26,7 @@ struct PhotonSettings {
 /// tested by  "truth: irradiance of all lights, by photons alone", within 5 standard errors + 0.3 %
 inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int paths,
                              Sampler& sampler, std::vector<LightVertex>& vertices) {
-    if (scene.lights.empty()) return;
+    if (scene.lights.empty() && endpoints.p_image == 0) return;
     double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());

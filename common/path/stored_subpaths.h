@@ -34,8 +34,8 @@ inline Splat unweighted(const Scene& scene, const Endpoints& endpoints, const Pa
     if (s == 0) return {Contribution::own_pixel, z.beta * z.Le};
     const Vertex& y = light[s - 1];
     if ((s > 1 && !y.connectible) || !z.connectible) return {Contribution::own_pixel, {}};
-    if (t == 1) return connect_to_camera(scene, endpoints.camera, y);
-    return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
+    if (t > 1) return {Contribution::own_pixel, connect(scene, y, z, static_cast<int>(s))};
+    return connect_to_camera(scene, endpoints.camera, y.x, y.back, y.beta);
 }
 
 /// Direct light at the first vertex from the eye (neither mirror nor glass), as in chapter 15: from

@@ -3,9 +3,6 @@
 #pragma once
 #include "common/path/light_paths.h"
 #include "common/path/roulette.h"
-#include "common/path/sampler.h"
-#include "common/path/splats.h"
-#include "common/recording/recorder.h"
 
 /// A vertex of a path: on a surface, on a light, in the sky, or at the pinhole.
 struct Vertex {
@@ -28,12 +25,21 @@ inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const st
                         const Ray& ray, Rgb beta) {
     Vertex v{x ? *x : Hit{}, -ray.d, beta, x && !is_specular(*x->material), {}};
     if (!x) v.x.ng = -ray.d;
+    float R = scene.radius, p_image = static_cast<float>(endpoints.p_image);
+    if (!x && scene.sky_image) {
+        Vec2 uv = point_of(*scene.sky_image, ray.d);
+        size_t pixel = scene.sky_image->pixel_at(uv);
+        v.Le = scene.sky_image->pixels[pixel], v.type = LightType::infinite;
+        v.pdf = p_image * pdf_image(*scene.sky_image, endpoints.image_cdf, pixel, uv) / (R * R);
+        return v;
+    }
     v.Le = x ? emission(scene, *x) : scene.sky;
     if (is_black(v.Le)) return v;
     size_t i = static_cast<size_t>(x ? x->light : scene.sky_light);
     v.type = scene.lights[i].type;
-    float pmf = pmf_light(endpoints.lights, i), sides = scene.lights[i].two_sided ? 2 : 1;
-    v.pdf = pmf * (x ? pdf_area(scene, i) / sides : 1 / (4 * pi * scene.radius * scene.radius));
+    float pmf = (1 - p_image) * pmf_light(endpoints.lights, i);
+    float sides = scene.lights[i].two_sided ? 2 : 1;
+    v.pdf = pmf * (x ? pdf_area(scene, i) / sides : 1 / (4 * pi * R * R));
     return v;
 }
 
@@ -75,16 +81,16 @@ inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool fro
 
 /// A path from a light; its first vertex is the point on the light.
 inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sampler& sampler,
-                          Recorder& recorder) {
+                          Recorder& recorder, float time = 0) {
     // Choose a light, a point on it and a direction.
-    if (scene.lights.empty()) return {};
+    if (scene.lights.empty() && endpoints.p_image == 0) return {};
     double u = to_unit_double(sampler.u2());
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     recorder.start_at_light(e.y.p);
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w));
-    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d};
+    Ray ray = {e.y.p + e.y.eps * e.y.n, e.d, infinity, time};
     Path path = random_walk(scene, endpoints, true, ray, sampler, recorder);
     for (Vertex& v : path) v.beta = flux * v.beta;
     float R = scene.radius, pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
@@ -112,18 +118,6 @@ inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3
 /// The density, in sr^-1, with which a light emits along w. Far lights: 1 / pi, for a disk of rays.
 inline float pdf_emission(const Vertex& light, Vec3 w) {
     return light.type == LightType::point ? 1 / (4 * pi) : std::abs(dot(w, light.x.ng)) / pi;
-}
-
-/// t = 1: connects y, the last vertex from the light, to the camera.      flux f cos We V / d^2
-inline Splat connect_to_camera(const Scene& scene, const Pinhole& camera, const Vertex& y) {
-    Vec3 away = y.x.p - camera.view.o;
-    std::optional<CameraImportance> importance = camera_importance(camera, away);
-    if (!importance) return {0, {}};
-    float d = length(away);
-    Vec3 wo = -1 / d * away;
-    Rgb L = y.beta * adjoint_bsdf(scene, y.x, y.back, wo) * (importance->We_cos / (d * d));
-    bool hidden = is_black(L) || occluded(scene, spawn_ray(y.x, wo, d));
-    return {importance->pixel, hidden ? Rgb{} : L};
 }
 
 /// s > 0, t > 1: connects y, the last vertex from the light, with z, the last one from the eye.

@@ -24,6 +24,22 @@ Scene load_and_tell(const RenderOptions& options, const Report& report, LoadingP
     return load_scene(options.scene, &notes.lines, report, options.stand_in);
 }
 
+/// The chapters that render scenes with this feature, such as "16 to 19, 23 and 24".
+std::string chapters_with(bool Features::*feature) {
+    std::vector<std::string> parts;
+    for (int first = 1, last; first <= 26; first = last + 1) {
+        for (last = first; features_of(last).*feature && features_of(last + 1).*feature;) last++;
+        if (!(features_of(first).*feature)) continue;
+        parts.push_back(std::to_string(first));
+        if (last > first + 1) parts.back() += " to " + std::to_string(last);
+        if (last == first + 1) parts.push_back(std::to_string(last));
+    }
+    std::string text = parts[0];
+    for (size_t i = 1; i < parts.size(); i++)
+        text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
+    return text;
+}
+
 }  // namespace
 
 Scene load(const RenderOptions& options, Features features) {
@@ -72,24 +88,26 @@ void refuse_glossy(const Scene& scene) {
 
 void refuse_features(const Scene& scene, Features features) {
     const Camera& camera = scene.camera;
-    if (features < Features::lens_and_shutter && camera.lens_radius > 0) {
-        fail({scene.file, camera.line, camera.column},
-             "only chapters 16 to 19 have a lens: lensradius must be 0");
+    if (!features.lens && camera.lens_radius > 0) {
+        fail({scene.file, camera.line, camera.column}, "only chapters " +
+                                                           chapters_with(&Features::lens) +
+                                                           " have a lens: lensradius must be 0");
     }
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
-        if (features >= Features::dispersion || m.glass == nullptr) continue;
+        if (features.dispersion || m.glass == nullptr) continue;
         char eta[32];
         std::snprintf(eta, sizeof eta, "%.5g", double{m.ior});
-        fail({scene.file, m.line, m.column},
-             std::string("glass disperses in chapters 18 and 19 only: try \"float eta\" ") + eta);
+        fail({scene.file, m.line, m.column}, "glass disperses in chapters " +
+                                                 chapters_with(&Features::dispersion) +
+                                                 " only: try \"float eta\" " + eta);
     }
-    if (features < Features::lens_and_shutter && !scene.movers.empty()) {
+    if (!features.shutter && !scene.movers.empty()) {
         fail({scene.file, scene.movers[0].line, scene.movers[0].column},
-             "shapes move in chapters 16 to 19 only");
+             "shapes move in chapters " + chapters_with(&Features::shutter) + " only");
     }
-    if (features < Features::sky_image && scene.sky_image) {
+    if (!features.sky_image && scene.sky_image) {
         fail({scene.file, scene.sky_image->line, scene.sky_image->column},
-             "the sky has an image in chapters 17 to 19 only");
+             "the sky has an image in chapters " + chapters_with(&Features::sky_image) + " only");
     }
 }

@@ -3,14 +3,23 @@
 #include "common/program/options.h"
 #include "common/scene/scene.h"
 
-/// The scene features that chapters 16, 17 and 18 add; each includes those before it.
-enum class Features { none, lens_and_shutter, sky_image, dispersion };
+/// Those features of scenes that not all chapters render.
+struct Features {
+    bool lens = false, shutter = false, sky_image = false, dispersion = false;
+};
+constexpr Features features_of(int chapter) {
+    auto within = [&](int first, int last) { return first <= chapter && chapter <= last; };
+    return {.lens = within(16, 19) || within(21, 25),
+            .shutter = within(16, 22),
+            .sky_image = within(17, 25),
+            .dispersion = within(18, 19)};
+}
 
 /// Reads and prepares the scene that the options name. Size, samples and depth in the options
 /// replace those of the scene.
 ///
 /// Throws for what refuse_features() names.
-Scene load(const RenderOptions& options, Features features = Features::none);
+Scene load(const RenderOptions& options, Features features = {});
 
 /// Throws InputError if the scene has a point or distant light: a path that finds light only by
 /// random hits never finds it.

@@ -31,6 +31,7 @@ Rgb path_by_nearly_mirrors(const Scene& scene, const Endpoints& endpoints, doubl
     Vec2 u_y = sampler.u2();
     Emission e = sample_emission(scene, endpoints, u, u_y, sampler.u2());
     if (e.type == LightType::infinite) return {};  // no light is larger
+    u = (u - endpoints.p_image) / (1 - endpoints.p_image);
     const LightShape& shape = scene.light_shapes[pick_light(endpoints.lights, u)];
     double area = meets_lights && e.type == LightType::area ? double{shape.area} : 0;
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);

@@ -158,3 +158,8 @@ inline Rgb emission(const Scene& scene, const Hit& x) {
     const Light& light = scene.lights[static_cast<size_t>(x.light)];
     return x.front || light.two_sided ? light.L : Rgb{};
 }
+/// The radiance of the sky in direction wi.
+inline Rgb sky_towards(const Scene& scene, Vec3 wi) {
+    if (!scene.sky_image) return scene.sky;
+    return scene.sky_image->at(point_of(*scene.sky_image, wi));
+}

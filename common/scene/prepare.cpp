@@ -29,6 +29,11 @@ void prepare(Scene& scene, int threads, const Report& report) {
         if (scene.sky_light < 0) scene.sky_light = static_cast<int>(i);
         light.L = {};
     }
+    if (scene.sky_image) {
+        // One sky: the image.
+        for (Rgb& L : scene.sky_image->pixels) L += scene.sky;
+        scene.sky = {};
+    }
     if (scene.sky_light >= 0) scene.lights[static_cast<size_t>(scene.sky_light)].L = scene.sky;
 
     if (report) report("preparing lights and surfaces", 0);
@@ -42,6 +47,7 @@ void prepare(Scene& scene, int threads, const Report& report) {
     }
     bool empty = scene.geometry.size() == 0 && scene.movers.empty();
     scene.radius = empty ? 0 : length(box.high - box.low) / 2;
+    scene.centre = (box.low + box.high) / 2;
     scene.light_shapes = light_shapes_of(scene);
     scene.geometry.facet_normals = facet_normals(scene.geometry);
     scene.bvh = build_bvh(scene.geometry, threads, report);

@@ -87,10 +87,11 @@ struct Scene {
     std::vector<Axes> axes;
     std::vector<Light> lights;
     std::vector<LightShape> light_shapes;  // one for each light
-    float radius = 0;                      // m, of a sphere around all primitives
+    Vec3 centre;                           // of a sphere around all primitives
+    float radius = 0;                      // m, of that sphere
     int sky_light = -1;                    // the infinite light among them; -1: none
-    Rgb sky;                               // what all infinite lights send from any direction
-    std::optional<SkyImage> sky_image;     // what the sky sends beside that
+    Rgb sky;                               // what infinite lights send, if none has an image
+    std::optional<SkyImage> sky_image;     // else the sum of all infinite lights
     std::vector<Mover> movers;             // shapes that move; they do not shine
     bool moves_or_varies = false;          // has movers or textures; prepare() finds out
     Camera camera;

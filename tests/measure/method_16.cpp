@@ -14,7 +14,7 @@ static Method method(const char* name, const char* label, const char* color, Sam
                     if (sampler != SamplerType::independent) options.sampler = sampler;
                     return render(scene, options);
                 },
-            .features = Features::lens_and_shutter};
+            .features = features_of(16)};
 }
 
 [[maybe_unused]] static const bool added[] = {

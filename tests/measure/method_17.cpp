@@ -16,7 +16,7 @@ static Method method(const char* name, const char* label, const char* color,
                     if (sampler != SamplerType::independent) options.sampler = sampler;
                     return render(scene, options);
                 },
-            .features = Features::sky_image};
+            .features = features_of(17)};
 }
 
 [[maybe_unused]] static const bool added[] = {

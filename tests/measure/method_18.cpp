@@ -16,7 +16,7 @@ static Method method(const char* name, const char* label, const char* color, Sam
                     if (sampler != SamplerType::independent) options.sampler = sampler;
                     return render(scene, options);
                 },
-            .features = Features::dispersion};
+            .features = features_of(18)};
 }
 
 static Method by_chance() {
@@ -31,7 +31,7 @@ static Method by_chance() {
                     return trace_by_chance(scene, white, ray, sampler, recorder);
                 };
             }),
-            .features = Features::dispersion};
+            .features = features_of(18)};
 }
 
 [[maybe_unused]] static const bool added[] = {

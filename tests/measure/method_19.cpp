@@ -19,7 +19,7 @@ static Method method(const char* name, const char* label, const char* color, Sam
                         ch19::allocation(densities));
                 },
             .biased = judge == ch19::Judge::own,
-            .features = Features::dispersion};
+            .features = features_of(19)};
 }
 
 [[maybe_unused]] static const bool added[] = {

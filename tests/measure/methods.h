@@ -22,8 +22,8 @@ struct Method {
     std::vector<std::string> scenes = {};  // what its chapter is about, for make efficiency
     std::vector<void (*)(const Scene&)> refuse = {};  // throw InputError for what it cannot render
     std::function<Rendering(const Scene&, const RenderOptions&)> render = {};
-    bool biased = false;                 // on purpose
-    Features features = Features::none;  // of scenes, which it renders
+    bool biased = false;     // on purpose
+    Features features = {};  // of scenes, which it renders
 };
 
 /// Whether the method is a chapter with an option, and not the chapter as it is.
