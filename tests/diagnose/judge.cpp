@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <regex>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -166,11 +167,13 @@ Hypothesis with_factor(const Evidence& evidence, const std::set<std::string>& sc
     return h;
 }
 
-/// Whether a mistake predicts something of each scene that is off, and the mean of each scene.
+/// Whether a mistake predicts something of each scene that is off, and of each scene the mean and
+/// the tiles. Their chi^2 is at most 6 standard deviations too large: errors come from 16 pixels,
+/// so that chance makes it larger than normal errors would.
 bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
                  const std::vector<std::string>& off) {
     struct Sum {
-        double weights = 0, differences = 0, predictions = 0, squares = 0;
+        double weights = 0, differences = 0, predictions = 0, squares = 0, chi2 = 0, n = 0;
     };
     std::map<std::string, Sum> scenes;
     std::set<std::string> predicted;
@@ -183,26 +186,79 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
         double weight = 1 / (q.se * q.se + 1e-6);
         s.weights += weight, s.differences += weight * (q.mean - p.mean);
         s.predictions += weight * p.mean, s.squares += weight * weight * p.se * p.se;
+        double least = dark ? 1e-3 : 0.01 * std::max(p.mean, 0.3);
+        s.chi2 += std::pow((q.mean - p.mean) / std::hypot(q.se, p.se, least), 2), s.n++;
     }
     for (const auto& [name, s] : scenes) {
         double model = 0.01 * std::max(s.predictions / s.weights, 0.3);
         double error =
             std::hypot(1 / std::sqrt(s.weights), std::sqrt(s.squares) / s.weights, model);
         if (std::abs(s.differences / s.weights) > 5 * error) return false;
+        if (s.chi2 > s.n + 6 * std::sqrt(2 * s.n)) return false;
     }
     return std::all_of(off.begin(), off.end(),
                        [&](const std::string& name) { return predicted.contains(name); });
 }
 
+/// What a mistake makes of a number that was measured.
+Quantity prediction(const Hypothesis& h, const std::string& key) {
+    auto found = h.predicted.find(key);
+    if (found != h.predicted.end()) return found->second;
+    return {key.ends_with(" dark") ? 0.0 : 1.0, 0.002};
+}
+
+/// For each two known mistakes with the same words, the mixture of both that explains the evidence
+/// best. If they differ in a number of "times", this may be any number.      routine: the words
+std::vector<Hypothesis> mixtures(const std::vector<Hypothesis>& known, const Evidence& evidence) {
+    static const std::regex pattern("(.* )(1/)?([24])( times.*)");
+    auto number_of = [](const std::smatch& m) {
+        return m[2].matched ? 1 / std::stod(m[3]) : std::stod(m[3]);
+    };
+    std::vector<std::smatch> words(known.size());
+    for (size_t i = 0; i < known.size(); i++) std::regex_match(known[i].text, words[i], pattern);
+    std::vector<Hypothesis> all;
+    for (size_t i = 0; i < known.size(); i++)
+        for (size_t j = i + 1; j < known.size(); j++) {
+            std::string text = known[i].text, routine = text;
+            bool numbered = !words[i].empty() && !words[j].empty();
+            if (numbered) routine = words[i].str(1) + words[i].str(4);
+            if (numbered ? routine != words[j].str(1) + words[j].str(4) : text != known[j].text)
+                continue;
+            Evidence both = known[i].predicted;
+            both.insert(known[j].predicted.begin(), known[j].predicted.end());
+            double weights = 0, sum = 0;
+            for (const auto& [key, of_either] : both) {
+                Quantity q = evidence.at(key), p = prediction(known[i], key);
+                double weight = 1 / (q.se * q.se + 1e-4 * q.mean * q.mean + 1e-6);
+                double distance = prediction(known[j], key).mean - p.mean;
+                sum += weight * (q.mean - p.mean) * distance,
+                    weights += weight * distance * distance;
+            }
+            double t = weights > 0 ? sum / weights : 0;
+            if (numbered && text != known[j].text) {
+                double a = number_of(words[i]), b = number_of(words[j]);
+                double number = std::max(a + t * (b - a), 0.0);
+                t = (number - a) / (b - a);
+                text = words[i].str(1) + format("about %.2g", number) + words[i].str(4);
+            } else {
+                t = std::clamp(t, 0.0, 1.0);
+            }
+            Hypothesis h{routine, text, {}, true};
+            for (const auto& [key, of_either] : both) {
+                Quantity p = prediction(known[i], key), r = prediction(known[j], key);
+                double mean = p.mean + t * (r.mean - p.mean);
+                if (std::abs(mean - (key.ends_with(" dark") ? 0 : 1)) >= 0.004)
+                    h.predicted[key] = {mean, std::hypot((1 - t) * p.se, t * r.se)};
+            }
+            all.push_back(h);
+        }
+    return all;
+}
+
 /// Whether two predictions were not measured precisely enough to tell them apart.
 bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {
     for (const auto& [key, q] : evidence) {
-        auto of = [&](const Hypothesis& h) {
-            auto found = h.predicted.find(key);
-            return found == h.predicted.end() ? Quantity{key.ends_with(" dark") ? 0.0 : 1.0, 0.002}
-                                              : found->second;
-        };
-        Quantity p = of(a), r = of(b);
+        Quantity p = prediction(a, key), r = prediction(b, key);
         if (std::abs(p.mean - r.mean) > std::hypot(4 * p.se, 4 * r.se, 0.01 * p.mean) + 1e-3)
             return false;
     }
@@ -340,9 +396,19 @@ Diagnosis judge(const Folder& folder, const References& references,
     for (const Hypothesis& h : factors)
         if (!h.text.empty()) hypotheses.push_back(h);
     std::vector<std::string> best;
-    std::vector<Fit> fits = explanations(hypotheses, evidence, INFINITY);
-    std::erase_if(fits,
-                  [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });
+    auto fitting = [&] {
+        std::vector<Fit> fits = explanations(hypotheses, evidence, INFINITY);
+        std::erase_if(fits,
+                      [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });
+        return fits;
+    };
+    std::vector<Fit> fits = fitting();
+    if (fits.empty()) {
+        hypotheses = mixtures(hypotheses, evidence), fits = fitting();
+        std::set<std::string> families;  // the best of each
+        std::erase_if(
+            fits, [&](const Fit& fit) { return !families.insert(fit.hypothesis->routine).second; });
+    }
     for (const Fit& fit : fits) {
         const Hypothesis &h = *fit.hypothesis, &first = *fits[0].hypothesis;
         bool is_less_likely = fit.log_likelihood < fits[0].log_likelihood - std::log(1000);

@@ -4,6 +4,7 @@
 namespace planted {
 inline int mistake = 0;                     // its number in rows.tsv; 0: none
 inline bool cosine = false;                 // directions of chapters 07 and 09
+inline bool sky = false;                    // it is sampled by the cosine
 inline thread_local bool diffused = false;  // a diffuse surface has scattered this path
 }  // namespace planted
 
@@ -21,10 +22,12 @@ inline Vec2 one(Vec2 u) { return {u.x, u.x}; }
 inline Rgb clamped(Rgb c, float most) {
     return {std::min(c.r, most), std::min(c.g, most), std::min(c.b, most)};
 }
-/// Whether anything but glass lies on the ray.
-inline bool blocked(const Scene& scene, Ray ray) {
+/// Whether anything but glass (or a mirror) lies on the ray.
+inline bool blocked(const Scene& scene, Ray ray, bool through_mirrors = false) {
     while (std::optional<Hit> x = intersect(scene, ray)) {
-        if (x->material->type != MaterialType::dielectric) return true;
+        MaterialType type = x->material->type;
+        if (type == MaterialType::diffuse) return true;
+        if (type == MaterialType::conductor && !through_mirrors) return true;
         ray = spawn_ray(*x, ray.d, ray.t_max - x->t);
     }
     return false;

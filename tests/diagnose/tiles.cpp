@@ -44,7 +44,7 @@ References read_references() {
 }
 
 std::string effect_text(const std::string& scene, const Tiles& references, const Tiles& tiles) {
-    double weights = 0, sum = 0, squares = 0, most = 0;
+    double weights = 0, sum = 0, squares = 0, most = 0, chi2 = 0, n = 0;
     bool is_off = false, is_even = true;
     for (size_t i = 0; i < tiles.size(); i++) {
         double should = is_dark(references, i) ? 0 : 1, off = std::abs(tiles[i].mean - should);
@@ -57,11 +57,12 @@ std::string effect_text(const std::string& scene, const Tiles& references, const
     }
     if (!is_off) return "";
     double mean = sum / weights;
-    for (size_t i = 0; i < tiles.size(); i++)
-        if (!is_dark(references, i))
-            most =
-                std::max(most, std::abs(tiles[i].mean - mean) / (tiles[i].se + 5e-4 * mean + 1e-6));
-    is_even &= most < 4;
+    for (size_t i = 0; i < tiles.size(); i++) {
+        if (is_dark(references, i)) continue;
+        double z = std::abs(tiles[i].mean - mean) / (tiles[i].se + 5e-4 * mean + 1e-6);
+        most = std::max(most, z), chi2 += z * z, n++;
+    }
+    is_even &= most < 4 && chi2 < n + 3 * std::sqrt(2 * n);
     std::string text = scene + "=";
     char number[40];
     for (size_t i = 0; i < (is_even ? 1 : tiles.size()); i++) {

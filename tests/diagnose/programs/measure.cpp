@@ -135,7 +135,9 @@ Change change_of(const std::string& how) {
         if (argument == "half") tangent /= 2;
         if (argument == "radians") tangent = half;
         if (argument == "longer") tangent /= aspect;
-        if (argument == "2") tangent = std::min(std::tan(std::min(2 * half, 1.57)), 1e3);
+        if (argument == "2") tangent = std::tan(2 * half);  // below 0: turned by half a turn
+        if (argument == "degrees") tangent = std::tan(double{s.camera.fov} / 2);
+        if (argument == "whole") tangent = std::tan(double{s.camera.fov});
         if (what == "fov")
             s.camera.fov = static_cast<float>(360 / std::numbers::pi * std::atan(tangent));
         if (how == "aspect") s.camera.frame_aspect = 1;
@@ -163,19 +165,50 @@ Change change_of(const std::string& how) {
     };
 }
 
-/// The tiles of a picture with a mistake over those of one without, with errors from the pixels.
-Tiles effects_on(const SmallScene& scene, const Tiles& should, const Image& p, const Image& b) {
+/// The text of a scene whose albedos, or albedos and lamps, are taken to a power.
+std::string with_power(std::string text, const std::string& how) {
+    std::istringstream words(how);
+    std::string what;
+    float power = 1;
+    words >> what >> power;
+    for (const char* name : {"rgb reflectance\" [", "rgb L\" ["}) {
+        if (what != "all" && (what != "albedo" || name[4] == 'L')) continue;
+        for (size_t at = 0; (at = text.find(name, at)) != std::string::npos; at++) {
+            size_t from = text.find('[', at) + 1, end = text.find(']', from);
+            std::istringstream numbers(text.substr(from, end - from));
+            std::string changed;
+            for (float x; numbers >> x;) changed += std::to_string(std::pow(x, power)) + " ";
+            text.replace(from, end - from, changed);
+        }
+    }
+    return text;
+}
+
+/// Pictures of a scene with a mistake and without, of one seed.
+struct Pair {
+    Image wrong, right;
+};
+/// The tiles of a picture with a mistake over those of one without, with errors from the pixels; or
+/// from a second pair, where a mistake moves edges.
+Tiles effects_on(const SmallScene& scene, const Tiles& should, const Pair& one, const Pair* two) {
     Tiles tiles;
+    auto of = [&](const Image Pair::*which, int x, int y, int c) {
+        double first = channel((one.*which).at(x, y), c);
+        return two ? (first + channel((two->*which).at(x, y), c)) / 2 : first;
+    };
     for (size_t i = 0; i < should.size(); i++) {
         double sum_p = 0, sum_b = 0, squares = 0, n = 0, scale = scale_of(should, i);
         bool dark = key_of(scene.name, should, i).ends_with(" dark");
-        visit_tile(i, scene.coloured, b.width, b.height, [&](int x, int y, int c) {
-            sum_p += channel(p.at(x, y), c), sum_b += channel(b.at(x, y), c), n++;
+        visit_tile(i, scene.coloured, one.right.width, one.right.height, [&](int x, int y, int c) {
+            sum_p += of(&Pair::wrong, x, y, c), sum_b += of(&Pair::right, x, y, c), n++;
         });
         double r = dark || sum_b == 0 ? sum_p / n / scale : sum_p / sum_b;
-        visit_tile(i, scene.coloured, b.width, b.height, [&](int x, int y, int c) {
-            double right = dark ? sum_p / n : r * channel(b.at(x, y), c);
-            double d = channel(p.at(x, y), c) - right;
+        visit_tile(i, scene.coloured, one.right.width, one.right.height, [&](int x, int y, int c) {
+            auto off = [&](const Pair& pair) {
+                double right = dark ? sum_p / n : r * channel(pair.right.at(x, y), c);
+                return channel(pair.wrong.at(x, y), c) - right;
+            };
+            double d = two ? (off(one) - off(*two)) / 2 : off(one);
             squares += d * d * (scene.coloured ? 1 : 3);
         });
         tiles.push_back({r, std::sqrt(squares) / n / scale});
@@ -197,16 +230,16 @@ bool are_alike(const std::map<std::string, Tiles>& one, const std::map<std::stri
 int write_effects(const MeasureOptions& o, const std::string& rows, const std::string& only) {
     struct Way {
         const char* method;
-        bool cosine;
+        bool cosine, sky;
         int times;  // the samples
     };
-    const std::map<char, Way> ways = {{'u', {"07", false, 2}},
-                                      {'c', {"07", true, 2}},
-                                      {'n', {"09-area", false, 1}},
-                                      {'a', {"09-area", true, 1}},
-                                      {'m', {"14", true, 1}}};
+    const std::map<char, Way> ways = {
+        {'u', {"07", false, false, 2}},      {'c', {"07", true, false, 2}},
+        {'n', {"09-area", false, false, 1}}, {'a', {"09-area", true, false, 1}},
+        {'k', {"09-area", true, true, 1}},   {'m', {"14", true, false, 1}},
+        {'b', {"14-balance", true, true, 1}}};
     const References references = read_references();
-    std::map<std::string, Image> right, briefly;  // by way and scene
+    std::map<std::string, Image> right, again, briefly;  // by way and scene; again: another seed
     std::string text =
         "# What planted mistakes do to the tiles of the small scenes, over what these should be: "
         "the way\n"
@@ -217,43 +250,60 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
         "# By make effects.\n";
     std::map<std::string, std::vector<std::map<std::string, Tiles>>> known;  // by words
     std::istringstream lines(read_file(rows));
+    std::string before = only.empty() ? "" : read_file(effects_file);
     for (std::string line; std::getline(lines, line);) {
         std::istringstream stream(line);
         std::string cells[6];
         for (std::string& cell : cells) std::getline(stream, cell, '\t');
         const std::string& how = cells[3];
-        if (!only.empty() && cells[2].find(only) == std::string::npos) continue;
+        if (!std::regex_search(cells[2], std::regex(only))) {
+            // What is not measured anew stays.
+            std::string words = "\t" + cells[2] + "\t";
+            for (size_t at; (at = before.find(words)) != std::string::npos;) {
+                size_t from = before.rfind('\n', at) + 1, end = before.find('\n', at) + 1;
+                text += before.substr(from, end - from), before.erase(from, end - from);
+            }
+            continue;
+        }
         for (char name : cells[1]) {
             bool is_code = ways.contains(name);
             const Way& way = ways.at(is_code ? name : 'm');
             const Method method = methods_named({way.method}).at(0);
-            planted::cosine = way.cosine;
+            planted::cosine = way.cosine, planted::sky = way.sky;
             std::string effects;
             std::map<std::string, Tiles> all;
             for (const SmallScene& scene : small_scenes()) {
                 std::string key = std::string(is_code ? 1 : 0, name) + "/" + scene.name;
-                auto render = [&](const std::string& in, int mistake, const Change& change,
-                                  int spp) {
+                auto render = [&](const std::string& in, int mistake, const Change& change, int spp,
+                                  uint32_t seed = 1) {
                     planted::mistake = mistake;
-                    return picture_of(in, method, o, spp * way.times, 1, change);
+                    return picture_of(in, method, o, spp * way.times, seed, change);
                 };
                 if (!right.contains(key)) {
                     right[key] = render(scene.pbrt, 0, {}, o.spp);
                     briefly[key] = render(scene.pbrt, 0, {}, 16);
+                    if (!is_code) again[key] = render(scene.pbrt, 0, {}, o.spp, 2);
                 }
                 const Image& b = right[key];
-                Image p = name == 'p' ? changed(b, how) : b;
+                Image p = b;
+                std::optional<Pair> second;
                 int mistake = is_code ? std::stoi(cells[0]) : 0;
                 bool same =
                     is_code && render(scene.pbrt, mistake, {}, 16).pixels == briefly[key].pixels;
                 if (is_code && !same) p = render(scene.pbrt, mistake, {}, o.spp);
-                if (name == 's')
-                    p = render(std::regex_replace(scene.pbrt, std::regex(cells[4]), cells[5]), 0,
-                               {}, o.spp);
-                if (name == 'p' && p.pixels == b.pixels)
-                    p = render(scene.pbrt, 0, change_of(how), o.spp);
+                if (!is_code) {
+                    std::string in =
+                        name == 's' ? std::regex_replace(scene.pbrt, std::regex(cells[4]), cells[5])
+                                    : with_power(scene.pbrt, how);
+                    auto with = [&](const Image& image, uint32_t seed) {
+                        Image other = name == 'p' ? changed(image, how) : image;
+                        bool is_picture = other.pixels != image.pixels;
+                        return is_picture ? other : render(in, 0, change_of(how), o.spp, seed);
+                    };
+                    p = with(b, 1), second = {with(again[key], 2), again[key]};
+                }
                 const Tiles& should = references.at(scene.name);
-                Tiles tiles = effects_on(scene, should, p, b);
+                Tiles tiles = effects_on(scene, should, {p, b}, second ? &*second : nullptr);
                 all[scene.name] = tiles;
                 std::string effect = effect_text(scene.name, should, tiles);
                 if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
@@ -270,7 +320,7 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
             text += std::string(1, name) + "\t" + cells[2] + "\t" + effects + "\n";
         }
     }
-    write_file_atomically(only.empty() ? effects_file : "/dev/stdout", text);
+    write_file_atomically(effects_file, text);
     return 0;
 }
 
@@ -283,7 +333,7 @@ int main(int argc, char** argv) {
         std::vector<Option> flags = {
             {"references", "", "what is right", [&](const std::string&) { references = true; }},
             {"only", "WORDS",
-             "print the effects of mistakes with these words; measure only this scene's references",
+             "measure only mistakes whose words match this pattern, or this scene's references",
              [&](const std::string& words) { only = words; }}};
         MeasureOptions o =
             parse_measure_options(argc, argv, "ROWS", "Measures the small scenes.", {}, flags);
