@@ -298,7 +298,7 @@ TEST_SUITE("ch20 light tracing") {
         options.search = LightSearch::from_lights;
         std::vector<std::string> lines = warnings_of(mirror, options, r);
         REQUIRE(!lines.empty());
-        CHECK(lines.back().find("mirror or glass: black") != std::string::npos);
+        CHECK(lines.back().find("mirror or glass: this part is black") != std::string::npos);
         Scene none = floor_without_lights();
         CHECK(film_of(none, by_twenty(none), 4).film.mean() == 0);
         Scene cornell = scene_from("scenes/cornell.pbrt", 16, 2);
