@@ -187,7 +187,7 @@ def renamed(path, text):
     for cursor in unit.cursor.get_children():
         walk(cursor)
     for end in sorted(ends, reverse=True):
-        text = text[:end] + "_" + text[end:]
+        text = text[:end] + "_here" + text[end:]
     return text
 
 

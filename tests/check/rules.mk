@@ -33,6 +33,6 @@ $(BUILD)/names: $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp))
 names: $(checkers) $(common) $(made)
 	@tests/check/plant $(BUILD) '$(M)' $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))
 #: maintaining: make mistakes     change code as students might: what does make check notice, and does it find the function? (CH=09, N=, SEED=, FILL=1, PREDICT=1)
-mistakes: $(checkers) $(common) $(made)
+mistakes: checkers $(made)
 	@tests/check/mistakes $(BUILD) $(CH:%=--chapters %) $(N:%=--n %) $(SEED:%=--seed %) $(if $(LIST),--list) \
 	  $(if $(PREDICT),--predict) $(if $(FILL),--fill) -- $(CXX) $(filter-out -I.,$(filter-out -O%,$(CXXFLAGS)))
