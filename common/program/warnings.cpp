@@ -138,8 +138,8 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
         double hidden = light_by_nearly_mirrors(scene, samples, !lights_alone);
         if (hidden > 0 && !(hidden <= error)) {
             lines.push_back(
-                "light that reaches a surface by way of nearly smooth metal is found only by "
-                "chance: the true error may be larger than the reported one");
+                "light that reaches a surface via nearly smooth metal is found only by chance: "
+                "the true error may be larger than the reported one");
         }
     }
     bool is_lit_by_sky = scene.sky_light >= 0 && scene.max_depth > 0 && any_material(is_receiver);

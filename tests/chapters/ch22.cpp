@@ -114,6 +114,13 @@ TEST_SUITE("ch22 fast bidirectional") {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, by_22(scene, 0), scene, by_22(scene, 16), 400000) >= 8);
+        }
+    }
+
+    TEST_CASE("agreement: one chance through mirrors and five, by length and class") {
+        for (std::string name : {"cornell-spheres", "light-in-glass", "caustic"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, by_22(scene, 1), scene, by_22(scene, 5), 200000) >= 8);
         }
     }

@@ -148,7 +148,7 @@ TEST_SUITE("warnings") {
                    grey_floor;
         };
         const std::string bright = "0.9 0.9 0.9",
-                          warning = "by way of nearly smooth metal is found only by chance";
+                          warning = "via nearly smooth metal is found only by chance";
         // No chapter samples lights via the metal, and the lamp is small.
         for (const char* program : {"13_glossy", "14_mis", "15_mis_ris", "16_lens_and_shutter",
                                     "17_sky_image", "18_dispersion", "19_adaptive"})
