@@ -17,7 +17,7 @@
 
 namespace ch26 {
 
-// 1. Form factors.
+// Steps 1 and 2 of the page: form factors.
 
 /// The formula that is often shown: G_ij, m^2, from the value of the integrand between one point x
 /// of patch p and one point y of patch q.
@@ -106,7 +106,7 @@ inline double exchange(const Scene& scene, const Patch& p, const Patch& q, uint3
     return visible * double{small.area} * mean_to_polygon(small.p, small.n, large, deepest);
 }
 
-// 2. Gathering: each patch takes light from all others.
+// Step 3: gathering. Each patch takes light from all others.
 
 /// The equation.      B_i = E_i + rho_i H_i,      H_i = sum over j of F_ij B_j,  both W m^-2
 inline Radiosity radiosity_of(const Patch& p, Radiosity H) { return p.E + p.rho * H; }
@@ -151,7 +151,7 @@ inline void solve(const Matrix& G, const std::vector<Patch>& patch, Sweep kind, 
     }
 }
 
-// 3. Shooting: the brightest patch sends its light to all others.
+// Step 4: shooting. The brightest patch sends its light to all others.
 
 /// Begins progressive refinement (Southwell): all that lamps emit is unshot.
 inline void start(const std::vector<Patch>& patch, Solution& s) {
@@ -213,7 +213,7 @@ inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s,
     return ratio(keep * unshot, all - min(keep * rho, most * all));
 }
 
-// 4. The picture.
+// Step 5: the picture.
 
 /// The radiance that arrives along the ray: that of the patch it meets.      L = B / pi
 ///
