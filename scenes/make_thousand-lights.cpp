@@ -5,8 +5,8 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/options/options.h"
 #include "common/path/sampler.h"
-#include "common/program/options.h"
 
 namespace {
 

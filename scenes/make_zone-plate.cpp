@@ -6,7 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/program/command_line.h"
+#include "common/options/command_line.h"
 
 constexpr const char* head =
     R"(# A zone plate: white disks and black ones in turn, each nearer to the camera than the last

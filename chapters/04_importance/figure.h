@@ -9,7 +9,7 @@
 #include "common/base/stats.h"
 #include "common/path/sampler.h"
 #include "common/picture/plot.h"
-#include "common/program/table.h"
+#include "common/results/table.h"
 
 namespace ch04 {
 

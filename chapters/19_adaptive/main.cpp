@@ -1,5 +1,6 @@
 // Chapter 19 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/19_adaptive/estimator.h"
+#include "common/picture/heat_map.h"
 #include "common/program/render.h"
 
 int main(int argc, char** argv) {
@@ -25,7 +26,11 @@ int main(int argc, char** argv) {
                          [&](const std::string& text) { map = parse_picture("map", text); }};
         RenderOptions options = parse_render_options(
             argc, argv, "19_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});
-        options.map = map;
+        auto counts_of = [&](const Film& film) {
+            float most = 4 * static_cast<float>(film.spp());
+            return map.ends_with(".pfm") ? film.counts() : heat_map(film.counts(), most);
+        };
+        if (!map.empty()) options.pictures = {{map, counts_of}};
         Scene scene = load(options, features_of(19));
         return render(scene, options,
                       trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()),

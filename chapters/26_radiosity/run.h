@@ -10,14 +10,14 @@
 #include "common/base/system.h"
 #include "common/path/trace.h"
 #include "common/picture/notes.h"
-#include "common/program/code_hash.h"
-#include "common/program/film_keeping.h"
-#include "common/program/progress.h"
 #include "common/program/render.h"
-#include "common/program/results.h"
-#include "common/program/tile_renderer.h"
 #include "common/radiosity/files.h"
 #include "common/radiosity/refuse.h"
+#include "common/rendering/code_hash.h"
+#include "common/rendering/film_keeping.h"
+#include "common/rendering/progress.h"
+#include "common/rendering/tile_renderer.h"
+#include "common/results/results.h"
 
 namespace ch26 {
 

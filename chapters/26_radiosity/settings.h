@@ -8,8 +8,8 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/system.h"
-#include "common/program/command_line.h"
-#include "common/program/outputs.h"
+#include "common/options/command_line.h"
+#include "common/results/outputs.h"
 
 namespace ch26 {
 

@@ -1,62 +1,7 @@
-// The render loop that calls a chapter's trace(): tiles, passes, threads, and stopping.
+// What the program of a chapter does: renders, or explains one path, and writes the results.
 #pragma once
-#include <map>
-#include <string>
-#include <tuple>
-
-#include "common/path/trace.h"
-#include "common/picture/allocation.h"
-#include "common/picture/film_file.h"
-#include "common/program/loading.h"
-#include "common/program/options.h"
-#include "common/scene/scene.h"
-
-/// Statistics of rendering a picture.
-struct RenderStats : SampleCounts {
-    double seconds = 0;                            // without loading
-    uint64_t samples_before = 0, rays_before = 0;  // of the film that it continued
-    bool interrupted = false;                      // by a signal, before all samples were taken
-    int largest_x = 0, largest_y = 0, largest_sample = 0;  // where the largest sample is
-
-    /// Stores a sample if it is the largest so far; of equal samples, that of the first pixel.
-    void add_largest(double value, int x, int y, int sample) {
-        if (value < largest || value == 0) return;
-        bool first = value > largest ||
-                     std::tie(y, x, sample) < std::tie(largest_y, largest_x, largest_sample);
-        if (first) largest = value, largest_x = x, largest_y = y, largest_sample = sample;
-    }
-    void add(const RenderStats& other) {
-        add_largest(other.largest, other.largest_x, other.largest_y, other.largest_sample);
-        SampleCounts::add(other);
-    }
-};
-
-struct Rendering {
-    Film film;
-    RenderStats stats;
-    std::map<std::string, Film> classes;  // with --split: one film for each class of path, and one
-                                          // for all classes longer than 8 letters
-    uint32_t begun = 0;                   // samples a pixel that passes have begun to take
-    std::vector<std::string> warnings = {};  // of the chapter's own
-    /// Other files that the chapter writes: the name, and the function that writes it.
-    std::vector<std::pair<std::string, std::function<void()>>> files = {};
-};
-
-/// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a
-/// signal (stop.h). Time and signals end it at once: then some pixels have more samples than
-/// others, or none, if the first pass was not complete. The picture does not depend on the number
-/// of threads. Continues from options.film, and saves it at intervals.
-///
-/// With an allocation, a render that continues, or is not the first part, repeats the pilot, so
-/// that samples are distributed as in the whole render.
-Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
-                      const Allocation& allocation = {});
-/// The same for a chapter that also splats to other pixels, for one that prepares something for
-/// each pass, and for one that does both.
-Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
-Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
-Rendering render_film(const Scene& scene, const RenderOptions& options,
-                      const SplatPassTrace& trace);
+#include "common/options/loading.h"
+#include "common/rendering/render_film.h"
 
 /// What a chapter's program does with its scene: renders it or explains one path, and writes what
 /// the options ask for. Returns the exit code.

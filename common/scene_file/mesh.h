@@ -1,8 +1,8 @@
 // Triangle meshes of a pbrt-v4 scene file, put into the scene in world space.
 #pragma once
 #include "common/geometry/geometry.h"
-#include "common/scene_file/options.h"
 #include "common/scene_file/ply.h"
+#include "common/scene_file/settings.h"
 
 /// Throws for a point so far out that squares of areas would overflow a float.
 void check_extent(const Params& params, Vec3 p);

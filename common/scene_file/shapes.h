@@ -2,7 +2,7 @@
 #pragma once
 #include "common/scene_file/materials.h"
 #include "common/scene_file/named_files.h"
-#include "common/scene_file/options.h"
+#include "common/scene_file/settings.h"
 
 /// The name of the stand-in for a mesh that has no uv for its texture.
 inline constexpr const char* no_uv = "a textured mesh without usable uv";

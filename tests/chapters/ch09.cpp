@@ -5,7 +5,7 @@
 
 #include "chapters/08_russian_roulette/estimator.h"
 #include "chapters/09_light_sampling/estimator.h"
-#include "common/program/warnings.h"
+#include "common/results/warnings.h"
 #include "tests/support/estimators.h"
 
 using ch09::LightMeasure;

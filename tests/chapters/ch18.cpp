@@ -5,7 +5,7 @@
 #include "chapters/17_sky_image/estimator.h"
 #include "chapters/18_dispersion/estimator.h"
 #include "common/base/error.h"
-#include "common/program/loading.h"
+#include "common/options/loading.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/estimators.h"
 

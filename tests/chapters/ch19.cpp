@@ -6,10 +6,12 @@
 #include "chapters/18_dispersion/estimator.h"
 #include "chapters/19_adaptive/estimator.h"
 #include "common/base/files.h"
+#include "common/options/loading.h"
 #include "common/path/camera_sample.h"
-#include "common/program/film_keeping.h"
-#include "common/program/loading.h"
+#include "common/picture/heat_map.h"
+#include "common/rendering/film_keeping.h"
 #include "tests/support/folder.h"
+#include "tests/support/run_program.h"
 #include "tests/support/stand_ins.h"
 
 namespace {
@@ -388,5 +390,28 @@ TEST_SUITE("ch19 adaptive") {
                      static_cast<uint32_t>(r.stats.bad_sample / 2));
         camera_sample(camera_view(scene.camera, 8, 8), r.stats.bad_x, r.stats.bad_y, sampler);
         CHECK(sampler.u1() < 0.002f);
+    }
+
+    TEST_CASE("truth: --map shows how many samples each pixel has") {
+        TemporaryFolder folder;
+        for (const char* name : {"m.pfm", "m.png"}) {
+            Finished render =
+                run("19_adaptive", {"scenes/high-contrast.pbrt", "--size", "24x24", "--spp", "32",
+                                    "--quiet", "--out", folder / "a.pfm", "--map", folder / name});
+            CHECK(render.code == 0);
+        }
+        Image numbers = read_image(folder / "m.pfm"), colours = read_image(folder / "m.png");
+        double sum = 0, most = 0;
+        for (Rgb n : numbers.pixels) sum += double{n.r}, most = std::max(most, double{n.r});
+        CHECK(sum / (24 * 24) == doctest::Approx(32).epsilon(0.02).scale(0));
+        CHECK(most > 40);
+        Image expected = heat_map(numbers, 4 * 32);
+        float largest = 0;
+        for (size_t i = 0; i < expected.pixels.size(); i++) {
+            Rgb a = expected.pixels[i], b = colours.pixels[i];
+            largest =
+                std::max({largest, std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+        }
+        CHECK(largest < 0.02f);  // rounded to 8 bits
     }
 }

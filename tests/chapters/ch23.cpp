@@ -6,7 +6,7 @@
 #include "chapters/15_mis_ris/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
-#include "common/program/warnings.h"
+#include "common/results/warnings.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"

@@ -10,7 +10,7 @@
 #include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/24_progressive_photons/estimator.h"
 #include "chapters/25_vertex_merging/estimator.h"
-#include "common/program/loading.h"
+#include "common/options/loading.h"
 #include "tests/support/light_paths.h"
 
 namespace {

@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <cstring>
 
+#include "common/explaining/path_drawing.h"
+#include "common/explaining/scene_outline.h"
 #include "common/picture/comparison.h"
 #include "common/picture/heat_map.h"
 #include "common/picture/plot.h"
 #include "common/picture/png.h"
 #include "common/picture/sheet.h"
-#include "common/program/path_drawing.h"
-#include "common/program/scene_outline.h"
 #include "tests/support/folder.h"
 #include "tests/support/scenes.h"
 

@@ -1,5 +1,5 @@
 // --explain: a path in words, as a table that adds up, and as a drawing.
-#include "common/program/explain.h"
+#include "common/explaining/explain.h"
 
 #include <doctest/doctest.h>
 
@@ -12,10 +12,10 @@
 #include "chapters/13_glossy/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
+#include "common/explaining/labels.h"
+#include "common/explaining/path_drawing.h"
+#include "common/explaining/scene_outline.h"
 #include "common/picture/stats_file.h"
-#include "common/program/labels.h"
-#include "common/program/path_drawing.h"
-#include "common/program/scene_outline.h"
 #include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"

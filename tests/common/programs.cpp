@@ -8,7 +8,7 @@
 #include "common/picture/comparison.h"
 #include "common/picture/image.h"
 #include "common/picture/notes.h"
-#include "common/program/table.h"
+#include "common/results/table.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 #include "common/base/files.h"
 #include "common/base/percent.h"
 #include "common/geometry/bvh_build.h"
-#include "common/program/loading_progress.h"
+#include "common/options/loading_progress.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/folder.h"
 #include "tests/support/run_program.h"

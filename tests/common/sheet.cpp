@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "common/program/class_sheet.h"
+#include "common/results/class_sheet.h"
 
 namespace {
 

@@ -3,17 +3,17 @@
 
 #include <cmath>
 
+#include "common/explaining/labels.h"
+#include "common/explaining/path_drawing.h"
+#include "common/options/loading.h"
+#include "common/options/loading_progress.h"
+#include "common/options/options.h"
 #include "common/picture/notes.h"
 #include "common/picture/verdict.h"
-#include "common/program/film_clock.h"
-#include "common/program/labels.h"
-#include "common/program/lamp_edges.h"
-#include "common/program/loading.h"
-#include "common/program/loading_progress.h"
-#include "common/program/options.h"
-#include "common/program/outputs.h"
-#include "common/program/path_drawing.h"
-#include "common/program/progress.h"
+#include "common/rendering/film_clock.h"
+#include "common/rendering/lamp_edges.h"
+#include "common/rendering/progress.h"
+#include "common/results/outputs.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 

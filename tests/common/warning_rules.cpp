@@ -3,9 +3,9 @@
 
 #include "chapters/15_mis_ris/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
-#include "common/program/black_picture.h"
-#include "common/program/metal_light.h"
-#include "common/program/warnings.h"
+#include "common/results/black_picture.h"
+#include "common/results/metal_light.h"
+#include "common/results/warnings.h"
 #include "tests/support/estimators.h"
 
 template <>

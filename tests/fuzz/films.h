@@ -10,8 +10,8 @@
 #include "common/base/checksum.h"
 #include "common/base/system.h"
 #include "common/picture/film_file.h"
-#include "common/program/results.h"
-#include "common/program/warnings.h"
+#include "common/results/results.h"
+#include "common/results/warnings.h"
 #include "tests/fuzz/fuzz.h"
 
 /// A film of 11 x 13 pixels with a few samples of each, some of them not finite. `kind` as in

@@ -1,6 +1,6 @@
 // The chart of make bench.
 #pragma once
-#include "common/program/table.h"
+#include "common/results/table.h"
 #include "tests/measure/gnuplot.h"
 
 /// One panel for each kind of ray, with a group of bars for each mesh.

@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/program/table.h"
+#include "common/results/table.h"
 #include "tests/support/work.h"
 
 namespace {

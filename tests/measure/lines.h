@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/program/table.h"
+#include "common/results/table.h"
 
 /// One line: what was measured, and the slope that theory says.
 struct Line {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/program/command_line.h"
-#include "common/program/table.h"
+#include "common/options/command_line.h"
+#include "common/results/table.h"
 #include "tests/measure/methods.h"
 #include "tests/measure/spread.h"
 

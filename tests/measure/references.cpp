@@ -7,7 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/json.h"
-#include "common/program/film_keeping.h"
+#include "common/rendering/film_keeping.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/reference.h"
 #include "tests/support/work.h"

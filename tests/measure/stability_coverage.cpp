@@ -4,7 +4,7 @@
 
 #include "common/base/parallel.h"
 #include "common/base/stats.h"
-#include "common/program/warnings.h"
+#include "common/results/warnings.h"
 #include "tests/measure/spread.h"
 
 namespace {

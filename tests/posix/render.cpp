@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-#include "common/program/stop.h"
+#include "common/rendering/stop.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 

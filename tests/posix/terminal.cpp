@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 #include <stdlib.h>
 
-#include "common/program/options.h"
-#include "common/program/progress.h"
+#include "common/options/options.h"
+#include "common/rendering/progress.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 

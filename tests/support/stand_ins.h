@@ -1,7 +1,7 @@
 // Stand-ins for scenes and for a chapter's trace(), where only the loop around them is tested.
 #pragma once
+#include "common/options/options.h"
 #include "common/path/sampler.h"
-#include "common/program/options.h"
 #include "common/recording/recorder.h"
 #include "tests/support/scenes.h"
 

@@ -4,7 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/program/command_line.h"
+#include "common/options/command_line.h"
 #include "tests/diagnose/judge.h"
 
 namespace {

@@ -1,0 +1,170 @@
+#include "common/options/command_line.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include "common/base/error.h"
+#include "common/base/nearest.h"
+#include "common/base/numbers.h"
+#include "common/base/position.h"
+#include "common/base/system.h"
+
+namespace {
+
+[[noreturn]] void fail_unknown(const std::string& word, const std::vector<Option>& options) {
+    std::vector<std::string> names;
+    for (const Option& option : options) names.push_back("--" + option.name);
+    std::string nearest = nearest_word(word, names);
+    throw UsageError(
+        "error: unknown option '" + word + "'" +
+        (nearest.empty() ? "; --help lists them" : ", did you mean '" + nearest + "'?"));
+}
+
+[[noreturn]] void print_usage(const char* program, const std::string& positional,
+                              const std::string& about, const std::vector<Option>& options) {
+    std::printf("usage: %s%s%s [OPTION]...\n%s\n\n", program, positional.empty() ? "" : " ",
+                positional.c_str(), about.c_str());
+    for (const Option& option : options) {
+        if (option.help.empty()) continue;
+        std::string left =
+            "--" + option.name + (option.argument.empty() ? "" : " " + option.argument);
+        std::printf("  %-24s %s\n", left.c_str(), option.help.c_str());
+    }
+    flush_stdout();
+    std::exit(0);
+}
+
+// Sets the option in argv[i]; returns the index of the last word that belongs to it.
+int set_option(int argc, char** argv, int i, const std::vector<Option>& options) {
+    std::string word = argv[i], value;
+    size_t equals = word.find('=');
+    std::string name = word.substr(0, equals);
+    auto known = [&](const Option& option) { return "--" + option.name == name; };
+    auto option = std::find_if(options.begin(), options.end(), known);
+    if (option == options.end()) fail_unknown(name, options);
+
+    // Take the value from after the = or from the next word.
+    bool has_value = equals != std::string::npos;
+    if (has_value) value = word.substr(equals + 1);
+    if (option->argument.empty()) {
+        if (has_value) throw UsageError("error: option '" + name + "' takes no value");
+    } else {
+        bool value_follows = i + 1 < argc && !std::string_view(argv[i + 1]).starts_with("--");
+        if (!has_value && value_follows) value = argv[++i];
+        if (value.empty()) throw UsageError("error: option '" + name + "' needs a value");
+    }
+    option->set(value);
+    return i;
+}
+
+}  // namespace
+
+void flush_stdout() {
+    errno = 0;
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+    std::string why = errno != 0 ? std::strerror(errno) : "some of the output is lost";
+    throw InputError("stdout: error: cannot write: " + why);
+}
+
+void parse_options(int argc, char** argv, const std::string& positional, const std::string& about,
+                   std::vector<Option> options,
+                   const std::function<void(const std::string&)>& set_positional) {
+    options.push_back({"help", "", "print this and stop", [&](const std::string&) {
+                           print_usage(argv[0], positional, about, options);
+                       }});
+    bool options_ended = false;
+    for (int i = 1; i < argc; i++) {
+        std::string word = argv[i];
+        if (options_ended || !word.starts_with('-')) {
+            set_positional(word);
+        } else if (word == "--") {
+            options_ended = true;
+        } else {
+            i = set_option(argc, argv, i, options);
+        }
+    }
+}
+
+void fail_value(const std::string& option, const std::string& text, const std::string& wanted) {
+    throw UsageError("error: --" + option + " takes " + wanted + ", not '" + text + "'");
+}
+
+int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
+                      int64_t high) {
+    char* end = nullptr;
+    errno = 0;
+    long long value = std::strtoll(text.c_str(), &end, 10);
+    if (text.empty() || *end != '\0' || errno != 0 || value < low || value > high) {
+        fail_value(option, text,
+                   "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    }
+    return value;
+}
+
+size_t parse_choice(const std::string& option, const std::string& text,
+                    const std::vector<std::string>& known) {
+    auto found = std::find(known.begin(), known.end(), text);
+    if (found != known.end()) return static_cast<size_t>(found - known.begin());
+    std::string words;
+    for (size_t i = 0; i < known.size(); i++) {
+        words += (i == 0 ? "" : i + 1 < known.size() ? ", " : " or ") + known[i];
+    }
+    std::string nearest = nearest_word(text, known);
+    if (!nearest.empty()) words += " (did you mean '" + nearest + "'?)";
+    fail_value(option, text, words);
+}
+
+double parse_positive(const std::string& option, const std::string& text) {
+    double value = to_number(text).value_or(0);
+    if (!(value > 0) || !std::isfinite(value)) {
+        fail_value(option, text, "a number greater than 0");
+    }
+    return value;
+}
+
+std::string command_line(int argc, char** argv) {
+    constexpr auto plain_letters =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    std::string line;
+    for (int i = 0; i < argc; i++) {
+        std::string word = argv[i];
+        bool plain = !word.empty() && word.find_first_not_of(plain_letters) == std::string::npos;
+        if (i > 0) line += ' ';
+        if (plain) {
+            line += word;
+            continue;
+        }
+        line += "'";
+        for (char c : word) line += c == '\'' ? "'\\''" : std::string(1, c);
+        line += "'";
+    }
+    return line;
+}
+
+int run_program(const std::function<int()>& program) {
+    prepare_streams();
+    auto report = [](const std::string& line, int code) {
+        std::fprintf(stderr, "%s\n", printable(line).c_str());
+        return code;
+    };
+    try {
+        int code = program();
+        flush_stdout();
+        return code;
+    } catch (const UsageError& e) {
+        return report(e.what(), 2);
+    } catch (const InputError& e) {
+        std::istringstream lines(e.what());
+        for (std::string line; std::getline(lines, line);) report(line, 1);
+        return 1;
+    } catch (const std::bad_alloc&) {
+        return report("error: out of memory", 1);
+    } catch (const std::exception& e) {
+        return report(std::string("error: ") + e.what(), 1);
+    }
+}

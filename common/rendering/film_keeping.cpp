@@ -1,0 +1,108 @@
+#include "common/rendering/film_keeping.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/base/error.h"
+#include "common/base/position.h"
+#include "common/base/system.h"
+#include "common/rendering/code_hash.h"
+
+namespace {
+
+/// The options that decide the samples, except seeds and sample numbers.
+std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene,
+                                                              const RenderOptions& o) {
+    constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
+    char scene_bytes[17];
+    std::snprintf(scene_bytes, sizeof scene_bytes, "%016llx",
+                  static_cast<unsigned long long>(scene.files_checksum));
+    bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
+    std::vector<std::pair<std::string, std::string>> options = {
+        {"chapter", o.name},
+        {"code", code_hash(o.name)},
+        {"file", printable(file_name(file_path(scene.file).filename()))},
+        {"scene", scene_bytes},
+        {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
+        {"max-depth", std::to_string(scene.max_depth)},
+        {"sampler", samplers[static_cast<size_t>(o.sampler)]},
+        {"spp", has_strata ? std::to_string(scene.spp) : "any"},
+        {"paths", o.paths}};
+    options.insert(options.end(), o.own.begin(), o.own.end());
+    // Without folders: the same on every machine.
+    std::string stand_ins;
+    for (UsedStandIn used : scene.stand_ins) {
+        used.first.file = file_name(file_path(used.first.file).filename());
+        stand_ins += (stand_ins.empty() ? "" : "; ") + used.text();
+    }
+    if (!stand_ins.empty()) options.push_back({"stand-ins", stand_ins});
+    return options;
+}
+
+/// With --time but without --spp, a render takes samples until the time is up.
+bool is_endless(const RenderOptions& o) { return o.time > 0 && o.spp == 0 && o.parts == 1; }
+
+/// The samples of all parts.
+Goal goal_of(const Scene& scene, const RenderOptions& o) {
+    uint32_t spp = static_cast<uint32_t>(o.time > 0 && o.spp > 0 ? o.spp : scene.spp);
+    return {o.seed, is_endless(o) ? PixelSum::most : spp, static_cast<uint32_t>(o.parts)};
+}
+
+}  // namespace
+
+SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
+    if (o.parts > scene.spp) {
+        throw UsageError("error: --part: there are " + std::to_string(scene.spp) +
+                         " samples, too few for " + std::to_string(o.parts) + " parts");
+    }
+    bool fits = o.film.empty() || scene.spp <= static_cast<int>(PixelSum::most);
+    if (!fits) throw UsageError("error: --film: a film holds at most 2^28 samples of a pixel");
+    Goal goal = goal_of(scene, o);
+    return {o.seed, goal.first_of(o.part), goal.first_of(o.part + 1)};
+}
+
+void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering) {
+    std::error_code none;
+    if (options.film.empty() || !std::filesystem::exists(file_path(options.film), none)) return;
+    LabeledFilm found = read_film(options.film);
+    check_options(options.film, found.label, film_options(scene, options));
+    if (found.label.samples.empty()) return;  // it was stopped before it had samples
+    check_sums(options.film, found.film, rendering.film);
+    SampleRange wanted = wanted_samples(scene, options);
+    for (const SampleRange& r : found.label.samples) {
+        bool goes_on = r.seed == wanted.seed && r.first == wanted.first && r.last <= wanted.last;
+        if (goes_on && found.label.samples.size() == 1) continue;
+        fail({options.film}, "it holds " + text_of(r) +
+                                 (found.label.samples.size() > 1 ? " and others" : "") +
+                                 ", which do not begin what is asked for: " + text_of(wanted));
+    }
+    rendering.film = std::move(found.film);
+    for (const SampleRange& r : found.label.samples) rendering.begun = r.last - r.first;
+    static_cast<SampleCounts&>(rendering.stats) = found.label.counts;
+    rendering.stats.rays_before = rendering.stats.rays;
+    rendering.stats.samples_before = rendering.film.samples();
+}
+
+FilmLabel label_of(const Scene& scene, const RenderOptions& options) {
+    return {film_options(scene, options), {wanted_samples(scene, options)}, {}, {}};
+}
+
+FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
+    FilmLabel label = label_of(scene, options);
+    label.counts = rendering.stats;
+    const Film& film = rendering.film;
+    uint32_t most = 0, first = label.samples[0].first;
+    for (const PixelSum& p : film.pixels()) most = std::max(most, p.n);
+    if (film.has_halves()) most = film.samples() > 0 ? rendering.begun : 0;
+    label.samples.clear();
+    if (most > 0) label.samples = {{options.seed, first, first + most}};
+    if (!is_endless(options)) label.goals = {goal_of(scene, options)};
+    label.keep_open_goals();
+    return label;
+}
+
+void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
+    if (options.film.empty()) return;
+    write_film(options.film, label_of(scene, options, rendering), rendering.film);
+}

@@ -1,0 +1,135 @@
+#include "common/rendering/render_film.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/rendering/film_keeping.h"
+#include "common/rendering/lamp_edges.h"
+#include "common/rendering/progress.h"
+#include "common/rendering/tile_renderer.h"
+
+namespace {
+
+Film empty_film(const Scene& scene, bool takes_splats) {
+    uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
+    std::string what =
+        "a film of " + std::to_string(scene.width) + "x" + std::to_string(scene.height) + " pixels";
+    return needing_memory(what, (takes_splats ? 3 : 1) * pixels * sizeof(PixelSum),
+                          [&] { return Film(scene.width, scene.height, takes_splats); });
+}
+
+uint32_t fewest_samples(const Film& film) {
+    uint32_t fewest = film.pixels()[0].n;
+    for (const PixelSum& p : film.pixels()) fewest = std::min(fewest, p.n);
+    return fewest;
+}
+
+/// Takes samples `wanted.first` to `wanted.last` - 1 of each pixel, except those already in the
+/// film.
+///
+/// A pass takes each pixel once, or more often if there are too few pixels to keep all threads
+/// busy; but not more often than all passes before it, so that an early end leaves no pixel empty.
+template <class AnyTrace>
+void take_samples(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
+                  const Allocation& allocation, const Limit& limit, SampleRange wanted,
+                  Rendering& result) {
+    bool goes_on = !options.film.empty() && allocation.pilot == 0;
+    uint32_t done = goes_on ? fewest_samples(result.film) : 0;
+    FilmClock clock(scene, options);
+    Progress progress(options.quiet);
+    TileRenderer renderer(scene, options, trace, allocation, limit, clock, result, wanted.first);
+    uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
+    uint32_t most_per_pass = std::max(1u, (1u << 20) / pixels), spp = wanted.last - wanted.first;
+    while (done < spp && !limit.reached()) {
+        uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
+        bool in_pilot = wanted.first == 0 && done < allocation.pilot;
+        if (in_pilot) next = std::min(next, allocation.pilot);
+        if constexpr (renderer.has_passes) {
+            next = done + 1;
+            try {
+                trace.prepare(wanted.first + done, options.threads,
+                              [&] { return limit.reached(); });
+            } catch (const TracingEnds&) {
+            }
+            if (limit.reached()) break;
+        }
+        result.begun = std::max(result.begun, next);
+        renderer.set_goal(wanted.first + next);
+        std::atomic<int> tiles = 0;
+        parallel_for(renderer.tiles(), options.threads, [&](int tile) {
+            renderer.render(tile);
+            double of_pass = static_cast<double>(++tiles) / renderer.tiles();
+            double seconds = limit.elapsed();
+            double by_time = options.time > 0 ? seconds / options.time : 0;
+            progress.show(std::max(by_time, (done + (next - done) * of_pass) / spp), seconds);
+        });
+        if (clock.due()) {
+            clock.save(result);  // then continue the same pass
+            continue;
+        }
+        done = next;
+        bool decides = in_pilot && done == allocation.pilot && !limit.reached();
+        if (decides && allocation.choose_densities) {
+            allocation.choose_densities(renderer.take_pilot(), options.threads);
+        }
+    }
+}
+
+template <class AnyTrace>
+Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
+                      const AnyTrace& trace, const Allocation& allocation) {
+    Rendering result{std::move(empty), {}, {}};
+    Limit limit(options.time);
+    TracingLimit tracing([&] { return limit.overdue(); });
+    if (allocation.pilot > 0) {
+        result.film.start_halves();
+    } else if (has_passes<AnyTrace>) {
+        result.film.start_batches();
+    } else if (options.sampler != SamplerType::independent) {
+        try {
+            mark_lamp_edges(scene, options.threads, result.film);
+        } catch (const TracingEnds&) {
+        }
+        result.film.start_audit();
+    }
+    continue_film(scene, options, result);
+    SampleRange wanted = wanted_samples(scene, options);
+
+    // Render the pilot again if this render does not start with it.
+    Allocation decided = allocation;
+    if (allocation.pilot > 0 && (wanted.first > 0 || result.film.samples() > 0)) {
+        RenderOptions alone = options;
+        alone.film.clear(), alone.split.clear();
+        Rendering again{Film(scene.width, scene.height), {}, {}};
+        again.film.start_halves();
+        SampleRange pilot = {options.seed, 0, allocation.pilot};
+        take_samples(scene, alone, trace, allocation, limit, pilot, again);
+        decided.choose_densities = {};
+    }
+    take_samples(scene, options, trace, decided, limit, wanted, result);
+    for (auto& [path_class, film] : result.classes) film.count_as(result.film);
+    result.stats.seconds = limit.elapsed();
+    uint64_t all = uint64_t{static_cast<uint32_t>(scene.width)} *
+                   static_cast<uint32_t>(scene.height) * (wanted.last - wanted.first);
+    result.stats.interrupted = limit.interrupted() && result.film.samples() < all;
+    return result;
+}
+
+}  // namespace
+
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
+                      const Allocation& allocation) {
+    return render_into(empty_film(scene, false), scene, options, trace, allocation);
+}
+Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
+    return render_into(empty_film(scene, true), scene, options, trace, {});
+}
+Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
+    return render_into(empty_film(scene, false), scene, options, trace, {});
+}
+Rendering render_film(const Scene& scene, const RenderOptions& options,
+                      const SplatPassTrace& trace) {
+    return render_into(empty_film(scene, true), scene, options, trace, {});
+}

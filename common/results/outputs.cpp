@@ -1,0 +1,83 @@
+#include "common/results/outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/position.h"
+#include "common/base/system.h"
+#include "common/picture/film_file.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether --split may write a picture of this name: of one class such as LDE, of all classes with
+/// long names, or the sheet of all.
+bool is_of_split(const fs::path& name) {
+    if (name.extension() != ".pfm" && name.extension() != ".png") return false;
+    std::string stem = file_name(name.stem());
+    if (stem == "longer" || stem == "classes") return true;
+    return stem.size() >= 2 && stem.front() == 'L' && stem.back() == 'E' &&
+           stem.find_first_not_of("DS", 1) == stem.size() - 1;
+}
+
+/// Adds the files of a folder that may be written later. Their names are not known yet, so these
+/// are the existing files and those of `others`, if their names match.
+void add_later(const std::string& folder, const std::vector<std::string>& others,
+               const IsWritten& is_written, std::vector<std::string>& files) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(file_path(folder.empty() ? "." : folder), none))
+        names.push_back(file_name(entry.path().filename()));
+    for (const std::string& other : others) names.push_back(file_name(file_path(other).filename()));
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    for (const std::string& name : names) {
+        if (is_written(name)) files.push_back(file_name(file_path(folder) / file_path(name)));
+    }
+}
+
+/// Checks the disk space for files of known size: uncompressed pictures, and the sums of a film.
+void check_space(const Scene& scene, const std::vector<std::string>& files) {
+    uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
+    std::vector<FutureFile> known;
+    for (const std::string& file : files) {
+        if (file.ends_with(".pfm")) known.push_back({file, pixels * sizeof(Rgb)});
+        if (file.ends_with(".ppm")) known.push_back({file, pixels * 3});
+        if (file.ends_with(film_ending)) known.push_back({file, pixels * sizeof(PixelSum)});
+    }
+    check_space(known);
+}
+
+}  // namespace
+
+std::string drawing_path(const RenderOptions& options) {
+    return file_name(file_path(options.out[0]).replace_extension(".svg"));
+}
+
+void check_outputs(const Scene& scene, const RenderOptions& options,
+                   const std::vector<std::string>& more, const IsWritten& is_beside) {
+    std::vector<std::string> inputs(scene.files.begin(), scene.files.end());
+    if (options.explain || options.explain_brightest)
+        return check_outputs({drawing_path(options)}, inputs);
+    std::vector<std::string> files = options.out;
+    for (const std::string& file : {options.film, options.stats})
+        if (!file.empty()) files.push_back(file);
+    for (const auto& [file, picture] : options.pictures) files.push_back(file);
+    files.insert(files.end(), more.begin(), more.end());
+    if (!options.film.empty()) check_film_is_file(options.film);
+    std::vector<std::string> others = inputs;
+    others.insert(others.end(), files.begin(), files.end());
+    if (!options.split.empty()) {
+        make_folder(options.split);
+        others.push_back("LE.pfm");  // of any class
+        add_later(options.split, others, is_of_split, files);
+    }
+    if (is_beside) {
+        add_later(file_name(file_path(options.out[0]).parent_path()), others, is_beside, files);
+    }
+    check_outputs(files, inputs);
+    check_space(scene, files);
+}

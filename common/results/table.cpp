@@ -1,0 +1,76 @@
+#include "common/results/table.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/base/files.h"
+#include "common/base/stats.h"
+#include "common/base/system.h"
+
+std::string digits(double x, int significant) {
+    if (std::isnan(x)) return "unknown";
+    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*g", significant, x);
+    return text;
+}
+
+std::string aligned(const Table& table) {
+    std::vector<size_t> widths(table.columns.size());
+    for (size_t c = 0; c < widths.size(); c++) {
+        widths[c] = table.columns[c].size();
+        for (const auto& row : table.rows) widths[c] = std::max(widths[c], row[c].size());
+    }
+    std::string text;
+    auto add_line = [&](const std::vector<std::string>& cells) {
+        for (size_t c = 0; c < cells.size(); c++) {
+            std::string space(widths[c] - cells[c].size(), ' ');
+            text += c == 0 ? cells[c] + space : "  " + space + cells[c];
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        text += '\n';
+    };
+    add_line(table.columns);
+    for (const auto& row : table.rows) add_line(row);
+    return text;
+}
+
+std::string tab_separated(const Table& table) {
+    std::string text;
+    auto add_line = [&](const std::vector<std::string>& cells) {
+        for (size_t c = 0; c < cells.size(); c++) text += (c ? "\t" : "") + cells[c];
+        text += '\n';
+    };
+    add_line(table.columns);
+    for (const auto& row : table.rows) add_line(row);
+    return text;
+}
+
+double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
+    RunningStats u, v, uv, uu;
+    for (size_t i = 0; i < x.size(); i++) {
+        double log_x = std::log(x[i]), log_y = std::log(y[i]);
+        u.add(log_x);
+        v.add(log_y);
+        uv.add(log_x * log_y);
+        uu.add(log_x * log_x);
+    }
+    if (x.size() < 2) return NAN;
+    return (uv.mean() - u.mean() * v.mean()) / (uu.mean() - u.mean() * u.mean());
+}
+
+void write_results(const TableOptions& options, const Table& table, const std::string& notes,
+                   const Image& picture) {
+    if (!options.quiet) std::printf("%s\n%s", aligned(table).c_str(), notes.c_str());
+    for (const std::string& path : options.out) {
+        std::error_code ignored;  // the write reports it
+        if (file_name(file_path(path)).starts_with("out/"))
+            std::filesystem::create_directories("out", ignored);
+        if (path.ends_with(".tsv")) {
+            write_file_atomically(path, tab_separated(table));
+        } else {
+            write_image(path, picture, options.comment);
+        }
+    }
+}

@@ -1,0 +1,245 @@
+#include "common/results/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/percent.h"
+#include "common/light/light_table.h"
+#include "common/material/cosine.h"
+#include "common/path/sampler.h"
+#include "common/results/black_picture.h"
+#include "common/results/metal_light.h"
+#include "common/scene/camera.h"
+#include "common/scene/intersect.h"
+
+namespace {
+
+constexpr double too_much = 0.01;    // of a picture, in one sample
+constexpr double few_samples = 100;  // effective samples: below, intervals are too short
+constexpr double few_pixels = 30, few_audits = 16;  // that the error is estimated from
+constexpr double few_hits = 50;                     // of a light that is found by random hits
+
+bool is_receiver(const Material& m) {
+    return !is_specular(m) && !(m.type == MaterialType::diffuse && is_black(m.reflectance));
+}
+
+/// The approximate probability of hitting a light at random: in a closed room each part of the
+/// walls is hit in proportion to its area, at most the area of the scene's bounding sphere.
+double chance_of(const Scene& scene, size_t light) {
+    double radius = static_cast<double>(scene.radius);
+    return static_cast<double>(scene.light_shapes[light].area) /
+           (4 * std::numbers::pi * radius * radius);
+}
+double chance_of_any(const Scene& scene) {
+    double sum = 0;
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        sum += scene.lights[i].type == LightType::area ? chance_of(scene, i) : 0;
+    }
+    return scene.sky_light >= 0 || scene.sky_image ? 1 : std::min(sum, 1.0);
+}
+
+/// Whether an important light is so small that random hits are too rare.
+bool has_rare_light(const Scene& scene, double samples) {
+    double all = 0;
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        all += static_cast<double>(light_power(scene, i));
+    }
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        bool matters = static_cast<double>(light_power(scene, i)) > 0.01 * all;
+        bool is_area = scene.lights[i].type == LightType::area;
+        if (matters && is_area && samples * chance_of(scene, i) < few_hits) return true;
+    }
+    return false;
+}
+
+/// The share of pixels that show a mirror or glass at their centre.
+double share_of_mirrors(const Scene& scene) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    double seen = 0;
+    for (int y = 0; y < scene.height; y++) {
+        for (int x = 0; x < scene.width; x++) {
+            Vec2 middle = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+            std::optional<Hit> hit = intersect(scene, camera_ray(view, middle));
+            seen += hit && is_specular(*hit->material);
+        }
+    }
+    return seen / scene.width / scene.height;
+}
+
+/// Whether a visible surface faces another one that reflects light.
+bool surfaces_face_each_other(const Scene& scene) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < 256; i++) {
+        sampler.start(0, i);
+        Vec2 u = sampler.u2();
+        Vec2 point = {u.x * static_cast<float>(scene.width),
+                      u.y * static_cast<float>(scene.height)};
+        std::optional<Hit> x = intersect(scene, camera_ray(view, point));
+        if (!x || !is_receiver(*x->material)) continue;
+        Vec3 wi = Frame(x->n).to_world(sample_cosine_hemisphere(sampler.u2()));
+        std::optional<Hit> y = intersect(scene, spawn_ray(*x, wi));
+        if (y && is_receiver(*y->material)) return true;
+    }
+    return false;
+}
+
+/// Adds warnings about light that this method leaves out, or finds by random hits.
+void add_missed_light(const Scene& scene, const RenderOptions& options, const Film& film,
+                      std::vector<std::string>& lines) {
+    double samples = static_cast<double>(film.samples()), error = film.standard_error();
+    if (options.search == LightSearch::by_chance) {
+        if (has_rare_light(scene, samples)) {
+            lines.push_back(
+                "this chapter finds lights only by chance, and one is so small that few paths hit "
+                "it: the true error may be larger than the reported one");
+        }
+        return;
+    }
+    if (options.search == LightSearch::from_lights) {
+        double share = share_of_mirrors(scene);
+        NearlyMirrorsSeen metal = nearly_mirrors_seen(scene, film);
+        bool is_off = metal.hits < few_hits ? metal.share * film.mean() > error
+                                            : std::abs(metal.found - metal.expected) >
+                                                  2 * std::hypot(error, metal.error);
+        if (is_off && options.paths.empty()) {
+            lines.push_back(
+                percent(metal.share) +
+                " of the picture shows metal that is nearly a mirror: few paths from a light leave "
+                "it towards the camera, so the true error may be larger than the reported one");
+        }
+        if (share > 0) {
+            lines.push_back(percent(share) +
+                            " of the picture shows a mirror or glass: this part is black, because "
+                            "no vertex on it can be connected to the camera");
+        }
+        return;
+    }
+    const std::string blurred =
+        "photons blur light within their radius: the reported error does not include this bias";
+    if (options.search == LightSearch::photons) {
+        lines.push_back(blurred);
+        return;
+    }
+    auto any_material = [&](auto is) {
+        return std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                           [&](const Shape& s) { return is(scene.materials[s.material]); });
+    };
+    auto any_light = [&](auto is) {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [&](const Light& light) { return is(light.type); });
+    };
+    if (options.search == LightSearch::light_sampling && any_material(is_receiver)) {
+        // By default, chapter 13 samples lights only; later chapters also sample the metal's BSDF.
+        bool lights_alone =
+            std::count(options.own.begin(), options.own.end(),
+                       std::pair<std::string, std::string>("strategy", "light")) > 0;
+        double hidden = light_by_nearly_mirrors(scene, samples, !lights_alone);
+        if (hidden > 0 && !(hidden <= error)) {
+            lines.push_back(
+                "light that reaches a surface via nearly smooth metal is found only by chance: "
+                "the true error may be larger than the reported one");
+        }
+    }
+    bool is_lit_by_sky = scene.sky_light >= 0 && scene.max_depth > 0 && any_material(is_receiver);
+    if (options.search == LightSearch::direct && is_lit_by_sky)
+        lines.push_back(
+            "light that surfaces receive from the sky is left out: the sky is seen only directly "
+            "and in mirrors");
+    bool leaves_out = options.search == LightSearch::direct && scene.max_depth > 1;
+    if (leaves_out && !any_material(is_specular) && surfaces_face_each_other(scene))
+        lines.push_back("light that one surface reflects to another is left out");
+    if (!any_material(is_specular) || !any_material(is_receiver)) return;
+    auto is_area = [](LightType type) { return type == LightType::area; };
+    auto is_delta = [](LightType type) {
+        return type == LightType::point || type == LightType::distant;
+    };
+    auto is_diffuse = [](const Material& m) { return m.type == MaterialType::diffuse; };
+    auto is_rough_metal = [&](const Material& m) { return is_receiver(m) && !is_diffuse(m); };
+    bool merges = options.search == LightSearch::merging;
+    if (merges && any_material(is_diffuse)) lines.push_back(blurred);
+    if (merges && !any_material(is_rough_metal)) return;
+    if (options.search == LightSearch::both_ends || merges) {
+        const std::string both =
+            "light that goes through mirrors or glass to a surface that the camera sees in mirrors "
+            "or glass ";
+        if (any_light(is_delta)) {
+            lines.push_back(
+                both + "from a point or distant light is left out: no path can hit such a light");
+        } else if (any_light(is_area)) {
+            lines.push_back(
+                both +
+                "is found only by chance: the true error may be larger than the reported one");
+        }
+        return;
+    }
+    const std::string light = "light that reaches a surface through mirrors or glass ";
+    if (options.search == LightSearch::direct) {
+        lines.push_back(light +
+                        "is left out, and so is light that one surface reflects to another");
+    } else if (any_light(is_delta)) {
+        lines.push_back(light +
+                        "from a point or distant light is left out: no path can hit such a light");
+    }
+    if (options.search == LightSearch::light_sampling && (any_light(is_area) || scene.sky_image)) {
+        lines.push_back(
+            light + "is found only by chance: the true error may be larger than the reported one");
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts) {
+    std::vector<std::string> lines;
+    double samples = static_cast<double>(film.samples());
+    double empty = static_cast<double>(film.empty_pixels());
+    if (empty > 0) {
+        lines.push_back("rendering ended before " +
+                        percent(empty / static_cast<double>(film.pixels().size())) +
+                        " of the pixels had a sample: they are black");
+    }
+    double sum = film.mean() * samples;
+    if (samples > 0 && sum == 0) lines.push_back("the picture is black: no sample found light");
+    if (sum > 0 && counts.largest > too_much * sum) {
+        lines.push_back("one sample contains " + percent(counts.largest / sum) +
+                        " of the whole picture");
+    }
+    double effective = film.effective_samples();
+    if (effective > 0 && effective < few_samples) {
+        lines.push_back(
+            "as few as " + std::to_string(std::lround(effective)) +
+            " samples determine the picture: the true error is larger than the reported one");
+    }
+    Film::ErrorBasis basis = film.error_basis();
+    bool one_in_many = basis.pixels < few_pixels && basis.squares > 0 &&
+                       counts.largest * counts.largest > 0.05 * basis.squares;
+    if (one_in_many && effective >= few_samples) {
+        lines.push_back(
+            "a few bright samples determine the error: the true error is larger than the reported "
+            "one");
+    }
+    if (film.has_batches() && film.spp() > 1 && film.spp() < few_audits) {
+        lines.push_back(
+            "the error is estimated from few passes: the true one may be half or twice as large");
+    }
+    bool is_told_by_means = film.has_audits() || film.has_halves();
+    if (is_told_by_means && basis.squares > 0 && basis.audits < few_audits) {
+        lines.push_back(
+            "the error is estimated from few pixels: the true one may be half or twice as large");
+    }
+    return lines;
+}
+
+std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
+                                     const Rendering& r) {
+    std::vector<std::string> lines = warnings_of(r.film, r.stats);
+    if (r.film.samples() > 0 && r.film.mean() == 0) {
+        for (const std::string& cause : causes_of_black(scene, options, chance_of_any(scene))) {
+            lines.push_back("possible cause: " + cause);
+        }
+    }
+    add_missed_light(scene, options, r.film, lines);
+    lines.insert(lines.end(), r.warnings.begin(), r.warnings.end());
+    return lines;
+}

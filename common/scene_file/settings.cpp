@@ -1,0 +1,260 @@
+#include "common/scene_file/settings.h"
+
+#include <algorithm>
+
+namespace {
+
+// The kinds of a directive, and the parameters of each that we read over.
+struct Kind {
+    std::string name;
+    std::vector<std::string> integers, floats, strings, bools;
+};
+
+// Finds the kind, reads over its parameters, and refuses what is left.
+void accept(Params& params, const std::vector<Kind>& kinds) {
+    std::vector<std::string> known;
+    for (const Kind& kind : kinds) {
+        known.push_back(kind.name);
+        if (kind.name != params.type()) continue;
+        params.ignore("integer", kind.integers);
+        params.ignore("float", kind.floats);
+        params.ignore("string", kind.strings);
+        params.ignore("bool", kind.bools);
+        params.finish();
+        return;
+    }
+    params.fail_type(known);
+}
+
+void note(SceneNotes& notes, const Params& params, const std::string& text) {
+    notes.add(params.at(), params.owner() + ' ' + text);
+}
+
+void place_camera(const Params& params, const Transform& world_from_camera, Camera& camera) {
+    camera.o = to_vec3(world_from_camera.o);
+    camera.right = to_vec3(world_from_camera.x);
+    camera.up = to_vec3(world_from_camera.y);
+    camera.forward = to_vec3(world_from_camera.z);
+    for (Vec3 axis : {camera.right, camera.up, camera.forward}) {
+        bool usable = length(axis) > 1e-6f && length(axis) < 1e6f;
+        if (!usable || !(max_component(abs(camera.o)) <= 1e9f)) {
+            fail(params.at(), "the camera's transform is too large or too small");
+        }
+    }
+}
+
+// The narrowest field of view, in degrees: in a narrower one floats do not tell the rays of
+// neighbouring pixels apart.
+constexpr float narrowest = 0.001f;
+
+// Reads what part of the plane in front of the camera is seen.
+void read_screen(Params& params, Camera& camera) {
+    camera.fov = params.number("fov", 90);
+    if (!(camera.fov >= narrowest && camera.fov < 180)) {
+        fail(params.at("fov"), "fov must be at least 0.001 and less than 180 degrees");
+    }
+    if (const Param* aspect = params.find_exactly("float", "frameaspectratio", 1)) {
+        camera.frame_aspect = static_cast<float>(aspect->numbers[0]);
+        if (!(*camera.frame_aspect >= 1e-4f && *camera.frame_aspect <= 1e4f)) {
+            fail(aspect->at, "frameaspectratio must be from 1e-4 to 1e4");
+        }
+    }
+    if (const Param* window = params.find_exactly("float", "screenwindow", 4)) {
+        auto& w = camera.screen_window.emplace();
+        std::transform(window->numbers.begin(), window->numbers.end(), w.begin(),
+                       [](double x) { return static_cast<float>(x); });
+        if (!(w[0] < w[1] && w[2] < w[3])) fail(window->at, "screenwindow is empty");
+        float shorter = std::min(w[1] - w[0], w[3] - w[2]);
+        if (!(std::tan(camera.fov * pi / 360) * shorter >= narrowest * pi / 180)) {
+            fail(window->at, "screenwindow shows less than 0.001 degrees");
+        }
+        for (float edge : w) {
+            if (std::abs(edge) > 1e4f) fail(window->at, "screenwindow reaches farther than 1e4");
+        }
+    }
+}
+
+// Makes a perspective camera that shows about what one of the other types does.
+void stand_in_for(const std::string& type, Camera& camera) {
+    camera.lens_radius = 0;
+    constexpr float far = 200;  // units, of which the view of an orthographic camera is 2 wide
+    if (type == "orthographic") {
+        camera.o = camera.o - far * camera.forward;
+        camera.fov = 2 * std::atan(1 / far) * 180 / pi;
+    } else if (type == "realistic") {
+        camera.fov = 40;
+    }
+}
+
+void read_lens(Params& params, Camera& camera) {
+    camera.lens_radius = params.number("lensradius", 0);
+    camera.focal_distance = params.number("focaldistance", 1e6f);
+    if (!(camera.lens_radius >= 0 && camera.lens_radius <= 1e6f)) {
+        fail(params.at("lensradius"), "lensradius must be from 0 to 1e6");
+    }
+    if (camera.lens_radius == 0) camera.focal_distance = 1e6f;  // of a pinhole it means nothing
+    if (!(camera.focal_distance >= 1e-6f && camera.focal_distance <= 1e9f)) {
+        fail(params.at("focaldistance"), "focaldistance must be from 1e-6 to 1e9");
+    }
+    camera.line = params.at().line;
+    camera.column = params.at().column;
+}
+
+}  // namespace
+
+void read_camera(Params& params, const Transform& camera_from_world, Camera& camera,
+                 Exposure& exposure) {
+    bool stands_in = params.type() != "perspective" && params.stands_in();
+    if (params.type() != "perspective" && !stands_in) params.fail_type({"perspective"});
+    camera = {};
+    place_camera(params, inverse(camera_from_world), camera);
+    read_screen(params, camera);
+    read_lens(params, camera);
+    if (stands_in) stand_in_for(params.type(), camera);
+    camera.shutter_open = params.number("shutteropen", 0);
+    camera.shutter_close = params.number("shutterclose", 1);
+    // A pinhole has no size, so the unit of its axes is free: near 1, their products are neither
+    // too small nor too large for floats. A power of two leaves all rays as they are.
+    if (camera.lens_radius == 0) {
+        int exponent = static_cast<int>(std::lround(std::log2(length(camera.forward))));
+        for (Vec3* axis : {&camera.right, &camera.up, &camera.forward}) {
+            *axis = std::ldexp(1.0f, -exponent) * *axis;
+        }
+    }
+    if (stands_in) params.ignore_rest();
+    exposure.shutter = camera.shutter_close - camera.shutter_open;
+    if (!(exposure.shutter > 0)) {
+        fail(params.at("shutterclose"), "shutterclose must be after shutteropen");
+    }
+    params.finish();
+}
+
+void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& notes) {
+    bool stands_in = params.type() != "rgb" && params.stands_in();
+    if (params.type() != "rgb" && !stands_in) params.fail_type({"rgb"});
+    constexpr int widest = 1 << 16;
+    constexpr int64_t most_pixels = 1 << 28;
+    scene.width = params.integer("xresolution", 1280, 1, widest);
+    scene.height = params.integer("yresolution", 720, 1, widest);
+    if (int64_t{scene.width} * scene.height > most_pixels) {
+        fail(params.at(), "more than 2^28 pixels");
+    }
+    exposure.iso = params.number("iso", 100);
+    if (!(exposure.iso > 0)) fail(params.at("iso"), "iso must be greater than 0");
+
+    if (params.find_exactly("float", "cropwindow", 4)) {
+        params.stand_in(params.at("cropwindow"), "a part of the film",
+                        "cropwindow is not supported");
+    }
+    if (params.find_exactly("integer", "pixelbounds", 4)) {
+        params.stand_in(params.at("pixelbounds"), "a part of the film",
+                        "pixelbounds is not supported");
+    }
+    std::string sensor = params.string("sensor", "cie1931");
+    if (sensor != "cie1931") {
+        params.stand_in(params.at("sensor"), "a sensor or white balance",
+                        unknown("sensor", sensor, {"cie1931"}));
+    }
+    if (params.number("whitebalance", 0) != 0) {
+        params.stand_in(params.at("whitebalance"), "a sensor or white balance",
+                        "whitebalance is not supported");
+    }
+    if (params.find("float", "maxcomponentvalue")) {
+        note(notes, params, "maxcomponentvalue is ignored: nothing is clamped");
+    }
+    params.ignore("string", {"filename"});
+    params.ignore("float", {"diagonal"});
+    params.ignore("bool", {"savefp16"});
+    if (stands_in) params.ignore_rest();
+    params.finish();
+}
+
+void read_pixel_filter(Params& params, SceneNotes& notes) {
+    float radius = params.type() == "box" ? 0.5f : 0;
+    if (params.type() == "box") {
+        radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
+    }
+    accept(params, {{"box", {}, {"xradius", "yradius"}, {}, {}},
+                    {"gaussian", {}, {"xradius", "yradius", "sigma"}, {}, {}},
+                    {"mitchell", {}, {"xradius", "yradius", "B", "C"}, {}, {}},
+                    {"sinc", {}, {"xradius", "yradius", "tau"}, {}, {}},
+                    {"triangle", {}, {"xradius", "yradius"}, {}, {}}});
+    if (radius != 0.5f) note(notes, params, "is replaced by the box of one pixel");
+}
+
+void read_sampler(Params& params, Scene& scene, SceneNotes& notes) {
+    constexpr int most = 1 << 24;
+    if (params.type() == "stratified") {
+        int x = params.integer("xsamples", 4, 1, 4096), y = params.integer("ysamples", 4, 1, 4096);
+        scene.spp = x * y;
+    } else {
+        scene.spp =
+            params.integer("pixelsamples", params.type() == "independent" ? 4 : 16, 1, most);
+    }
+    accept(params, {{"halton", {"seed"}, {}, {"randomization"}, {}},
+                    {"independent", {"seed"}, {}, {}, {}},
+                    {"paddedsobol", {"seed"}, {}, {"randomization"}, {}},
+                    {"pmj02bn", {"seed"}, {}, {}, {}},
+                    {"sobol", {"seed"}, {}, {"randomization"}, {}},
+                    {"stratified", {"seed"}, {}, {}, {"jitter"}},
+                    {"zsobol", {"seed"}, {}, {"randomization"}, {}}});
+    if (params.type() != "independent") note(notes, params, "only sets the samples per pixel");
+}
+
+void read_integrator(Params& params, Scene& scene, SceneNotes& notes) {
+    bool has_depth = params.type() != "ambientocclusion";
+    scene.max_depth = has_depth ? params.integer("maxdepth", 5, 0, 1 << 30) : 5;
+    accept(params, {{"ambientocclusion", {}, {"maxdistance"}, {}, {"cossample"}},
+                    {"bdpt",
+                     {},
+                     {},
+                     {"lightsampler"},
+                     {"regularize", "visualizestrategies", "visualizeweights"}},
+                    {"lightpath", {}, {}, {}, {}},
+                    {"mlt",
+                     {"bootstrapsamples", "chains", "mutationsperpixel"},
+                     {"sigma", "largestepprobability"},
+                     {},
+                     {"regularize"}},
+                    {"path", {}, {}, {"lightsampler"}, {"regularize"}},
+                    {"randomwalk", {}, {}, {}, {}},
+                    {"simplepath", {}, {}, {}, {"samplelights", "samplebsdf"}},
+                    {"simplevolpath", {}, {}, {}, {}},
+                    {"sppm", {"photonsperiteration", "seed"}, {"radius"}, {}, {"regularize"}},
+                    {"volpath", {}, {}, {"lightsampler"}, {"regularize"}}});
+    if (params.type() != "path")
+        note(notes, params, "only sets the depth: the program is the integrator");
+}
+
+void read_accelerator(Params& params, SceneNotes& notes) {
+    accept(params, {{"bvh", {"maxnodeprims"}, {}, {"splitmethod"}, {}},
+                    {"kdtree",
+                     {"intersectcost", "traversalcost", "maxprims", "maxdepth"},
+                     {"emptybonus"},
+                     {},
+                     {}}});
+    if (params.type() != "bvh") note(notes, params, "is ignored: all programs use a BVH");
+}
+
+void read_option(const Position& at, const std::string& name, SceneNotes& notes) {
+    // Compare as pbrt does, without regard to case, dashes and underscores.
+    std::string plain;
+    for (char c : name) {
+        if (c != '-' && c != '_') plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    }
+    const std::vector<std::string> known = {"disablepixeljitter",
+                                            "disabletexturefiltering",
+                                            "disablewavelengthjitter",
+                                            "displacementedgescale",
+                                            "forcediffuse",
+                                            "msereferenceimage",
+                                            "msereferenceout",
+                                            "pixelstats",
+                                            "rendercoordsys",
+                                            "seed",
+                                            "wavefront"};
+    if (std::find(known.begin(), known.end(), plain) == known.end()) {
+        fail_unknown(at, "Option", name, known);
+    }
+    notes.add(at, "Option " + quote(name) + " is ignored");
+}
