@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/base/files.h"
+#include "common/base/system.h"
 
 namespace {
 
@@ -172,7 +173,7 @@ TEST_SUITE("promotion") {
         for (const Promoted& row : promoted) rows.insert(row.header);
         for (const auto& file : std::filesystem::recursive_directory_iterator("common")) {
             if (file.path().extension() != ".h") continue;
-            std::string header = file.path().string(), text = read_file(header);
+            std::string header = file_name(file.path()), text = read_file(header);
             std::string first_line = text.substr(0, text.find('\n'));
             if (first_line.find("taught by chapter") == std::string::npos) continue;
             CAPTURE(header);

@@ -44,7 +44,13 @@ TEST_SUITE("reader: malformed input") {
             for (size_t at; (at = said.find(folder)) != std::string::npos;) {
                 said.erase(at, folder.size());
             }
-            CHECK(said == c.message);
+            std::string expected = c.message;
+            size_t hint = expected.find("; write / between folders");
+            if (fs::path::preferred_separator == '\\' && hint != std::string::npos) {
+                expected.erase(hint);  // there, a backslash stands between folders, too
+                std::replace(expected.begin(), expected.end(), '\\', '/');
+            }
+            CHECK(said == expected);
         }
     }
 
@@ -227,7 +233,8 @@ TEST_SUITE("reader: malformed input") {
         CHECK(refuse_file("tests") == "tests: error: cannot read: Is a directory");
         TemporaryFolder folder;
         std::string huge = write(folder, "huge.pbrt", "");
-        fs::resize_file(huge, uintmax_t{1} << 40);  // with a hole: takes no room
+        // With a hole: takes no room. Windows sets sizes of 31 bits.
+        fs::resize_file(huge, sizeof(off_t) == 4 ? uintmax_t{3} << 29 : uintmax_t{1} << 40);
         CHECK(refuse_file(huge) == huge + ": error: larger than 1 GiB");
         std::string scene = write(folder, "scene.pbrt", "Include \"huge.pbrt\"");
         CHECK(refuse_file(scene) == scene + ":1:9: error: \"" + huge + "\": larger than 1 GiB");

@@ -197,7 +197,7 @@ TEST_SUITE("reader: large scenes") {
     TEST_CASE("truth: loading is told by lines in a file, and by one line on a terminal") {
         TemporaryFolder folder;
         auto show = [&](bool is_terminal, double pause) {
-            std::FILE* file = std::fopen((folder / "log").c_str(), "w");
+            std::FILE* file = std::fopen((folder / "log").c_str(), "wb");
             {
                 LoadingProgress progress(file, is_terminal, pause);
                 progress.show("reading a\n.ply", 0.344);
