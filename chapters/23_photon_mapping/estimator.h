@@ -29,7 +29,7 @@ struct PhotonSettings {
     float radius = 0;  // m, of the disk in which photons count; 0: by the scene's size
 };
 
-/// Traces one of `paths` light paths, and stores the flux that arrives at each diffuse vertex.
+/// Traces one of `paths` light paths, and stores its vertices with the flux that arrives there.
 ///
 ///   flux = Le cos_y / (pmf pdf_A pdf_w paths) beta
 ///

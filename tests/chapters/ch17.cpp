@@ -288,7 +288,7 @@ TEST_SUITE("ch17 sky image") {
         CHECK(aimed.variance() < chance.variance() / 50);
     }
 
-    TEST_CASE("agreement: sky.pbrt's classes of paths, with the sky found by chance") {
+    TEST_CASE("agreement: classes of paths under a sky, with the sky found by chance") {
         // Chance alone: the same trace without light sampling, by a sky that is not told.
         Scene scene = under_sky(
             SkyImage::Map::wide, 16, 8,

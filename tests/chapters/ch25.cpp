@@ -204,8 +204,8 @@ TEST_SUITE("ch25 vertex merging") {
             }
     }
 
-    TEST_CASE("truth: a point light seen through glass that it lights through glass") {
-        // What no connection finds (chapter 21): photons do, and the other strategies leave it.
+    TEST_CASE("agreement: light through glass, seen through glass, with chapter 23") {
+        // No connection finds this light (chapter 21); photons do.
         Scene scene = scene_from("scenes/sds.pbrt", 32, 6);
         PhotonSettings settings{.light_paths = 20000, .radius = scene.radius / 120};
         Measured own = blocks_by(scene, settings, 8, 12, "LS+DS+E").block(0, 0, 32);
