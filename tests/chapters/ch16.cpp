@@ -341,8 +341,8 @@ TEST_SUITE("ch16 shutter") {
     }
 
     TEST_CASE("brute: at each time, hits as of the same scene at rest") {
-        // A tetrahedron, a ball and a disk that move, turn and stretch, against copies that are put
-        // where they are at the time.
+        // A tetrahedron, a ball and a disk that move and turn, against copies that are put where
+        // they are at the time.
         const std::string shapes[] = {
             "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 1 3 1 2 3 0 3 2] \"point3 P\" "
             "[-.5 -.5 -.5  .5 -.5 -.5  0 -.5 .5  0 .5 0]",
