@@ -10,11 +10,18 @@ static auto by_merging(PhotonSettings settings) {
     };
 }
 
-[[maybe_unused]] static const bool added =
-    add_method({.name = "25",
-                .label = "25 vertex merging",
-                .color = "#b8860b",
+[[maybe_unused]] static const bool added = [] {
+    add_method({.name = "25-few",
+                .label = "25 with few photons",
+                .color = "#e0c878",
                 .finds_light = "by photons from both ends",
-                .scenes = {"sds", "caustic", "cornell-spheres"},
-                .render = by_merging({.light_paths = 0}),
+                .render = by_merging({.light_paths = 200}),
                 .biased = true});
+    return add_method({.name = "25",
+                       .label = "25 vertex merging",
+                       .color = "#b8860b",
+                       .finds_light = "by photons from both ends",
+                       .scenes = {"sds", "caustic", "cornell-spheres"},
+                       .render = by_merging({.light_paths = 0}),
+                       .biased = true});
+}();

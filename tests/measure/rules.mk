@@ -43,7 +43,7 @@ references: $(BUILD)/references $(made)
 #: measuring: make bench        rays per second of each step of chapter 06, beside Embree
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
-readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
+readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency passes radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
 harness := $(common) $(BUILD)/obj/tests/support/main.o
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))

@@ -457,12 +457,17 @@ StabilityCase close_to_the_floor(double h) {
 ///
 ///   share(t) = 8 / (3 pi) times the integral of (1 - x^2)^1.5 from -t to 1      (kernel of 23)
 ///
-/// Chapter 24: the mean of the shares of all passes, whose radius shrinks.
-StabilityCase edge_by_photons(double t) {
+/// Chapters 24 and 25: the mean of the shares of all passes, whose radius shrinks. If the camera
+/// sees the floor in the mirror as well, no connection finds this light: only photons do.
+StabilityCase edge_by_photons(double t, bool in_the_mirror) {
     std::string world = "LightSource \"distant\" \"point3 from\" [0 0 0] \"point3 to\" [-1 1 0]\n" +
                         quad("-0.5 0 -0.5  -0.5 0 0.5  0 0 0.5  0 0 -0.5") + mirror +
                         quad("0.5 1 -0.5  1.5 1 -0.5  1.5 1 0.5  0.5 1 0.5");
-    auto view = [&](double x) { return look(format("%g 0.5 0  %g 0 0  0 0 1", x, x), 2) + world; };
+    auto view = [&](double x) {
+        std::string above = format("%g 0.5 0  %g 0 0  0 0 1", x, x);
+        std::string by_mirror = format("1.8 0.2 0  %g 2 0  0 0 1", x);  // the floor's image: y = 2
+        return (in_the_mirror ? look(by_mirror, 3) : look(above, 2)) + world;
+    };
     Scene scene = parse_scene("edge", view(0), nullptr);
     prepare(scene, 1);
     double R{scene.radius}, away = t * R / 120;
@@ -472,18 +477,33 @@ StabilityCase edge_by_photons(double t) {
         for (int i = 0; i < n; i++) sum += std::pow(1 - std::pow(1 - (i + 0.5) * width, 2), 1.5);
         return 8 / (3 * pi) * sum * width;
     };
-    double r2 = R * R / 6400, by_24 = 0;
-    for (double i = 1; i <= N; i++) {
-        by_24 += share(away / std::sqrt(r2)) / N;
-        r2 *= (i + 2.0 / 3) / (i + 1);
+    auto shrinking_from = [&](double radius) {
+        double r2 = radius * radius, mean = 0;
+        for (double i = 1; i <= N; i++) {
+            mean += share(away / std::sqrt(r2)) / N;
+            r2 *= (i + 2.0 / 3) / (i + 1);
+        }
+        return mean;
+    };
+    // About ten photons in a run.
+    auto too_dark = [](double mean) {
+        return std::vector<Prediction>{{Metric::mean, mean, true},
+                                       {Metric::coverage, 0.95, true, true}};
+    };
+    StabilityCase c{in_the_mirror ? "the same edge, seen in the mirror"
+                                  : "light near the floor's edge, by a mirror",
+                    view(-away),
+                    0.5 / pi * std::numbers::sqrt2 / 2,
+                    N,
+                    {{{"23-few"}, too_dark(share(t))},
+                     {{"24-few"}, too_dark(shrinking_from(R / 80))},
+                     {{"25-few"}, too_dark(shrinking_from(R / 60))}}};
+    if (in_the_mirror) {
+        std::vector<Prediction> nothing = {
+            {Metric::mean, 0, true}, {Metric::black, 1, true}, {Metric::coverage, 0, true}};
+        c.expected.push_back({{"15", "21", "22"}, nothing});
     }
-    Prediction few_photons{Metric::coverage, 0.95, true, true};  // about ten in a run
-    return {"light near the floor's edge, by a mirror",
-            view(-away),
-            0.5 / pi * std::numbers::sqrt2 / 2,
-            N,
-            {{{"23-few"}, {{Metric::mean, share(t), true}, few_photons}},
-             {{"24-few"}, {{Metric::mean, by_24, true}, few_photons}}}};
+    return c;
 }
 
 }  // namespace
@@ -514,5 +534,6 @@ std::vector<StabilityCase> stability_cases() {
             sky_with_a_sun(true),
             lit_and_seen_by_mirror(),
             close_to_the_floor(0.3),
-            edge_by_photons(0.25)};
+            edge_by_photons(0.25, false),
+            edge_by_photons(0.25, true)};
 }

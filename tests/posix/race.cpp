@@ -1,0 +1,72 @@
+// make race, with programs that pretend to be other renderers.
+#include <doctest/doctest.h>
+
+#include "tests/support/run_program.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A race on cornell at 8x8 with a "pbrt" that is chapter 08 with these options.
+Finished race_with(const std::string& options) {
+    TemporaryFolder folder;
+    for (const char* chapter :
+         {"08_russian_roulette", "15_mis_ris", "20_light_tracing", "22_fast_bidirectional",
+          "24_progressive_photons", "25_vertex_merging"})
+        fs::create_symlink(fs::absolute(program_file(chapter)), folder / chapter);
+    write_file_atomically(
+        folder / "pbrt",
+        "#!/bin/sh\n# --outfile FILE --nthreads N --spp N SCENE\n"
+        "seed=$(sed -n 's/.*integer seed. .\\([0-9]*\\).*/\\1/p' \"$7\")\n" +
+            (folder / "08_russian_roulette") +
+            " \"$7\" --out \"$2\" --threads \"$4\" --spp \"$6\" --seed \"$seed\" " + options +
+            "\n");
+    fs::permissions(folder / "pbrt", fs::perms::owner_all);
+    return Process(
+               {"/bin/sh", "-c",
+                "exec tests/race/race \"$0\" cornell --peers pbrt --pbrt \"$0/pbrt\" --size 8x8 "
+                "--threads 1 --seconds 0.05 --reference 0.2 --turns 2 2>&1",
+                folder.path()})
+        .wait();
+}
+
+/// Whether scripts run here, and the programs without an emulator.
+bool can_race() { return exists_here("/usr/bin/python3") && std::getenv("RUN") == nullptr; }
+
+}  // namespace
+
+TEST_SUITE("race") {
+    TEST_CASE("agreement: a renderer that is a chapter has the same mean, and gets a number") {
+        if (!can_race()) return;
+        Finished end = race_with("");
+        CAPTURE(end.out);
+        CHECK(end.code == 0);
+        CHECK(end.out.find("| scene | 15 | 20 | 22 | 24 | 25 | pbrt | best / pbrt |\n") !=
+              std::string::npos);
+        CHECK(end.out.find("\n| cornell | ") != std::string::npos);
+        CHECK(end.out.find("other mean") == std::string::npos);
+        CHECK(end.out.rfind(") |\n") == end.out.size() - 4);  // "times as much (15) |"
+    }
+
+    TEST_CASE("teeth: a renderer with too short paths has another mean, and gets no number") {
+        if (!can_race()) return;
+        Finished end = race_with("--max-depth 1 --spp 1000");
+        CAPTURE(end.out);
+        CHECK(end.code == 0);
+        CHECK(end.out.find(" | other mean: 0.") != std::string::npos);
+        CHECK(end.out.rfind(" | - |\n") == end.out.size() - 7);
+    }
+
+    TEST_CASE("input: without another renderer it says what it needs") {
+        if (!can_race()) return;
+        Finished end =
+            Process({"/bin/sh", "-c", "exec tests/race/race none --blender none --pbrt none 2>&1"})
+                .wait();
+        CHECK(end.code == 2);
+        CHECK(end.out ==
+              "cycles: needs the program none: Debian has it (apt-get install blender), or "
+              "BLENDER=FILE names it\n"
+              "pbrt: needs the program none: it is built from its source (pbrt.org), or PBRT=FILE "
+              "names it\n");
+    }
+}
