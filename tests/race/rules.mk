@@ -2,7 +2,8 @@
 .PHONY: race
 $(BUILD)/flatten: $(BUILD)/obj/tests/race/programs/flatten.o $(common)
 	$(link)
+programs: $(BUILD)/flatten  # tests start it
 #: measuring: make race         other renderers beside the chapters, on the same scenes (PEERS='cycles pbrt'; PBRT=FILE, SCENES=)
-race: programs $(BUILD)/flatten
+race: programs
 	@tests/race/race $(BUILD) $(SCENES) $(foreach name,peers blender pbrt size turns seconds reference,$(call option,$(name)))
 option = $(if $($(shell tr a-z A-Z <<<$(1))),--$(1) '$($(shell tr a-z A-Z <<<$(1)))')
