@@ -26,11 +26,12 @@ inline double seconds_at(const ErrorLine& line, double error) {
     return line.seconds[above] * std::pow(line.seconds[above + 1] / line.seconds[above], part);
 }
 
-/// How many times less time the one takes than the other, at the smallest error that both have
-/// reached.
+/// How many times less time the one takes than the other, at the smallest error that one of them
+/// has reached. At larger errors the faster one takes so few samples that most of its time is that
+/// before the first sample.
 inline double times_faster(const ErrorLine& one, const ErrorLine& other) {
     if (one.error.empty() || other.error.empty()) return NAN;
-    double error = std::max(one.error.back(), other.error.back());
+    double error = std::min(one.error.back(), other.error.back());
     return seconds_at(other, error) / seconds_at(one, error);
 }
 
