@@ -204,7 +204,8 @@ class Program:
             self.source = f"tests/chapters/ch{chapter}.cpp"
         self.dropped = set()
         os.makedirs(os.path.dirname(f"{self.folder}/{self.path}"), exist_ok=True)
-        self.common = [o for o in glob.glob(f"{build}/obj/common/*/*.o") if "/tools/" not in o]
+        self.common = [o for o in glob.glob(f"{build}/obj/common/*/*.o")
+                       if "/tools/" not in o and os.path.exists(o.split("/obj/", 1)[1][:-1] + "cpp")]
         self.flags = compiler + ["-O1", "-w", "-Wno-narrowing", "-include", "tests/mutants/chosen.h",
                                  f"-I{self.folder}", "-I."]
         self.drop_what_does_not_compile()
