@@ -163,7 +163,7 @@ Hypothesis with_factor(const Evidence& evidence, const std::set<std::string>& sc
         if (unknown.contains(scene_of(key))) h.predicted[key] = q;
     }
     h.text = std::string(what) + " " + times(factor) +
-             " times as bright as it should be: units, exposure, or a factor";
+             " times as bright as the reference: units, exposure, or a factor";
     return h;
 }
 
@@ -255,14 +255,36 @@ std::vector<Hypothesis> mixtures(const std::vector<Hypothesis>& known, const Evi
     return all;
 }
 
-/// Whether two predictions were not measured precisely enough to tell them apart.
+/// Whether two predictions were not measured precisely enough to tell them apart: neither by a tile
+/// nor by the mean of a scene.
 bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {
+    struct Sum {
+        double differences = 0, squares = 0, model = 0;
+    };
+    std::map<std::string, Sum> scenes;
+    auto differ = [](double distance, double error, double model) {
+        return std::abs(distance) > std::hypot(4 * error, model) + 1e-3;
+    };
     for (const auto& [key, q] : evidence) {
         Quantity p = prediction(a, key), r = prediction(b, key);
-        if (std::abs(p.mean - r.mean) > std::hypot(4 * p.se, 4 * r.se, 0.01 * p.mean) + 1e-3)
-            return false;
+        double error = std::hypot(p.se, r.se);
+        if (differ(p.mean - r.mean, error, 0.01 * p.mean)) return false;
+        Sum& s = scenes[scene_of(key)];
+        s.differences += p.mean - r.mean, s.squares += error * error,
+            s.model += 0.01 * p.mean + 1e-3;
     }
-    return true;
+    return std::none_of(scenes.begin(), scenes.end(), [&](const auto& scene) {
+        const Sum& s = scene.second;
+        return differ(s.differences, std::sqrt(s.squares), s.model);
+    });
+}
+
+/// Whether the words of all these mistakes begin with the same routine: "Fresnel: ...".
+bool are_of_one_kind(const std::vector<std::string>& names) {
+    std::string kind = names[0].substr(0, names[0].find(':') + 1);
+    return !kind.empty() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+        return name.starts_with(kind);
+    });
 }
 
 /// What all scenes that are off have (one thing or two), and the fewest others.
@@ -403,7 +425,7 @@ Diagnosis judge(const Folder& folder, const References& references,
         return fits;
     };
     std::vector<Fit> fits = fitting();
-    if (fits.empty()) {
+    if (fits.empty() && off.size() > 1) {  // one scene is too few for a number that is fitted
         hypotheses = mixtures(hypotheses, evidence), fits = fitting();
         std::set<std::string> families;  // the best of each
         std::erase_if(
@@ -421,10 +443,11 @@ Diagnosis judge(const Folder& folder, const References& references,
             "It looks like this mistake: " + d.name + ".\n    This explains all " +
             std::to_string(evidence.size()) +
             " numbers that were measured, a thousand times better than any other known mistake.\n";
-    } else if (best.size() == 2) {
-        d.name = best[0] + "; or " + best[1];
-        d.text += "Two mistakes explain all numbers about equally well:\n    " + best[0] +
-                  "; or\n    " + best[1] + ".\n";
+    } else if (best.size() == 2 || (best.size() > 2 && are_of_one_kind(best))) {
+        for (const std::string& name : best) d.name += (d.name.empty() ? "" : "; or ") + name;
+        d.text += std::to_string(best.size()) +
+                  " mistakes explain all numbers about equally well:\n    " +
+                  std::regex_replace(d.name, std::regex("; or "), "; or\n    ") + ".\n";
     } else {
         d.text += best.empty()
                       ? "No known mistake explains all numbers.\n"

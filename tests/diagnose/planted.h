@@ -32,5 +32,39 @@ inline bool blocked(const Scene& scene, Ray ray, bool through_mirrors = false) {
     }
     return false;
 }
+/// The first (sign 1) or last (-1) object in the scene's list of all that lie on the ray.
+inline std::optional<Hit> by_order(const Scene& scene, const Ray& ray, int sign) {
+    auto number = [&](const Hit& x) {
+        auto shape = [](const auto& prim) { return static_cast<int>(prim.shape); };
+        return visit(scene.geometry, x.prim, shape, shape, shape);
+    };
+    std::optional<Hit> best;
+    for (auto x = intersect(scene, ray); x; x = intersect(scene, spawn_ray(*x, ray.d)))
+        if (!best || sign * number(*x) < sign * number(*best)) best = x;
+    return best;
+}
+/// A point in a spherical lamp, not on it. How 2: its normal is shorter than 1; 0: it stays.
+template <typename Point>
+Point in_ball(const Scene& scene, size_t light, Point y, Vec2 u, int how) {
+    if (how == 0 || scene.light_shapes[light].parallelogram) return y;
+    Vec3 centre = scene.light_shapes[light].centre;
+    float r = std::cbrt(u.x * 4096 - std::floor(u.x * 4096));
+    y.p = centre + r * (y.p - centre);
+    if (how == 2) y.n = r * y.n;
+    return y;
+}
+/// A direction of half of the hemisphere: which half depends on how a frame is made from n.
+template <typename Sample>
+Sample half_turn(Sample s, Vec3 n, int frame) {
+    static const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const int rules[3][2] = {{0, 1}, {1, 0}, {2, 0}};
+    if (s.specular || frame < 0) return s;
+    const int* rule = rules[frame / 4];
+    Vec3 t = normalize(cross(axes[std::abs(n[rule[0]]) > 0.5f ? rule[1] : rule[0]], n));
+    if (frame & 1) t = cross(n, t);
+    float away = std::min(0.0f, frame & 2 ? -dot(s.wi, t) : dot(s.wi, t));
+    s.wi = s.wi - (frame & 2 ? -2 : 2) * away * t;
+    return s;
+}
 
 }  // namespace planted

@@ -87,11 +87,15 @@ std::vector<Hypothesis> read_effects(const References& references) {
             std::vector<std::string> numbers =
                 split(effect.substr(equal + 1, error - equal - 1), ' ');
             const Tiles& should = references.at(scene);
+            // One number: each tile was as uncertain as that, not only their mean.
+            double alike = 0;
+            for (size_t i = 0; i < should.size(); i++) alike += !is_dark(should, i);
+            if (numbers.size() > 1) alike = 1;
             for (size_t i = 0; i < should.size(); i++) {
                 if (numbers.size() == 1 && is_dark(should, i)) continue;
                 h.predicted[key_of(scene, should, i)] = {
                     std::stod(numbers.size() == 1 ? numbers[0] : numbers.at(i)),
-                    std::stod(effect.substr(error + 1))};
+                    std::stod(effect.substr(error + 1)) * std::sqrt(alike)};
             }
         }
         effects.push_back(h);

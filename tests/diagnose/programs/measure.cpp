@@ -127,8 +127,8 @@ Image changed(const Image& right, const std::string& how) {
 /// What such a row does to a scene.
 Change change_of(const std::string& how) {
     std::istringstream words(how);
-    std::string what, argument;
-    words >> what >> argument;
+    std::string what, argument, then;
+    words >> what >> argument >> then;
     return [=](Scene& s) {
         double half = double{s.camera.fov} * std::numbers::pi / 360;
         double aspect = static_cast<double>(s.width) / s.height, tangent = std::tan(half);
@@ -140,6 +140,11 @@ Change change_of(const std::string& how) {
         if (argument == "whole") tangent = std::tan(double{s.camera.fov});
         if (what == "fov")
             s.camera.fov = static_cast<float>(360 / std::numbers::pi * std::atan(tangent));
+        if (what == "shift") {  // all scenes are 16 pixels high
+            float x = std::stof(argument) / 8, y = std::stof(then) / 8;
+            float half_width = static_cast<float>(s.width) / 16;
+            s.camera.screen_window = {x - half_width, x + half_width, y - 1, y + 1};
+        }
         if (how == "aspect") s.camera.frame_aspect = 1;
         if (what == "radius")
             for (Sphere& sphere : s.geometry.spheres) sphere.r *= std::stof(argument);
