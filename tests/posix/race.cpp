@@ -11,8 +11,8 @@ namespace {
 Finished race_with(const std::string& options) {
     TemporaryFolder folder;
     for (const char* chapter :
-         {"08_russian_roulette", "15_mis_ris", "20_light_tracing", "22_fast_bidirectional",
-          "24_progressive_photons", "25_vertex_merging"})
+         {"08_russian_roulette", "15_mis_ris", "16_lens_and_shutter", "20_light_tracing",
+          "22_fast_bidirectional", "24_progressive_photons", "25_vertex_merging"})
         fs::create_symlink(fs::absolute(program_file(chapter)), folder / chapter);
     write_file_atomically(
         folder / "pbrt",
@@ -41,8 +41,10 @@ TEST_SUITE("race") {
         Finished end = race_with("--spp 4000");  // the same pictures each time
         CAPTURE(end.out);
         CHECK(end.code == 0);
-        CHECK(end.out.find("| scene | 15 | 20 | 22 | 24 | 25 | pbrt | best / pbrt |\n") !=
-              std::string::npos);
+        CHECK(
+            end.out.find(
+                "| scene | 15 | 16 --sampler sobol | 20 | 22 | 24 | 25 | pbrt | best / pbrt |\n") !=
+            std::string::npos);
         CHECK(end.out.find("\n| cornell | ") != std::string::npos);
         CHECK(end.out.find("other mean") == std::string::npos);
         CHECK(end.out.rfind(") |\n") == end.out.size() - 4);  // "times as much (15) |"
