@@ -1,4 +1,4 @@
-// A floor under a point light that shines on it by way of a mirror, and which the camera sees in
+// A floor that a point light reaches after one reflection in a mirror, and that the camera sees in
 // the mirror: paths of class LSDSE alone, which only photons find. Every pixel is known exactly.
 #pragma once
 #include "chapters/25_vertex_merging/estimator.h"
@@ -26,8 +26,8 @@ Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-2 1 -2  2 1 -2
 
     FloorInMirror() { prepare(scene, 1); }
 
-    /// Radiance of the floor at distance d, m, from the middle.    rho / pi  I h / (h^2 +
-    /// d^2)^(3/2)
+    /// Radiance of the floor whose squared distance from the middle is d2, m^2.
+    ///     rho / pi  I h / (h^2 + d2)^(3/2)
     static double radiance(double d2) { return 0.5 / double{pi} * h / std::pow(h * h + d2, 1.5); }
 
     /// What a pixel shows by photons of this radius, without noise; radius 0: the truth.
