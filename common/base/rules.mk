@@ -17,6 +17,15 @@ $(BUILD)/include/stb: # of Debian's own compiler
 endif
 endif
 
+# One entry for each file that is compiled, in the form that editors and clang-tidy read.
+compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
+#: maintaining: make compile_commands.json   tells editors how files are compiled
+compile_commands.json: $(BUILD)/flags $(compiled)
+	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
+	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
+	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
+	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
+
 # Changes when the compiler or its flags do: then all is compiled again.
 $(BUILD)/flags: $(if $(COUNT),,always)
 	@mkdir -p $(@D); echo '$(CXX) $(CXXFLAGS)' | cmp -s - $@ || echo '$(CXX) $(CXXFLAGS)' >$@

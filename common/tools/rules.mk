@@ -33,14 +33,6 @@ readmes: programs
 check_pages = $(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check \
                 $(if $(filter build,$(BUILD)),,--text))
 
-# One entry for each file that is compiled, in the form that editors and clang-tidy read.
-compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
-#: maintaining: make compile_commands.json   tells editors how files are compiled
-compile_commands.json: $(BUILD)/flags $(compiled)
-	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
-	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
-	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
-	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
 #: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy
 tidy: compile_commands.json
 	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
