@@ -199,8 +199,7 @@ StabilityCase two_points(bool hidden) {
 }
 
 /// The point light of before, and two of 1000 times its power, both behind a plate. Of three lights
-/// chapter 15 light_sampling at two, the likelier the more they could give: seldom at the one that
-/// is seen.
+/// chapter 15 samples two, the likelier the more they could give: seldom the one that is seen.
 StabilityCase two_hidden_points() {
     double power[] = {1, 1000, 1000}, w[] = {1, 250, 250};
     double mean = (w[0] + w[1] + w[2]) / 3, inclusion = 2 * (w[0] + mean / 9) / (3 * mean * 10 / 9);
