@@ -235,8 +235,8 @@ int main(int argc, char** argv) {
         MeasureOptions o = parse_measure_options(
             argc, argv, "[SCENE...]",
             "z values of every method against all others, on every scene: in total, in blocks of "
-            "16x16 pixels, for each path length and each class of path. Beyond 5 it fails. 23 and "
-            "24, which blur light, take part only when they are named.",
+            "16x16 pixels, for each path length and each class of path. Beyond 5 it fails. 23 to "
+            "25, which blur light, take part only when they are named.",
             {.spp = 0, .runs = 64, .width = 64, .height = 64, .seconds = 300});
         if (o.words.empty()) o.words = all_scenes();
         bool all = o.methods.empty();
