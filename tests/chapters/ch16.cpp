@@ -165,7 +165,8 @@ TEST_SUITE("ch16 lens") {
             float z, radius;
         } cases[] = {{4, 0.05f}, {1, 0.1f}, {2, 0}, {100, 0.098f}};
         Sampler random = random_numbers(1);
-        for (auto [z, radius] : cases) {
+        for (auto [depth, radius] : cases) {
+            float z = depth;  // clang 14 cannot capture the names in [ ]
             CAPTURE(z);
             float widest = 0;
             for (int i = 0; i < 1000; i++) {
@@ -211,8 +212,9 @@ TEST_SUITE("ch16 lens") {
         struct {
             double t, share;
         } cases[] = {{0, 0.5}, {0.5, 0.8044988905221}, {0.9, 0.9813069632658}};
-        for (auto [t, share] : cases)
+        for (const auto& c : cases)
             for (double side : {-1.0, 1.0}) {
+                auto t = c.t, share = c.share;
                 CAPTURE(t);
                 Vec3 focus = {static_cast<float>(-side * t * 0.05), 0, 2};
                 RunningStats s =

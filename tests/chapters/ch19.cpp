@@ -151,8 +151,9 @@ TEST_SUITE("ch19 adaptive") {
             uint32_t spp;
             double few, many;  // of both halves
         };
-        for (auto [spp, few, many] : {Expected{64, 16 + 0.05 * 48, 128 - (16 + 0.05 * 48)},
-                                      Expected{640, 0.1 * 640, 1.9 * 640}}) {
+        for (auto [samples, few, many] : {Expected{64, 16 + 0.05 * 48, 128 - (16 + 0.05 * 48)},
+                                          Expected{640, 0.1 * 640, 1.9 * 640}}) {
+            uint32_t spp = samples;
             CAPTURE(spp);
             auto a = ch19::samples_of(densities, 0, spp), b = ch19::samples_of(densities, 1, spp);
             double sum[2] = {};

@@ -84,7 +84,8 @@ TEST_SUITE("ch20 camera") {
             CAPTURE(fov);
             check_picture_mean(floor_below(sun, 2, fov), 0.1591549430919, 1000000, 0.03);
         }
-        for (auto [width, height] : {std::pair(1, 1), {64, 8}, {7, 31}}) {
+        for (auto [w, height] : {std::pair(1, 1), {64, 8}, {7, 31}}) {
+            int width = w;
             CAPTURE(width);
             Scene scene = floor_below(sun, 9, 60, width, height);
             check_picture_mean(scene, 0.1591549430919, 1000000, 0.02);

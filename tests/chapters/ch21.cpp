@@ -243,7 +243,8 @@ TEST_SUITE("ch21 weights") {
         CHECK(eye[2] == doctest::Approx(0.2630660216395).epsilon(1e-5).scale(0));
         // s = 0 has p = eye[1] eye[2], s = 1 has eye[1]; s = 2 is left out.
         double s0 = 0.2630660216395 / 1.2630660216395;
-        for (auto [s, mis] : {std::pair<size_t, double>{0, s0}, {1, 1 - s0}}) {
+        for (auto [edges, mis] : {std::pair<size_t, double>{0, s0}, {1, 1 - s0}}) {
+            size_t s = edges;
             CAPTURE(s);
             CHECK(static_cast<double>(ch21::mis_weight(scene, endpoints, path, s)) ==
                   doctest::Approx(mis).epsilon(1e-5).scale(0));

@@ -534,13 +534,14 @@ TEST_SUITE("ch26 patches") {
 
     TEST_CASE("input: a sphere or disk too small to be cut into triangles is refused") {
         for (const char* kind : {"sphere", "disk"}) {
-            for (auto [radius, refused] : {std::pair{"1e-18", true},
-                                           {"1e-12", true},
-                                           {"1e-9", true},
-                                           {"1e-7", true},
-                                           {"1e-4", false},
-                                           {"1e-2", false},
-                                           {"1e6", false}}) {
+            for (auto [r, refused] : {std::pair{"1e-18", true},
+                                      {"1e-12", true},
+                                      {"1e-9", true},
+                                      {"1e-7", true},
+                                      {"1e-4", false},
+                                      {"1e-2", false},
+                                      {"1e6", false}}) {
+                const char* radius = r;
                 CAPTURE(kind);
                 CAPTURE(radius);
                 std::string shape = std::string("Shape \"") + kind + "\" \"float radius\" ";
@@ -1064,9 +1065,10 @@ TEST_SUITE("ch26 program") {
 
     TEST_CASE("failure: patches wider than a light is far show too much light, and a warning") {
         TemporaryFolder folder;
-        for (auto [scene, is_wrong] : {std::pair{"scenes/near-light.pbrt", true},
-                                       {"scenes/cornell.pbrt", false},
-                                       {"scenes/color-bleeding.pbrt", false}}) {
+        for (auto [path, is_wrong] : {std::pair{"scenes/near-light.pbrt", true},
+                                      {"scenes/cornell.pbrt", false},
+                                      {"scenes/color-bleeding.pbrt", false}}) {
+            const char* scene = path;
             CAPTURE(scene);
             Finished end = run_program_with({"--patches", "600", "--out", folder / "a.pfm"}, scene);
             CHECK(end.code == 0);

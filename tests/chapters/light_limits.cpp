@@ -169,8 +169,9 @@ void check_triangles(const Effort& effort) {
         {"0 2 1", {{-0.3f, -0.4f}, {0.2f, 0.7f}, {0.6f, -0.2f}}},
         {"0 2 1 0 3 2", {{-0.5f, -0.3f}, {-0.4f, 0.2f}, {0.6f, 0.7f}, {0.1f, -0.5f}}},
         {"0 2 1", {{-1, -1e-4f}, {0, 3e-4f}, {1, -2e-4f}}}};
-    for (const auto& [indices, corners] : shapes)
+    for (const auto& [indices, points] : shapes)
         for (double h : effort.heights) {
+            const auto& corners = points;
             CAPTURE(corners[0].y);
             CAPTURE(h);
             Scene scene = patch_under(triangles(indices, h, corners));

@@ -174,7 +174,8 @@ namespace {
 std::string deciding_probe(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {
     double most = 0;
     std::string text = "no probe tells them apart";
-    for (const auto& [key, q] : evidence) {
+    for (const auto& [measured, q] : evidence) {
+        const std::string& key = measured;
         auto of = [&](const Hypothesis& h) {
             auto found = h.predicted.find(key);
             return found == h.predicted.end() ? as_it_should_be(key) : found->second;

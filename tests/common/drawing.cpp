@@ -305,7 +305,8 @@ TEST_SUITE("drawing") {
     }
 
     TEST_CASE("identity: the picture below the path is the preview, whatever its size") {
-        for (auto [width, height] : {std::pair{40, 20}, {7, 20}, {400, 1}}) {
+        for (auto [columns, height] : {std::pair{40, 20}, {7, 20}, {400, 1}}) {
+            int width = columns;
             CAPTURE(width);
             Scene scene = room();
             scene.width = width, scene.height = height;
