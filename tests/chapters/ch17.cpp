@@ -206,7 +206,8 @@ TEST_SUITE("ch17 sky image") {
         CHECK(cdf[2] == 0);
         CHECK(cdf[3] == doctest::Approx(inner / (inner + outer)).epsilon(1e-6).scale(0));
         // Here the mean over pixels would be another one: 7/4.
-        for (size_t i = 1; i < 4; i++) image.pixels[i] = Rgb{1, 1, 1} * std::exp2(static_cast<float>(i) - 1);
+        for (size_t i = 1; i < 4; i++)
+            image.pixels[i] = Rgb{1, 1, 1} * std::exp2(static_cast<float>(i) - 1);
         cdf = ch17::image_cdf(image, true);
         double mean = (3 * inner + 4 * outer) / (2 * inner + 2 * outer);
         double third = (2 - mean) * inner, last = (4 - mean) * outer;

@@ -226,7 +226,7 @@ int check(const std::string& chapter, const MeasureOptions& o, bool predicts) {
     for (const Method& m : all_methods())
         if (m.name == chapter + "-area" || m.name == chapter + "-bsdf")
             other.push_back(findings_of(m, o, times, seed));
-    const Findings* second = other.empty() ? nullptr : &other[0];
+    const Findings* second = other.empty() ? nullptr : other.data();
     if (predicts) {
         std::printf("%s\n", prediction_text(evidence_of(found, second)).c_str());
         return 0;

@@ -22,7 +22,7 @@ std::vector<std::array<float, 4>> numbers_in(const std::string& svg, const std::
     std::vector<std::array<float, 4>> found;
     for (size_t at = svg.find(begin); at != std::string::npos; at = svg.find(begin, at + 1)) {
         std::array<float, 4> x = {};
-        std::sscanf(svg.c_str() + at, pattern, &x[0], &x[1], &x[2], &x[3]);
+        std::sscanf(svg.c_str() + at, pattern, x.data(), &x[1], &x[2], &x[3]);
         bool fits = svg.substr(at, svg.find('\n', at) - at).find(style) != std::string::npos;
         if (fits) found.push_back(x);
     }

@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
                 ": error: no picture that can be judged, such as floor.pfm with floor.2.pfm");
         References references = read_references();
         Diagnosis d = judge(folder, references, read_effects(references));
-        bool open = d.noisy > 0 || folder.notes.size() > 0;
+        bool open = d.noisy > 0 || !folder.notes.empty();
         std::printf("%sverdict: %s\n", d.text.c_str(),
                     d.off  ? "wrong"
                     : open ? "undecided"
