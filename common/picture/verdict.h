@@ -9,10 +9,10 @@
 /// What is known of a picture besides its pixels.
 struct PictureFacts {
     std::string file;
-    double standard_error = NAN;  // of its mean; NaN: not known
-    std::string known_from;       // the file it was read from
-    Notes notes = {};             // what made it; empty: not known
-    std::string other_stats;      // a file beside it that belongs to another picture
+    double standard_error = NAN;   // of its mean; NaN: not known
+    std::string known_from = {};   // the file it was read from
+    Notes notes = {};              // what made it; empty: not known
+    std::string other_stats = {};  // a file beside it that belongs to another picture
 };
 
 /// From the notes in a picture, and from the files beside it: NAME.err.pfm, one sample of the
