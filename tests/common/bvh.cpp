@@ -154,7 +154,7 @@ struct Comparison {
     const Geometry& g;
     Bvh bvh;
     int rays = 0, hits = 0, wrong = 0;
-    std::string first_wrong;
+    std::string first_wrong = {};
 
     /// Whether a triangle is next to nothing, seen from so far away.
     bool is_tiny(uint32_t prim, Vec3 from) const {
