@@ -13,7 +13,7 @@ $(BUILD)/bench: LIBS += $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3
 $(BUILD)/gnuplot:
 	@command -v gnuplot >/dev/null || common/tools/install gnuplot-nox; mkdir -p $(@D); touch $@
 
-#: measuring: make chart        error against time of all chapters, and how time grows (QUICK=1: 2 minutes; SCENE=cornell)
+#: measuring: make chart        error against time of all chapters, and how time grows (QUICK=1: 5 minutes; SCENE=cornell)
 chart: $(BUILD)/chart $(BUILD)/growth $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
 	$(if $(SCENE),,$(BUILD)/growth $(call quick,--quick))
