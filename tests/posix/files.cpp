@@ -173,6 +173,7 @@ TEST_SUITE("files") {
             std::string error = error_of([&] {
                 for (int k = 0; k < 200; k++) write_file_atomically(folder / "f", bytes);
             });
+            if (!error.empty()) std::fprintf(stderr, "%s\n", error.c_str());
             ::_exit(error.empty() ? 0 : 1);
         }
         for (pid_t child : children) {
