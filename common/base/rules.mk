@@ -18,8 +18,8 @@ $(standard): own_flags = $(call precompiled,common/base/standard.h)
 $(standard): $(BUILD)/obj/common/base/standard.h.gch
 endif
 # What reads, prints and explains runs for less time than it takes to compile it by -O3.
-$(call objects,common,$(filter-out $(addprefix common/,explaining/% options/% program/% results/% \
-    scene_file/%),$(wildcard common/*/*.cpp))): own_flags += $(if $(filter -O3,$(OPT)),-O1)
+brief_folders := explaining options program results scene_file
+$(filter $(brief_folders:%=$(BUILD)/obj/common/%/%),$(common)): own_flags += $(if $(filter -O3,$(OPT)),-O1)
 
 # Windows, by MinGW-w64, natively or from Linux. Programs need no other file there, and end in .exe:
 # for make and scripts a link has the name without it, which MSYS2 knows by itself. Without AVX, as

@@ -1,5 +1,5 @@
-// What most files of common/ and chapters/ include of the standard library. g++ compiles it once, for
-// all of them: see rules.mk. Each file still includes what it uses, as other compilers need it.
+// What most files of common/ and chapters/ include of the standard library. g++ compiles it once,
+// for all of them: see rules.mk. Each file still includes what it uses, as other compilers need it.
 #pragma once
 #include <algorithm>
 #include <array>
