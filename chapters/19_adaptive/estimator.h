@@ -100,14 +100,14 @@ inline double scale_to_budget(const std::vector<double>& density, double least, 
 /// At least: a pilot without noise may have missed some. At most: a pilot with one very bright
 /// sample may be wrong, too. u in [0,1) differs for each pixel and half: rounding is unbiased.
 /// tested by  "identity: samples are as many as the densities say", within 5 standard errors
-inline SamplesOf samples_of(std::shared_ptr<const SampleDensities> s, int half, uint32_t spp) {
-    uint32_t pilot = std::min(spp, s->pilot), first = (pilot + (half == 0)) / 2;
+inline SamplesOf samples_of(const SampleDensities& s, int half, uint32_t spp) {
+    uint32_t pilot = std::min(spp, s.pilot), first = (pilot + (half == 0)) / 2;
     if (spp == pilot) return [=](size_t) { return first; };
     double more = (spp - pilot) / 2.0, least = first + 0.05 * more, most = 8.0 * spp;
-    double scale = scale_to_budget(s->of_half[half], least, first + more);
-    return [=](size_t pixel) {
+    double scale = scale_to_budget(s.of_half[half], least, first + more);
+    return [=, density = s.of_half[half]](size_t pixel) {
         double u = to_unit_float(hash32(static_cast<uint32_t>(pixel), static_cast<uint32_t>(half)));
-        return static_cast<uint32_t>(std::clamp(scale * s->of_half[half][pixel], least, most) + u);
+        return static_cast<uint32_t>(std::clamp(scale * density[pixel], least, most) + u);
     };
 }
 
@@ -115,7 +115,7 @@ inline SamplesOf samples_of(std::shared_ptr<const SampleDensities> s, int half, 
 inline Allocation allocation(const SampleDensities& wanted) {
     auto s = std::make_shared<SampleDensities>(wanted);
     return {wanted.pilot, [s](const auto&... decided) { choose_densities(*s, decided...); },
-            [s](int half, uint32_t spp) { return samples_of(s, half, spp); }};
+            [s](int half, uint32_t spp) { return samples_of(*s, half, spp); }};
 }
 
 }  // namespace ch19

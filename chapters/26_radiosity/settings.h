@@ -28,7 +28,7 @@ struct Settings {
 
 /// The options that set them.
 inline std::vector<Option> own_options(Settings& s) {
-    auto choice = [](const char* name, auto& value, std::vector<std::string> words) {
+    auto choice = [](const char* name, auto& value, const std::vector<std::string>& words) {
         return [=, &value](const std::string& text) {
             value = static_cast<std::decay_t<decltype(value)>>(parse_choice(name, text, words));
         };

@@ -20,7 +20,7 @@ inline Triangles triangles_of(const std::vector<Patch>& patch) {
 }
 
 /// Shows one radiosity for each patch, W m^-2: the same at all of its corners, or smooth.
-inline Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patches,
+inline Shown make_shown(const Scene& scene, const std::shared_ptr<const Patches>& patches,
                         const std::vector<Rgb>& B, Show how, int threads) {
     Shown shown{patches, {}, how, build_light_table(light_pmf(scene, 0.25))};
     const std::vector<Patch>& patch = patches->patch;
@@ -35,8 +35,8 @@ inline Shown make_shown(const Scene& scene, std::shared_ptr<const Patches> patch
 }
 
 /// What is shown of a solution: B of each patch, with an estimate of the light still to come.
-inline Shown show(const Scene& scene, std::shared_ptr<const Patches> patches, const Solution& s,
-                  Show how, int threads) {
+inline Shown show(const Scene& scene, const std::shared_ptr<const Patches>& patches,
+                  const Solution& s, Show how, int threads) {
     const std::vector<Patch>& patch = patches->patch;
     Radiosity more = ambient(patch, s);
     std::vector<Rgb> B;

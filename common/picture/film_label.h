@@ -11,7 +11,7 @@
 /// Samples number first to last - 1 of each pixel, with the random numbers of a seed.
 struct SampleRange {
     uint32_t seed = 0, first = 0, last = 0;
-    auto operator<=>(const SampleRange&) const = default;
+    auto operator<=>(const SampleRange&) const = default;  // NOLINT(*-use-nullptr): version 14
 };
 
 /// "samples 3 to 7 of seed 0".
@@ -20,7 +20,7 @@ std::string text_of(const SampleRange& range);
 /// How many samples of a pixel a render of this seed takes, in so many parts.
 struct Goal {
     uint32_t seed = 0, samples = 0, parts = 1;
-    auto operator<=>(const Goal&) const = default;
+    auto operator<=>(const Goal&) const = default;  // NOLINT(*-use-nullptr): version 14
 
     /// The first sample of a part. Parts count from 1.
     uint32_t first_of(int part) const {

@@ -486,7 +486,7 @@ TEST_SUITE("ch07 pictures") {
         Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 6);
         Film film = film_of(scene, ch07::trace, 64).film;
         int spp = 64;
-        auto agrees = [&](Trace trace) {
+        auto agrees = [&](const Trace& trace) {
             return hold_against(film_of(scene, trace, spp, 2).film, film).agrees();
         };
         CHECK(agrees(flawed_trace<Flaw::none>));

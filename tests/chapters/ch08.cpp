@@ -356,7 +356,7 @@ TEST_SUITE("ch08 russian roulette") {
     TEST_CASE("teeth: a roulette that does not divide, forgets, or multiplies is rejected") {
         Scene scene = closed_sphere(0.8, 1000);
         Film film = film_of(scene, ch08::trace, 64).film;
-        auto agrees = [&](Trace trace) {
+        auto agrees = [&](const Trace& trace) {
             return hold_against(film_of(scene, trace, 64, 2).film, film).agrees();
         };
         CHECK(agrees(flawed_trace<Flaw::none>));

@@ -26,7 +26,7 @@ RenderOptions quiet_options(uint32_t seed = 1) {
 }
 
 Rendering adaptive(Scene scene, const Trace& trace, int spp, uint32_t seed = 1,
-                   ch19::SampleDensities densities = {},
+                   const ch19::SampleDensities& densities = {},
                    SamplerType sampler = SamplerType::independent) {
     scene.spp = spp;
     RenderOptions options = quiet_options(seed);
@@ -127,8 +127,8 @@ TEST_SUITE("ch19 adaptive") {
             for (int k = 0; k < 4; k++)
                 spiky[i].add(Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
         }
-        auto densities = std::make_shared<ch19::SampleDensities>();
-        for (auto& half : densities->of_half) half = ch19::sample_density(spiky, 100);
+        ch19::SampleDensities densities;
+        for (auto& half : densities.of_half) half = ch19::sample_density(spiky, 100);
         uint32_t most = 0, least = 1000;
         auto counts = ch19::samples_of(densities, 0, 216);  // 108 on average
         for (size_t i = 0; i < 10000; i++) {
@@ -142,9 +142,9 @@ TEST_SUITE("ch19 adaptive") {
 
     TEST_CASE("truth: pixels that have enough leave what their densities ask for to the others") {
         // Densities of 0.1 and 1.9, a pilot of 16. Of 64 the former would get 6.4: they have more.
-        auto densities = std::make_shared<ch19::SampleDensities>();
+        ch19::SampleDensities densities;
         constexpr size_t pixels = 4000;
-        for (auto& half : densities->of_half) {
+        for (auto& half : densities.of_half) {
             for (size_t i = 0; i < pixels; i++) half.push_back(i % 2 == 0 ? 0.1 : 1.9);
         }
         struct Expected {
@@ -172,10 +172,10 @@ TEST_SUITE("ch19 adaptive") {
         CHECK(ch19::scale_to_budget({0.1, 0.9, 2}, 5, 20) ==
               doctest::Approx(55 / 2.9).epsilon(1e-12).scale(0));
         // Half 0 gives all to the first pixel, half 1 the same to all.
-        auto densities = std::make_shared<ch19::SampleDensities>();
-        densities->pilot = 8;
-        densities->of_half[0] = {4, 0, 0, 0};
-        densities->of_half[1] = {1, 1, 1, 1};
+        ch19::SampleDensities densities;
+        densities.pilot = 8;
+        densities.of_half[0] = {4, 0, 0, 0};
+        densities.of_half[1] = {1, 1, 1, 1};
         auto a = ch19::samples_of(densities, 0, 108), b = ch19::samples_of(densities, 1, 108);
         for (size_t i = 0; i < 4; i++) {  // least: 4 + 0.05 * 50 = 6.5, rounded at random
             CHECK(std::abs(a(i) - (i == 0 ? 216 - 3 * 6.5 : 6.5)) < 1);
@@ -184,10 +184,10 @@ TEST_SUITE("ch19 adaptive") {
     }
 
     TEST_CASE("identity: samples are as many as the densities say") {
-        auto densities = std::make_shared<ch19::SampleDensities>();
-        densities->pilot = 7;  // 4 and 3
+        ch19::SampleDensities densities;
+        densities.pilot = 7;  // 4 and 3
         constexpr size_t pixels = 4000;
-        for (auto& half : densities->of_half) {
+        for (auto& half : densities.of_half) {
             for (size_t i = 0; i < pixels; i++)
                 half.push_back(0.2 + 1.6 * (static_cast<double>(i) + 0.5) / pixels);
         }

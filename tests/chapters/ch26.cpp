@@ -553,7 +553,7 @@ TEST_SUITE("ch26 patches") {
                     std::string error = error_of([&] { ch26::tessellate(*scene, 2); });
                     CHECK((error.find("too small to be cut into triangles") != error.npos) ==
                           refused);
-                    CHECK((error == "") == !refused);
+                    CHECK(error.empty() == !refused);
                 }
             }
         }
@@ -738,7 +738,7 @@ TEST_SUITE("ch26 solvers") {
             Solution s = solved(room.G, patch);
             s.H[5] = factor * s.H[5] + Radiosity(more, more, more);
             std::string error = error_of([&] { ch26::check_numbers(scene.file, patch, s); });
-            if (error != "") return error;
+            if (!error.empty()) return error;
             return error_of([&] { ch26::check_balance(scene.file, balance_of(patch, s)); });
         };
         CHECK(error_with(1, 0) == "");

@@ -227,7 +227,7 @@ TEST_SUITE("every scene: a lens") {
 
     TEST_CASE("identity: by the weights alone, chapter 22 gives each way its weight in 21") {
         // Behind a lens and under an image of the sky.
-        for (Scene scene : {through_a_lens(), under(sunny_sky(), true)}) {
+        for (const Scene& scene : {through_a_lens(), under(sunny_sky(), true)}) {
             auto fast = splat_trace_with<ch22::trace>(ch22::prepare(scene, 0, false));
             PathCensus a = census_of(scene, by_21(scene), 20000, 1);
             PathCensus b = census_of(scene, fast, 20000, 1);

@@ -132,7 +132,7 @@ Room generated_room(uint32_t seed) {
 /// The traces of all chapters from 05 on that report paths, by name.
 std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
     std::vector<std::pair<std::string, SplatTrace>> traces;
-    auto add = [&](const std::string& name, Trace trace) {
+    auto add = [&](const std::string& name, const Trace& trace) {
         traces.emplace_back(
             name, [=](const Scene& s, Ray ray, Splats&, Sampler& sampler, Recorder& recorder) {
                 return trace(s, ray, sampler, recorder);
@@ -167,7 +167,7 @@ struct Sample {
         size_t n = splats.size();
         for (size_t i = 0; i < n && n == b.splats.size(); i++) {
             if (splats[i].pixel != b.splats[i].pixel) return false;
-            if (std::memcmp(&splats[i].L, &b.splats[i].L, sizeof(Rgb)) != 0) return false;
+            if (!(splats[i].L == b.splats[i].L)) return false;
         }
         return n == b.splats.size();
     }

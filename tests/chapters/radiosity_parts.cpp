@@ -329,8 +329,8 @@ TEST_SUITE("ch26 parts") {
         for (Rgb rho : {Rgb{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.9f, 0.9f, 0.9f}}) {
             patches.patch = {patch_at(0, 1, {}, {1, 1, 1}), patch_at(0, 1, {}, rho)};
             std::string error = error_of([&] { ch26::refuse_no_loss(cube(true), patches); });
-            CHECK((error == "") == (rho.r == 0.9f));
-            if (error != "") CHECK(error.starts_with("test.pbrt: error: a closed room whose "));
+            CHECK(error.empty() == (rho.r == 0.9f));
+            if (!error.empty()) CHECK(error.starts_with("test.pbrt: error: a closed room whose "));
         }
     }
 }

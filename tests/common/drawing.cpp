@@ -313,7 +313,7 @@ TEST_SUITE("drawing") {
             std::string svg = draw_path(scene, scene.camera.o, {}, {});
             const std::string begin = "href='data:image/png;base64,";
             size_t at = svg.find(begin) + begin.size();
-            size_t end = svg.find("'", at);
+            size_t end = svg.find('\'', at);
             CHECK((end - at) % 4 == 0);
             Image image = decode_png("a.png", decode_base64(svg.substr(at, end - at)));
             float scale = 460.0f / static_cast<float>(std::max(width, height)) / 2;

@@ -31,7 +31,10 @@ std::vector<Rgb> random_samples(uint32_t seed, uint32_t count) {
     return samples;
 }
 
-bool same_bits(const PixelSum& a, const PixelSum& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const PixelSum& a, const PixelSum& b) {
+    using Bits = std::array<char, sizeof(PixelSum)>;
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
 
 PixelSum sum_of(const std::vector<Rgb>& samples) {
     PixelSum sum;
@@ -392,7 +395,7 @@ TEST_SUITE("film files") {
     }
 
     TEST_CASE("truth: what is missing is named, sample by sample and part by part") {
-        auto missing = [](std::vector<SampleRange> samples, std::vector<Goal> goals) {
+        auto missing = [](const std::vector<SampleRange>& samples, const std::vector<Goal>& goals) {
             FilmLabel label{{}, samples, goals, {}};
             label.keep_open_goals();
             return label.missing();

@@ -200,7 +200,7 @@ TEST_SUITE("intersect hits") {
     TEST_CASE("identity: normals face where the ray came from, and front is the shining side") {
         for (bool reverse : {false, true}) {
             std::string turn = reverse ? "ReverseOrientation\n" : "";
-            for (std::string shape :
+            for (const std::string& shape :
                  {std::string("Shape \"sphere\""), std::string("Shape \"disk\""),
                   "Rotate 90 1 0 0\n" + square(0, true)}) {
                 Scene scene = world_of("LightSource \"infinite\"\n" + turn + shape);

@@ -115,7 +115,7 @@ TEST_SUITE("comparison") {
                              {"scene", "a name # with \"blanks\".pbrt"},
                              {"paths", "LD(S|D)*E"},
                              {"spp", "4"}};
-        for (std::string file : {folder / "a.ppm", folder / "a.png"}) {
+        for (const std::string& file : {folder / "a.ppm", folder / "a.png"}) {
             write_image(file, grey(4, 3, 0.5f), comment_of(notes));
             CHECK(notes_in(decode_comment(file, read_file(file))) == notes);
             CHECK(read_image(file).width == 4);
@@ -132,7 +132,7 @@ TEST_SUITE("comparison") {
 
         // Letters that a format cannot keep are '?'; a name cannot make a note of its own.
         std::string comment = comment_of({{"scene", "a\nspp 9\x1b[2J \xc3\xa4.pbrt"}});
-        for (std::string file : {folder / "b.ppm", folder / "b.png"}) {
+        for (const std::string& file : {folder / "b.ppm", folder / "b.png"}) {
             write_image(file, grey(4, 3, 0.5f), comment);
             CHECK(notes_in(decode_comment(file, read_file(file))) ==
                   Notes{{"scene", "a?spp 9?[2J ??.pbrt"}});
@@ -249,7 +249,7 @@ TEST_SUITE("comparison") {
         for (const char* piece : {"x", "x ", "a.pbrt", "' ", "\n", "scene a.pbrt\n", "# ", "\""}) {
             std::string comment = "picture of path-by-path\n";
             while (comment.size() < 1 << 20) comment += piece;
-            for (std::string file : {folder / "a.ppm", folder / "a.png"}) {
+            for (const std::string& file : {folder / "a.ppm", folder / "a.png"}) {
                 write_image(file, grey(4, 4, 0.5f), comment);
                 PictureFacts facts = facts_of(file, grey(4, 4, 0.5f));
                 for (const std::string& line : doubts(facts, facts)) CHECK(line.size() < 9000);

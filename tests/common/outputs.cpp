@@ -101,7 +101,7 @@ TEST_SUITE("outputs") {
     TEST_CASE("files: two outputs of one run are never one file, those of --split among them") {
         TemporaryFolder folder;
         for (const char* name : {"LDE.pfm", "LSDE.png", "longer.pfm", "classes.png"}) {
-            for (std::string out : {folder / "d/" + name, folder / "d/../d/" + name}) {
+            for (const std::string& out : {folder / "d/" + name, folder / "d/../d/" + name}) {
                 Finished end =
                     run(path_tracer, brief(spheres, {"--split", folder / "d", "--out", out}));
                 CHECK(end.code == 2);

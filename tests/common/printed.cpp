@@ -415,8 +415,8 @@ TEST_SUITE("printed") {
         auto go_on = [&](RenderOptions with) {
             Rendering next{Film(10, 10), {}, {}};
             std::string error = error_of([&] { continue_film(scene, with, next); });
-            CHECK((error == "") == (next.film.samples() == 400));
-            if (error == "") {
+            CHECK(error.empty() == (next.film.samples() == 400));
+            if (error.empty()) {
                 CHECK(next.begun == 4);
                 CHECK(next.stats.samples_before == 400);
                 CHECK(next.stats.rays_before == 9'000'000);

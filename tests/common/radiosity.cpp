@@ -56,7 +56,9 @@ TEST_SUITE("radiosity files and display") {
         REQUIRE(bytes.size() == head.size() + 6 * 15 + 2 * 13);
         const char* at = bytes.data() + head.size();
         for (size_t v = 0; v < 6; v++, at += 15) {
-            CHECK(std::memcmp(at, &triangles[v / 3][v % 3], 12) == 0);
+            Vec3 corner;
+            std::memcpy(&corner, at, sizeof corner);
+            CHECK(corner == triangles[v / 3][v % 3]);
             Rgb L = B[v / 3][v % 3] / pi;
             CHECK(static_cast<uint8_t>(at[12]) == to_srgb8(L.r));
             CHECK(static_cast<uint8_t>(at[13]) == to_srgb8(L.g));

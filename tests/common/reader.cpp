@@ -206,8 +206,8 @@ TEST_SUITE("reader: language") {
         CHECK(
             notes ==
             std::vector<std::string>{
-                "scene.pbrt:1:1: note: PixelFilter \"gaussian\" is replaced by the box of one "
-                "pixel",
+                ("scene.pbrt:1:1: note: PixelFilter \"gaussian\" is replaced by the box of one "
+                 "pixel"),
                 "scene.pbrt:2:1: note: Sampler \"halton\" only sets the samples per pixel",
                 "scene.pbrt:3:1: note: Integrator \"bdpt\" only sets the depth: the program is the "
                 "integrator",

@@ -76,8 +76,8 @@ TEST_SUITE("reader: malformed input") {
                                 "\xf8\x88\x80\x80\x80", "\xc3", "\x80"}) {
             CHECK(refuse(std::string("#") + bad) == "scene.pbrt:1:2: error: not UTF-8 text");
         }
-        CHECK(refuse("\xff\xfe#\x00") == "scene.pbrt: error: UTF-16 text: save it as UTF-8");
-        CHECK(refuse("\xfe\xff\x00#") == "scene.pbrt: error: UTF-16 text: save it as UTF-8");
+        CHECK(refuse({"\xff\xfe#\x00", 4}) == "scene.pbrt: error: UTF-16 text: save it as UTF-8");
+        CHECK(refuse({"\xfe\xff\x00#", 4}) == "scene.pbrt: error: UTF-16 text: save it as UTF-8");
         CHECK(refuse("\x1f\x8b\x08") == "scene.pbrt: error: compressed by gzip: unpack it first");
     }
 

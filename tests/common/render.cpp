@@ -54,7 +54,8 @@ bool same_bits(const Image& a, const Image& b) {
 }
 
 /// One sample of one pixel, as the loop must take it.
-Rgb sample_of(const Scene& scene, const RenderOptions& options, Trace trace, int x, int y, int s) {
+Rgb sample_of(const Scene& scene, const RenderOptions& options, const Trace& trace, int x, int y,
+              int s) {
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
     Recorder recorder;

@@ -322,7 +322,7 @@ TEST_SUITE("stand-ins") {
     TEST_CASE("text: scenes/README.md has the table of stand-ins") {
         std::string table = "| not modelled | rendered as |\n|---|---|\n";
         for (const StandIn& row : all_stand_ins()) {
-            auto code = [](std::string text) {
+            auto code = [](const std::string& text) {
                 bool is_code = text.starts_with("Material") || text.starts_with("Texture") ||
                                text.starts_with("Shape") || text.starts_with("LightSource") ||
                                text.starts_with("Camera") || text.starts_with("Film");

@@ -60,7 +60,7 @@ TEST_SUITE("surroundings") {
                 std::printf("%d %d %d %d", s.width, s.height, s.spp, s.max_depth);
                 return 0;
             });
-            CHECK((end.err == "") == options.quiet);
+            CHECK(end.err.empty() == options.quiet);
             CHECK((end.err.find(": note: ") != std::string::npos) == !options.quiet);
             return end.out;
         };

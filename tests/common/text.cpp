@@ -77,7 +77,7 @@ TEST_SUITE("text") {
         std::vector<std::string> known(1'000'000, std::string(50, 'x'));
         known[9'999] = "a" + std::string(50, 'y');
         known[10'000] = std::string(50, 'y');  // too far behind to be found
-        known.push_back(std::string(100'000'000, 'y'));
+        known.emplace_back(100'000'000, 'y');
         CHECK(nearest_word(std::string(50, 'y'), known) == known[9'999]);
     }
 }

@@ -24,8 +24,8 @@ std::vector<std::string> split_list(const std::string& text) {
 }  // namespace
 
 MeasureOptions parse_measure_options(int argc, char** argv, const std::string& positional,
-                                     const std::string& about, MeasureOptions defaults,
-                                     std::vector<Option> extra) {
+                                     const std::string& about, const MeasureOptions& defaults,
+                                     const std::vector<Option>& extra) {
     MeasureOptions o = defaults;
     auto integer = [](const char* name, int& value, int low, int high) {
         return [=, &value](const std::string& text) {

@@ -24,8 +24,8 @@ struct MeasureOptions {
 
 /// Reads the command line over `defaults`.
 MeasureOptions parse_measure_options(int argc, char** argv, const std::string& positional,
-                                     const std::string& about, MeasureOptions defaults,
-                                     std::vector<Option> extra = {});
+                                     const std::string& about, const MeasureOptions& defaults,
+                                     const std::vector<Option>& extra = {});
 
 /// The scene of this path at the size and depth of the options, ready to render.
 Scene load_scene_for(const std::string& path, const MeasureOptions& options);

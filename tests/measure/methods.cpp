@@ -24,7 +24,7 @@ std::vector<std::string> scenes_in(const char* folder) {
 
 }  // namespace
 
-bool add_method(Method method) {
+bool add_method(const Method& method) {
     auto& methods = registry();
     auto before = [](const Method& a, const Method& b) { return a.name < b.name; };
     methods.insert(std::upper_bound(methods.begin(), methods.end(), method, before), method);
@@ -34,7 +34,7 @@ bool add_method(Method method) {
 const std::vector<Method>& all_methods() { return registry(); }
 
 std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
-    std::function<Trace(const Scene&)> make_trace) {
+    const std::function<Trace(const Scene&)>& make_trace) {
     return [=](const Scene& scene, const RenderOptions& options) {
         return render_film(scene, options, make_trace(scene));
     };

@@ -30,12 +30,12 @@ struct Method {
 inline bool is_variant(const Method& method) { return method.name.size() > 2; }
 
 /// Adds to all_methods(); returns true.
-bool add_method(Method method);
+bool add_method(const Method& method);
 
 /// render for a chapter that has nothing but trace(): `make_trace` hands it what it needs of the
 /// scene.
 std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
-    std::function<Trace(const Scene&)> make_trace);
+    const std::function<Trace(const Scene&)>& make_trace);
 
 /// All methods, sorted by name.
 const std::vector<Method>& all_methods();

@@ -53,7 +53,8 @@ inline RunningStats repeat(const Scene& scene, const Ray& ray, const Trace& trac
 }
 
 /// Samples of the irradiance at the origin of floor_under().
-inline RunningStats irradiance(const Scene& scene, Trace trace, int paths, uint32_t seed = 1) {
+inline RunningStats irradiance(const Scene& scene, const Trace& trace, int paths,
+                               uint32_t seed = 1) {
     return repeat(scene, onto_origin, trace, paths, seed, pi_exact);
 }
 

@@ -25,7 +25,7 @@ inline RenderOptions stand_in_options(int threads = 2) {
 }
 
 /// The options that a chapter reads from its command line.
-inline RenderOptions parsed(std::vector<std::string> words, std::vector<Option> extra = {},
+inline RenderOptions parsed(std::vector<std::string> words, const std::vector<Option>& extra = {},
                             const std::vector<std::string>& takes = {}) {
     words.insert(words.begin(), "build/07_x");
     std::vector<char*> argv;
