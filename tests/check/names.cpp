@@ -51,15 +51,16 @@ std::map<std::string, Quantity> measure(const Method& method, const Probe& probe
     return result;
 }
 
+// How many times as many samples as the probe says: of what photons blur, and of the rest.
+constexpr double times_blurred = 40, times_checked = 3;
+
 /// Photons blur light that is not even. Chapter 25, which makes photons nowhere else, is compared
 /// with its own pictures there, of as many passes: its radius shrinks from pass to pass.
-constexpr double times_blurred = 40;  // as many samples as the probe says
 bool is_blurred(const std::string& probe, const Method& method) {
     static const std::set<std::string> uneven = {"bulb", "mirror", "leaning mirror", "wall beside",
                                                  "mirror beside"};
     return method.biased && uneven.contains(probe);
 }
-constexpr double times_checked = 3;
 
 bool fits(const Probe& probe, const Method& method) {
     int chapter = std::stoi(method.name.substr(0, 2));

@@ -209,13 +209,13 @@ TEST_SUITE("reader: language") {
                 ("scene.pbrt:1:1: note: PixelFilter \"gaussian\" is replaced by the box of one "
                  "pixel"),
                 "scene.pbrt:2:1: note: Sampler \"halton\" only sets the samples per pixel",
-                "scene.pbrt:3:1: note: Integrator \"bdpt\" only sets the depth: the program is the "
-                "integrator",
+                ("scene.pbrt:3:1: note: Integrator \"bdpt\" only sets the depth: the program is "
+                 "the integrator"),
                 "scene.pbrt:4:3: note: Accelerator \"kdtree\" is ignored: all programs use a BVH",
                 "scene.pbrt:4:24: note: ColorSpace \"rec2020\" is read as \"srgb\"",
                 "scene.pbrt:5:8: note: Option \"Disable-Pixel_Jitter\" is ignored",
-                "scene.pbrt:6:1: note: Film \"rgb\" maxcomponentvalue is ignored: nothing is "
-                "clamped",
+                ("scene.pbrt:6:1: note: Film \"rgb\" maxcomponentvalue is ignored: nothing is "
+                 "clamped"),
                 "scene.pbrt:8:1: note: left out triangles without area: 1, which is all of them"});
         notes.clear();
         parse(
