@@ -74,7 +74,10 @@ class Browser {
     dark(is) {
         return this.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: is ? 'dark' : 'light'}]});
     }
-    key(key) { return this.send('Input.dispatchKeyEvent', {type: 'keyDown', key, text: key.length === 1 ? key : undefined}); }
+    key(key) {
+        const text = key.length === 1 ? key : key === 'Enter' ? '\r' : undefined;
+        return this.send('Input.dispatchKeyEvent', {type: 'keyDown', key, text, windowsVirtualKeyCode: {Tab: 9, Enter: 13}[key]});
+    }
     async click(x, y) {
         for (const type of ['mousePressed', 'mouseReleased']) {
             await this.send('Input.dispatchMouseEvent', {type, x, y, button: 'left', clickCount: 1});

@@ -5,12 +5,11 @@ const settings = {
     'marionette.port': 0,  // one that is free
     'devtools.console.stdout.content': true,
     'browser.dom.window.dump.enabled': true,
-    'layout.css.prefers-color-scheme.content-override': 0,  // dark
     'network.proxy.type': 1,  // no network: all goes to a port where nobody is
     ...Object.fromEntries(['http', 'ssl', 'socks'].flatMap(kind =>
         [[`network.proxy.${kind}`, '127.0.0.1'], [`network.proxy.${kind}_port`, 9]])),
 };
-const keys = {ArrowRight: '\uE014', ArrowLeft: '\uE012', ArrowDown: '\uE015', Enter: '\uE007'};
+const keys = {ArrowRight: '\uE014', ArrowLeft: '\uE012', ArrowDown: '\uE015', Enter: '\uE007', Tab: '\uE004'};
 
 /// What Browser (browser.js) is for Chromium.
 class Firefox {
@@ -18,8 +17,8 @@ class Firefox {
         this.profile = fs.mkdtempSync(path.join(os.tmpdir(), 'book-'));
         fs.writeFileSync(path.join(this.profile, 'user.js'), Object.entries(settings)
             .map(([name, value]) => `user_pref(${JSON.stringify(name)}, ${JSON.stringify(value)});\n`).join(''));
-        this.process = spawn(program, ['--headless', '--marionette', '--profile', this.profile, '--no-remote'],
-            {stdio: ['ignore', 'pipe', 'pipe']});
+        this.process = spawn(program, ['--headless', '--marionette', '--remote-allow-system-access', '--profile', this.profile,
+            '--no-remote'], {stdio: ['ignore', 'pipe', 'pipe']});
         this.waiting = new Map(), this.last = 0, this.problems = [];
         // RSLoader is a part of Firefox that wants the network.
         for (const stream of [this.process.stdout, this.process.stderr]) {
@@ -51,8 +50,8 @@ class Firefox {
         this.waiting.delete(id);
         if (error) reject(new Error(`${error.error}: ${error.message}`)); else resolve(result);
     }
-    send(command, parameters = {}) {
-        const id = ++this.last, text = JSON.stringify([0, id, `WebDriver:${command}`, parameters]);
+    send(command, parameters = {}, of = 'WebDriver') {
+        const id = ++this.last, text = JSON.stringify([0, id, `${of}:${command}`, parameters]);
         this.socket.write(`${Buffer.byteLength(text)}:${text}`);
         return new Promise((resolve, reject) => this.waiting.set(id, {resolve, reject}));
     }
@@ -72,8 +71,18 @@ class Firefox {
         }
         throw new Error(`not within ${seconds} s: ${expression}`);
     }
-    /// No window is narrower than 450 pixels here.
-    width(width, height = 900) { return this.send('SetWindowRect', {width, height}); }
+    /// Lets the browser itself, not the page, do something.
+    async do(script) {
+        await this.send('SetContext', {value: 'chrome'}, 'Marionette');
+        await this.send('ExecuteScript', {script, args: []});
+        await this.send('SetContext', {value: 'content'}, 'Marionette');
+    }
+    dark(is) { return this.do(`Services.prefs.setIntPref('layout.css.prefers-color-scheme.content-override', ${is ? 0 : 1})`); }
+    /// No window is narrower than 450 pixels here, but the page in it can be.
+    async width(width, height = 900) {
+        await this.send('SetWindowRect', {width, height});
+        await this.do(`gBrowser.selectedBrowser.style.maxWidth = '${width}px'`);
+    }
     perform(type, id, actions, more) { return this.send('PerformActions', {actions: [{type, id, actions, ...more}]}); }
     key(key) {
         const value = keys[key] || key;

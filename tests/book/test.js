@@ -49,6 +49,7 @@ async function every_page(browser) {
                 ids: [...document.querySelectorAll('[id]')].map(e => e.id),
                 links: [...document.querySelectorAll('a[href]')].map(a => a.href),
                 pictures: [...document.images].filter(i => !i.naturalWidth || !(i.alt || i.matches('.thumbnail'))).length,
+                inner: innerWidth,
                 wide: document.documentElement.scrollWidth - innerWidth,
                 bars: [...document.querySelectorAll('.formula')].filter(f => f.offsetWidth > f.clientWidth).length,
                 cut: [...document.querySelectorAll('main table, main pre, .formula')].filter(node =>
@@ -61,6 +62,7 @@ async function every_page(browser) {
             if (seen.pictures > 0) bad.push(`${name}: ${seen.pictures} pictures are missing or have no words`);
             if (seen.bars > 0) bad.push(`${name}: ${seen.bars} formulas with a vertical scroll bar`);
             if (seen.cut > 0) bad.push(`${name}: ${seen.cut} tables, listings or formulas are cut off at ${width}`);
+            if (seen.inner > width) bad.push(`${name}: ${seen.inner} pixels wide, not ${width}`);
             if (seen.wide > 0) bad.push(`${name}: ${seen.wide} pixels too wide for ${width}`);
         }
     }
@@ -166,6 +168,37 @@ async function path_by_keys(browser) {
     const story = await browser.value('live.text.textContent');
     check('arrow keys choose a pixel, and Enter tells its path', story.includes('pixel 129,129 sample 0'), story.slice(0, 60));
 }
+/// Tab reaches all that a mouse can use, with a frame around it, and Enter renders.
+async function by_keyboard(browser) {
+    await browser.open(page('15_mis_ris'));
+    await browser.until(`document.querySelector('.go')`);
+    const [count, mouse_only] = await browser.value(`(() => {
+        for (const part of document.querySelectorAll('main details')) part.open = true;
+        live.fill({scene: 'cornell', size: '24x24', spp: 1});
+        const is_shown = node => node.checkVisibility() && !node.disabled && !node.closest('dialog');
+        window.usable = new Set([...document.querySelectorAll('a[href], button, input, select, textarea, summary, [tabindex="0"]')]
+            .filter(is_shown));
+        window.bare = [];
+        return [usable.size, [...document.querySelectorAll('*')].filter(node => (node.onclick || node.onpointerdown) &&
+            is_shown(node) && !usable.has(node)).length];
+    })()`);
+    for (let presses = 0, ends = false; presses < 2 * count && !ends; presses++) {
+        await browser.key('Tab');
+        ends = await browser.value(`(() => { const node = document.activeElement;
+            if (usable.has(node) && getComputedStyle(node).outlineStyle === 'none') bare.push(node.outerHTML.slice(0, 60));
+            usable.delete(node);
+            return usable.size === 0; })()`);
+    }
+    const [left, bare] = await browser.value(`[[...usable].map(node => node.outerHTML.slice(0, 60)), bare]`);
+    check(`Tab reaches all ${count} links, buttons and fields`, left.length === 0 && mouse_only === 0, left.slice(0, 3).join(' '));
+    check('what it reaches has a frame', bare.length === 0, bare.slice(0, 3).join(' '));
+    for (let presses = 0; presses < 2 * count && !await browser.value(`document.activeElement.matches('.go')`); presses++) {
+        await browser.key('Tab');
+    }
+    await browser.key('Enter');
+    await browser.until(`live.status.textContent.startsWith('done')`, 60);
+    check('Enter on its button renders', true);
+}
 async function layers_and_viewer(browser) {
     await browser.value(`document.querySelector('.by-class button').click()`);
     await browser.until(`document.querySelectorAll('.layers button').length > 3`, 60);
@@ -258,7 +291,7 @@ async function holding(browser) {
 
 /// Formulas have the book's own font; text and figures can be read in light and in dark.
 async function look(browser, dark) {
-    await browser.dark?.(dark);
+    await browser.dark(dark);
     await browser.open(page('14_mis'));
     const fonts = await browser.value(`document.fonts.load('16px "Book Math"').then(fonts => fonts.map(font => font.status))`);
     check('the font of formulas is in the book', fonts.length === 1 && fonts[0] === 'loaded');
@@ -274,7 +307,7 @@ async function look(browser, dark) {
     const box = await box_of(browser, 'main img[src^="data:image/svg"]'), figure = await on_screen(browser, box);
     const light = figure.filter((v, i) => i % 4 === 1 && v > 200).length / (figure.length / 4);
     check(`${dark ? 'dark' : 'light'}: a figure has a light background`, light > 0.5, `${(100 * light).toFixed(0)} %`);
-    await browser.dark?.(false);
+    await browser.dark(false);
 }
 
 async function searching(browser) {
@@ -331,9 +364,10 @@ async function main() {
             await browser.start();
             await every_page(browser);
             await holding(browser);
-            for (const dark of browser instanceof Firefox ? [true] : [false, true]) await look(browser, dark);
+            for (const dark of [false, true]) await look(browser, dark);
             await searching(browser);
             await own_pictures(browser);
+            await by_keyboard(browser);
             await live(browser);
             await races(browser);
             await same_scenes(browser);
