@@ -97,7 +97,7 @@ inline double scale_to_budget(const std::vector<double>& density, double least, 
 ///
 ///   n = floor(scale density + u),  at least pilot / 2 + 0.05 (spp - pilot) / 2, at most 8 spp
 ///
-/// At least: a pilot without noise may have missed some. At most: a pilot with one very bright
+/// At least: a pilot that saw no noise may have missed it. At most: a pilot with one very bright
 /// sample may be wrong, too. u in [0,1) differs for each pixel and half: rounding is unbiased.
 /// tested by  "identity: samples are as many as the densities say", within 5 standard errors
 inline SamplesOf samples_of(const SampleDensities& s, int half, uint32_t spp) {
