@@ -157,9 +157,12 @@ std::string where_to_look(const Evidence& evidence) {
             size_t count = static_cast<size_t>(std::count_if(right.begin(), right.end(), both));
             if (count >= others) continue;
             others = count;
-            std::string paths = event.words.empty() ? "" : "paths " + event.words,
-                        scenes = place.words.empty() ? "" : "in scenes " + place.words;
-            best = paths + (paths.empty() || scenes.empty() ? "" : ", ") + scenes;
+            if (event.words.empty() && !place.words.empty()) {
+                best = "in scenes " + place.words;
+            } else {
+                best = "paths" + (event.words.empty() ? "" : " " + event.words) +
+                       (place.words.empty() ? "" : ", in scenes " + place.words);
+            }
         }
     std::string text = std::to_string(off.size()) + " of " +
                        std::to_string(off.size() + right.size()) +

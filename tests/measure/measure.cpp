@@ -84,6 +84,7 @@ Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& 
     o.threads = options.threads;
     o.sampler = options.sampler;
     o.seed = seed;
+    o.search = method.search;
     o.quiet = true;
     if (classes) o.split = "in memory";
     scene.spp = spp;

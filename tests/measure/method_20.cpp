@@ -10,8 +10,7 @@ static void refuse_seen_mirrors(const Scene& scene) {
     }
 }
 
-static Rendering by_light(const Scene& scene, RenderOptions options) {
-    options.search = LightSearch::from_lights;
+static Rendering by_light(const Scene& scene, const RenderOptions& options) {
     return render_film(scene, options,
                        trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
 }
@@ -22,4 +21,5 @@ static Rendering by_light(const Scene& scene, RenderOptions options) {
                                                        .finds_light = "from the light",
                                                        .scenes = {"cornell", "two-lights"},
                                                        .refuse = {refuse_seen_mirrors},
-                                                       .render = by_light});
+                                                       .render = by_light,
+                                                       .search = LightSearch::from_lights});

@@ -7,7 +7,8 @@
      .color = "#8c2d72",
      .finds_light = "from both ends",
      .scenes = {"cornell-spheres", "cornell", "lamp"},
-     .render = [](const Scene& scene, RenderOptions options) {
-         options.search = LightSearch::both_ends;
-         return render_film(scene, options, splat_trace_with<ch21::trace>(endpoints_of(scene)));
-     }});
+     .render =
+         [](const Scene& scene, const RenderOptions& options) {
+             return render_film(scene, options, splat_trace_with<ch21::trace>(endpoints_of(scene)));
+         },
+     .search = LightSearch::both_ends});

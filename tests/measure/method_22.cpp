@@ -8,13 +8,14 @@ static Method method(const char* name, const char* label, const char* color, int
             .color = color,
             .finds_light = "from both ends",
             .scenes = {"cornell-spheres", "cornell", "lamp"},
-            .render = [=](const Scene& scene, RenderOptions options) {
-                options.search = LightSearch::both_ends;
-                if (sampler != SamplerType::independent) options.sampler = sampler;
-                return render_film(
-                    scene, options,
-                    splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, light_sampling)));
-            }};
+            .render =
+                [=](const Scene& scene, RenderOptions options) {
+                    if (sampler != SamplerType::independent) options.sampler = sampler;
+                    return render_film(scene, options,
+                                       splat_trace_with<ch22::trace>(
+                                           ch22::prepare(scene, chances, light_sampling)));
+                },
+            .search = LightSearch::both_ends};
 }
 
 [[maybe_unused]] static const bool added[] = {

@@ -2,8 +2,7 @@
 #include "tests/measure/methods.h"
 
 static auto by_photons(ch23::PhotonSettings settings) {
-    return [=](const Scene& scene, RenderOptions options) {
-        options.search = LightSearch::photons;
+    return [=](const Scene& scene, const RenderOptions& options) {
         ch23::PhotonSettings own = settings;
         own.sampler = options.sampler, own.seed = options.seed;
         return render_film(scene, options, ch23::photon_passes(scene, own));
@@ -16,18 +15,21 @@ static auto by_photons(ch23::PhotonSettings settings) {
                 .color = "#006655",
                 .finds_light = "by photons",
                 .render = by_photons({.final_gathering = false}),
-                .biased = true});
+                .biased = true,
+                .search = LightSearch::photons});
     add_method({.name = "23-few",
                 .label = "23 with few photons",
                 .color = "#66dfc0",
                 .finds_light = "by photons",
                 .render = by_photons({.light_paths = 200}),
-                .biased = true});
+                .biased = true,
+                .search = LightSearch::photons});
     return add_method({.name = "23",
                        .label = "23 photon mapping",
                        .color = "#00c896",
                        .finds_light = "by photons",
                        .scenes = {"pool", "sds", "cornell-spheres"},
                        .render = by_photons({}),
-                       .biased = true});
+                       .biased = true,
+                       .search = LightSearch::photons});
 }();

@@ -2,8 +2,7 @@
 #include "tests/measure/methods.h"
 
 static auto by_merging(PhotonSettings settings) {
-    return [=](const Scene& scene, RenderOptions options) {
-        options.search = LightSearch::merging;
+    return [=](const Scene& scene, const RenderOptions& options) {
         PhotonSettings own = settings;
         own.sampler = options.sampler, own.seed = options.seed;
         return render_film(scene, options, ch25::merging_passes(scene, own));
@@ -16,12 +15,14 @@ static auto by_merging(PhotonSettings settings) {
                 .color = "#e0c878",
                 .finds_light = "by photons from both ends",
                 .render = by_merging({.light_paths = 200}),
-                .biased = true});
+                .biased = true,
+                .search = LightSearch::merging});
     return add_method({.name = "25",
                        .label = "25 vertex merging",
                        .color = "#b8860b",
                        .finds_light = "by photons from both ends",
                        .scenes = {"sds", "caustic", "cornell-spheres"},
                        .render = by_merging({.light_paths = 0}),
-                       .biased = true});
+                       .biased = true,
+                       .search = LightSearch::merging});
 }();

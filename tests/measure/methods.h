@@ -22,7 +22,8 @@ struct Method {
     std::vector<std::string> scenes = {};  // what its chapter is about, for make efficiency
     std::vector<void (*)(const Scene&)> refuse = {};  // throw InputError for what it cannot render
     std::function<Rendering(const Scene&, const RenderOptions&)> render = {};
-    bool biased = false;     // on purpose
+    bool biased = false;  // on purpose
+    LightSearch search = LightSearch::light_sampling;
     Features features = {};  // of scenes, which it renders
 };
 

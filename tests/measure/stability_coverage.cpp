@@ -1,6 +1,7 @@
 #include "tests/measure/stability_coverage.h"
 
 #include <cstdio>
+#include <mutex>
 
 #include "common/base/parallel.h"
 #include "common/base/stats.h"
@@ -68,9 +69,60 @@ std::vector<Method> judged_methods() {
     return all;
 }
 
+constexpr struct {
+    const char* scene;
+    const char* true_by;  // a method that does not blur there, or blurs far less than any below
+    int spp;
+} blurred_cases[] = {{"cornell", "15", 1 << 13},
+                     {"caustic", "22", 1 << 15},
+                     {"sds", "24", 1 << 13},
+                     {"pool", "24", 1 << 13}};
+constexpr const char* blurring[] = {"23", "24", "25"};
+
+/// What was seen of one method that blurs.
+struct BlurredCoverage {
+    RunningStats mean, error, covered, warned;
+    RunningStats covered_without;  // of the runs without the warning of a bias
+
+    double bias_over_error(double truth) const { return (mean.mean() - truth) / error.mean(); }
+    bool holds(double truth) const {
+        bool is_off = std::abs(mean.mean() - truth) > error.mean() + 5 * mean.standard_error();
+        return (!is_off || warned.mean() == 1) &&
+               (covered_without.count() == 0 || covered_without.mean() >= 0.85);
+    }
+    std::vector<std::string> row(const std::string& label, double truth) const {
+        auto of_runs = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
+        return {label, short_number(bias_over_error(truth)), of_runs(covered.mean()),
+                of_runs(warned.mean()), holds(truth) ? "" : "FAILS"};
+    }
+};
+
+BlurredCoverage blurred_coverage_of(const Method& method, const Scene& scene, double truth) {
+    BlurredCoverage seen;
+    std::mutex one_at_a_time;
+    parallel_for(runs, static_cast<int>(std::thread::hardware_concurrency()), [&](int run) {
+        Scene own = scene;
+        MeasureOptions o;
+        o.threads = 1;
+        Rendering r = render_once(method, own, o, spp, static_cast<uint32_t>(run) + 1);
+        RenderOptions options;
+        options.search = method.search;
+        std::string warnings;
+        for (const std::string& line : warnings_of(scene, options, r)) warnings += line;
+        bool warns = warnings.find("photons blur light") != std::string::npos;
+        bool covers = std::abs(r.film.mean() - truth) <= 1.96 * r.film.standard_error();
+        std::lock_guard<std::mutex> lock(one_at_a_time);
+        seen.mean.add(r.film.mean()), seen.error.add(r.film.standard_error());
+        seen.covered.add(covers), seen.warned.add(warns);
+        if (!warns) seen.covered_without.add(covers);
+    });
+    return seen;
+}
+
 }  // namespace
 
 size_t coverage_steps() { return std::size(cases) * judged_methods().size(); }
+size_t blur_steps() { return std::size(blurred_cases); }
 
 int show_coverage(const MeasureOptions& options, Work& work) {
     int failures = 0;
@@ -98,5 +150,25 @@ int show_coverage(const MeasureOptions& options, Work& work) {
         "reported error over real one, and how often mean +- 1.96 errors holds the truth, of %d\n"
         "renders of %d x %d pixels with %d samples; w: most of them warn that it may not.\n",
         runs, side, side, spp);
+    return failures;
+}
+
+int show_blur(Work& work) {
+    int failures = 0;
+    for (const auto& c : blurred_cases) {
+        MeasureOptions o;
+        o.width = o.height = side, o.threads = 2;
+        Scene scene = load_scene_for(find_scene(c.scene), o);
+        work.next(std::string("blur on ") + c.scene);
+        double truth = render_once(methods_named({c.true_by})[0], scene, o, c.spp, 999).film.mean();
+        Table table{{c.scene, "bias (s.e.)", "covered", "says that it blurs", ""}, {}};
+        for (const char* name : blurring) {
+            Method method = methods_named({name})[0];
+            BlurredCoverage seen = blurred_coverage_of(method, scene, truth);
+            failures += !seen.holds(truth);
+            table.rows.push_back(seen.row(method.label, truth));
+        }
+        std::printf("\n%s", markdown(table).c_str());
+    }
     return failures;
 }
