@@ -226,7 +226,7 @@ int main(int argc, char** argv) {
             "predicts. 200 runs of one pixel each. Anything else makes it fail. WORD: only the "
             "scenes with this in their name. At the end, or for the word coverage: whether "
             "reported errors are the real ones, for every chapter and sampler; or for the word "
-            "blur: whether chapters that blur say so.",
+            "blur: whether chapter 25 says that it blurs.",
             {.spp = 0, .runs = 200});
         Verdicts verdicts;
         std::vector<StabilityCase> cases;

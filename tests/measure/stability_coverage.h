@@ -13,8 +13,8 @@ int show_coverage(const MeasureOptions& options, Work& work);
 /// The steps that it takes.
 size_t coverage_steps();
 
-/// Renders caustics, and the Cornell box, with many seeds by each chapter that blurs. Where its
-/// bias exceeds the reported error, each render must say that it blurs; and of the renders that do
-/// not say so, the intervals of 85 % must hold the truth. Returns how many chapters break that.
+/// Renders caustics, and the Cornell box, with many seeds by chapter 25. Where its bias exceeds the
+/// reported error, each render must say that it blurs; and of the renders that do not say so, the
+/// intervals of 85 % must hold the truth. Returns on how many scenes that breaks.
 int show_blur(Work& work);
 size_t blur_steps();
