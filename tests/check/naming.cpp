@@ -284,8 +284,7 @@ std::vector<Hypothesis> read_hypotheses(const std::string& text, const std::stri
 
 std::vector<Fit> explanations(const std::vector<Hypothesis>& hypotheses, const Evidence& evidence,
                               double ratio) {
-    std::vector<Fit> fits;
-    for (const Hypothesis& h : hypotheses) {
+    auto fit_of = [&](const Hypothesis& h) {
         Fit fit{&h, 0, 0};
         Evidence numbers = evidence;
         for (const auto& [key, q] : h.predicted)  // of light that was not found there is none
@@ -304,7 +303,15 @@ std::vector<Fit> explanations(const std::vector<Hypothesis>& hypotheses, const E
             fit.worst = std::max(fit.worst, z);
             fit.log_likelihood -= std::min(z * z, 60.0) / 2 + std::log(error);
         }
-        if (fit.explains()) fits.push_back(fit);
+        return fit;
+    };
+    // What a mistake must explain better than a right program does: else it explains nothing.
+    const Hypothesis no_mistake{"-", "", {}, true};
+    double least = fit_of(no_mistake).log_likelihood + std::log(ratio);
+    std::vector<Fit> fits;
+    for (const Hypothesis& h : hypotheses) {
+        Fit fit = fit_of(h);
+        if (fit.explains() && fit.log_likelihood > least) fits.push_back(fit);
     }
     std::sort(fits.begin(), fits.end(),
               [](const Fit& a, const Fit& b) { return a.log_likelihood > b.log_likelihood; });

@@ -39,6 +39,7 @@ std::string named(const char* chapter, const Change& change, const Change& of_ot
         "13\t1\tpick_light\ta light is never chosen\tthree/LDE=0.333~0.002\n"
         "14\t1\tpick_light\tthe first light is never chosen\tthree/LDE=0.333~0.002\n"
         "14\t2\tlight_pmf\tthe powers are squared\tthree/LDE=0.333~0.002;near/LDE=1.02~0.002\n"
+        "18\t1\ttrace\ta change without effect\tfloor/LDE=1.009~0.003\n"
         "20\t1\ta\tA\tthree/LDE=0.333~0.002\n20\t2\tb\tB\tthree/LDE=0.333~0.002\n"
         "20\t3\tc\tC\tthree/LDE=0.333~0.002\n";
     const std::string code = "inline Light pick_light(double u) {";
@@ -87,6 +88,12 @@ TEST_SUITE("naming") {
         CHECK(says(named("09", more), "No mistake that the check knows explains all numbers."));
         more = {{"three", "LDE", 1.0 / 3}, {"floor", "LDE", 2}};
         CHECK(says(named("09", more), "in `trace`, emission counts twice."));
+    }
+
+    TEST_CASE("truth: what explains no more than a right program does is not named") {
+        std::string text = named("18", {{"floor", "LDE", 0.992}});
+        CHECK(says(text, "No mistake that the check knows explains all numbers."));
+        CHECK(!says(text, "without effect"));
     }
 
     TEST_CASE("truth: of two mistakes that explain all, both are named, and what would decide") {
