@@ -84,7 +84,7 @@ inline void choose_candidates(const Scene& scene, const Lights& lights, const Hi
         c.inclusion[i] = std::min(scale * (c.inclusion[i] + share), 1.0f);
 }
 
-/// The sum of both samples' densities in the direction of a light: inclusion pdf_one.
+/// The density of the two light samples together, in the direction of a light: inclusion pdf_one.
 ///
 /// With random candidates, the probability that a light is included is unknown: min(1, candidates)
 /// is a heuristic for it. Any positive number keeps the estimate unbiased.

@@ -307,7 +307,7 @@ std::vector<Fit> explanations(const std::vector<Hypothesis>& hypotheses, const E
     };
     // What a mistake must explain better than a right program does: else it explains nothing.
     const Hypothesis no_mistake{"-", "", {}, true};
-    double least = fit_of(no_mistake).log_likelihood + std::log(ratio);
+    double least = fit_of(no_mistake).log_likelihood + std::log(1000.0);
     std::vector<Fit> fits;
     for (const Hypothesis& h : hypotheses) {
         Fit fit = fit_of(h);

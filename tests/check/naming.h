@@ -36,8 +36,9 @@ struct Fit {
     double worst;  // the largest distance of a prediction, in standard errors
     bool explains() const { return worst < 6; }
 };
-/// The hypotheses that explain all evidence, the most likely one first, and of them only those that
-/// are not `ratio` times less likely than the first.
+/// The hypotheses that explain all evidence, a thousand times better than a right program does, the
+/// most likely one first, and of them only those that are not `ratio` times less likely than the
+/// first.
 std::vector<Fit> explanations(const std::vector<Hypothesis>& hypotheses, const Evidence& evidence,
                               double ratio = 1000);
 
