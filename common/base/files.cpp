@@ -106,7 +106,8 @@ NewFile::NewFile(const std::string& path) : path_(path) {
     if (fs::is_directory(old)) fail(path, "cannot write", EISDIR);
     if (error == std::errc::filename_too_long) fail(path, "cannot write", ENAMETOOLONG);
     remove_left_overs(target_);
-    for (int tries = 0; file_ < 0 && (tries == 0 || (errno == EEXIST && tries < 10)); tries++) {
+    // Another run may take a file for left over before it is locked. On a busy machine ten were.
+    for (int tries = 0; file_ < 0 && (tries == 0 || (errno == EEXIST && tries < 99)); tries++) {
         temporary_ = name_beside(target_, part_ending + random_letters());
         file_ = open_new_file(temporary_);
     }
