@@ -6,16 +6,27 @@
 
 namespace {
 
-/// A method on a scene: all its renders.
+/// Renders of a method on a scene.
+struct Renders {
+    Spread spread = {};
+    std::vector<double> seconds = {};
+    double rel_mse = 0;  // of one render
+
+    void add(const Rendering& r) {
+        spread.add(r.film.image());
+        seconds.push_back(r.stats.seconds);
+    }
+    double efficiency() const { return 1 / (rel_mse * median(seconds)); }
+};
+
+/// A method on a scene.
 struct Contender {
     const Method* method;
     Scene scene;
     int spp;
-    Spread spread = {};
-    std::vector<double> seconds = {};
-    double rel_mse = 0;  // of one render
+    Renders all = {};
+    std::vector<Renders> without = {};  // i: all but render i
     bool listed = true;
-    double efficiency() const { return 1 / (rel_mse * median(seconds)); }
 };
 
 std::vector<Contender> contenders_on(const std::string& path, const std::vector<Method>& methods,
@@ -44,18 +55,20 @@ std::vector<Contender> contenders_on(const std::string& path, const std::vector<
 
 /// Renders by turns, so that what else the machine does slows all of them alike.
 void run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& work) {
+    for (Contender& c : contenders) c.all = {}, c.without.assign(static_cast<size_t>(o.runs), {});
     for (int run = 0; run < o.runs; run++) {
         work.next(contenders[0].scene.file + ", render " + std::to_string(run + 1) + " of each");
         for (Contender& c : contenders) {
             Rendering r = render_once(*c.method, c.scene, o, c.spp, static_cast<uint32_t>(run));
-            c.spread.add(r.film.image());
-            c.seconds.push_back(r.stats.seconds);
+            c.all.add(r);
+            for (int i = 0; i < o.runs; i++)
+                if (i != run) c.without[static_cast<size_t>(i)].add(r);
         }
     }
 
     // Compare all of them with one long render of the quietest: the means of so few renders as
     // these miss pixels that are bright in one of them only.
-    auto noise = [](const Contender& c) { return c.spread.rel_mse(c.spread.mean()); };
+    auto noise = [](const Contender& c) { return c.all.spread.rel_mse(c.all.spread.mean()); };
     Contender& best =
         *std::min_element(contenders.begin(), contenders.end(),
                           [&](const auto& a, const auto& b) { return noise(a) < noise(b); });
@@ -63,33 +76,45 @@ void run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& work
     Image truth =
         render_once(*best.method, best.scene, o, 8 * best.spp, static_cast<uint32_t>(o.runs))
             .film.image();
-    for (Contender& c : contenders) c.rel_mse = c.spread.rel_mse(truth);
+    for (Contender& c : contenders) {
+        c.all.rel_mse = c.all.spread.rel_mse(truth);
+        for (Renders& r : c.without) r.rel_mse = r.spread.rel_mse(truth);
+    }
 }
 
 /// Gives each as many samples as it makes in the time of the first.
 void take_equal_time(std::vector<Contender>& contenders) {
-    double seconds = median(contenders[0].seconds);
+    double seconds = median(contenders[0].all.seconds);
     for (Contender& c : contenders) {
-        double spp = c.spp * seconds / median(c.seconds);
+        double spp = c.spp * seconds / median(c.all.seconds);
         c.spp = std::max(1, static_cast<int>(std::lround(spp)));
-        c.spread = {};
-        c.seconds.clear();
     }
+}
+
+/// The least and the largest efficiency of c, in those of the first, when one of the renders of
+/// each is left out.
+std::string range_of(const Contender& c, const Contender& first) {
+    std::vector<double> times;
+    for (size_t i = 0; i < c.without.size() && c.without.size() > 2; i++)
+        times.push_back(c.without[i].efficiency() / first.without[i].efficiency());
+    if (&c == &first || times.empty()) return "";
+    auto [least, most] = std::minmax_element(times.begin(), times.end());
+    return short_number(*least) + " to " + short_number(*most);
 }
 
 Table table_of(const std::string& scene, const std::vector<Contender>& contenders) {
     const Contender& first = contenders[0];
     Table table{{scene, "spp", "relMSE", "seconds", "M samples/s", "efficiency",
-                 "times " + first.method->name},
+                 "times " + first.method->name, "range"},
                 {}};
     for (const Contender& c : contenders) {
         if (!c.listed) continue;
-        double seconds = median(c.seconds);
+        double seconds = median(c.all.seconds), efficiency = c.all.efficiency();
         double samples = double(c.scene.width) * c.scene.height * c.spp;
-        table.rows.push_back({c.method->label, std::to_string(c.spp), short_number(c.rel_mse),
-                              short_number(seconds), short_number(samples / seconds / 1e6),
-                              short_number(c.efficiency()),
-                              short_number(c.efficiency() / first.efficiency())});
+        table.rows.push_back(
+            {c.method->label, std::to_string(c.spp), short_number(c.all.rel_mse),
+             short_number(seconds), short_number(samples / seconds / 1e6), short_number(efficiency),
+             short_number(efficiency / first.all.efficiency()), range_of(c, first)});
     }
     return table;
 }
