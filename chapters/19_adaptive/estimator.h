@@ -80,7 +80,7 @@ inline void choose_densities(SampleDensities& s, const Pilot& pilot, int threads
 }
 
 /// The factor `scale` with which the average of max(least, scale density) is `wanted`. Pixels with
-/// `least` leave fewer samples for the others: it is lowered until no more pixels get `least`.
+/// `least` leave fewer samples to others; so it is lowered until no further pixel gets `least`.
 inline double scale_to_budget(const std::vector<double>& density, double least, double wanted) {
     for (double scale = infinity;;) {
         double sum = 0, left = 0;
