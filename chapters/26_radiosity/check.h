@@ -85,7 +85,7 @@ struct Comparison {
 /// Compares a picture with paths of up to 16 bounces; what comes after these, patches say.
 /// More paths until the error is below 1 %, at most 64 x 64 x 128; the same for any number of
 /// threads.
-/// tested by  "failure: patches wider than a light is far show too much light, and a warning"
+/// tested by  "failure: patches wider than their distance to a light: too bright, and a warning"
 inline Comparison compare_with_paths(const Scene& scene, const Shown& shown, int threads,
                                      const Stopped& stopped = {}) {
     constexpr int side = 64, most = 128;

@@ -105,7 +105,7 @@ TEST_SUITE("ch18 dispersion") {
         }
     }
 
-    TEST_CASE("furnace: white in, white out: glass that does not disperse, color by color") {
+    TEST_CASE("furnace: white in, white out, through glass with a name, color by color") {
         const Glass plain = {"plain", {1.25, 0, 0}, {0, 0, 0}};
         for (bool disperses : {false, true}) {
             Scene scene = scene_from("scenes/furnace-glass.pbrt", 16, 100);

@@ -1063,7 +1063,7 @@ TEST_SUITE("ch26 program") {
         }
     }
 
-    TEST_CASE("failure: patches wider than a light is far show too much light, and a warning") {
+    TEST_CASE("failure: patches wider than their distance to a light: too bright, and a warning") {
         TemporaryFolder folder;
         for (auto [path, is_wrong] : {std::pair{"scenes/near-light.pbrt", true},
                                       {"scenes/cornell.pbrt", false},
