@@ -64,9 +64,15 @@ bool is_blurred(const std::string& probe, const Method& method) {
 
 bool fits(const Probe& probe, const Method& method) {
     int chapter = std::stoi(method.name.substr(0, 2));
-    // From a sky, hardly any path meets what these small pictures show.
-    if (chapter == 20 && probe.text.find("infinite") != std::string::npos) return false;
+    // From a sky, hardly any path meets what most of these small pictures show.
+    bool is_small = probe.name == "sky" || probe.name == "sky picture";
+    if (chapter == 20 && probe.text.find("infinite") != std::string::npos && !is_small)
+        return false;
     if (chapter != 25 && is_blurred(probe.name, method)) return false;
+    // Random directions never find lights without a size.
+    bool no_size = probe.text.find("LightSource \"point\"") != std::string::npos ||
+                   probe.text.find("LightSource \"distant\"") != std::string::npos;
+    if (method.name == "13-bsdf" && no_size) return false;
     return chapter >= probe.first_chapter && std::min(chapter, 21) <= probe.last_chapter;
 }
 

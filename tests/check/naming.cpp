@@ -69,8 +69,8 @@ bool has_word(const Probe& probe, const char* word) {
     return probe.text.find(word) != std::string::npos;
 }
 int count_lights(const Probe& probe) {
-    int count = has_word(probe, "infinite") ? 1 : 0;
-    for (size_t at = 0; (at = probe.text.find("AreaLightSource", at)) != std::string::npos; at++)
+    int count = 0;
+    for (size_t at = 0; (at = probe.text.find("LightSource", at)) != std::string::npos; at++)
         count++;
     return count;
 }
@@ -109,6 +109,10 @@ std::vector<Event> surroundings() {
             {"with lamps", with("AreaLightSource")},
             {"with more than one light",
              [](const Probe& p, const std::string&) { return count_lights(p) > 1; }},
+            {"with a point light", with("LightSource \"point\"")},
+            {"with a distant light", with("LightSource \"distant\"")},
+            {"with disks", with("\"disk\"")},
+            {"with what moves", with("ActiveTransform")},
             {"with two-sided lamps", with("\"bool twosided\" true")},
             {"with glass", with("dielectric")},
             {"with rough metal", with("roughness")},

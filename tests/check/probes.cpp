@@ -162,7 +162,9 @@ void add_second_vertices(std::vector<Probe>& p) {
 void add_skies(std::vector<Probe>& p) {
     std::string wide = floor_of(paint(0.5), "", 500);
     std::string low = from_above(0.5);
-    p.push_back({"sky", "a floor under a white sky", low + floor_here + sky()});
+    // So small that paths from the sky meet it.
+    std::string small_floor = floor_of(paint(0.5), "", 0.6);
+    p.push_back({"sky", "a floor under a white sky", low + small_floor + sky(), 7, 21, 256});
     p.push_back({"sky, lamp", "a sky, and behind it in the list a lamp",
                  low + wide + sky() + lamp(at(0, 1, 0), 5)});
     p.push_back({"lamp, sky", "a lamp, and behind it in the list the sky",
@@ -183,6 +185,33 @@ void add_skies(std::vector<Probe>& p) {
     p.push_back({"box", "a closed box in a bright sky",
                  view("1000 300 0  1001 300 1  0 1 0", "\"float fov\" 60", 4) + sky() +
                      group(at(1000, 300, 0) + "Rotate 33 1 2 3 " + cube(paint(0.8)))});
+}
+
+/// What lights there are besides squares and skies. No light without a size is found by chance.
+void add_kinds_of_lights(std::vector<Probe>& p) {
+    std::string small_floor = floor_of(paint(0.5), "", 2);
+    std::string point = "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [0.6 1.5 0.3]\n";
+    std::string sun =
+        "LightSource \"distant\" \"rgb L\" [1 1 1] \"point3 from\" [1 2 0.5] \"point3 to\" [0 0 "
+        "0]\n";
+    std::string down = turn(90, x_axis), disk = "Shape \"disk\" \"float radius\" 0.5\n";
+    auto shape = [](const std::string& place, const std::string& what) {
+        return group(shining(1) + paint(0) + place + what);
+    };
+    p.push_back({"point", "a floor under a point light", above + small_floor + point, 9});
+    p.push_back({"sun", "a floor under a distant light", above + small_floor + sun, 9});
+    p.push_back({"kinds", "a floor under a lamp, a point light and a distant light",
+                 above + small_floor + lamp(at(0, 2, 0), 5) + point + sun, 9});
+    p.push_back({"metal, point", "rough metal under a point light",
+                 view("-1 0.5 0  0 0 0  0 1 0", "\"float fov\" 5") +
+                     floor_of(metal(1, rough), "", 2) + point,
+                 13});
+    p.push_back({"disk", "a floor under a disk that shines",
+                 above + floor_here + shape(at(0.5, 2, 0) + down, disk)});
+    p.push_back({"near disk", "a floor close under a disk that shines",
+                 from_above(0.1) + floor_here + shape(at(0, 0.2, 0) + down, disk)});
+    p.push_back({"shining ball", "a floor under a ball that shines",
+                 above + floor_here + shape(at(0.5, 2, 0), ball(0.5))});
 }
 
 void add_bent(std::vector<Probe>& p) {
@@ -256,7 +285,7 @@ void add_glass_and_metal(std::vector<Probe>& p) {
                  on_metal(real, 0.25), 13});
 }
 
-/// Cameras with a lens, and wide ones.
+/// Cameras with a lens, wide ones, and an open shutter.
 void add_cameras(std::vector<Probe>& p) {
     p.push_back({"corner", "the corner of a wide picture of a floor",
                  view("0 1.2 0  0 0 0  0 0 1",
@@ -283,6 +312,11 @@ void add_cameras(std::vector<Probe>& p) {
                      group(shining(1) + paint(0) + at(4, 4, 4) + turn(-90, x_axis) + scale(0.12) +
                            square(true)),
                  16, 19});
+    p.push_back({"moving", "a floor in the shadow of a board that moves",
+                 above + floor_here + lamp(at(0, 2, 0)) +
+                     group(paint(0) + at(-1.4, 1.6, 0) + "ActiveTransform EndTime " +
+                           at(1.6, 0, 0) + "ActiveTransform All " + scale(0.5) + square(false)),
+                 16, 19});
 }
 
 /// What chapters 17 to 19 are about.
@@ -295,8 +329,8 @@ void add_wavelengths_and_shares(std::vector<Probe>& p) {
                  from_above(0.5) +
                      group(turn(-90, x_axis) +
                            "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
-                     floor_here,
-                 17, 19});
+                     floor_of(paint(0.5), "", 0.6),
+                 17});
     p.push_back({"rare light", "a floor on which light is found rarely",
                  from_above(0.5, 2) + floor_here +
                      lamp(at(1.5, 1, 0) + scale(0.15), 100, false, true) +
@@ -311,6 +345,7 @@ std::vector<Probe> all_probes() {
     add_floors(probes);
     add_second_vertices(probes);
     add_skies(probes);
+    add_kinds_of_lights(probes);
     add_bent(probes);
     add_glass_and_metal(probes);
     add_cameras(probes);
