@@ -91,13 +91,13 @@ void take_equal_time(std::vector<Contender>& contenders) {
     }
 }
 
-/// The least and the largest efficiency of c, in those of the first, when one of the renders of
-/// each is left out.
+/// The least and the largest efficiency of c, in those of the first: of all renders, and when one
+/// render of each is left out.
 std::string range_of(const Contender& c, const Contender& first) {
-    std::vector<double> times;
-    for (size_t i = 0; i < c.without.size() && c.without.size() > 2; i++)
+    if (&c == &first || c.without.size() < 3) return "";
+    std::vector<double> times = {c.all.efficiency() / first.all.efficiency()};
+    for (size_t i = 0; i < c.without.size(); i++)
         times.push_back(c.without[i].efficiency() / first.without[i].efficiency());
-    if (&c == &first || times.empty()) return "";
     auto [least, most] = std::minmax_element(times.begin(), times.end());
     return short_number(*least) + " to " + short_number(*most);
 }
