@@ -2,7 +2,7 @@
 // samples go where it is large. Chapter 18 traces the paths.
 //
 //   error^2 = sum over the pixels of  v_i / n_i   is least, for a given sum of n_i c_i, where
-//   n_i is proportional to sqrt(v_i / c_i)        v_i: the variance of a pixel's samples
+//   n_i is proportional to sqrt(v_i / c_i)        v_i: the relative variance of a pixel's samples
 //                                                 c_i: the cost of a sample, in rays
 #pragma once
 #include <memory>
@@ -16,8 +16,8 @@ namespace ch19 {
 
 using dispersion::trace, dispersion::prepare;
 
-/// The relative variance of a pixel's samples, as in relMSE, which compares pictures here: errors
-/// in dark pixels count as much as errors in bright ones.
+/// The relative variance of a pixel's samples. It is relative as in relMSE: errors in dark and in
+/// bright pixels count alike.
 ///
 ///   v = average over the channels of  variance / (mean^2 + 0.01)      0 for fewer than two samples
 /// tested by  "truth: a pixel varies as relMSE measures it, channel by channel", to 1e-6
@@ -79,8 +79,8 @@ inline void choose_densities(SampleDensities& s, const Pilot& pilot, int threads
     });
 }
 
-/// The factor `scale` with which the average of max(least, scale density) is `wanted`. Pixels with
-/// `least` leave fewer samples to others; so it is lowered until no further pixel gets `least`.
+/// The factor `scale` with which the average of max(least, scale * density) is `wanted`. A pixel
+/// that asks for less gets `least`, and less is left for the others: so `scale` falls in steps.
 inline double scale_to_budget(const std::vector<double>& density, double least, double wanted) {
     for (double scale = infinity;;) {
         double sum = 0, left = 0;

@@ -180,7 +180,7 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
             v.beta /= q;
             recorder.scatter(s, v.beta);
 
-            // Add the light seen in a mirror, the n-th vertex.
+            // Add the light of vertex n, if the ray to it left a mirror or glass.
             std::optional<Hit> y = intersect(scene, spawn_ray(v.x, s.wi));
             recorder.vertex(y);
             if (n > t + 1) {

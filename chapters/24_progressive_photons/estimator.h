@@ -1,5 +1,5 @@
 // Chapter 24: progressive photon mapping. The radius shrinks from pass to pass, but so slowly that
-// the number of photons in it, over all passes, keeps growing: bias and noise both go to 0.
+// the noise of the average of all passes still falls: bias and noise both go to 0.
 //
 //   (r_i+1 / r_i)^2 = (i + alpha) / (i + 1),    i = 1, 2, ...:    r_i ~ i^((alpha - 1) / 2)
 #pragma once
@@ -149,7 +149,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
 /// tested by  "truth: radii shrink", to 1e-5
 inline float radius_of(const Scene& scene, const PhotonSettings& settings, uint32_t pass) {
     constexpr double alpha = 2.0 / 3;
-    double r2 = 1;  // over the square of the first radius
+    double r2 = 1;  // divided by the square of the first radius
     for (double i = 1; i <= pass; i++) r2 *= (i + alpha) / (i + 1);
     float first = settings.radius > 0 ? settings.radius : scene.radius / 80;
     return first * static_cast<float>(std::sqrt(r2));

@@ -198,7 +198,7 @@ inline void add_light_path(const Scene& scene, const Subpath& walk, float area, 
     }
 }
 
-/// Pass one: traces the light paths that may merge, and sorts their photons into a map.
+/// Before each pass: traces the light paths that may merge, and sorts their photons into a map.
 inline void trace_light_paths(const Scene& scene, const PhotonSettings& settings, uint32_t pass,
                               int threads, const Stopped& stopped, Merging& merging) {
     float r = radius_of(scene, settings, pass);

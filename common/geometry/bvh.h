@@ -9,7 +9,7 @@
 
 /// One node of the hierarchy: boxes side by side, and what is in each.
 struct alignas(64) BvhNode {
-    float plane[6][lanes];   // row 2 axis: lower ends, row 2 axis + 1: upper; lower > upper: unused
+    float plane[6][lanes];   // row 2 * axis: lower ends; + 1: upper ends; lower > upper: unused
     uint32_t child[lanes];   // index into Bvh::nodes, or leaf | index into Bvh::blocks
     LaneOrder far_first[8];  // for each octant of directions: the children from far to near
 
@@ -21,8 +21,8 @@ struct alignas(64) BvhNode {
 
 /// One leaf: primitives side by side. Lanes that hold no triangle have NaN for vertices.
 struct alignas(64) BvhBlock {
-    float vertex[9][lanes];  // row 3 k + axis: vertex k
-    uint32_t prim[lanes];    // PrimHit::none: unused, as all lanes behind it
+    float vertex[9][lanes];  // row 3 * k + axis: vertex k
+    uint32_t prim[lanes];    // PrimHit::none: this lane and all after it are unused
 };
 
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.

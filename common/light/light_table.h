@@ -5,7 +5,7 @@
 
 /// The power of a light, in W.
 ///
-///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  R: radius of the scene
+///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  light.L: L, I or E
 inline float light_power(const Scene& scene, size_t i) {
     const Light& light = scene.lights[i];
     float L = average(light.L), R = scene.radius;

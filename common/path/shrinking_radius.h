@@ -13,7 +13,7 @@
 /// tested by  "truth: radii shrink", to 1e-5
 inline float radius_of(const Scene& scene, const PhotonSettings& settings, uint32_t pass) {
     constexpr double alpha = 2.0 / 3;
-    double r2 = 1;  // over the square of the first radius
+    double r2 = 1;  // divided by the square of the first radius
     for (double i = 1; i <= pass; i++) r2 *= (i + alpha) / (i + 1);
     float first = settings.radius > 0 ? settings.radius : scene.radius / 80;
     return first * static_cast<float>(std::sqrt(r2));

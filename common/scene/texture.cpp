@@ -20,7 +20,7 @@ Rgb texel(const TexturePicture& picture, Texture::Wrap wrap, int i, int j) {
 
 // The picture's value at (s, t).
 Rgb look_up(const TexturePicture& picture, const Texture& texture, Vec2 st) {
-    // Stay near the picture, so that the number of a texel is an int.
+    // Keep x and y near the picture, so that the numbers of texels fit into an int.
     auto near = [&](float x) {
         return texture.wrap == Texture::Wrap::repeat ? x - std::floor(x) : std::clamp(x, -1.f, 2.f);
     };

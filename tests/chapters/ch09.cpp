@@ -257,7 +257,7 @@ TEST_SUITE("ch09 light sampling") {
             }
     }
 
-    TEST_CASE("truth: what stands in between takes all light away, half of it half") {
+    TEST_CASE("truth: a board in between takes all light away, half a board takes half") {
         const std::string board = "AttributeBegin Translate 0 0.5 0 " + square(0, true);
         Scene covered = floor_under(board + " AttributeEnd\n" + shining + unit_square(1));
         CHECK(irradiance(covered, trace_by_angle, 1000).mean() == 0);

@@ -323,7 +323,7 @@ TEST_SUITE("ch20 light tracing") {
         }
     }
 
-    TEST_CASE("agreement: samplers, sizes of samples and units leave the mean alone") {
+    TEST_CASE("agreement: the mean depends on neither sampler, sample count nor unit of length") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 4);
         Film truth = film_of(scene, by_twenty(scene), 256).film;
         Measured a{truth.mean(), truth.standard_error()};

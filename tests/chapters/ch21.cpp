@@ -397,7 +397,7 @@ TEST_SUITE("ch21 bidirectional") {
         }
     }
 
-    TEST_CASE("agreement: sizes of samples and units leave the mean alone, by both ends") {
+    TEST_CASE("agreement: the mean depends on neither sample count nor unit of length, by both ends") {
         auto over_seeds = [](const Scene& scene, const Form& form, int spp, uint32_t first) {
             RunningStats means;
             for (uint32_t seed = first; seed < first + 32; seed++)

@@ -388,7 +388,7 @@ TEST_SUITE("ch23 photon mapping") {
         CHECK(m.se < 0.01 * film.mean());
     }
 
-    TEST_CASE("failure: mirrors show what mirrors light: photons find it, and nothing else does") {
+    TEST_CASE("failure: light that comes and is seen through glass: only photons find it") {
         // A point light over a pane of glass over a floor, seen through it: LSSDSSE.
         Scene scene = scene_of(
             "LookAt 0 2 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 30\n"
@@ -421,7 +421,7 @@ TEST_SUITE("ch23 photon mapping") {
         }
     }
 
-    TEST_CASE("agreement: sizes of samples and units leave the mean alone") {
+    TEST_CASE("agreement: the mean depends on neither sample count nor unit of length") {
         const std::string path = "scenes/cornell-spheres.pbrt";
         PhotonSettings settings{.light_paths = 4000};
         Scene scene = scene_from(path, 32, 5);
