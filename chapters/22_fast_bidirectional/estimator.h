@@ -47,7 +47,7 @@ inline float pdf_forward(const Scene& scene, const Endpoints& endpoints, const S
 ///   c_j    1 if vertices j - 1 and j can be connected, else 0; c_0: if the light can be hit
 ///   sum_j = c_j-1 + r_j-2 sum_j-1,    sum_0 = sum_1 = c_0
 ///
-/// r_j-2 depends on vertices j - 2, j - 1 and j alone: it is the same in every path that has them.
+/// r_j-2 depends on no vertex after j: it is the same in every path that begins like this walk.
 /// source  van Antwerpen 2011; Georgiev 2012
 inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& walk) {
     const Path& path = walk.path;

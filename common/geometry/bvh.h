@@ -11,7 +11,7 @@
 struct alignas(64) BvhNode {
     float plane[6][lanes];   // row 2 * axis: lower ends; + 1: upper ends; lower > upper: unused
     uint32_t child[lanes];   // index into Bvh::nodes, or leaf | index into Bvh::blocks
-    LaneOrder far_first[8];  // for each octant of directions: the children from far to near
+    LaneOrder far_first[8];  // for each octant (signs of a direction): children from far to near
 
     static constexpr uint32_t leaf = 1u << 31;
     static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
