@@ -43,6 +43,19 @@ inline std::optional<Hit> by_order(const Scene& scene, const Ray& ray, int sign)
         if (!best || sign * number(*x) < sign * number(*best)) best = x;
     return best;
 }
+/// What a ray hits if spheres are hit from outside alone.
+inline std::optional<Hit> outside(const Scene& scene, Ray ray) {
+    auto from_inside = [&](const Hit& x) {
+        auto no = [](const auto&) { return false; };
+        return visit(
+            scene.geometry, x.prim, no,
+            [&](const Sphere& sphere) { return dot(ray.d, x.p - sphere.c) > 0; }, no);
+    };
+    std::optional<Hit> x = intersect(scene, ray);
+    for (; x && from_inside(*x); x = intersect(scene, ray))
+        ray = spawn_ray(*x, ray.d, ray.t_max - x->t);
+    return x;
+}
 /// A point in a spherical lamp, not on it. How 2: its normal is shorter than 1; 0: it stays.
 template <typename Point>
 Point in_ball(const Scene& scene, size_t light, Point y, Vec2 u, int how) {
