@@ -101,6 +101,7 @@ TEST_SUITE("ch10 cosine sampling") {
             Vec2 u = random.u2(),
                  v = ch10::invert_cosine_hemisphere(ch10::sample_cosine_hemisphere(u));
             CHECK(std::abs(u.x - v.x) < 1e-6f);
+            CHECK((v.y >= 0 && v.y <= 1));
             CHECK(std::abs(std::remainder(u.y - v.y, 1.0f)) * std::sqrt(u.x) < 1e-6f);
         }
     }

@@ -198,6 +198,7 @@ TEST_SUITE("ch13 rough metal") {
             Vec2 u = random.u2();
             Vec2 v = ch13::invert_ggx_normal(wo, alpha, ch13::sample_ggx_normal(wo, alpha, u));
             CHECK(std::abs(u.x - v.x) < 2e-4f);
+            CHECK((v.y >= 0 && v.y <= 1));
             CHECK(std::abs(std::remainder(u.y - v.y, 1.0f)) * std::min(u.x, 1 - u.x) < 2e-4f);
         }
     }
