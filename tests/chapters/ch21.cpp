@@ -397,7 +397,7 @@ TEST_SUITE("ch21 bidirectional") {
         }
     }
 
-    TEST_CASE("agreement: the mean depends on neither sample count nor unit of length, by both ends") {
+    TEST_CASE("agreement: neither sample count nor unit of length changes the mean of both ends") {
         auto over_seeds = [](const Scene& scene, const Form& form, int spp, uint32_t first) {
             RunningStats means;
             for (uint32_t seed = first; seed < first + 32; seed++)
