@@ -17,8 +17,7 @@ using SplatTrace = std::function<Rgb(const Scene&, Ray, Splats&, Sampler&, Recor
 
 /// The estimator of a chapter that prepares something for each pass, such as photons. A pass is one
 /// sample of every pixel; its samples depend on each other, since they share what was prepared.
-/// Passes must not depend on each other, so paths from the eye use independent numbers, and
-/// --sampler applies only to what is prepared.
+/// What is prepared for one pass must not depend on what is prepared for another.
 struct PassTrace {
     /// Called before sample number `pass` of any pixel. If `stopped()`, it returns early, and the
     /// pass does not start.

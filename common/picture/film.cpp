@@ -117,23 +117,22 @@ std::array<Film::ErrorPart, 2> Film::error_parts() const {
     return parts;
 }
 
-double Film::error_of_batches() const {
-    double n = 0, sum = 0, count = 0, squares = 0;
+double Film::variance_of_batches() const {
+    double n = 0, sum = 0, count = 0, squares = 0, weights = 0;
     auto is_whole = [&](const PixelSum& b) { return b.n > 0 && b.n % pixels_.size() == 0; };
     for (const PixelSum& b : batches_) {
         if (is_whole(b)) n += b.n, sum += b.n * b.mean(), count++;
     }
     if (count < 2) return std::nan("");
     for (const PixelSum& b : batches_) {
-        double part = is_whole(b) ? b.n / n * (b.mean() - sum / n) : 0;
-        squares += part * part;
+        double w = is_whole(b) ? b.n / n : 0, part = w * (b.mean() - sum / n);
+        squares += part * part, weights += w * w;
     }
-    return std::sqrt(count / (count - 1) * squares);
+    return squares / (1 - weights);
 }
 
 double Film::standard_error() const {
-    if (has_batches()) return error_of_batches();
-    double seen = 0, sum = 0;
+    double seen = 0, sum = 0, as_if_independent = 0;
     for (size_t i = 0; i < pixels_.size(); i++) {
         if (count_of(i) == 1) return std::nan("");
         seen += count_of(i) > 0;
@@ -143,7 +142,12 @@ double Film::standard_error() const {
         sum += difference * difference / 4;
     }
     if (!has_halves_) {
-        for (const ErrorPart& part : error_parts()) sum += part.r() * part.v;
+        for (const ErrorPart& part : error_parts())
+            sum += part.r() * part.v, as_if_independent += part.v;
+    }
+    if (has_batches() && seen > 0) {
+        double all = variance_of_batches() * seen * seen;
+        if (!(all <= as_if_independent)) sum += all - as_if_independent;  // NaN stays NaN
     }
     return seen > 0 ? std::sqrt(sum) / seen : std::nan("");
 }

@@ -72,18 +72,19 @@ public:
     }
 
     /// From now on the samples of one pass (one sample of each pixel) may depend on each other.
-    /// Passes are independent, so their totals give the error: each pass is added to one of a few
-    /// batches, by its number.
+    /// The spread of the passes' means shows how much: each pass is added to one of a few batches,
+    /// chosen at random by its number.
     ///
-    ///   SE^2 = B / (B - 1) sum over the B batches of (n_b / n)^2 (mean_b - mean)^2
+    ///   SE_b^2 = sum over the batches of w_b^2 (mean_b - mean)^2 / (1 - sum of w_b^2),  w_b = n_b
+    ///   / n
     ///
     /// Batches with an incomplete pass are left out.
-    static constexpr size_t most_batches = 32;
+    static constexpr size_t most_batches = 128;
     void start_batches() { batches_.assign(most_batches, {}); }
     bool has_batches() const { return !batches_.empty(); }
     /// Adds samples of pass number `pass`. Two threads must not do so at once.
     void add_to_batch(uint32_t pass, const PixelSum& samples) {
-        batches_[pass % most_batches].add(samples);
+        batches_[hash32(pass) % most_batches].add(samples);
     }
     std::vector<PixelSum>& batches() { return batches_; }
     const std::vector<PixelSum>& batches() const { return batches_; }
@@ -109,8 +110,9 @@ public:
     ///   r    = sum of (A - B)^2 / 2 over the audited pixels / sum of v over them
     ///
     /// separately for the pixels at edges and the others. r is 1 without audits, when samples are
-    /// independent of each other. tested by  "consistency: the reported error is the spread
-    /// over seeds, with each sampler"
+    /// independent of each other. Where pixels of a pass depend on each other, SE_b^2 minus the sum
+    /// of v is added, if it is positive: that sum is what SE_b^2 would be if they did not.
+    /// tested by  "consistency: the reported error is the spread over seeds, with each sampler"
     double standard_error() const;
 
     /// The number of data that standard_error() is based on: the more, the more reliable.
@@ -154,7 +156,7 @@ private:
     Channels mean_of(size_t pixel, double spp) const;
     PixelSum& sum_of(size_t pixel, int half) { return half == 0 ? pixels_[pixel] : audits_[pixel]; }
     Channels mean_channels() const;
-    double error_of_batches() const;
+    double variance_of_batches() const;
 
     /// The sums that the error is estimated from.
     const std::vector<PixelSum>& measured() const { return splats_.empty() ? pixels_ : totals_; }

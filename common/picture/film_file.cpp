@@ -128,10 +128,10 @@ void FilmReader::read_pixels(Film& film, const FilmShape& shape) {
     read_sums(film.pixels());
     std::vector<bool> audited;
     for (const PixelSum& p : film.pixels()) {
-        if (std::max(p.is_edge, p.is_audited) > (shape.kind == 1)) refuse_numbers();
+        if (std::max(p.is_edge, p.is_audited) > shape.has_audits()) refuse_numbers();
         audited.push_back(p.is_audited);
     }
-    if (shape.kind == 1) film.start_audit();
+    if (shape.has_audits()) film.start_audit();
     for (size_t i = 0; i < audited.size(); i++) {
         if (film.is_audited(i) != audited[i]) refuse_numbers();
     }
@@ -145,7 +145,7 @@ LabeledFilm FilmReader::read() {
     if (bytes_in(file_) < least * sizeof(PixelSum)) refuse("the film is cut short");
     Film film(shape.width, shape.height, shape.takes_splats);
     if (shape.kind == 2) film.start_halves();
-    if (shape.kind == 3) film.start_batches();
+    if (shape.has_batches()) film.start_batches();
     read_pixels(film, shape);
     for (std::vector<PixelSum>* sums :
          {&film.audits(), &film.splats(), &film.totals(), &film.batches()}) {

@@ -52,7 +52,7 @@ bool is_possible(const FilmShape& shape, const FilmLabel& label) {
                    shape.height <= 65536 && int64_t{shape.width} * shape.height <= 1 << 28;
     std::string size = std::to_string(shape.width) + 'x' + std::to_string(shape.height);
     for (const auto& [name, value] : label.options) is_size &= name != "size" || value == size;
-    return is_size && shape.kind >= 0 && shape.kind <= 3;
+    return is_size && shape.kind >= 0 && shape.kind <= 4;
 }
 
 bool is_possible(const std::vector<SampleRange>& samples, const std::string& path) {
@@ -168,7 +168,8 @@ std::vector<std::string> FilmLabel::missing() const {
 }
 
 FilmShape shape_of(const Film& film) {
-    int kind = film.has_batches() ? 3 : film.has_halves() ? 2 : film.has_audits();
+    int audits = film.has_audits();
+    int kind = film.has_batches() ? 3 + audits : film.has_halves() ? 2 : audits;
     return {film.width, film.height, kind, film.takes_splats()};
 }
 

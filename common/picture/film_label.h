@@ -65,15 +65,17 @@ struct FilmLabel {
 /// The properties that decide which sums a film has.
 struct FilmShape {
     int width = 0, height = 0;
-    int kind =
-        0;  // 0: pixels alone; 1: with audits; 2: with a second half of each; 3: with batches
+    int kind = 0;  // 0: pixels alone; 1: with audits; 2: with a second half of each; 3: with
+                   // batches; 4: with batches and audits
     bool takes_splats = false;
+    bool has_audits() const { return kind == 1 || kind == 4; }
+    bool has_batches() const { return kind >= 3; }
     bool operator==(const FilmShape&) const = default;
 };
 FilmShape shape_of(const Film& film);
 
 /// The line that a film's file begins with, and what of it is the same in all versions.
-inline constexpr const char* film_version = "film of path-by-path, version 4\n";
+inline constexpr const char* film_version = "film of path-by-path, version 5\n";
 inline constexpr const char* film_any_version = "film of path-by-path, version ";
 
 /// The lines of text at the beginning of a film's file, with the empty one that ends them.

@@ -85,8 +85,6 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     TracingLimit tracing([&] { return limit.overdue(); });
     if (allocation.pilot > 0) {
         result.film.start_halves();
-    } else if (has_passes<AnyTrace>) {
-        result.film.start_batches();
     } else if (options.sampler != SamplerType::independent) {
         try {
             mark_lamp_edges(scene, options.threads, result.film);
@@ -94,6 +92,7 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
         }
         result.film.start_audit();
     }
+    if (has_passes<AnyTrace>) result.film.start_batches();
     continue_film(scene, options, result);
     SampleRange wanted = wanted_samples(scene, options);
 

@@ -165,8 +165,7 @@ private:
     /// The tools that trace samples, reused from one sample to the next.
     struct Tools {
         Tools(const Scene& scene, const RenderOptions& options)
-            : sampler(has_passes ? SamplerType::independent : options.sampler, options.seed,
-                      static_cast<uint32_t>(scene.spp)),
+            : sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp)),
               recorder(chooses(options) || !options.split.empty()),
               chosen(options.paths) {}
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -195,46 +196,88 @@ TEST_SUITE("film error") {
     }
 
     TEST_CASE("truth: whole passes tell the error by their means, each by its weight") {
-        // 40 passes of 4 pixels in 32 batches: the first 8 batches have two passes.
+        // 40 passes of 4 pixels, bright in every third pass: all pixels of a pass together.
+        auto passes_of = [](uint32_t pass) {
+            std::vector<double> x = samples_of(pass, 4);
+            for (double& s : x) s += pass % 3 == 0 ? 5 : 0;
+            return x;
+        };
+        auto batch_of = [](uint32_t pass) {
+            return hash32(pass) % static_cast<uint32_t>(Film::most_batches);
+        };
         Film film(2, 2);
         film.start_batches();
-        std::vector<std::vector<double>> batch(32);
+        std::map<uint32_t, std::vector<double>> batch;
         for (uint32_t pass = 0; pass < 40; pass++) {
-            std::vector<double> x = samples_of(pass, 4);
+            std::vector<double> x = passes_of(pass);
             PixelSum sum;
             for (size_t i = 0; i < 4; i++) film.add(i, grey(x[i])), sum.add(grey(x[i]));
             film.add_to_batch(pass, sum);
-            for (double s : x) batch[pass % 32].push_back(s);
+            for (double s : x) batch[batch_of(pass)].push_back(s);
         }
-        auto expected = [&](size_t batches) {
+        CHECK(batch.size() < 40);  // some batches have more than one pass
+        auto expected = [&] {
             std::vector<double> all;
-            for (size_t b = 0; b < batches; b++)
-                all.insert(all.end(), batch[b].begin(), batch[b].end());
-            double mean = mean_of(all), squares = 0, B = static_cast<double>(batches);
-            for (size_t b = 0; b < batches; b++) {
-                double share =
-                    static_cast<double>(batch[b].size()) / static_cast<double>(all.size());
-                squares += std::pow(share * (mean_of(batch[b]) - mean), 2);
+            for (const auto& [b, x] : batch) all.insert(all.end(), x.begin(), x.end());
+            double mean = mean_of(all), squares = 0, weights = 0;
+            for (const auto& [b, x] : batch) {
+                double w = static_cast<double>(x.size()) / static_cast<double>(all.size());
+                squares += std::pow(w * (mean_of(x) - mean), 2), weights += w * w;
             }
-            return std::sqrt(B / (B - 1) * squares);
+            return std::sqrt(squares / (1 - weights));
         };
         CHECK(film.has_batches());
-        CHECK(film.standard_error() == about(expected(32)));
+        CHECK(film.standard_error() == about(expected()));
         // A pass that is not whole spoils its batch alone.
         PixelSum half;
         for (double x : {1.0, 2.0}) half.add(grey(x));
         film.add_to_batch(31, half);
-        CHECK(film.standard_error() == about(expected(31)));
+        batch.erase(batch_of(31));
+        CHECK(film.standard_error() == about(expected()));
         // One batch alone says nothing.
         Film one(2, 2);
         one.start_batches();
         CHECK(std::isnan(one.standard_error()));
         for (uint32_t pass : {0u, 1u}) {
+            std::vector<double> x = samples_of(pass, 4);
             PixelSum sum;
-            for (size_t i = 0; i < 4; i++) sum.add(grey(samples_of(pass, 4)[i]));
+            for (size_t i = 0; i < 4; i++) one.add(i, grey(x[i])), sum.add(grey(x[i]));
             one.add_to_batch(pass, sum);
             CHECK(std::isnan(one.standard_error()) == (pass == 0));
         }
+    }
+
+    TEST_CASE("truth: samples of a pass that depend on each other add to the error of the pixels") {
+        // All pixels of a pass are equally bright, and the four passes of a pixel are 0, 1, 2, 3 in
+        // any order. Independent samples of other pixels: no more than the pixels' own variance.
+        for (bool together : {true, false}) {
+            CAPTURE(together);
+            Film film(4, 1);
+            film.start_batches();
+            for (uint32_t pass = 0; pass < 4; pass++) {
+                PixelSum sum;
+                for (uint32_t i = 0; i < 4; i++) {
+                    Rgb L = grey(together ? pass : (pass + i) % 4);
+                    film.add(i, L), sum.add(L);
+                }
+                film.add_to_batch(pass, sum);
+            }
+            // Each pixel: s^2 = 5/3, of its mean 5/12. Mean of 4 pixels: 5/12 together, else 5/48.
+            CHECK(film.standard_error() == about(std::sqrt(together ? 5.0 / 12 : 5.0 / 48)));
+        }
+        // Stratified samples: each pixel has the same mean twice, so its own error is zero.
+        Film film(4, 1);
+        film.start_audit();
+        film.start_batches();
+        for (uint32_t pass = 0; pass < 4; pass++) {
+            PixelSum sum;
+            for (uint32_t i = 0; i < 4; i++) {
+                film.add(i, grey((pass + i) % 4)), sum.add(grey((pass + i) % 4));
+                film.audit(i, grey((pass + i + 1) % 4));
+            }
+            film.add_to_batch(pass, sum);
+        }
+        CHECK(film.standard_error() == 0);
     }
 
     TEST_CASE("identity: film and comparison treat the channels alike") {

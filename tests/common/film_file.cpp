@@ -313,14 +313,14 @@ TEST_SUITE("film files") {
         CHECK(with("option paths", "option size 5x4\noption paths") == bad);
         CHECK(with("size 5 3 1 1", "size 5 3 2 1") != "");
         CHECK(with("size 5 3 1 1", "size 5 3 3 1") != "");
-        CHECK(with("size 5 3 1 1", "size 5 3 4 1") == bad);
+        CHECK(with("size 5 3 1 1", "size 5 3 5 1") == bad);
         CHECK(with("size 5 3 1 1", "size 5 3 1 0") != "");
         CHECK(with("size 5 3 1", "size 65536 65536 1") == bad);
         CHECK(with("size 5 3 1", "size 0 3 1") == bad);
         CHECK(with("size 5 3 1", "size 60000 3000 1") == "the film is cut short");
         CHECK(with("counts", "count") == bad);
-        CHECK(with("version 4", "version 3") == "a film by another version of the program");
-        CHECK(with("version 4", "version 40") == "a film by another version of the program");
+        CHECK(with("version 5", "version 4") == "a film by another version of the program");
+        CHECK(with("version 5", "version 50") == "a film by another version of the program");
     }
 
     TEST_CASE(

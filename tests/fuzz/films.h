@@ -22,10 +22,10 @@ inline LabeledFilm any_film(int kind, bool takes_splats, uint32_t first, uint32_
     f.label.samples = {{0, first, last}};
     f.label.goals = {{0, 9, 3}};
     f.label.keep_open_goals();
-    for (size_t i = 7; kind == 1 && i < 143; i += 3) f.film.mark_edge(i);
-    if (kind == 1) f.film.start_audit();
+    for (size_t i = 7; (kind == 1 || kind == 4) && i < 143; i += 3) f.film.mark_edge(i);
+    if (kind == 1 || kind == 4) f.film.start_audit();
     if (kind == 2) f.film.start_halves();
-    if (kind == 3) f.film.start_batches();
+    if (kind >= 3) f.film.start_batches();
     Sampler sampler(SamplerType::independent, 0, 1);
     for (uint32_t s = first; s < last; s++) {
         PixelSum of_pass;
@@ -41,7 +41,7 @@ inline LabeledFilm any_film(int kind, bool takes_splats, uint32_t first, uint32_
             of_pass.add(L);
             f.label.counts.rays += 3;
         }
-        if (kind == 3) f.film.add_to_batch(s, of_pass);
+        if (kind >= 3) f.film.add_to_batch(s, of_pass);
     }
     return f;
 }
@@ -57,8 +57,13 @@ public:
         std::filesystem::path folder = (std::filesystem::exists(memory) ? memory : disk) / name;
         std::filesystem::create_directory(folder);
         folder_ = file_name(folder);
-        for (auto [kind, takes_splats] :
-             {std::pair(0, false), {1, false}, {2, false}, {3, false}, {0, true}, {1, true}}) {
+        for (auto [kind, takes_splats] : {std::pair(0, false),
+                                          {1, false},
+                                          {2, false},
+                                          {3, false},
+                                          {4, true},
+                                          {0, true},
+                                          {1, true}}) {
             for (uint32_t first : {0u, 3u, 4u}) {
                 films_.push_back(any_film(kind, takes_splats, first, first + 2));
                 bytes_.push_back(written(films_.back()));

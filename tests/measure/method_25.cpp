@@ -2,7 +2,8 @@
 #include "tests/measure/methods.h"
 
 static auto by_merging(PhotonSettings settings) {
-    return [=](const Scene& scene, const RenderOptions& options) {
+    return [=](const Scene& scene, RenderOptions options) {
+        if (settings.sampler != SamplerType::independent) options.sampler = settings.sampler;
         PhotonSettings own = settings;
         own.sampler = options.sampler, own.seed = options.seed;
         return render_film(scene, options, ch25::merging_passes(scene, own));
@@ -15,6 +16,13 @@ static auto by_merging(PhotonSettings settings) {
                 .color = "#e0c878",
                 .finds_light = "by photons from both ends",
                 .render = by_merging({.light_paths = 200}),
+                .biased = true,
+                .search = LightSearch::merging});
+    add_method({.name = "25-sobol",
+                .label = "25, Sobol",
+                .color = "#e7ba52",
+                .finds_light = "by photons from both ends",
+                .render = by_merging({.sampler = SamplerType::sobol, .light_paths = 0}),
                 .biased = true,
                 .search = LightSearch::merging});
     return add_method({.name = "25",

@@ -96,13 +96,14 @@ struct BlurredCoverage {
     }
 };
 
-BlurredCoverage blurred_coverage_of(const Method& method, const Scene& scene, double truth) {
+BlurredCoverage blurred_coverage_of(const Method& method, const Scene& scene, SamplerType sampler,
+                                    double truth) {
     BlurredCoverage seen;
     std::mutex one_at_a_time;
     parallel_for(runs, static_cast<int>(std::thread::hardware_concurrency()), [&](int run) {
         Scene own = scene;
         MeasureOptions o;
-        o.threads = 1;
+        o.threads = 1, o.sampler = sampler;
         Rendering r = render_once(method, own, o, spp, static_cast<uint32_t>(run) + 1);
         RenderOptions options;
         options.search = method.search;
@@ -162,9 +163,12 @@ int show_blur(Work& work) {
         Scene scene = load_scene_for(find_scene(c.scene), o);
         work.next(std::string("blur on ") + c.scene);
         double truth = render_once(methods_named({c.true_by})[0], scene, o, c.spp, 999).film.mean();
-        BlurredCoverage seen = blurred_coverage_of(method, scene, truth);
-        failures += !seen.holds(truth);
-        table.rows.push_back(seen.row(c.scene, truth));
+        for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
+            BlurredCoverage seen = blurred_coverage_of(method, scene, sampler, truth);
+            failures += !seen.holds(truth);
+            bool sobol = sampler == SamplerType::sobol;
+            table.rows.push_back(seen.row(c.scene + std::string(sobol ? ", Sobol" : ""), truth));
+        }
     }
     std::printf("%s", markdown(table).c_str());
     std::printf(
