@@ -75,8 +75,8 @@ public:
     /// The spread of the passes' means shows how much: each pass is added to one of a few batches,
     /// chosen at random by its number.
     ///
-    ///   SE_b^2 = sum over the batches of w_b^2 (mean_b - mean)^2 / (1 - sum of w_b^2),  w_b = n_b
-    ///   / n
+    ///   SE_b^2 = sum over the batches of w_b^2 (mean_b - mean)^2 / (1 - sum of w_b^2)
+    ///   w_b    = n_b / n
     ///
     /// Batches with an incomplete pass are left out.
     static constexpr size_t most_batches = 128;
