@@ -126,8 +126,8 @@ SmallScene plain(const std::string& name, const std::string& what, const std::st
                   "\"string filename\" \"%s.exr\"\nPixelFilter \"box\"\nSampler \"independent\" "
                   "\"integer pixelsamples\" 1024\nIntegrator \"path\" \"integer maxdepth\" %d\n",
                   s.width, s.height, name.c_str(), s.max_depth);
-    small.pbrt = "# " + what + "\n" + words + "LookAt " + triple(c.o) + "  " +
-                 triple(c.o + c.forward) + "  " + triple(c.up) +
+    size_t look_at = text.find("LookAt "), until = text.find("Camera", look_at);
+    small.pbrt = "# " + what + "\n" + words + text.substr(look_at, until - look_at - 1) +
                  "\nCamera \"perspective\" \"float fov\" " + number(double{c.fov}) +
                  "\nWorldBegin\n";
     small.words = "- camera at (" + triple(c.o, ", ") + "), looking in the direction (" +
@@ -221,6 +221,21 @@ std::vector<SmallScene> small_scenes() {
         view(ahead, 20) + object(shining("1 1 1"), quad("-9 -9 -3  9 -9 -3  9 9 -3  -9 9 -3")) +
             object("\"conductor\" \"rgb reflectance\" [.9 .9 .9]",
                    quad("-1 -1 2  -1 1 2  1 1 2  1 -1 2")));
+    std::string wall;
+    for (int i = 0; i < 4; i++) {
+        std::string L = number(2.0 / (1 << i)) + " ", z = " 3  ";
+        std::string x0 = i % 2 ? "0 " : "-20 ", x1 = i % 2 ? "20 " : "0 ";
+        std::string y0 = i < 2 ? "0" : "-20", y1 = i < 2 ? "20" : "0";
+        wall +=
+            object(shining(L + L + L), quad(x0 + y0 + z + x0 + y1 + z + x1 + y1 + z + x1 + y0 + z));
+    }
+    add("lens", "a wall of four lamps, seen through a ball of glass",
+        view("0 0 -4  .1 .1 0  0 1 0", 24, 8) + object("\"dielectric\"", sphere + "1") + wall);
+    add("tilted", "a square that faces away from the camera, seen from above at an angle",
+        view("0 3 -3  0 0 0  0 1 0", 40) +
+            object("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]",
+                   quad("-1.2 0 -.6  1.2 0 -.6  1.2 0 .9  -1.2 0 .9")) +
+            object(shining("1 1 1"), quad("-2 4 -2  2 4 -2  2 4 2  -2 4 2")));
     add("pearl", "a grey ball in a ball of glass, under a sky",
         view("0 0 -4  0 0 0  0 1 0", 16, 20) + sky + object("\"dielectric\"", sphere + "1") +
             object("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]",

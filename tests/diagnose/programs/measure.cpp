@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "common/base/error.h"
@@ -271,6 +272,7 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
             }
             continue;
         }
+        std::map<std::string, Tiles> with_uniform_sky;  // way a: of other scenes, k has the same
         for (char name : cells[1]) {
             bool is_code = ways.contains(name);
             const Way& way = ways.at(is_code ? name : 'm');
@@ -279,6 +281,12 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
             std::string effects;
             std::map<std::string, Tiles> all;
             for (const SmallScene& scene : small_scenes()) {
+                if (name == 'k' && !scene.has.contains("a sky") && !with_uniform_sky.empty()) {
+                    const Tiles& tiles = all[scene.name] = with_uniform_sky[scene.name];
+                    std::string effect = effect_text(scene.name, references.at(scene.name), tiles);
+                    if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
+                    continue;
+                }
                 std::string key = std::string(is_code ? 1 : 0, name) + "/" + scene.name;
                 auto render = [&](const std::string& in, int mistake, const Change& change, int spp,
                                   uint32_t seed = 1) {
@@ -287,10 +295,12 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
                     int times = scene.name == "bulb" && !is_code ? 64 : way.times;
                     return picture_of(in, method, o, spp * times, seed, change);
                 };
+                bool has_edges =
+                    std::set<std::string>{"frame", "wide", "tilted"}.contains(scene.name);
                 if (!right.contains(key)) {
                     right[key] = render(scene.pbrt, 0, {}, o.spp);
                     briefly[key] = render(scene.pbrt, 0, {}, 16);
-                    if (!is_code) again[key] = render(scene.pbrt, 0, {}, o.spp, 2);
+                    if (!is_code || has_edges) again[key] = render(scene.pbrt, 0, {}, o.spp, 2);
                 }
                 const Image& b = right[key];
                 Image p = b;
@@ -299,6 +309,8 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
                 bool same =
                     is_code && render(scene.pbrt, mistake, {}, 16).pixels == briefly[key].pixels;
                 if (is_code && !same) p = render(scene.pbrt, mistake, {}, o.spp);
+                if (is_code && !same && has_edges)
+                    second = {render(scene.pbrt, mistake, {}, o.spp, 2), again[key]};
                 if (!is_code) {
                     std::string in =
                         name == 's' ? std::regex_replace(scene.pbrt, std::regex(cells[4]), cells[5])
@@ -316,6 +328,7 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
                 std::string effect = effect_text(scene.name, should, tiles);
                 if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
             }
+            if (name == 'a') with_uniform_sky = all;
             std::printf("%s %c %s: %zu letters\n", cells[0].c_str(), name, cells[2].c_str(),
                         effects.size());
             std::fflush(stdout);
