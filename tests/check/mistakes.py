@@ -107,10 +107,13 @@ def label(m, text):
         return s if len(s) < 90 else s[:80] + " ..."
 
     if m.kind == "state":
-        when = {"true": "never updated"}.get(m.edits[0][2])
-        when = when or ("updated after the first vertex only" if m.edits[0][2].startswith("!")
-                        else "updated at the first vertex only")
-        return f"`{m.place.state}` is {when}"
+        start, end, condition = m.edits[0]
+        words = ("is never {}" if condition == "true" else
+                 "is {} after the first vertex only" if condition.startswith("!") else "is {} at the first vertex only")
+        # A division, such as by the probability of roulette, is not what most people call an update.
+        if "/=" in text[start:end]:
+            return f"`{short(text[start:end])}` " + words.format("done")
+        return f"`{m.place.state}` " + words.format("updated")
     old = [short(text[start:end]) for start, end, _ in m.edits]
     if m.edits[0][2] is None:
         return f"`{old[0]}` is missing"
