@@ -12,7 +12,7 @@ probes: $(BUILD)/diagnose
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 programs: $(BUILD)/diagnose  # tests start it
-#: maintaining: make effects      measure anew what mistakes do to the small scenes (10 minutes; ONLY='eta')
+#: maintaining: make effects      measure anew what mistakes do to the small scenes (15 minutes; ONLY='eta')
 effects: $(BUILD)/diagnose_effects
 	@$< $(BUILD)/diagnosed/rows.tsv --spp 256 $(if $(ONLY),--only '$(ONLY)')
 $(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.tsv tests/diagnose/plant tests/diagnose/planted.h
@@ -26,6 +26,6 @@ diagnose-references: $(BUILD)/diagnose_references
 	@$< --references --spp 8192 $(if $(ONLY),--only '$(ONLY)')
 $(BUILD)/diagnose_references: $(patsubst %,$(BUILD)/obj/tests/measure/method_%.o,08 10 14 15 21) $(measuring_small) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-#: maintaining: make diagnose-trial   plant mistakes in a tracer of another style, and count what build/diagnose names (5 minutes; FILL=1, ONLY=)
+#: maintaining: make diagnose-trial   plant mistakes in a tracer of another style, and count what build/diagnose names (13 minutes; FILL=1, ONLY=)
 diagnose-trial: $(BUILD)/diagnose
 	@tests/diagnose/trial $(BUILD) '$(ONLY)' $(FILL)
