@@ -75,10 +75,10 @@ inline void check_area(const Scene& scene, uint32_t first, double wanted, uint32
     if (std::abs(area / wanted - 1) < 0.01) return;
     const Material& m = scene.materials[scene.shapes[shape].material];
     int light = scene.shapes[shape].light;
-    Position at = {scene.file, m.line, m.column};
+    Position at = scene.place(m.at);
     if (light >= 0) {
         const Light& l = scene.lights[static_cast<size_t>(light)];
-        at = {scene.file, l.line, l.column};
+        at = scene.place(l.at);
     }
     char text[150];
     std::snprintf(text, sizeof text,

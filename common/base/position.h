@@ -1,5 +1,7 @@
 // Where something stands in an input file, and the error that says so.
 #pragma once
+#include <deque>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +16,14 @@ struct Position {
     std::string file;
     int line = 0, column = 0;
 };
+
+/// A copy of the position that lasts as long as the program: what a scene is made of points to it.
+inline const Position* kept(const Position& at) {
+    static std::mutex mutex;
+    static std::deque<Position> all;
+    std::lock_guard lock(mutex);
+    return &all.emplace_back(at);
+}
 
 /// `text` made fit for one line of a terminal: what is no character to print becomes '?'.
 inline std::string printable(std::string_view text) {

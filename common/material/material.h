@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "common/base/position.h"
 #include "common/base/vec.h"
 #include "common/material/glass.h"
 
@@ -15,7 +16,7 @@ struct Material {
     float alpha = 0;                       // conductor: GGX roughness; 0: a perfect mirror
     float ior = 1.5f;                      // dielectric: index inside over index outside
     const Glass* glass = nullptr;  // dielectric with dispersion; ior is then the one at 587.6 nm
-    int line = 0, column = 0;      // of its definition in the scene file, for messages
+    const Position* at = nullptr;  // where a scene file defines it, for messages
 };
 
 /// Whether light that arrives from one direction leaves in one direction (or two) only.

@@ -2,12 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "common/base/position.h"
 #include "common/options/loading_progress.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
+#include "common/scene_file/stand_ins.h"
 
 namespace {
 
@@ -40,6 +43,29 @@ std::string chapters_with(bool Features::*feature) {
     return text;
 }
 
+const std::string lens_here = "a lens, in a chapter without one";
+const std::string glass_here = "glass that disperses, in a chapter without it";
+const std::string motion_here = "a shape that moves, in a chapter where all rest";
+const std::string sky_image_here = "a picture of the sky, in a chapter without one";
+
+bool is_standing_in(const Scene& scene, const std::string& what) {
+    auto is_it = [&](const UsedStandIn& used) { return used.what == what; };
+    return std::any_of(scene.stand_ins.begin(), scene.stand_ins.end(), is_it);
+}
+
+/// The mean radiance from all directions.
+Rgb mean_of(const SkyImage& sky) {
+    double sum[3] = {}, weights = 0;
+    for (size_t i = 0; i < sky.pixels.size(); i++) {
+        double w = static_cast<double>(solid_angle_per_area(sky, sky.middle_of(i)));
+        Rgb L = sky.pixels[i];
+        sum[0] += w * double{L.r}, sum[1] += w * double{L.g}, sum[2] += w * double{L.b};
+        weights += w;
+    }
+    return {static_cast<float>(sum[0] / weights), static_cast<float>(sum[1] / weights),
+            static_cast<float>(sum[2] / weights)};
+}
+
 }  // namespace
 
 Scene load(const RenderOptions& options, Features features) {
@@ -56,6 +82,7 @@ Scene load(const RenderOptions& options, Features features) {
     } catch (const std::bad_alloc&) {
         fail({options.scene}, "out of memory while it was read, with the files that it names");
     }
+    if (options.stand_in) stand_in_for_features(scene, features);
     refuse_features(scene, features);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
@@ -67,11 +94,47 @@ Scene load(const RenderOptions& options, Features features) {
     return scene;
 }
 
+void stand_in_for_features(Scene& scene, Features features) {
+    std::map<std::string, UsedStandIn> used;
+    auto stand_in = [&](const std::string& what, const Position* at) {
+        auto [place, is_new] = used.try_emplace(what, UsedStandIn{what, "", 0, scene.place(at)});
+        place->second.places++;
+    };
+    if (!features.lens && scene.camera.lens_radius > 0) {
+        stand_in(lens_here, scene.camera.at);
+        scene.camera.lens_radius = 0;
+    }
+    for (Material& m : scene.materials) {
+        if (features.dispersion || m.glass == nullptr) continue;
+        stand_in(glass_here, m.at);
+        m.glass = nullptr;
+    }
+    // Their rays have time 0.
+    for (const Mover& mover : scene.movers) {
+        if (!features.shutter) stand_in(motion_here, mover.at);
+    }
+    if (!features.sky_image && scene.sky_image) {
+        stand_in(sky_image_here, scene.sky_image->at_file);
+        Light sky;
+        sky.type = LightType::infinite;
+        sky.at = scene.sky_image->at_file;
+        sky.L = mean_of(*scene.sky_image);
+        scene.lights.push_back(sky);
+        scene.sky_image = {};
+    }
+    for (const auto& [what, instead] : all_stand_ins()) {
+        auto found = used.find(what);
+        if (found == used.end()) continue;
+        found->second.instead = instead;
+        scene.stand_ins.push_back(found->second);
+    }
+}
+
 void refuse_delta_lights(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point && light.type != LightType::distant) continue;
         fail(
-            {scene.file, light.line, light.column},
+            scene.place(light.at),
             std::string("a ") + (light.type == LightType::point ? "point" : "distant") +
                 " light has no size, so no path finds it by chance; chapters from 09 on sample it");
     }
@@ -81,33 +144,34 @@ void refuse_glossy(const Scene& scene) {
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
         if (!is_rough(m)) continue;
-        fail({scene.file, m.line, m.column},
-             "rough conductors are not supported before chapter 13");
+        fail(scene.place(m.at), "rough conductors are not supported before chapter 13");
     }
 }
 
 void refuse_features(const Scene& scene, Features features) {
     const Camera& camera = scene.camera;
     if (!features.lens && camera.lens_radius > 0) {
-        fail({scene.file, camera.line, camera.column}, "only chapters " +
-                                                           chapters_with(&Features::lens) +
-                                                           " have a lens: lensradius must be 0");
+        fail(scene.place(camera.at), "only chapters " + chapters_with(&Features::lens) +
+                                         " have a lens: lensradius must be 0" +
+                                         or_stand_in(lens_here));
     }
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
         if (features.dispersion || m.glass == nullptr) continue;
         char eta[32];
         std::snprintf(eta, sizeof eta, "%.5g", double{m.ior});
-        fail({scene.file, m.line, m.column}, "glass disperses in chapters " +
-                                                 chapters_with(&Features::dispersion) +
-                                                 " only: try \"float eta\" " + eta);
+        fail(scene.place(m.at), "glass disperses in chapters " +
+                                    chapters_with(&Features::dispersion) +
+                                    " only: try \"float eta\" " + eta + or_stand_in(glass_here));
     }
-    if (!features.shutter && !scene.movers.empty()) {
-        fail({scene.file, scene.movers[0].line, scene.movers[0].column},
-             "shapes move in chapters " + chapters_with(&Features::shutter) + " only");
+    if (!features.shutter && !scene.movers.empty() && !is_standing_in(scene, motion_here)) {
+        fail(scene.place(scene.movers[0].at), "shapes move in chapters " +
+                                                  chapters_with(&Features::shutter) + " only" +
+                                                  or_stand_in(motion_here));
     }
     if (!features.sky_image && scene.sky_image) {
-        fail({scene.file, scene.sky_image->line, scene.sky_image->column},
-             "the sky has an image in chapters " + chapters_with(&Features::sky_image) + " only");
+        fail(scene.place(scene.sky_image->at_file), "the sky has an image in chapters " +
+                                                        chapters_with(&Features::sky_image) +
+                                                        " only" + or_stand_in(sky_image_here));
     }
 }

@@ -21,6 +21,10 @@ constexpr Features features_of(int chapter) {
 /// Throws for what refuse_features() names.
 Scene load(const RenderOptions& options, Features features = {});
 
+/// Puts stand-ins in the place of what refuse_features() would refuse, and adds them to those of
+/// the scene.
+void stand_in_for_features(Scene& scene, Features features);
+
 /// Throws InputError if the scene has a point or distant light: a path that finds light only by
 /// random hits never finds it.
 void refuse_delta_lights(const Scene& scene);

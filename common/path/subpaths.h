@@ -46,7 +46,9 @@ inline Vertex vertex_at(const Scene& scene, const Endpoints& endpoints, const st
 /// Walks along the ray: from a light as in chapter 20, from the eye as in 13. Leaves path[0] empty.
 inline Path random_walk(const Scene& scene, const Endpoints& endpoints, bool from_light, Ray ray,
                         Sampler& sampler, Recorder& recorder) {
-    Path path(1);
+    Path path;
+    path.reserve(8);  // most are shorter
+    path.resize(1);
     Rgb beta = {1, 1, 1};
     int last = scene.max_depth + (from_light ? 0 : 1);
     for (int depth = 1; depth <= last; depth++) {

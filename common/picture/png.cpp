@@ -160,6 +160,41 @@ std::string png_chunk(const std::string& kind_and_data) {
     return big_endian(kind_and_data.size() - 4) + kind_and_data + big_endian(crc32(kind_and_data));
 }
 
+bool is_gzip(const std::string& bytes) { return bytes.starts_with("\x1f\x8b"); }
+
+std::string unpack_gzip(const std::string& path, const std::string& bytes) {
+    auto byte = [&](size_t i) {
+        return i < bytes.size() ? uint32_t{static_cast<uint8_t>(bytes[i])} : 0;
+    };
+    auto end_of_text = [&](size_t at) {
+        size_t end = bytes.find('\0', at);
+        return end == std::string::npos ? bytes.size() : end + 1;
+    };
+    // The header: ten bytes, and by the bits of the fourth an extra field, a name and a comment.
+    size_t at = 10;
+    if (byte(3) & 4) at += 2 + byte(at) + 256 * byte(at + 1);
+    for (uint32_t flag : {8u, 16u})
+        if (byte(3) & flag) at = end_of_text(at);
+    if (byte(3) & 2) at += 2;
+    constexpr size_t most = 1032, behind = 8;  // times larger; a checksum and the length
+    if (at + behind > bytes.size() || byte(2) != 8u || bytes.size() > most_bytes)
+        fail({path}, "not whole, or larger than 1 GB: packed by gzip");
+    most_memory = (1 << 16) + most * bytes.size();
+    int size = 0;
+    std::unique_ptr<char, void (*)(void*)> text(
+        stbi_zlib_decode_noheader_malloc(bytes.data() + at,
+                                         static_cast<int>(bytes.size() - behind - at), &size),
+        std::free);
+    auto little = [&](size_t i) {
+        return byte(i) | byte(i + 1) << 8 | byte(i + 2) << 16 | byte(i + 3) << 24;
+    };
+    std::string_view unpacked(text.get(), text ? static_cast<size_t>(size) : 0);
+    size_t tail = bytes.size() - behind;
+    if (!text || unpacked.size() != little(tail + 4) || crc32(unpacked) != little(tail))
+        fail({path}, "damaged: gzip's checksum is another");
+    return std::string(unpacked);
+}
+
 bool is_png(const std::string& bytes) { return bytes.starts_with(signature); }
 
 std::string encode_png(int width, int height, const std::string& codes,

@@ -1,6 +1,13 @@
-// The .png format, and others that are only read, for image.h.
+// The .png format, and others that are only read, for image.h; and what gzip packs, in the same
+// way.
 #pragma once
 #include "common/picture/image.h"
+
+/// Whether a file is packed by gzip.
+bool is_gzip(const std::string& bytes);
+
+/// What such a file holds; throws InputError for one that is damaged.
+std::string unpack_gzip(const std::string& path, const std::string& bytes);
 
 bool is_png(const std::string& bytes);
 

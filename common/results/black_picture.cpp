@@ -103,9 +103,9 @@ Survey survey(const Scene& scene) {
 /// The place in the scene file that defines the first area light, in brackets.
 std::string first_place(const Scene& scene) {
     for (const Light& light : scene.lights) {
-        if (light.type != LightType::area || light.line == 0) continue;
-        return " (" + printable(scene.file) + ":" + std::to_string(light.line) + ":" +
-               std::to_string(light.column) + ")";
+        if (light.type != LightType::area || !light.at) continue;
+        return " (" + printable(light.at->file) + ":" + std::to_string(light.at->line) + ":" +
+               std::to_string(light.at->column) + ")";
     }
     return "";
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "common/base/position.h"
 #include "common/geometry/bvh.h"
 #include "common/geometry/motion.h"
 #include "common/material/hit.h"
@@ -15,8 +16,8 @@ struct Mover {
     Transform object_from_start;  // object from where the primitives are
     Geometry geometry;
     Bvh bvh;
-    Box box;                   // around all places that it comes to
-    int line = 0, column = 0;  // where the scene file makes it, for messages
+    Box box;                       // around all places that it comes to
+    const Position* at = nullptr;  // where a scene file makes it, for messages
 
     Transform world_from_start(double time) const { return motion.at(time) * object_from_start; }
 };

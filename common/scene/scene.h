@@ -27,7 +27,7 @@ struct Light {
     bool two_sided = false;
     Vec3 p;                              // point: where it is; distant: unit, towards the light
     uint32_t first_prim = 0, prims = 0;  // area: its primitives, one after the other
-    int line = 0, column = 0;            // where the scene file makes it, for messages
+    const Position* at = nullptr;        // where a scene file makes it, for messages
 };
 
 /// What one Shape directive gives all its primitives.
@@ -55,7 +55,7 @@ struct Camera {
         1e6f;  // to the plane that is sharp, along the axis; both in camera units
     float shutter_open = 0, shutter_close = 1;  // s; shapes move from 0 to 1
     bool pixel_centre = false;  // rays through the middles of pixels alone: a mistake (chapter 16)
-    int line = 0, column = 0;   // where the scene file sets it up, for messages
+    const Position* at = nullptr;  // where a scene file sets it up, for messages
 };
 
 /// Something in the scene that is not modelled, and what is rendered in its place.
@@ -99,4 +99,7 @@ struct Scene {
     int spp = 16;                    // samples per pixel
     int max_depth = 5;               // scattering events: 0 shows emitters only, 1 direct light
     Bvh bvh;                         // over geometry
+
+    /// What messages name: the place, if it is known, or else the file.
+    Position place(const Position* at) const { return at ? *at : Position{file}; }
 };

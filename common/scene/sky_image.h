@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/position.h"
 #include "common/base/vec.h"
 
 /// What an infinite light sends, as a picture around the scene, from its top row to its bottom row.
@@ -17,7 +18,7 @@ struct SkyImage {
     int width = 0, height = 0;
     std::vector<Rgb> pixels;                           // W m^-2 sr^-1
     Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};  // its axes in the world, orthonormal
-    int line = 0, column = 0;  // where the scene file makes it, for messages
+    const Position* at_file = nullptr;                 // where a scene file makes it, for messages
 
     /// The number of the pixel at (u, v), from the top left, in [0,1]^2.
     size_t pixel_at(Vec2 uv) const {

@@ -11,10 +11,17 @@ Token expect_string(Lexer& lexer, const Token& word, const std::string& what) {
 }
 
 void Directives::move(Lexer& lexer, const Token& word) {
-    Position at = lexer.at(word);
     TransformStep step = read_transform(lexer, word);
-    if (state_.set_start) state_.start = apply(step, state_.start, at);
-    if (state_.set_end) state_.end = apply(step, state_.end, at);
+    if (step.replaces) state_.unusable = {};
+    for (auto [is_set, t] :
+         {std::pair(state_.set_start, &state_.start), std::pair(state_.set_end, &state_.end)}) {
+        if (!is_set) continue;
+        *t = step.replaces ? step.transform : *t * step.transform;
+        std::string wrong = what_is_wrong_with(step, *t);
+        if (wrong.empty() || !state_.unusable.empty()) continue;
+        state_.unusable = message_at(lexer.at(word), "error", wrong);
+        state_.only_projects = step.projects;
+    }
 }
 
 void Directives::active_transform(Lexer& lexer, const Token&) {
@@ -49,12 +56,15 @@ void Directives::attribute(Lexer& lexer, const Token& word) {
 
 Params Directives::read_params(Lexer& lexer, const Token& word, const std::string& target) {
     auto defaults = state_.defaults.find(target);
-    if (defaults == state_.defaults.end()) return Params(lexer, word, notes_);
-    return Params(lexer, word, notes_, true, defaults->second);
+    bool has_some = defaults != state_.defaults.end();
+    Params params(lexer, word, notes_, true, has_some ? defaults->second : std::vector<Param>{});
+    params.read_spectra(files_);
+    return params;
 }
 
 void Directives::coordinate_system(Lexer& lexer, const Token& word) {
     std::string name = lexer.unescape(expect_string(lexer, word, "a name"));
+    if (!state_.unusable.empty()) throw InputError(state_.unusable);
     coordinate_systems_[name] = {state_.start, state_.end};
 }
 
@@ -67,6 +77,7 @@ void Directives::coord_sys_transform(Lexer& lexer, const Token& word) {
         fail_unknown(lexer.at(token), "coordinate system", lexer.unescape(token), known);
     }
     std::tie(state_.start, state_.end) = found->second;
+    state_.unusable = {};
 }
 
 void Directives::color_space(Lexer& lexer, const Token& word) {
@@ -208,6 +219,7 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     std::string name = lexer.unescape(token);
     Params params(lexer, word, notes_, false);
+    params.read_spectra(files_);
     params.read_type();
     uint32_t index = find_material(name, lexer.at(token));
     NamedMaterial& named = named_materials_[name];
@@ -288,6 +300,7 @@ void Directives::object_instance(Lexer& lexer, const Token& word) {
         Params params = shape;
         State where = state;
         where.start = state_.start * state.start, where.end = state_.end * state.end;
+        if (where.unusable.empty()) where.unusable = state_.unusable;
         place(params, where);
     }
 }
@@ -324,6 +337,10 @@ bool Directives::is_left_out(Params& params, const State& where) {
 
 void Directives::place(Params& params, const State& where) {
     if (is_left_out(params, where)) return;
+    if (!where.unusable.empty()) {
+        if (told_unusable_.insert(where.unusable).second) throw InputError(where.unusable);
+        return;
+    }
     if (where.start != where.end && where.emission && notes_.stand_ins()) {
         notes_.stand_in(params.at(), "a light or camera that moves");
         State still = where;
@@ -370,7 +387,7 @@ bool Directives::read_mover(Params& params, const State& where, ShapeState& stat
     constexpr size_t most = 1000;
     if (scene_.movers.size() == most) fail(params.at(), "more than 1000 shapes that move");
     Mover mover(where.start, where.end);
-    mover.line = params.at().line, mover.column = params.at().column;
+    mover.at = kept(params.at());
     state.primitives_elsewhere += scene_.geometry.size();
     state.vertices_elsewhere += scene_.geometry.positions.size();
 
@@ -396,6 +413,8 @@ uint32_t Directives::find_material(const std::string& name, const Position& at) 
 
 // The current transform; not supported where it moves while the shutter is open.
 const Transform& Directives::still_transform(Params& params) const {
+    bool is_direction = params.type() == "infinite" && state_.only_projects;
+    if (!state_.unusable.empty() && !is_direction) throw InputError(state_.unusable);
     if (state_.start != state_.end) {
         params.stand_in(params.at(), "a light or camera that moves", "only shapes can move");
     }
@@ -404,10 +423,12 @@ const Transform& Directives::still_transform(Params& params) const {
 
 void Directives::check_materials() const {
     std::vector<std::string> known;
+    std::set<uint32_t> used;
+    for (const Shape& shape : scene_.shapes) used.insert(shape.material);
     std::map<uint32_t, const std::string*> undefined;  // by index, which is the order of first use
     for (const auto& [name, material] : named_materials_) {
         if (material.defined) known.push_back(name);
-        if (!material.defined) undefined[material.index] = &name;
+        if (!material.defined && used.contains(material.index)) undefined[material.index] = &name;
     }
     std::vector<std::string> wrong;
     for (const auto& [index, name] : undefined) {
@@ -433,7 +454,7 @@ void Directives::check_uvs(const Geometry& g) {
             if (plain.type == MaterialType::conductor)
                 plain.k = k_of_reflectance(plain.reflectance);
             plain.texture = 0;
-            notes_.stand_in({scene_.file, plain.line, plain.column}, no_uv);
+            notes_.stand_in(scene_.place(plain.at), no_uv);
             scene_.shapes[t.shape].material = static_cast<uint32_t>(scene_.materials.size());
             scene_.materials.push_back(plain);
             continue;

@@ -63,6 +63,8 @@ private:
     // What AttributeBegin saves and AttributeEnd restores.
     struct State {
         Transform start, end;  // the current transform when the shutter opens and when it closes
+        std::string unusable;  // why nothing can stand there, as a message
+        bool only_projects = false;             // that is no reason for a sky, which has no place
         bool set_start = true, set_end = true;  // which of them a transform directive changes
         uint32_t material = 0;                  // into Scene::materials
         std::optional<AreaEmission> emission;
@@ -112,7 +114,8 @@ private:
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
     std::map<std::string, Object> objects_;
-    Object* open_object_ = nullptr;  // the one that is being defined
+    std::set<std::string> told_unusable_;  // the messages of transforms
+    Object* open_object_ = nullptr;        // the one that is being defined
     uint64_t object_numbers_ = 0, placed_ = 0;
     uint64_t moving_primitives_ = 0, moving_vertices_ = 0;  // of all movers
     // The first Shape of which all triangles were too small, and the first such that shines.

@@ -8,7 +8,7 @@
 
 namespace {
 
-constexpr const char* unknown_name = "a spectrum of unknown name or from a file";
+constexpr const char* unknown_name = "a spectrum of unknown name, or without its file";
 constexpr float smooth_below = 1e-3f;  // the alpha under which pbrt takes a surface for smooth
 
 Rgb read_rgb(const Param& param) {
@@ -66,7 +66,7 @@ std::optional<Rgb> read_metal(Params& params, const std::string& name) {
         if (spectrum->strings[0] == "metal-" + symbol + "-k") return ior.k;
         known.push_back("metal-" + symbol + '-' + name.substr(name.rfind('.') + 1));
     }
-    params.stand_in(spectrum->at, unknown_name, unknown_spectrum(spectrum->strings[0], known));
+    params.stand_in(spectrum->at, unknown_name, unknown("spectrum", spectrum->strings[0], known));
     return {};
 }
 
@@ -112,7 +112,7 @@ void read_glass(Params& params, Material& material) {
         }
         known.push_back(glass.name);
     }
-    params.stand_in(spectrum->at, unknown_name, unknown_spectrum(spectrum->strings[0], known));
+    params.stand_in(spectrum->at, unknown_name, unknown("spectrum", spectrum->strings[0], known));
 }
 
 Material read_dielectric(Params& params, TextureReader& textures) {
@@ -188,14 +188,20 @@ std::optional<Material> read_material(Params& params, TextureReader& textures) {
         } else {
             if (type == "diffusetransmission") material.reflectance = {0.25f, 0.25f, 0.25f};
             read_reflectance(params, textures, material);
+            if (type == "diffusetransmission" && material.texture == 0) {
+                float scale = read_factor(params, "scale", 1);
+                material.reflectance = scale * material.reflectance;
+                for (float* c :
+                     {&material.reflectance.r, &material.reflectance.g, &material.reflectance.b})
+                    *c = std::min(*c, 1.0f);
+            }
         }
         params.ignore_rest();
         if (type == "thindielectric") return {};
     } else {
         params.fail_type({"conductor", "dielectric", "diffuse", "interface"});
     }
-    material.line = params.at().line;
-    material.column = params.at().column;
+    material.at = kept(params.at());
     params.finish();
     return material;
 }
@@ -221,8 +227,7 @@ AreaEmission read_area_light(Params& params) {
 std::optional<SkyImage> read_sky_image(Params& params, const Transform& world_from_light,
                                        NamedFiles& files) {
     SkyImage sky;
-    sky.line = params.at().line;
-    sky.column = params.at().column;
+    sky.at_file = kept(params.at());
     sky.x = to_vec3(normalize(world_from_light.x));
     sky.y = to_vec3(normalize(world_from_light.y));
     sky.z = to_vec3(normalize(world_from_light.z));
@@ -264,8 +269,7 @@ std::optional<SkyImage> read_sky_image(Params& params, const Transform& world_fr
 
 Light read_light(Params& params, const Transform& world_from_light) {
     Light light;
-    light.line = params.at().line;
-    light.column = params.at().column;
+    light.at = kept(params.at());
     float scale = read_factor(params, "scale", 1);
     bool is_spot = params.type() == "spot";
     bool is_beam = is_spot || params.type() == "goniometric" || params.type() == "projection";

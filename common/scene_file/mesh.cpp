@@ -164,7 +164,7 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& w
                   "left out triangles without area: " + std::to_string(left_out) + all);
     }
     if (mesh.faces_left_out > 0) {
-        notes.add(params.at(),
-                  "left out faces of fewer than 3 corners: " + std::to_string(mesh.faces_left_out));
+        notes.add(params.at(), "left out faces that do not have 3 or 4 corners: " +
+                                   std::to_string(mesh.faces_left_out));
     }
 }

@@ -5,6 +5,7 @@
 
 #include "common/base/files.h"
 #include "common/base/system.h"
+#include "common/picture/png.h"
 #include "common/scene_file/messages.h"
 
 namespace fs = std::filesystem;
@@ -17,7 +18,8 @@ std::string read_scene_file(const std::string& path) {
     if (is_device) fail({path}, "cannot read: a device and no file");
     if (is_pipe) fail({path}, "cannot read: a pipe and no file");
     try {
-        return read_file(path);
+        std::string bytes = read_file(path);
+        return is_gzip(bytes) ? unpack_gzip(path, bytes) : bytes;
     } catch (const std::bad_alloc&) {
         uintmax_t bytes = fs::file_size(file_path(path), none);
         fail({path}, "out of memory: the file has " + whole_megabytes(none ? 0 : bytes));

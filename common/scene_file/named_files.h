@@ -11,8 +11,8 @@
 #include "common/scene_file/limits.h"
 #include "common/scene_file/ply.h"
 
-/// The bytes of a scene file; throws InputError when it cannot be read, and at once for what is no
-/// file: a device or a pipe may never end.
+/// The bytes of a scene file, unpacked if they are packed by gzip; throws InputError when it cannot
+/// be read, and at once for what is no file: a device or a pipe may never end.
 std::string read_scene_file(const std::string& path);
 
 /// The one name of a file that has many, such as a/../b.

@@ -77,12 +77,6 @@ Spectrum read_spectrum(const Param& param) {
     return spectrum;
 }
 
-// pbrt would look for a file of that name.
-std::string unknown_spectrum(const std::string& name, const std::vector<std::string>& known) {
-    if (name.find_first_of("./\\") == std::string::npos) return unknown("spectrum", name, known);
-    return "files of spectra are not supported: " + quote_file(name);
-}
-
 Params::Params(Lexer& lexer, const Token& directive, SceneNotes& notes, bool has_type,
                const std::vector<Param>& defaults)
     : notes_(&notes), at_(lexer.at(directive)), type_at_(at_), directive_(directive.text) {
@@ -119,6 +113,28 @@ void Params::add(Param param) {
                     quote(param.name) + " of " + owner() + " is given twice: the last one counts");
     }
     params_.push_back(std::move(param));
+}
+
+void Params::read_spectra(NamedFiles& files) {
+    for (Param& param : params_) {
+        if (param.type != "spectrum" || param.strings.size() != 1) continue;
+        if (param.strings[0].find_first_of("./\\") == std::string::npos) continue;
+        std::string path = files.find(param.at, param.strings[0]), bytes;
+        try {
+            bytes = files.read(path, param.at);
+        } catch (const ReadingEnds&) {
+            throw;
+        } catch (const InputError& error) {
+            if (may_stand_in()) continue;
+            throw InputError(error.what() +
+                             or_stand_in("a spectrum of unknown name, or without its file"));
+        }
+        Lexer lexer(path, std::move(bytes));
+        param.strings.clear();
+        while (lexer.peek().type != Token::end) {
+            param.numbers.push_back(lexer.number(lexer.next(), "a spectrum"));
+        }
+    }
 }
 
 void Params::read_type() {
@@ -234,8 +250,8 @@ Rgb Params::illuminant(const std::string& name, Rgb fallback) {
             return L;
         }
         if (std::optional<Rgb> L = illuminant_rgb(param->strings[0])) return *L;
-        stand_in(param->at, "a spectrum of unknown name or from a file",
-                 unknown_spectrum(param->strings[0], illuminant_names()));
+        stand_in(param->at, "a spectrum of unknown name, or without its file",
+                 unknown("spectrum", param->strings[0], illuminant_names()));
         return fallback;
     }
     const Param* param = find_exactly("rgb", name, 3);
@@ -284,7 +300,13 @@ bool Params::read(const std::function<void()>& reader, const std::string& stand_
 }
 
 void Params::ignore_rest() {
-    for (Param& param : params_) param.used = true;
+    for (Param& param : params_) {
+        auto only_pbrt = pbrt_only_params.find(param.name);
+        if (!param.used && may_stand_in() && only_pbrt != pbrt_only_params.end()) {
+            notes_->stand_in(param.at, only_pbrt->second);
+        }
+        param.used = true;
+    }
 }
 
 void Params::finish() {

@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "common/base/vec.h"
+#include "common/scene_file/named_files.h"
 #include "common/scene_file/param.h"
 #include "common/scene_file/spectra.h"
 #include "common/scene_file/stand_ins.h"
 
 /// The spectrum that a parameter lists; throws for one that is not in order, or negative.
 Spectrum read_spectrum(const Param& param);
-/// What to say of a spectrum that is none of the known ones.
-std::string unknown_spectrum(const std::string& name, const std::vector<std::string>& known);
 
 /// The parameters of one directive. A directive asks for each that it knows; finish() then refuses
 /// those that nobody asked for. Of a parameter given twice the last one counts, with a note.
@@ -30,6 +29,8 @@ public:
 
     const std::string& type() const { return type_; }
     const std::vector<Param>& all() const { return params_; }
+    /// Puts pairs of a wavelength and a value in the place of the names of files with such pairs.
+    void read_spectra(NamedFiles& files);
     /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
     void read_type();
     /// Whether the type has a stand-in that is to be taken, which is remembered.

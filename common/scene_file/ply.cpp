@@ -197,14 +197,10 @@ void read_faces(PlyBytes& reader, const Element& element, size_t vertices, Trian
                 continue;
             }
             uint64_t length = read_length(reader, property);
-            if (length < 3) {
+            if (length < 3 || length > 4) {  // as pbrt does
                 for (uint64_t i = 0; i < length; i++) reader.value(*property.type);
                 mesh.faces_left_out++;
                 continue;
-            }
-            if (length > 4) {
-                reader.fail_here("a face of " + std::to_string(length) +
-                                 " corners: only triangles and quads are supported");
             }
             std::array<uint32_t, 4> v = {};
             for (uint64_t i = 0; i < length; i++) {

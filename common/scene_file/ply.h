@@ -14,7 +14,7 @@ struct TriangleMesh {
     std::vector<Vec3> normals;      // of the vertices, as in the file; empty or one for each
     std::vector<Vec2> uvs;          // the same; empty where a number is not usable
     std::vector<uint32_t> indices;  // three for each triangle, all < positions.size()
-    uint64_t faces_left_out = 0;    // with fewer than three corners: they have no area
+    uint64_t faces_left_out = 0;    // those without three or four corners
 };
 
 /// Whether all are numbers from -1e9 to 1e9.

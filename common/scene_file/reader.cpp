@@ -90,13 +90,15 @@ private:
     int includes_ = 0;
 };
 
+// Whether a token looks like none that begins a directive.
+bool is_argument(const Token& token) {
+    if (token.type != Token::word) return token.type != Token::end;
+    return token.text[0] < 'A' || token.text[0] > 'Z';
+}
+
 // Reads over what a directive that cannot be used leaves behind, up to what looks like the next.
 void skip_arguments(Lexer& lexer) {
-    for (; lexer.peek().type != Token::end; lexer.next()) {
-        const Token& token = lexer.peek();
-        if (token.type != Token::word) continue;
-        if (token.text[0] >= 'A' && token.text[0] <= 'Z') return;
-    }
+    while (is_argument(lexer.peek())) lexer.next();
 }
 
 Scene Reader::read_scene(std::string text) {
@@ -207,6 +209,12 @@ void Reader::include(Lexer& lexer, const Token& word) {
         if (!notes_.stand_ins()) throw;
         notes_.stand_in(at, "a scene file that cannot be read");
         return;
+    }
+    // As in pbrt, parameters behind Include belong to the last directive of the file.
+    while (is_argument(lexer.peek())) {
+        Token part = lexer.next();
+        const char* quotes = part.type == Token::string ? "\"" : "";
+        text += '\n' + (quotes + std::string(part.text)) + quotes;
     }
     if (word.text == "Include") return read(path, std::move(text));
     // What Import changes, it changes for the file alone.

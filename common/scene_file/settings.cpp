@@ -96,8 +96,7 @@ void read_lens(Params& params, Camera& camera) {
     if (!(camera.focal_distance >= 1e-6f && camera.focal_distance <= 1e9f)) {
         fail(params.at("focaldistance"), "focaldistance must be from 1e-6 to 1e9");
     }
-    camera.line = params.at().line;
-    camera.column = params.at().column;
+    camera.at = kept(params.at());
 }
 
 }  // namespace
@@ -216,12 +215,12 @@ void read_integrator(Params& params, Scene& scene, SceneNotes& notes) {
                      {"sigma", "largestepprobability"},
                      {},
                      {"regularize"}},
-                    {"path", {}, {}, {"lightsampler"}, {"regularize"}},
+                    {"path", {}, {"rrthreshold"}, {"lightsampler"}, {"regularize"}},
                     {"randomwalk", {}, {}, {}, {}},
                     {"simplepath", {}, {}, {}, {"samplelights", "samplebsdf"}},
                     {"simplevolpath", {}, {}, {}, {}},
                     {"sppm", {"photonsperiteration", "seed"}, {"radius"}, {}, {"regularize"}},
-                    {"volpath", {}, {}, {"lightsampler"}, {"regularize"}}});
+                    {"volpath", {}, {"rrthreshold"}, {"lightsampler"}, {"regularize"}}});
     if (params.type() != "path")
         note(notes, params, "only sets the depth: the program is the integrator");
 }

@@ -110,8 +110,7 @@ int add_light(const Params& params, Rgb L, bool two_sided, Scene& scene) {
     Light light;
     light.L = L;
     light.two_sided = two_sided;
-    light.line = params.at().line;
-    light.column = params.at().column;
+    light.at = kept(params.at());
     scene.lights.push_back(light);
     return static_cast<int>(scene.lights.size()) - 1;
 }

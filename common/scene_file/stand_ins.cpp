@@ -15,7 +15,7 @@ const std::vector<StandIn>& all_stand_ins() {
         {"rough glass", "smooth glass"},
         {"a roughness that differs between u and v", "their geometric mean"},
         {"an index of refraction as a list", "its mean"},
-        {"a spectrum of unknown name or from a file", "the default of its parameter"},
+        {"a spectrum of unknown name, or without its file", "the default of its parameter"},
         {"a bump or normal map", "none"},
         {"alpha", "1, or nothing where it is 0 everywhere"},
         {"a texture that is no reflectance", "its mean, or the default of its parameter"},
@@ -57,6 +57,10 @@ const std::vector<StandIn>& all_stand_ins() {
         {"a part of the film", "the whole"},
         {"a sensor or white balance", "\"cie1931\""},
         {"a medium", "empty space"},
+        {"a lens, in a chapter without one", "a pinhole"},
+        {"glass that disperses, in a chapter without it", "glass of one index"},
+        {"a shape that moves, in a chapter where all rest", "one that rests at its start"},
+        {"a picture of the sky, in a chapter without one", "a sky of its mean color"},
     };
     return all;
 }

@@ -77,6 +77,11 @@ bool read_filter(Params& params, SceneNotes& notes) {
 std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
     const Param* param = params.find_exactly("rgb", name, 3);
     if (const Param* listed = params.find("spectrum", name)) {
+        if (listed->strings.size() == 1) {
+            params.stand_in(listed->at, "a spectrum of unknown name, or without its file",
+                            unknown("spectrum", listed->strings[0], {}));
+            return {};
+        }
         Spectrum spectrum = read_spectrum(*listed);
         for (const auto& [nm, value] : spectrum) {
             if (value > 1) fail(listed->at, quote(name) + " must be from 0 to 1");
@@ -101,6 +106,7 @@ void TextureReader::read(Lexer& lexer, const Token& word) {
     }
     std::string name = lexer.unescape(name_token);
     Params params(lexer, word, notes_);
+    params.read_spectra(files_);
     if (type.text != "spectrum" && type.text != "float") {
         fail_unknown(lexer.at(type), "type of texture", std::string(type.text),
                      {"float", "spectrum"});
@@ -151,7 +157,12 @@ Rgb TextureReader::mean_input(Params& params, const std::string& name, float fal
         return read_reflectance(params, name).value_or(Rgb{fallback, fallback, fallback});
     }
     float value = param ? fallback : params.number(name, fallback);
-    auto found = param ? floats_.find(param->strings[0]) : floats_.end();
+    auto found = param ? floats_.find(param->strings.at(0)) : floats_.end();
+    if (param && found == floats_.end()) {
+        std::vector<std::string> names;
+        for (const auto& [known, texture] : floats_) names.push_back(known);
+        fail_unknown(param->at, "texture", param->strings[0], names);
+    }
     if (found != floats_.end()) {
         FloatTexture& texture = found->second;
         if (!texture.mean) {

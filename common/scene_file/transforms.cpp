@@ -11,7 +11,7 @@ Vec3d read_three(Lexer& lexer, const std::string& name) {
 }
 
 // Reads [ 16 numbers ], column by column.
-Transform read_matrix(Lexer& lexer, const Token& directive) {
+TransformStep read_matrix(Lexer& lexer, const Token& directive) {
     std::string name(directive.text);
     auto expect = [&](Token::Type type, const std::string& what) {
         Token token = lexer.next();
@@ -25,10 +25,9 @@ Transform read_matrix(Lexer& lexer, const Token& directive) {
 
     constexpr double tolerance = 1e-6;
     double bottom = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
-    if (bottom > tolerance) {
-        fail(lexer.at(directive), name + " must not project: numbers 4, 8, 12, 16 must be 0 0 0 1");
-    }
-    return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+    Transform t = {
+        {m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+    return {t, name == "Transform", bottom > tolerance};
 }
 
 bool is_usable(const Transform& t) {
@@ -46,8 +45,7 @@ bool is_usable(const Transform& t) {
 TransformStep read_transform(Lexer& lexer, const Token& directive) {
     std::string name(directive.text);
     if (name == "Identity") return {{}, true};
-    if (name == "Transform") return {read_matrix(lexer, directive), true};
-    if (name == "ConcatTransform") return {read_matrix(lexer, directive)};
+    if (name == "Transform" || name == "ConcatTransform") return read_matrix(lexer, directive);
     if (name == "Translate") return {translation(read_three(lexer, name))};
     if (name == "Scale") return {scaling(read_three(lexer, name))};
     if (name == "Rotate") {
@@ -66,10 +64,11 @@ TransformStep read_transform(Lexer& lexer, const Token& directive) {
     return {inverse(world_from_camera)};
 }
 
-Transform apply(const TransformStep& step, const Transform& current, const Position& at) {
-    Transform t = step.replaces ? step.transform : current * step.transform;
-    if (!is_usable(t)) {
-        fail(at, "the transform has no inverse, or its numbers are too large or too small");
+std::string what_is_wrong_with(const TransformStep& step, const Transform& after) {
+    if (step.projects) {
+        return std::string(step.replaces ? "Transform" : "ConcatTransform") +
+               " must not project: numbers 4, 8, 12, 16 must be 0 0 0 1";
     }
-    return t;
+    if (is_usable(after)) return "";
+    return "the transform has no inverse, or its numbers are too large or too small";
 }

@@ -7,12 +7,13 @@
 struct TransformStep {
     Transform transform;
     bool replaces = false;
+    bool projects = false;  // a matrix whose last row is not 0 0 0 1; `transform` is without it
 };
 
 /// Reads the numbers after Identity, Translate, Scale, Rotate, LookAt, Transform or
 /// ConcatTransform.
 TransformStep read_transform(Lexer& lexer, const Token& directive);
 
-/// The current transform after the step; throws at the position when it has no inverse, or when
-/// its numbers are beyond all use.
-Transform apply(const TransformStep& step, const Transform& current, const Position& at);
+/// Why nothing can stand where a step leads to; empty where something can. It is an error only if
+/// something stands there.
+std::string what_is_wrong_with(const TransformStep& step, const Transform& after);

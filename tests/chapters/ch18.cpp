@@ -143,20 +143,24 @@ TEST_SUITE("ch18 dispersion") {
         } cases[] = {
             {&Features::lens,
              "Camera \"perspective\" \"float lensradius\" 1 WorldBegin " + sky + ball,
-             "1:1: error: only chapters 16 to 19 and 21 to 25 have a lens: lensradius must be 0"},
+             "1:1: error: only chapters 16 to 19 and 21 to 25 have a lens: lensradius must be 0; "
+             "--stand-in renders it as a pinhole"},
             {&Features::dispersion,
              "Camera \"perspective\" WorldBegin " + sky +
                  "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"" + ball,
-             "1:56: error: glass disperses in chapters 18 and 19 only: try \"float eta\" 1.5168"},
+             "1:56: error: glass disperses in chapters 18 and 19 only: try \"float eta\" 1.5168; "
+             "--stand-in renders it as glass of one index"},
             {&Features::shutter,
              "Camera \"perspective\" WorldBegin " + sky + "ActiveTransform EndTime Scale 1 2 1" +
                  ball,
-             "1:92: error: shapes move in chapters 16 to 22 only"},
+             "1:92: error: shapes move in chapters 16 to 22 only; --stand-in renders it as one "
+             "that rests at its start"},
             {&Features::sky_image,
              "Camera \"perspective\" WorldBegin LightSource \"infinite\" \"string filename\" "
              "\"scenes/sky.pfm\"" +
                  ball,
-             "1:33: error: the sky has an image in chapters 17 to 25 only"},
+             "1:33: error: the sky has an image in chapters 17 to 25 only; --stand-in renders it "
+             "as a sky of its mean color"},
             {nullptr, "Camera \"perspective\" WorldBegin " + sky + ball, ""}};
         for (const auto& c : cases)
             for (int chapter = 5; chapter <= 26; chapter++) {
@@ -170,6 +174,10 @@ TEST_SUITE("ch18 dispersion") {
                 }
                 bool rendered = c.feature == nullptr || features_of(chapter).*c.feature;
                 CHECK(said == (rendered ? "" : "test.pbrt:" + c.error));
+                Scene scene = scene_of(c.text);
+                stand_in_for_features(scene, features_of(chapter));
+                CHECK_NOTHROW(refuse_features(scene, features_of(chapter)));
+                CHECK(scene.stand_ins.size() == (rendered ? 0 : 1));
             }
     }
 }

@@ -223,10 +223,6 @@ TEST_SUITE("ply") {
               "mesh.ply: error: vertex -1 of a face does not exist: there are 1" + at(21));
         CHECK(refuse(header + origin + std::string("\2\0\0\0\0\0\0\0\0\0\0\0\0", 13)) ==
               "mesh.ply:7:9: error: the mesh has no faces of 3 or 4 corners");
-        CHECK(refuse(header + origin +
-                     std::string("\5\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 21)) ==
-              "mesh.ply: error: a face of 5 corners: only triangles and quads are supported" +
-                  at(13));
         CHECK(refuse(header + origin + "\3") ==
               "mesh.ply: error: the file is too short for a list of this length" + at(13));
         CHECK(refuse(header) ==

@@ -131,7 +131,8 @@ TEST_SUITE("reader: malformed input") {
         CHECK(said.ends_with("x\"\nscene.pbrt: error: so much is wrong that the rest is not read"));
         // Names of materials that do not exist are such errors too, by their first places.
         text = "Camera \"perspective\" WorldBegin\n";
-        for (int i = 99; i >= 0; i--) text += "NamedMaterial \"n" + std::to_string(i) + "\"\n";
+        for (int i = 99; i >= 0; i--)
+            text += "NamedMaterial \"n" + std::to_string(i) + "\" Shape \"sphere\"\n";
         said = refuse(text);
         CHECK(std::count(said.begin(), said.end(), '\n') == 20);
         CHECK(said.starts_with("scene.pbrt:2:15: error: unknown NamedMaterial \"n99\"\n"));

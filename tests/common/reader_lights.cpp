@@ -176,8 +176,8 @@ TEST_SUITE("reader: lights") {
             CHECK(scene.lights[i].two_sided == (i != 4));
             CHECK(scene.lights[i].L == (i == 4 ? Rgb{1, 1, 1} : Rgb{2, 4, 6}));
         }
-        CHECK(scene.lights[1].line == 3);
-        CHECK(scene.lights[1].column == 2);
+        CHECK(scene.lights[1].at->line == 3);
+        CHECK(scene.lights[1].at->column == 2);
         for (uint32_t i = 0; i < 4; i++) {
             int light = scene.shapes[scene.geometry.triangles[i].shape].light;
             CHECK(light == (i < 2 ? 2 : 3));
@@ -210,8 +210,8 @@ TEST_SUITE("reader: lights") {
         CHECK(light.type == LightType::point);
         CHECK(light.L == Rgb{1, 1, 1});
         CHECK(light.p == Vec3{0, 0, 0});
-        CHECK(light.line == 1);
-        CHECK(light.column == 48);
+        CHECK(light.at->line == 1);
+        CHECK(light.at->column == 48);
         light = light_of(
             "Translate 1 1 1 LightSource \"point\" \"rgb I\" [1 2 3] \"float scale\" 2 "
             "\"point3 from\" [1 2 3]");

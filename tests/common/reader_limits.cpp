@@ -151,7 +151,7 @@ TEST_SUITE("reader: large scenes") {
         for (int i = 0; i < 100'000; i++) {
             std::string name = '"' + std::to_string(1'000'000 + i);
             defined += "MakeNamedMaterial " + name + "\" \"string type\" \"diffuse\"\n";
-            named += "NamedMaterial " + name + "x\"\n";
+            named += "NamedMaterial " + name + "x\" Shape \"sphere\"\n";
             wrong += "NamedMaterial " + std::to_string(i) + "\nShape " + name + "\"\n";
         }
         for (const std::string& text : {named, defined + named, wrong}) {

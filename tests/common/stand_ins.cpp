@@ -6,8 +6,11 @@
 #include <sstream>
 
 #include "common/base/files.h"
+#include "common/options/loading.h"
 #include "common/picture/image.h"
+#include "common/picture/png.h"
 #include "common/picture/verdict.h"
+#include "common/scene/prepare.h"
 #include "common/scene/texture.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/folder.h"
@@ -303,6 +306,104 @@ TEST_SUITE("stand-ins") {
         CHECK(plain.code == 0);
         CHECK(plain.out.find("stand-in") == std::string::npos);
         CHECK(value_of(notes_in(decode_comment(out, read_file(out))), "stand-ins") == "");
+    }
+
+    TEST_CASE("truth: a picture of the sky stands for its mean in chapters without one") {
+        Files files;
+        const std::string camera = "Camera \"perspective\" WorldBegin\nShape \"sphere\"\n";
+        Scene scene = files.read(camera +
+                                 "LightSource \"infinite\" \"string filename\" \"a.pfm\" "
+                                 "\"float scale\" 3 LightSource \"infinite\" \"rgb L\" [1 2 3]");
+        stand_in_for_features(scene, features_of(16));
+        prepare(scene, 1);
+        CHECK(near(scene.sky, Rgb{1.5f + 1, 1.5f + 2, 1.5f + 3}));
+        CHECK(scene.stand_ins.size() == 1);
+        CHECK(scene.stand_ins[0].first.line == 3);
+    }
+
+    TEST_CASE("input: what pbrt reads by the way: packed files, files of spectra, unused names") {
+        Files files;
+        // As gzip packs it, with a name in the header, and one block that is stored as it is.
+        auto pack = [&](const std::string& name) {
+            std::string text = read_file(files.folder / name), crc = png_chunk(text);
+            auto little = [](size_t n, int bytes) {
+                std::string s;
+                for (int i = 0; i < bytes; i++) s += static_cast<char>(n >> 8 * i);
+                return s;
+            };
+            std::string packed = std::string("\x1f\x8b\x08\x08\0\0\0\0\0\3name\0\1", 16);
+            packed += little(text.size(), 2) + little(~text.size(), 2) + text;
+            packed.append(crc.rbegin(), crc.rbegin() + 4);
+            write_file_atomically(files.folder / (name + ".gz"), packed + little(text.size(), 4));
+        };
+        pack("a.pbrt"), pack("a.ply");
+        CHECK(files.world("Include \"a.pbrt.gz\"").geometry.spheres.size() == 2);
+        CHECK(files.world("Shape \"plymesh\" \"string filename\" \"a.ply.gz\"")
+                  .geometry.triangles.size() == 1);
+        std::string packed = read_file(files.folder / "a.pbrt.gz");
+        for (size_t i = 10; i < packed.size(); i++) {
+            std::string damaged = packed;
+            damaged[i] ^= 1;
+            write_file_atomically(files.folder / "b.gz", i % 2 ? damaged : packed.substr(0, i));
+            CAPTURE(i);
+            // Nothing protects the name.
+            if (i >= 15) CHECK_THROWS_AS(files.read("Include \"b.gz\"", false), InputError);
+        }
+
+        write_file_atomically(files.folder / "a.spd", "# nm and value\n300 .5\n600 .5 900 .5\n");
+        for (const char* name : {"eta", "k"}) {
+            const std::string text = std::string("Material \"conductor\" \"spectrum ") + name + '"';
+            Material named = last_material(files.world(text + " \"a.spd\""));
+            Material listed = last_material(files.world(text + " [300 .5 600 .5 900 .5]"));
+            CHECK(named.eta == listed.eta);
+            CHECK(named.k == listed.k);
+        }
+        CHECK(files.taken("Material \"diffuse\" \"spectrum reflectance\" \"a.spd\"") == "");
+        CHECK(files.taken("Material \"diffuse\" \"spectrum reflectance\" \"b.spd\"") ==
+              "a spectrum of unknown name, or without its file as the default of its parameter (1 "
+              "place, "
+              "s.pbrt:2:43)\n");
+
+        // A name or a transform is wrong only where something is made with it.
+        const std::string singular = "Scale 1 0 1 ", projects =
+                                                         "Transform [1 0 0 0 0 1 0 0 0 0 1 3 "
+                                                         "0 0 0 1] ";
+        for (const std::string& unused :
+             {std::string("NamedMaterial \"none\" Material \"diffuse\""), singular + "Identity",
+              "AttributeBegin " + projects + "AttributeEnd",
+              projects + "LightSource \"infinite\" Identity"}) {
+            CAPTURE(unused);
+            CHECK_NOTHROW(files.world("LightSource \"infinite\" " + unused));
+        }
+        for (const std::string& used :
+             {std::string("NamedMaterial \"none\""), singular, projects,
+              singular + "LightSource \"infinite\" Identity",
+              singular + "CoordinateSystem \"c\" Identity CoordSysTransform \"c\""}) {
+            CAPTURE(used);
+            CHECK_THROWS_AS(files.world("LightSource \"infinite\" " + used), InputError);
+        }
+
+        // A material of an included file is named there.
+        write_file_atomically(files.folder / "m.pbrt",
+                              "\n\n  Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
+        Scene glass = files.world("LightSource \"infinite\" Include \"m.pbrt\"");
+        stand_in_for_features(glass, features_of(16));
+        CHECK(glass.stand_ins[0].text() ==
+              "glass that disperses, in a chapter without it as glass of one index (1 place, " +
+                  files.folder / "m.pbrt:3:3)");
+
+        // Parameters behind Include are those of the last directive in the file.
+        write_file_atomically(files.folder / "p.pbrt", "Material \"diffuse\"");
+        CHECK(last_material(files.world("Include \"p.pbrt\" \"rgb reflectance\" [0 .5 1]"))
+                  .reflectance == Rgb{0, 0.5f, 1});
+
+        CHECK(near(last_material(files.world("Material \"diffusetransmission\" \"rgb reflectance\" "
+                                             "[.4 .5 .6] \"float scale\" .5"))
+                       .reflectance,
+                   Rgb{0.2f, 0.25f, 0.3f}));
+        CHECK(files.taken("Material \"coateddiffuse\" \"texture displacement\" \"b\"") ==
+              "Material \"coateddiffuse\" as diffuse (1 place, s.pbrt:2:33)\n"
+              "a bump or normal map as none (1 place, s.pbrt:2:49)\n");
     }
 
     TEST_CASE("text: scenes/TUTORIAL.md explains every directive that is read") {
