@@ -1,9 +1,10 @@
 // Where something stands in an input file, and the error that says so.
 #pragma once
-#include <deque>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "common/base/error.h"
@@ -15,14 +16,17 @@
 struct Position {
     std::string file;
     int line = 0, column = 0;
+    bool operator<(const Position& other) const {
+        return std::tie(file, line, column) < std::tie(other.file, other.line, other.column);
+    }
 };
 
 /// A copy of the position that lasts as long as the program: what a scene is made of points to it.
 inline const Position* kept(const Position& at) {
     static std::mutex mutex;
-    static std::deque<Position> all;
+    static std::set<Position> all;
     std::lock_guard lock(mutex);
-    return &all.emplace_back(at);
+    return &*all.insert(at).first;
 }
 
 /// `text` made fit for one line of a terminal: what is no character to print becomes '?'.

@@ -18,9 +18,11 @@ void Directives::move(Lexer& lexer, const Token& word) {
         if (!is_set) continue;
         *t = step.replaces ? step.transform : *t * step.transform;
         std::string wrong = what_is_wrong_with(step, *t);
-        if (wrong.empty() || !state_.unusable.empty()) continue;
-        state_.unusable = message_at(lexer.at(word), "error", wrong);
-        state_.only_projects = step.projects;
+        if (wrong.empty()) continue;
+        bool is_first = state_.unusable.empty();
+        bool only_projects = what_is_wrong_with({step.transform}, *t).empty();
+        if (is_first) state_.unusable = message_at(lexer.at(word), "error", wrong);
+        state_.only_projects = only_projects && (is_first || state_.only_projects);
     }
 }
 
@@ -360,7 +362,9 @@ void Directives::place(Params& params, const State& where) {
     if (!too_small_light_ && where.emission) too_small_light_ = params.at();
 }
 
-void Directives::texture(Lexer& lexer, const Token& word) { textures_.read(lexer, word); }
+void Directives::texture(Lexer& lexer, const Token& word) {
+    textures_.read(lexer, word, state_.defaults["texture"]);
+}
 
 uint64_t Directives::bytes() const {
     uint64_t sum = scene_.shapes.size() * sizeof(Shape) + scene_.lights.size() * sizeof(Light) +

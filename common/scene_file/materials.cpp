@@ -95,6 +95,10 @@ Material read_conductor(Params& params, TextureReader& textures, const std::stri
 
 // "spectrum eta" of a dielectric, the name of a measured glass.
 void read_glass(Params& params, Material& material) {
+    if (const Param* rgb = params.find_exactly("rgb", "eta", 3)) {
+        params.stand_in(rgb->at, "an index of refraction as a list", "\"eta\" must be a float");
+        material.ior = average(read_rgb(*rgb));
+    }
     const Param* spectrum = params.find("spectrum", "eta");
     if (!spectrum) return;
     if (spectrum->strings.size() != 1) {
@@ -179,7 +183,7 @@ std::optional<Material> read_material(Params& params, TextureReader& textures) {
         material = read_conductor(params, textures);
     } else if (type == "dielectric") {
         material = read_dielectric(params, textures);
-    } else if (type == "interface" || type.empty()) {
+    } else if (type == "interface" || type == "none" || type.empty()) {
         params.finish();
         return {};
     } else if (params.stands_in()) {

@@ -36,7 +36,7 @@ const std::map<std::string, std::vector<std::string>> pbrt_v3 = {
     {"Film", {"image"}},
     {"Integrator", {"ao", "directlighting", "whitted"}},
     {"Material",
-     {"disney", "fourier", "glass", "kdsubsurface", "matte", "metal", "mirror", "none", "plastic",
+     {"disney", "fourier", "glass", "kdsubsurface", "matte", "metal", "mirror", "plastic",
       "substrate", "translucent", "uber"}},
     {"Sampler", {"02sequence", "lowdiscrepancy", "maxmindist", "random"}},
     {"Shape", {"cone", "heightfield", "hyperboloid", "nurbs", "paraboloid"}}};
@@ -44,6 +44,7 @@ const std::map<std::string, std::vector<std::string>> pbrt_v3 = {
 const std::map<std::string, std::string> pbrt_only_params = {
     {"alpha", "alpha"},
     {"displacement", "a bump or normal map"},
+    {"displacement.edgelength", "a bump or normal map"},
     {"edgelength", "a bump or normal map"},
     {"emissionfilename", "an image on an area light"},
     {"normalmap", "a bump or normal map"},

@@ -208,6 +208,7 @@ void Reader::include(Lexer& lexer, const Token& word) {
     } catch (const InputError&) {
         if (!notes_.stand_ins()) throw;
         notes_.stand_in(at, "a scene file that cannot be read");
+        skip_arguments(lexer);
         return;
     }
     // As in pbrt, parameters behind Include belong to the last directive of the file.

@@ -88,6 +88,18 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
         }
         return reflectance_rgb(spectrum);
     }
+    if (const Param* black = params.find_exactly("blackbody", name, 1)) {
+        // As pbrt, with the value 1 at the maximum: 2898 um K (Wien).
+        double T = black->numbers[0];
+        if (T < 500 || T > 1e6) fail(black->at, "blackbody needs 500 to 1e6 kelvin");
+        auto planck = [T](double nm) {
+            return std::pow(nm, -5) / std::expm1(1.438776877e7 / (nm * T));
+        };
+        Spectrum spectrum;
+        double most = planck(2.897771955e6 / T);
+        for (double nm = 360; nm <= 830; nm += 5) spectrum.push_back({nm, planck(nm) / most});
+        return reflectance_rgb(spectrum);
+    }
     if (!param) return {};
     Rgb r = {static_cast<float>(param->numbers[0]), static_cast<float>(param->numbers[1]),
              static_cast<float>(param->numbers[2])};
@@ -97,7 +109,7 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
     return r;
 }
 
-void TextureReader::read(Lexer& lexer, const Token& word) {
+void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults) {
     Token name_token = lexer.next(), type = lexer.next();
     for (const Token& token : {name_token, type}) {
         if (token.type == Token::string) continue;
@@ -105,7 +117,7 @@ void TextureReader::read(Lexer& lexer, const Token& word) {
                                   Lexer::describe(token));
     }
     std::string name = lexer.unescape(name_token);
-    Params params(lexer, word, notes_);
+    Params params(lexer, word, notes_, true, defaults);
     params.read_spectra(files_);
     if (type.text != "spectrum" && type.text != "float") {
         fail_unknown(lexer.at(type), "type of texture", std::string(type.text),

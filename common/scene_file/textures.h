@@ -22,8 +22,8 @@ public:
     TextureReader(const Limits& limits, NamedFiles& files, SceneNotes& notes)
         : limits_(limits), files_(files), notes_(notes) {}
 
-    /// Reads what stands after the word Texture.
-    void read(Lexer& lexer, const Token& word);
+    /// Reads what stands after the word Texture; defaults: of Attribute.
+    void read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults);
     /// The texture that a parameter "texture NAME" names; nothing where it is not given.
     std::optional<NamedTexture> find(Params& params, const std::string& name) const;
     /// A number, or the mean of the texture that a parameter "texture NAME" names, as a stand-in.

@@ -65,7 +65,7 @@ TransformStep read_transform(Lexer& lexer, const Token& directive) {
 }
 
 std::string what_is_wrong_with(const TransformStep& step, const Transform& after) {
-    if (step.projects) {
+    if (is_usable(after) && step.projects) {
         return std::string(step.replaces ? "Transform" : "ConcatTransform") +
                " must not project: numbers 4, 8, 12, 16 must be 0 0 0 1";
     }

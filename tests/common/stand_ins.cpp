@@ -378,6 +378,9 @@ TEST_SUITE("stand-ins") {
         for (const std::string& used :
              {std::string("NamedMaterial \"none\""), singular, projects,
               singular + "LightSource \"infinite\" Identity",
+              projects + singular + "LightSource \"infinite\" Identity",
+              std::string("Transform [1 0 0 0 0 1 0 0 0 0 0 3 0 0 0 1] ") +
+                  "LightSource \"infinite\" Identity",
               singular + "CoordinateSystem \"c\" Identity CoordSysTransform \"c\""}) {
             CAPTURE(used);
             CHECK_THROWS_AS(files.world("LightSource \"infinite\" " + used), InputError);
@@ -392,10 +395,25 @@ TEST_SUITE("stand-ins") {
               "glass that disperses, in a chapter without it as glass of one index (1 place, " +
                   files.folder / "m.pbrt:3:3)");
 
+        CHECK(files.world("Material \"none\"").geometry.spheres.empty());
+        const std::string warm = "Material \"diffuse\" \"blackbody reflectance\" 3000";
+        Rgb surface = last_material(files.world(warm)).reflectance;
+        CHECK((1 > surface.r && surface.r > surface.g && surface.g > surface.b && surface.b > 0));
+        const std::string ball = "Material \"dielectric\" \"rgb eta\" [1.4 1.5 1.6]";
+        CHECK(last_material(files.world(ball)).ior == 1.5f);
+        Scene grey = files.world(
+            "Attribute \"texture\" \"rgb value\" [.1 .1 .1] Texture \"t\" "
+            "\"spectrum\" \"constant\" Material \"diffuse\" "
+            "\"texture reflectance\" \"t\"");
+        CHECK(last_material(grey).reflectance == Rgb{0.1f, 0.1f, 0.1f});
+
         // Parameters behind Include are those of the last directive in the file.
         write_file_atomically(files.folder / "p.pbrt", "Material \"diffuse\"");
         CHECK(last_material(files.world("Include \"p.pbrt\" \"rgb reflectance\" [0 .5 1]"))
                   .reflectance == Rgb{0, 0.5f, 1});
+
+        CHECK(files.taken("Include \"none.pbrt\" \"rgb reflectance\" [0 .5 1]") ==
+              "a scene file that cannot be read as nothing (1 place, s.pbrt:2:32)\n");
 
         CHECK(near(last_material(files.world("Material \"diffusetransmission\" \"rgb reflectance\" "
                                              "[.4 .5 .6] \"float scale\" .5"))
