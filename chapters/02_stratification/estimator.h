@@ -45,7 +45,7 @@ inline float jitter_in_interval(uint32_t i, uint32_t n, float u) {
 /// Each axis by itself has n strata, for any n. The rows are in random order; in ascending order
 /// all points would be on the diagonal.
 /// source  Shirley 1991
-/// tested by  "variance: for xy n x n strata fall as n^-4, N-rooks keep the interaction",
+/// tested by  "variance: for xy that of k x k strata falls as k^-4, N-rooks keep the interaction",
 ///            within 5 standard errors
 inline Vec2 jitter_rook(uint32_t i, uint32_t n, uint32_t seed, Vec2 u) {
     uint32_t row = permute(i, n, hash32(seed));

@@ -43,7 +43,7 @@ inline BsdfSample sample_bsdf(const Hit& x, Vec3 wo, float u1, Vec2 u2) {
 /// A sampled point or direction of a light, seen from x. pdf_w == 0: no sample, no contribution.
 struct LightSample {
     Vec3 wi;             // unit, from x to the light
-    Rgb Le;              // W m^-2 sr^-1: without f, cosine and visibility
+    Rgb Le;              // W m^-2 sr^-1, of point and distant lights W m^-2; without f, cos, V
     float dist = 0;      // m: length of the shadow ray, which ends just before the light
     float pdf_w = 0;     // sr^-1; for a point or distant light the probability of choosing it
     bool delta = false;  // a point or distant light: no path can hit it
@@ -123,7 +123,7 @@ inline Rgb direct_light(const Scene& scene, const Hit& x, Vec3 wo, LightNumbers 
 
 /// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
-///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///   L = Le(x_0) + sum over k of  beta_k Ld(x_k) (+ beta_k Le(x_k) behind a mirror or glass)
 ///
 /// Emission that the path hits counts only directly from the camera and after mirrors and glass.
 /// Elsewhere it is already part of Ld at the vertex before.

@@ -13,9 +13,9 @@ namespace ch11 {
 
 using basic_bsdf::eval_bsdf, basic_bsdf::pdf_bsdf, basic_bsdf::sample_bsdf;
 
-/// The power of a light, in W.
+/// The power of a light, in W. A: its area; R: radius of the scene; light.L is L, I or E.
 ///
-///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  light.L: L, I or E
+///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L
 inline float light_power(const Scene& scene, size_t i) {
     const Light& light = scene.lights[i];
     float L = average(light.L), R = scene.radius;
@@ -131,7 +131,7 @@ inline Rgb direct_light(const Scene& scene, const LightTable& lights, const Hit&
 
 /// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
-///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///   L = Le(x_0) + sum over k of  beta_k Ld(x_k) (+ beta_k Le(x_k) behind a mirror or glass)
 ///
 /// Emission that the path hits counts only directly from the camera and after mirrors and glass.
 /// Elsewhere it is already part of Ld at the vertex before.

@@ -2,7 +2,7 @@
 // with a probability proportional to its weight.
 //
 //   w_i = p_hat(y_i) / p(y_i);   keep y = y_i with probability w_i / weight_sum;
-//   Ld = f Le V cos W,   W = weight_sum / (M p_hat(y))
+//   Ld = W f Le V cos / pdf_one,   W = weight_sum / (M p_hat(y))
 #pragma once
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
@@ -40,8 +40,8 @@ inline LightBounds light_bounds(const Scene& scene, size_t i) {
 ///   p_hat = power cos_x cos_y / d^2;   cos_y = 1 and d = 1 for lights without them
 ///
 /// Other points of an area light may be nearer than its centre, or seen less edge-on. So cosines
-/// are at least radius / d, and d is at least radius, unless the whole light is behind x or faces
-/// away. Then p_hat is 0 only where the light contributes nothing, and it is never far too small.
+/// are at least radius / d, and d is at least radius. Where the whole light is behind x or faces
+/// away, p_hat is 0. So it is 0 only where the light contributes nothing, and never far too small.
 inline float target(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
     float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));
@@ -103,7 +103,7 @@ inline Proposal prepare(const Scene& scene, int M) {
 
 /// Estimates the direct light that x scatters to wo, from one of M candidate lights.
 ///
-///   Ld = f Le V cos / pdf_one W      one point on the light that was kept
+///   Ld = W f Le V cos / pdf_one      one point on the light that was kept
 ///
 /// Unbiased if p_hat > 0 wherever the light contributes.
 /// Var = Var_p / M + (1 - 1/M) Var_q: Var_q, caused by shadows, remains however large M is.
@@ -123,7 +123,7 @@ inline Rgb direct_light(const Scene& scene, const Proposal& p, const Hit& x, Vec
 
 /// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
-///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///   L = Le(x_0) + sum over k of  beta_k Ld(x_k) (+ beta_k Le(x_k) behind a mirror or glass)
 ///
 /// Emission that the path hits counts only directly from the camera and after mirrors and glass.
 /// Elsewhere it is already part of Ld at the vertex before.

@@ -42,7 +42,7 @@ inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
     return {1 - (c.z + w.z) / (1 + w.z), (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
 }
 
-/// The BSDF of a rough conductor, in sr^-1; next, its sampling density and sample; h ~ wo + wi.
+/// The BSDF of a rough conductor, in sr^-1; h ~ wo + wi. Below: its sampling density, and a sample.
 inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {
     Frame frame(x.n);
     Vec3 o = frame.to_local(wo), i = frame.to_local(wi), h = normalize(o + i);
@@ -110,7 +110,7 @@ enum class Strategy : uint8_t { bsdf, light };
 
 /// Estimates Li, the radiance that arrives along the ray, from one path.
 ///
-///   L = Le(x_0) + sum over vertices of  beta_k Ld(x_k),   beta_k = product of f cos / pdf_w
+///   L = Le(x_0) + sum over k of  beta_k Ld(x_k) (+ beta_k Le(x_k) behind a mirror or glass)
 ///
 /// bsdf: all emission that the path hits counts, and no light is sampled. light: emission counts
 /// only directly from the camera and after mirrors and glass.

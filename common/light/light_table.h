@@ -3,9 +3,9 @@
 #pragma once
 #include "common/light/lights.h"
 
-/// The power of a light, in W.
+/// The power of a light, in W. A: its area; R: radius of the scene; light.L is L, I or E.
 ///
-///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L;  light.L: L, I or E
+///   area  pi A L;  point  4 pi I;  distant  pi R^2 E;  sky  4 pi^2 R^2 L
 inline float light_power(const Scene& scene, size_t i) {
     const Light& light = scene.lights[i];
     float L = average(light.L), R = scene.radius;

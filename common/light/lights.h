@@ -7,7 +7,7 @@
 /// A sampled point or direction of a light, seen from x. pdf_w == 0: no sample, no contribution.
 struct LightSample {
     Vec3 wi;             // unit, from x to the light
-    Rgb Le;              // W m^-2 sr^-1: without f, cosine and visibility
+    Rgb Le;              // W m^-2 sr^-1, of point and distant lights W m^-2; without f, cos, V
     float dist = 0;      // m: length of the shadow ray, which ends just before the light
     float pdf_w = 0;     // sr^-1; for a point or distant light the probability of choosing it
     bool delta = false;  // a point or distant light: no path can hit it

@@ -29,8 +29,8 @@ inline LightBounds light_bounds(const Scene& scene, size_t i) {
 ///   p_hat = power cos_x cos_y / d^2;   cos_y = 1 and d = 1 for lights without them
 ///
 /// Other points of an area light may be nearer than its centre, or seen less edge-on. So cosines
-/// are at least radius / d, and d is at least radius, unless the whole light is behind x or faces
-/// away. Then p_hat is 0 only where the light contributes nothing, and it is never far too small.
+/// are at least radius / d, and d is at least radius. Where the whole light is behind x or faces
+/// away, p_hat is 0. So it is 0 only where the light contributes nothing, and never far too small.
 inline float target(const LightBounds& y, const Hit& x) {
     Vec3 to_y = y.centre - y.has_place * x.p;
     float d2 = std::max(dot(to_y, to_y), std::max(y.radius * y.radius, 1e-30f));

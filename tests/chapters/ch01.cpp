@@ -109,7 +109,7 @@ TEST_SUITE("ch01 monte carlo pi") {
         }
     }
 
-    TEST_CASE("failure: s quoted as the error of the estimate is sqrt N times too large") {
+    TEST_CASE("failure: sigma quoted as the error of the mean is sqrt N times too large") {
         ch01::RunningStats s = ch01::throw_darts(ch01::score_dart, 0, 100, 1);
         CHECK(std::sqrt(s.variance()) / s.standard_error() ==
               doctest::Approx(10).epsilon(1e-12).scale(0));
@@ -123,7 +123,7 @@ TEST_SUITE("ch01 monte carlo pi") {
         CHECK(ch01::darts_table(1, 0).rows[0][2] == "unknown");
     }
 
-    TEST_CASE("identity: ranges of darts thrown apart and merged are the whole") {
+    TEST_CASE("identity: darts of separate ranges, merged, give the same as all at once") {
         ch01::RunningStats whole = ch01::throw_darts(ch01::score_dart, 0, 1000, 3);
         ch01::RunningStats a = ch01::throw_darts(ch01::score_dart, 0, 300, 3);
         a.merge(ch01::throw_darts(ch01::score_dart, 300, 1000, 3));

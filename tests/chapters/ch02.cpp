@@ -100,7 +100,7 @@ TEST_SUITE("ch02 strata") {
         CHECK(std::abs(uniform.variance() / jittered.variance() / 4.6183457178 - 1) < 0.07);
     }
 
-    TEST_CASE("variance: n x n strata have their exact variance for pi, from 2 x 2 to 64 x 64") {
+    TEST_CASE("variance: k x k strata have their exact variance for pi, from 2 x 2 to 64 x 64") {
         struct Row {
             uint32_t n, runs;
             double variance;
@@ -120,7 +120,7 @@ TEST_SUITE("ch02 strata") {
         }
     }
 
-    TEST_CASE("variance: for xy n x n strata fall as n^-4, N-rooks keep the interaction") {
+    TEST_CASE("variance: for xy that of k x k strata falls as k^-4, N-rooks keep the interaction") {
         for (uint32_t n : {2u, 4u, 8u, 16u}) {
             double n2 = n * n, truth = 1 / (18 * n2 * n2) - 1 / (144 * n2 * n2 * n2);
             check_variance(estimates(PointSet::jittered, n * n, 10000, ch02::product), truth, 3);

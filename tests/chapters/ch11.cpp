@@ -179,7 +179,7 @@ TEST_SUITE("ch11 light importance") {
                   doctest::Approx(relative).epsilon(1e-5).scale(0));
     }
 
-    TEST_CASE("variance: the chapter's own share bounds it by N / d, and so it is measured") {
+    TEST_CASE("variance: the chapter's d bounds it by N / d, and the measured one agrees") {
         Scene scene = far_and_near();
         std::vector<double> f = {1000 / 1e6, 1}, pmf = ch11::light_pmf(scene, 0.25);
         double relative = relative_variance(f, pmf), E = f[0] + f[1], p = pmf[1];

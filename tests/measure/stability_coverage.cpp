@@ -178,8 +178,9 @@ int show_blur(Work& work) {
     }
     std::printf("%s", markdown(table).c_str());
     std::printf(
-        "bias over reported error, reported error over real one, how often mean +- 1.96 errors\n"
-        "holds the truth, and how many warn, of %d renders of %d x %d pixels with %d samples.\n",
+        "bias over reported error (s.e.: standard error), reported error over real one, how often\n"
+        "mean +- 1.96 errors holds the truth, and how many warn, of %d renders of %d x %d pixels\n"
+        "with %d samples.\n",
         runs, side, side, spp);
     return failures;
 }
