@@ -25,6 +25,7 @@ tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)/*/*.cpp)))
 common    := $(call objects,common,common/tools/% common/book/%)
 tests     := $(call objects,tests,tests/measure/% tests/fuzz/% tests/check/names.cpp)
+support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
 made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt zone-plate.pbrt)
 
 .PHONY: all programs test host test-slow help clean always $(numbers)

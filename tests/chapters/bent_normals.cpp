@@ -6,7 +6,7 @@
 #include "tests/support/ggx_truth.h"
 #include "tests/support/light_paths.h"
 // After the chapters below it: its names must not be found by theirs.
-#include "chapters/20_light_tracing/estimator.h"
+#include "tests/traces/20.h"
 
 namespace {
 

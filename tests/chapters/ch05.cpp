@@ -3,12 +3,14 @@
 
 #include <regex>
 
-#include "chapters/05_ray_casting/estimator.h"  // first: it has functions that common/ has too
-#include "chapters/07_path_tracing/estimator.h"
+#include "tests/traces/05.h"
+#include "tests/traces/07.h"
 #include "common/geometry/shapes.h"
 #include "tests/support/gates.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+
+template Trace trace_with<ch05::trace>();
 
 namespace {
 

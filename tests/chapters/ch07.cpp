@@ -3,10 +3,12 @@
 
 #include <array>
 
-#include "chapters/07_path_tracing/estimator.h"
+#include "tests/traces/07.h"
 #include "common/base/error.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
+
+template Trace trace_with<ch07::trace>();
 
 namespace {
 

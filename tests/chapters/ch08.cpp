@@ -1,10 +1,12 @@
 // Chapter 08: Russian roulette: the mean of chapter 07, its price, and what a wrong one does.
 #include <doctest/doctest.h>
 
-#include "chapters/07_path_tracing/estimator.h"
-#include "chapters/08_russian_roulette/estimator.h"
+#include "tests/traces/07.h"
+#include "tests/traces/08.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
+
+template Trace trace_with<ch08::trace>();
 
 namespace {
 

@@ -3,10 +3,12 @@
 
 #include <array>
 
-#include "chapters/08_russian_roulette/estimator.h"
-#include "chapters/09_light_sampling/estimator.h"
+#include "tests/traces/08.h"
+#include "tests/traces/09.h"
 #include "common/results/warnings.h"
 #include "tests/support/estimators.h"
+
+template Trace trace_with<ch09::trace>(ch09::LightMeasure);
 
 using ch09::LightMeasure;
 

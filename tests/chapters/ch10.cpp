@@ -3,9 +3,11 @@
 
 #include <array>
 
-#include "chapters/09_light_sampling/estimator.h"
-#include "chapters/10_cosine_sampling/estimator.h"
+#include "tests/traces/09.h"
+#include "tests/traces/10.h"
 #include "tests/support/estimators.h"
+
+template Trace trace_with<ch10::trace>();
 
 namespace {
 

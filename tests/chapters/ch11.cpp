@@ -3,10 +3,12 @@
 
 #include <array>
 
-#include "chapters/10_cosine_sampling/estimator.h"
-#include "chapters/11_light_importance/estimator.h"
+#include "tests/traces/10.h"
+#include "tests/traces/11.h"
 #include "common/light/pdf_one_light.h"
 #include "tests/support/estimators.h"
+
+template Trace trace_with<ch11::trace>(ch11::LightTable);
 
 namespace {
 

@@ -5,10 +5,12 @@
 #include <tuple>
 #include <utility>
 
-#include "chapters/11_light_importance/estimator.h"
-#include "chapters/12_ris/estimator.h"
+#include "tests/traces/11.h"
+#include "tests/traces/12.h"
 #include "common/base/parallel.h"
 #include "tests/support/estimators.h"
+
+template Trace trace_with<ch12::trace>(ch12::Proposal);
 
 namespace {
 

@@ -3,9 +3,11 @@
 
 #include <array>
 
-#include "chapters/15_mis_ris/estimator.h"
-#include "chapters/16_lens_and_shutter/estimator.h"
+#include "tests/traces/15.h"
+#include "tests/traces/16.h"
 #include "tests/support/estimators.h"
+
+template Trace trace_with<ch16::trace>(many_lights::Lights);
 
 namespace {
 

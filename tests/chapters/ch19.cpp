@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "chapters/18_dispersion/estimator.h"
+#include "tests/traces/18.h"
 #include "chapters/19_adaptive/estimator.h"
 #include "common/base/files.h"
 #include "common/options/loading.h"

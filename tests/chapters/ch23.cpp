@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "chapters/15_mis_ris/estimator.h"
-#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/traces/15.h"
+#include "tests/traces/22.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "common/results/warnings.h"
 #include "tests/support/known_lights.h"

@@ -1,7 +1,7 @@
 // Chapter 24: photons whose radius shrinks from pass to pass.
 #include <doctest/doctest.h>
 
-#include "chapters/15_mis_ris/estimator.h"
+#include "tests/traces/15.h"
 #include "chapters/23_photon_mapping/estimator.h"
 // In this order: names of a lower chapter must not be found through a higher one.
 #include "chapters/24_progressive_photons/estimator.h"

@@ -1,8 +1,8 @@
 // Chapter 25: photons as one more strategy of the bidirectional chapters.
 #include <doctest/doctest.h>
 
-#include "chapters/15_mis_ris/estimator.h"
-#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/traces/15.h"
+#include "tests/traces/22.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/25_vertex_merging/estimator.h"
 #include "tests/measure/floor_in_mirror.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "chapters/15_mis_ris/estimator.h"
+#include "tests/traces/15.h"
 #include "chapters/26_radiosity/run.h"
 #include "common/base/checksum.h"
 #include "tests/support/estimators.h"

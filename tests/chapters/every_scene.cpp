@@ -2,11 +2,11 @@
 // 16 and 17 render, class by class.
 #include <doctest/doctest.h>
 
-#include "chapters/16_lens_and_shutter/estimator.h"
-#include "chapters/17_sky_image/estimator.h"
-#include "chapters/20_light_tracing/estimator.h"
-#include "chapters/21_bidirectional/estimator.h"
-#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/traces/16.h"
+#include "tests/traces/17.h"
+#include "tests/traces/20.h"
+#include "tests/traces/21.h"
+#include "tests/traces/22.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/24_progressive_photons/estimator.h"
 #include "chapters/25_vertex_merging/estimator.h"

@@ -1,9 +1,9 @@
 // A room in which light is the same everywhere, whatever stands in it: every chapter must find it.
 #include "tests/support/chapters.h"
 // In this order: names of a lower chapter must not be found through a higher one.
-#include "chapters/18_dispersion/estimator.h"
-#include "chapters/21_bidirectional/estimator.h"
-#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/traces/18.h"
+#include "tests/traces/21.h"
+#include "tests/traces/22.h"
 #include "common/picture/image.h"
 #include "tests/support/folder.h"
 

@@ -4,12 +4,12 @@
 
 #include <cstring>
 
-#include "chapters/05_ray_casting/estimator.h"
+#include "tests/traces/05.h"
 #include "tests/support/chapters.h"
 // After these, as what they taught has the same names.
-#include "chapters/20_light_tracing/estimator.h"
-#include "chapters/21_bidirectional/estimator.h"
-#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/traces/20.h"
+#include "tests/traces/21.h"
+#include "tests/traces/22.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/24_progressive_photons/estimator.h"
 #include "chapters/25_vertex_merging/estimator.h"

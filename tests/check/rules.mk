@@ -6,7 +6,7 @@ exercise:
 	@common/tools/exercise '$(CH)'
 	@MAKEFLAGS= $(MAKE) --no-print-directory checkers
 checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp) tests/measure/methods.cpp \
-            tests/measure/measure.cpp tests/support/main.cpp)
+            tests/measure/measure.cpp) $(support)
 $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
 	@mkdir -p $(@D); printf '#include "$<"\n' >$@
 # Compiled in advance, with the flags that tests/check/check compiles with. g++ takes a header for the one in here only if its

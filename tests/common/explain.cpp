@@ -7,11 +7,11 @@
 #include <map>
 #include <sstream>
 
-#include "chapters/08_russian_roulette/estimator.h"
-#include "chapters/09_light_sampling/estimator.h"
-#include "chapters/13_glossy/estimator.h"
-#include "chapters/21_bidirectional/estimator.h"
-#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/traces/08.h"
+#include "tests/traces/09.h"
+#include "tests/traces/13.h"
+#include "tests/traces/21.h"
+#include "tests/traces/22.h"
 #include "common/explaining/labels.h"
 #include "common/explaining/path_drawing.h"
 #include "common/explaining/scene_outline.h"

@@ -1,8 +1,8 @@
 // When a warning is given: each of them alone, on both sides of its threshold.
 #include <doctest/doctest.h>
 
-#include "chapters/15_mis_ris/estimator.h"
-#include "chapters/21_bidirectional/estimator.h"
+#include "tests/traces/15.h"
+#include "tests/traces/21.h"
 #include "common/results/black_picture.h"
 #include "common/results/metal_light.h"
 #include "common/results/warnings.h"

@@ -11,6 +11,7 @@
 #define DOCTEST_CONFIG_DISABLE  // this is no test, though it uses the same helpers
 #include "tests/fuzz/films.h"
 #include "tests/fuzz/pictures.h"
+#include "tests/support/folder.cpp"
 
 namespace {
 

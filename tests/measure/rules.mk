@@ -45,7 +45,7 @@ bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency passes radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
-harness := $(common) $(BUILD)/obj/tests/support/main.o
+harness := $(common) $(support)
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's)
 teeth: $(harness) $(made)

@@ -1,14 +1,14 @@
 // Pictures by another renderer: what our chapters must agree with.
 #include <doctest/doctest.h>
 
-#include "chapters/07_path_tracing/estimator.h"
-#include "chapters/08_russian_roulette/estimator.h"
-#include "chapters/13_glossy/estimator.h"
-#include "chapters/14_mis/estimator.h"
-#include "chapters/15_mis_ris/estimator.h"
-#include "chapters/20_light_tracing/estimator.h"
-#include "chapters/21_bidirectional/estimator.h"
-#include "chapters/22_fast_bidirectional/estimator.h"
+#include "tests/traces/07.h"
+#include "tests/traces/08.h"
+#include "tests/traces/13.h"
+#include "tests/traces/14.h"
+#include "tests/traces/15.h"
+#include "tests/traces/20.h"
+#include "tests/traces/21.h"
+#include "tests/traces/22.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"

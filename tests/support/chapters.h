@@ -3,15 +3,15 @@
 #include "common/path/trace.h"
 #include "tests/support/estimators.h"
 // In this order: names of a lower chapter must not be found through a higher one.
-#include "chapters/07_path_tracing/estimator.h"
-#include "chapters/08_russian_roulette/estimator.h"
-#include "chapters/09_light_sampling/estimator.h"
-#include "chapters/10_cosine_sampling/estimator.h"
-#include "chapters/11_light_importance/estimator.h"
-#include "chapters/12_ris/estimator.h"
-#include "chapters/13_glossy/estimator.h"
-#include "chapters/14_mis/estimator.h"
-#include "chapters/15_mis_ris/estimator.h"
+#include "tests/traces/07.h"
+#include "tests/traces/08.h"
+#include "tests/traces/09.h"
+#include "tests/traces/10.h"
+#include "tests/traces/11.h"
+#include "tests/traces/12.h"
+#include "tests/traces/13.h"
+#include "tests/traces/14.h"
+#include "tests/traces/15.h"
 
 struct Chapter {
     std::string name;

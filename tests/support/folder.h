@@ -4,9 +4,7 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <random>
 #include <set>
 #include <string>
 
@@ -16,30 +14,15 @@
 /// A new folder, removed with all that is in it.
 class TemporaryFolder {
 public:
-    TemporaryFolder() {
-        std::random_device random;
-        auto name = "path-" + std::to_string(random()) + std::to_string(random());
-        std::filesystem::path path = std::filesystem::temp_directory_path() / name;
-        if (!std::filesystem::create_directory(path)) throw std::runtime_error("no folder");
-        path_ = file_name(path);
-    }
+    TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code none;
-        std::filesystem::remove_all(path_, none);
-    }
+    ~TemporaryFolder();
     const std::string& path() const { return path_; }
-    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+    std::string operator/(const std::string& name) const;
 
     /// The names of all that is in it.
-    std::set<std::string> names() const {
-        std::set<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-            names.insert(file_name(entry.path().filename()));
-        }
-        return names;
-    }
+    std::set<std::string> names() const;
 
 private:
     std::string path_;

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #ifndef _WIN32
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -81,60 +82,17 @@ inline double processor_seconds(const rusage& used) {
 }
 
 /// Becomes the program.
-inline int execute_words(std::vector<std::string> words) {
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    ::execvp(argv[0], argv.data());
-    return 127;
-}
+int execute_words(std::vector<std::string> words);
 
 /// A program that runs, with the words of its command line; or, in tests/posix, a process that does
 /// `work` and exits with what it returns.
 class Process {
 public:
-    explicit Process(const std::vector<std::string>& words)
-        : Process([&] { return execute_words(words); }) {}
-    template <typename Work>
-    explicit Process(const Work& work) {
-        std::fflush(nullptr);
-        for (const char* name : {"out", "err"}) write_file_atomically(folder_ / name, "");
-        // A signal that comes early waits until it is the child's own, not doctest's.
-        sigset_t all, before;
-        ::sigfillset(&all);
-        ::sigprocmask(SIG_BLOCK, &all, &before);
-        id_ = ::fork();
-        if (id_ != 0) ::sigprocmask(SIG_SETMASK, &before, nullptr);
-        if (id_ == 0) {
-            rlimit none = {0, 0};
-            ::setrlimit(RLIMIT_CORE, &none);
-            for (int signal : stop_signals) std::signal(signal, SIG_DFL);
-            ::sigprocmask(SIG_SETMASK, &before, nullptr);
-            std::freopen((folder_ / "out").c_str(), "w", stdout);
-            std::freopen((folder_ / "err").c_str(), "w", stderr);
-            int code = work();
-            std::fflush(nullptr);
-            ::_exit(code);
-        }
-    }
-    ~Process() {
-        if (id_ > 0) kill(SIGKILL), wait();
-    }
+    explicit Process(const std::vector<std::string>& words);
+    explicit Process(const std::function<int()>& work);
+    ~Process();
     void kill(int signal) { ::kill(id_, signal); }
-    Finished wait() {
-        int status = 0;
-        rusage used = {};
-        while (::wait4(id_, &status, 0, &used) < 0 && errno == EINTR) {
-        }
-        id_ = 0;
-        Finished end;
-        end.seconds = processor_seconds(used);
-        if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
-        if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
-        end.out = read_file(folder_ / "out");
-        end.err = read_file(folder_ / "err");
-        return end;
-    }
+    Finished wait();
 
 private:
     TemporaryFolder folder_;

@@ -1,5 +1,7 @@
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+# In the program of all tests, each trace() is compiled once: see tests/traces.
+$(tests): own_flags += -DALL_TESTS
 # Most tests run for less time than it takes to compile them by -O3.
 briefly = $(if $(filter -O3,$(OPT)),-O1)
 brief  := $(filter-out %/exact_hits.o $(BUILD)/obj/tests/check/% $(BUILD)/obj/tests/diagnose/%,$(tests))
@@ -10,5 +12,5 @@ ifdef precompiled
 advance := $(filter-out %/main.o,$(brief))
 $(advance): own_flags += $(call precompiled,tests/support/included.h)
 $(advance): $(BUILD)/obj/tests/support/included.h.gch
-$(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
+$(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS -DALL_TESTS $(briefly)
 endif

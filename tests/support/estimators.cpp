@@ -1,0 +1,71 @@
+#include "tests/support/estimators.h"
+
+Scene floor_under(const std::string& light) {
+    Scene scene = world_of(
+        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 500 1 500 " +
+        square(0, true) + "AttributeEnd\n" + light);
+    scene.max_depth = 1;
+    return scene;
+}
+
+Hit origin_of(const Scene& scene) { return *intersect(scene, onto_origin); }
+
+std::string unit_square(double h, double x, double z) {
+    return "Translate " + std::to_string(x) + " " + std::to_string(h) + " " + std::to_string(z) +
+           " Scale 0.5 1 0.5 " + square(0, false);
+}
+
+std::string disk(double R, double h, double x) {
+    return "Translate " + std::to_string(x) + " " + std::to_string(h) +
+           " 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" " + std::to_string(R) + "\n";
+}
+
+RunningStats repeat(const Scene& scene, const Ray& ray, const Trace& trace, int paths,
+                    uint32_t seed, double scale) {
+    return in_blocks<RunningStats>(paths, [&](int first, int last) {
+        RunningStats stats;
+        Sampler sampler(SamplerType::independent, seed, 1);
+        Recorder recorder;
+        for (int i = first; i < last; i++) {
+            sampler.start(0, static_cast<uint32_t>(i));
+            stats.add(scale * static_cast<double>(trace(scene, ray, sampler, recorder).g));
+        }
+        return stats;
+    });
+}
+
+RunningStats irradiance(const Scene& scene, const Trace& trace, int paths, uint32_t seed) {
+    return repeat(scene, onto_origin, trace, paths, seed, pi_exact);
+}
+
+void check_bounded(const RunningStats& s, double truth, double relative_se) {
+    CAPTURE(s.mean());
+    CAPTURE(truth);
+    CAPTURE(s.standard_error());
+    CHECK(std::isfinite(s.mean()));
+    CHECK(std::abs(s.mean() - truth) <= 5 * s.standard_error() + 2e-6 * truth);
+    CHECK(s.standard_error() <= relative_se * truth);
+}
+
+SquareMoments moments_of(const std::function<double(double, double)>& f, int n) {
+    double m[5] = {};
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            double x = f((i + 0.5) / n, (j + 0.5) / n), power = 1;
+            for (double& moment : m) moment += power, power *= x;
+        }
+    for (double& moment : m) moment /= static_cast<double>(n) * n;
+    double variance = m[2] - m[1] * m[1];
+    double fourth = m[4] - 4 * m[1] * m[3] + 6 * m[1] * m[1] * m[2] - 3 * std::pow(m[1], 4);
+    return {m[1], variance, fourth / (variance * variance)};
+}
+
+double rel_mse(const Film& film) {
+    double sum = 0, n = film.spp();
+    for (int y = 0; y < film.height; y += 8)
+        for (int x = 0; x < film.width; x += 8) {
+            Measured block = block_of(film, x, y, 8);
+            sum += 64 * n * block.se * block.se / (block.mean * block.mean + 0.01);
+        }
+    return sum / (film.width * film.height / 64);
+}

@@ -1,0 +1,41 @@
+#include "tests/support/run_program.h"
+
+Words with_words(const std::string& program, const Words& words) {
+    Words all = program_words(program);
+    all.insert(all.end(), words.begin(), words.end());
+    return all;
+}
+
+Process start(const std::string& program, const Words& words) {
+    return Process(with_words(program, words));
+}
+
+Finished run(const std::string& program, const Words& words) {
+    return start(program, words).wait();
+}
+
+std::vector<std::string> programs(bool render) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator("chapters")) {
+        if (!entry.is_directory()) continue;
+        std::string name = file_name(entry.path().filename());
+        if (name == "06_bvh") continue;        // draws work instead of light: has tests of its own
+        if (name == "26_radiosity") continue;  // renders no mirrors: has its own
+        std::string help = run(name, {"--help"}).out;
+        if ((help.find("[SCENE]") != std::string::npos) == render) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    REQUIRE(!names.empty());
+    return names;
+}
+
+void append(Words& words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+}
+
+Words few_photons(const std::string& program) {
+    if (program.find("photon") == std::string::npos) return {};
+    return {"--photons", "2000"};
+}
+
+bool begins_at_lights(const std::string& program) { return program > "20" && program < "23"; }

@@ -1,0 +1,8 @@
+// Chapter 10 for tests: tests/chapters/ch10.cpp compiles its trace() for all of them.
+#pragma once
+#include "chapters/10_cosine_sampling/estimator.h"
+#include "common/path/trace.h"
+
+#ifdef ALL_TESTS
+extern template Trace trace_with<ch10::trace>();
+#endif
