@@ -42,12 +42,11 @@ previous  := programs
 $(foreach c,$(chapters),$(eval out/$c.png: | $(previous))$(eval previous := out/$c.png))
 
 #: starting: make test         build, and run all tests but the slow ones; T='NAME': those so named
-test: $(BUILD)/tests programs
-	$(if $(T),,$(check_pages))
-	tests/run $(BUILD) $(if $(T),--test-case="$$T",--test-suite-exclude='*slow*')
+test: $(BUILD)/tests programs $(if $(T),,check_pages)
+	tests/run $(BUILD) $(if $(T),--test-case="$$T",--quick)
 #: starting: make test-slow    run the slow ones
 test-slow: $(BUILD)/tests programs
-	tests/run $(BUILD) --test-suite='*slow*'
+	tests/run $(BUILD) --slow
 
 #: starting: make 07           build and run one chapter
 $(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $(made)

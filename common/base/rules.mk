@@ -1,4 +1,7 @@
 # How files are compiled and linked on each system, and what is said of it.
+# What reads, prints and explains runs for less time than it takes to compile it by -O3.
+brief_folders := explaining options program results scene_file
+brief_common  := $(filter $(foreach f,$(brief_folders),$(BUILD)/obj/common/$f/%),$(common))
 link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 
 # g++ compiles the headers that most files include once: the others then compile in three quarters of the
@@ -10,16 +13,17 @@ precompiled = -include $(BUILD)/obj/$(1) -fpch-preprocess -Wno-array-bounds -Wno
     -Wno-stringop-overflow -Wno-stringop-overread
 CCACHE_SLOPPINESS ?= pch_defines,time_macros
 export CCACHE_SLOPPINESS
-$(BUILD)/obj/%.h.gch: %.h $(BUILD)/flags | $(BUILD)/packages
-	@mkdir -p $(@D); echo "$(counted)compile $<"; echo '#include "$<"' >$(BUILD)/obj/$<
-	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -MMD -MP -x c++-header $(BUILD)/obj/$< -o $@
-standard := $(common) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp tests/measure/*.cpp common/tools/*.cpp))
+$(BUILD)/obj/%.h.gch: $$(subst brief/,,$$*).h $(BUILD)/flags | $(BUILD)/packages
+	@mkdir -p $(@D); echo "$(counted)compile $<"; echo '#include "$<"' >$(basename $@)
+	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -MMD -MP -x c++-header $(basename $@) -o $@
+standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp tests/measure/*.cpp common/tools/*.cpp))
 $(standard): own_flags = $(call precompiled,common/base/standard.h)
 $(standard): $(BUILD)/obj/common/base/standard.h.gch
+# One of its own, since what is precompiled by -O3 makes g++ compile the rest by -O3, too.
+$(brief_common): own_flags = $(call precompiled,brief/common/base/standard.h)
+$(brief_common): $(BUILD)/obj/brief/common/base/standard.h.gch
 endif
-# What reads, prints and explains runs for less time than it takes to compile it by -O3.
-brief_folders := explaining options program results scene_file
-$(filter $(brief_folders:%=$(BUILD)/obj/common/%/%),$(common)): own_flags += $(if $(filter -O3,$(OPT)),-O1)
+$(brief_common) $(BUILD)/obj/brief/common/base/standard.h.gch: own_flags += $(if $(filter -O3,$(OPT)),-O1)
 
 # Windows, by MinGW-w64, natively or from Linux. Programs need no other file there, and end in .exe:
 # for make and scripts a link has the name without it, which MSYS2 knows by itself. Without AVX, as

@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -11,10 +12,18 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
+
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif

@@ -204,7 +204,8 @@ void draw_legend(Svg& svg, float top) {
                    {"stroke='#e0a800' stroke-width='5'", "lamp"}};
     for (size_t i = 0; i < std::size(entries); i++) {
         Vec2 at = {margin + 210 * static_cast<float>(i % 3), top + 22 * static_cast<float>(i / 3)};
-        svg.line({at.x, at.y - 4}, {at.x + 26, at.y - 4}, entries[i].style);
+        Vec2 begin = {at.x, at.y - 4};
+        svg.line(begin, {at.x + 26, begin.y}, entries[i].style);
         svg.text({at.x + 32, at.y}, entries[i].words);
     }
 }

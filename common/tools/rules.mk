@@ -30,8 +30,9 @@ readmes: programs
 	common/tools/fill_readmes $(if $(SLOW),--slow)
 
 # What programs print is checked of the main build alone; the pages not at all on Windows, which has no links.
-check_pages = $(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check \
-                $(if $(filter build,$(BUILD)),,--text))
+.PHONY: check_pages
+check_pages: programs
+	$(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
 
 #: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy
 tidy: compile_commands.json

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 
+#include "common/options/loading.h"
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
 #include "common/picture/image.h"
@@ -226,6 +227,38 @@ TEST_SUITE("programs") {
         CHECK(end.err == "none/a.ppm: error: cannot write: No such file or directory\n");
     }
 
+    TEST_CASE("input: a chapter's program renders what its chapter can, and refuses the rest") {
+        struct {
+            bool Features::*feature;
+            std::string camera, sky, change, error;
+        } cases[] = {
+            {&Features::lens, "\"float lensradius\" 1", "", "", "have a lens"},
+            {&Features::shutter, "", "", "ActiveTransform EndTime Scale 1 2 1", "shapes move in"},
+            {&Features::sky_image, "",
+             "\"string filename\" \"" + file_name(fs::absolute("scenes/sky.pfm")) + "\"", "",
+             "has an image in"},
+            {&Features::dispersion, "", "",
+             "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"", "glass disperses in"}};
+        TemporaryFolder folder;
+        for (const std::string& program : programs(true))
+            for (const auto& c : cases) {
+                CAPTURE(program);
+                CAPTURE(c.error);
+                std::string text = "Camera \"perspective\" " + c.camera +
+                                   " WorldBegin LightSource \"infinite\" " + c.sky + " " +
+                                   c.change + " Shape \"sphere\"";
+                write_file_atomically(folder / "a.pbrt", text);
+                Words words = {folder / "a.pbrt", "--size", "4x4",           "--spp", "1",
+                               "--quiet",         "--out",  folder / "a.pfm"};
+                append(words, few_photons(program));
+                Finished end = run(program, words);
+                CAPTURE(end.err);
+                bool rendered = features_of(std::stoi(program)).*c.feature;
+                CHECK(end.code == (rendered ? 0 : 1));
+                CHECK((end.err.find(c.error) == std::string::npos) == rendered);
+            }
+    }
+
     TEST_CASE("identity: the same bytes for 1, 2 and 7 threads and for each sampler") {
         for (const std::string& program : programs(true)) {
             CAPTURE(program);
@@ -333,10 +366,12 @@ TEST_SUITE("programs") {
         }
         TemporaryFolder folder;
         write_image(folder / "a.pfm", a, ""), write_image(folder / "b.pfm", b, "");
-        for (double trim : {0.0, 2.0}) {
+        for (auto [trim, range] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {0.0, 0.3}, {2.0, 0.3}}) {
             Comparison c = compare(a, b, trim);
             Words words = {folder / "a.pfm", folder / "b.pfm", "--out", folder / "e.pfm"};
-            if (trim > 0) append(words, {"--trim", "2", "--range", "0.3"});
+            if (trim > 0) append(words, {"--trim", "2"});
+            if (range > 0) append(words, {"--range", "0.3"});
+            double white = range > 0 ? range : error_range(a, b);
             std::string out = run("compare", words).out;
             auto line = [](const char* pattern, auto... values) {
                 char text[300];
@@ -358,8 +393,7 @@ TEST_SUITE("programs") {
                   line("median of A/B over the pixels: %.5g\n", c.median_ratio),
                   line("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks,
                        c.worst_z, c.worst_x, c.worst_y, c.beyond_5),
-                  line("white %.3g\n", trim > 0 ? 0.3 : error_range(a, b)),
-                  std::string("    below 5 standard errors"),
+                  line("white %.3g\n", white), std::string("    below 5 standard errors"),
                   std::string("    mean of (a-b)^2; its root; mean of"),
                   std::string("    0.1 to 2 %: noise everywhere"),
                   std::string("    of the middle pixel: 2 or 1/pi"),
@@ -367,8 +401,7 @@ TEST_SUITE("programs") {
                 CHECK(out.find(expected) != std::string::npos);
             std::string without = "without the worst 2 % of the pixels:\n";
             CHECK((out.find(without) != std::string::npos) == (trim > 0));
-            double range = trim > 0 ? 0.3 : error_range(a, b);
-            CHECK(read_image(folder / "e.pfm").pixels == error_image(a, b, range).pixels);
+            CHECK(read_image(folder / "e.pfm").pixels == error_image(a, b, white).pixels);
         }
         double share = compare(a, b, 0).worst_share;
         CHECK(share > 0.05);  // so that percent and share are far apart

@@ -8,6 +8,9 @@
 #undef near
 #endif
 
+#include <cmath>
+#include <fstream>
+#include <set>
 #include <utility>
 
 #include "tests/support/process.h"
@@ -43,22 +46,31 @@ std::wstring quoted(const std::wstring& word) {
 }
 #endif
 
+/// Tests that make test leaves to make test-slow; make check runs them too.
+const std::set<std::string> of_make_test_slow = [] {
+    std::set<std::string> names;
+    std::ifstream file("tests/slow.txt");
+    for (std::string name; std::getline(file, name);) names.insert(name);
+    return names;
+}();
+
 struct Reporter : doctest::ConsoleReporter {
     explicit Reporter(const doctest::ContextOptions& options) : ConsoleReporter(options) {}
     void test_case_start(const doctest::TestCaseData& data) override {
         ConsoleReporter::test_case_start(data);
         name_ = data.m_name;
-        is_slow_ = std::string(data.m_test_suite).find("slow") != std::string::npos;
+        bool in_suite = std::string(data.m_test_suite).find("slow") != std::string::npos;
+        limit_ = in_suite ? HUGE_VAL : of_make_test_slow.contains(name_) ? 10 : 3;
         begun_ = seconds();
     }
     void test_case_end(const doctest::CurrentTestCaseStats& stats) override {
         doctest::CurrentTestCaseStats of_processor = stats;  // --duration prints these seconds
         of_processor.seconds = seconds() - begun_;
         ConsoleReporter::test_case_end(of_processor);
-        if (is_slow_ || of_processor.seconds <= 10) return;
-        std::printf(
-            "'%s' takes %.0f s of processor time: beyond 10 s a test belongs into a slow suite\n",
-            name_.c_str(), of_processor.seconds);
+        if (of_processor.seconds <= limit_) return;
+        std::printf("'%s' takes %.0f s of processor time: beyond %.0f s a test belongs into %s\n",
+                    name_.c_str(), of_processor.seconds, limit_,
+                    limit_ == 10 ? "a slow suite" : "tests/slow.txt");
     }
     void test_run_end(const doctest::TestRunStats& stats) override {
         ConsoleReporter::test_run_end(stats);
@@ -83,7 +95,7 @@ private:
     }
 
     std::string name_;
-    bool is_slow_ = false;
+    double limit_ = 0;  // s of processor time
     double begun_ = 0;
 };
 
