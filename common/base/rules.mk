@@ -1,14 +1,18 @@
 # How files are compiled and linked on each system, and what is said of it.
 # What reads, prints and explains runs for less time than it takes to compile it by -O3.
-brief_folders := explaining options program results scene_file
-brief_common  := $(filter $(foreach f,$(brief_folders),$(BUILD)/obj/common/$f/%),$(common))
+briefly       = $(if $(filter -O3,$(OPT)),-O1)
+brief_folders := explaining options picture program results scene_file
+brief_common  := $(filter $(foreach f,$(brief_folders),$(BUILD)/obj/common/$f/%),$(filter-out %/film.o %/pixel_sum.o,$(common)))
 link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
+
+# g++ collects garbage for a twentieth of its time, to need 30 MB less.
+ifneq ($(findstring Free Software,$(shell $(CXX) --version)),)
+CXXFLAGS += --param=ggc-min-heapsize=1000000
 
 # g++ compiles the headers that most files include once: the others then compile in three quarters of the
 # time. With such a file, g++ 12 warns of arrays and copies in std::string by mistake. ccache needs to be told that
 # it may be used. The file itself is not from ccache: g++ knows the headers in it by the times of their files,
 # which other folders have not. PRECOMPILED(HEADER): the flags that use it.
-ifneq ($(findstring Free Software,$(shell $(CXX) --version)),)
 precompiled = -include $(BUILD)/obj/$(1) -fpch-preprocess -Wno-array-bounds -Wno-restrict \
     -Wno-stringop-overflow -Wno-stringop-overread
 CCACHE_SLOPPINESS ?= pch_defines,time_macros
@@ -16,14 +20,17 @@ export CCACHE_SLOPPINESS
 $(BUILD)/obj/%.h.gch: $$(subst brief/,,$$*).h $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "$(counted)compile $<"; echo '#include "$<"' >$(basename $@)
 	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -MMD -MP -x c++-header $(basename $@) -o $@
-standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp tests/measure/*.cpp common/tools/*.cpp))
-$(standard): own_flags = $(call precompiled,common/base/standard.h)
+standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp tests/check/*.cpp tests/measure/*.cpp))
+$(standard): own_flags += $(call precompiled,common/base/standard.h)
 $(standard): $(BUILD)/obj/common/base/standard.h.gch
+$(BUILD)/obj/common/base/standard.h.gch: own_flags =
 # One of its own, since what is precompiled by -O3 makes g++ compile the rest by -O3, too.
-$(brief_common): own_flags = $(call precompiled,brief/common/base/standard.h)
-$(brief_common): $(BUILD)/obj/brief/common/base/standard.h.gch
+brief_standard := $(brief_common) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/diagnose/*.cpp tests/diagnose/*/*.cpp))
+$(brief_standard): own_flags += $(call precompiled,brief/common/base/standard.h)
+$(brief_standard): $(BUILD)/obj/brief/common/base/standard.h.gch
+$(BUILD)/obj/brief/common/base/standard.h.gch: own_flags = $(briefly)
 endif
-$(brief_common) $(BUILD)/obj/brief/common/base/standard.h.gch: own_flags += $(if $(filter -O3,$(OPT)),-O1)
+$(brief_common): own_flags += $(briefly)
 
 # Windows, by MinGW-w64, natively or from Linux. Programs need no other file there, and end in .exe:
 # for make and scripts a link has the name without it, which MSYS2 knows by itself. Without AVX, as

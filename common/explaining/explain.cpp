@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <regex>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
+#include "common/base/regex.h"
 #include "common/explaining/path_drawing.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
@@ -162,8 +162,8 @@ RenderOptions explain_brightest(const RenderOptions& options, const Rendering& r
         percent(s.largest / all).c_str(),
         options.paths.empty() ? "paths of class L.*D.*E, without lamps that are merely seen"
                               : "that of --paths");
-    static const std::regex word(" --explain-brightest(?= |$)");
-    std::printf("To see it again: %s\n\n",
-                std::regex_replace(options.command, word, " --explain " + place).c_str());
+    std::string again =
+        replace_each(options.command, " --explain-brightest(?= |$)", " --explain " + place);
+    std::printf("To see it again: %s\n\n", again.c_str());
     return found;
 }

@@ -1,12 +1,12 @@
 #include "common/options/options.h"
 
 #include <algorithm>
-#include <regex>
 #include <thread>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
+#include "common/base/regex.h"
 #include "common/options/project.h"
 #include "common/picture/notes.h"
 #include "common/recording/class_filter.h"
@@ -23,26 +23,22 @@ void add_output(std::vector<std::string>& out, const std::string& path, bool tab
 }
 
 void parse_size(const std::string& text, RenderOptions& options) {
-    std::smatch match;
-    if (!std::regex_match(text, match, std::regex("(\\d{1,5})x(\\d{1,5})"))) {
-        fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
-    }
-    options.width = static_cast<int>(parse_integer("size", match[1], 1, 65536));
-    options.height = static_cast<int>(parse_integer("size", match[2], 1, 65536));
+    std::vector<std::string> groups = groups_of(text, "(\\d{1,5})x(\\d{1,5})");
+    if (groups.empty()) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
+    options.width = static_cast<int>(parse_integer("size", groups[1], 1, 65536));
+    options.height = static_cast<int>(parse_integer("size", groups[2], 1, 65536));
     if (int64_t{options.width} * options.height > 1 << 28) {
         fail_value("size", text, "at most 2^28 pixels");
     }
 }
 
 void parse_explain(const std::string& text, RenderOptions& options) {
-    std::smatch match;
-    if (!std::regex_match(text, match, std::regex("(\\d{1,9}),(\\d{1,9})(?:,(\\d{1,9}))?"))) {
-        fail_value("explain", text, "X,Y or X,Y,SAMPLE");
-    }
+    std::vector<std::string> groups = groups_of(text, "(\\d{1,9}),(\\d{1,9})(?:,(\\d{1,9}))?");
+    if (groups.empty()) fail_value("explain", text, "X,Y or X,Y,SAMPLE");
     options.explain = true;
-    options.explain_x = std::stoi(match[1]);
-    options.explain_y = std::stoi(match[2]);
-    options.explain_sample = match[3].matched ? std::stoi(match[3]) : -1;
+    options.explain_x = std::stoi(groups[1]);
+    options.explain_y = std::stoi(groups[2]);
+    options.explain_sample = groups[3].empty() ? -1 : std::stoi(groups[3]);
 }
 
 void parse_film(const std::string& text, RenderOptions& options) {
@@ -58,9 +54,9 @@ double parse_interval(const std::string& text) {
 }
 
 void parse_part(const std::string& text, RenderOptions& options) {
-    std::smatch match;
-    if (std::regex_match(text, match, std::regex("(\\d{1,9})/(\\d{1,9})"))) {
-        options.part = std::stoi(match[1]), options.parts = std::stoi(match[2]);
+    std::vector<std::string> groups = groups_of(text, "(\\d{1,9})/(\\d{1,9})");
+    if (!groups.empty()) {
+        options.part = std::stoi(groups[1]), options.parts = std::stoi(groups[2]);
         if (options.part >= 1 && options.part <= options.parts) return;
     }
     fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");

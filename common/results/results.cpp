@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <regex>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/json.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
+#include "common/base/regex.h"
 #include "common/options/command_line.h"
 #include "common/picture/finite_part.h"
 #include "common/picture/notes.h"
@@ -192,8 +192,8 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
     if (r.stats.not_finite == 0 && all_written) return r.stats.interrupted ? 3 : 0;
     if (r.stats.not_finite == 0) return 1;
     // The command without the options that --explain does not accept.
-    static const std::regex film_words(" --(film|film-every|part)(=| )('[^']*'|[^ ]*)");
-    std::string command = std::regex_replace(options.command, film_words, "");
+    const char* film_words = " --(film|film-every|part)(=| )('[^']*'|[^ ]*)";
+    std::string command = replace_each(options.command, film_words, "");
     std::fprintf(stderr, "error: %llu samples were not finite; to see one: %s --explain %d,%d,%d\n",
                  static_cast<unsigned long long>(r.stats.not_finite), command.c_str(),
                  r.stats.bad_x, r.stats.bad_y, r.stats.bad_sample);

@@ -19,6 +19,13 @@ std::vector<Vec3> facet_normals(const Geometry& g) {
 
 }  // namespace
 
+Scene::Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) = default;
+Scene::~Scene() = default;
+
 void prepare(Scene& scene, int threads, const Report& report) {
     // Gather all skies in the first.
     scene.sky = {};

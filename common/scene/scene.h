@@ -102,4 +102,12 @@ struct Scene {
 
     /// What messages name: the place, if it is known, or else the file.
     Position place(const Position* at) const { return at ? *at : Position{file}; }
+
+    // The compiler's own; defined in prepare.cpp, or each file would compile them once more.
+    Scene();
+    Scene(const Scene&);
+    Scene(Scene&&);
+    Scene& operator=(const Scene&);
+    Scene& operator=(Scene&&);
+    ~Scene();
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/traces/18.h"
-#include "chapters/19_adaptive/estimator.h"
+#include "tests/traces/19.h"
 #include "common/base/files.h"
 #include "common/options/loading.h"
 #include "common/path/camera_sample.h"
@@ -13,6 +13,8 @@
 #include "tests/support/folder.h"
 #include "tests/support/run_program.h"
 #include "tests/support/stand_ins.h"
+
+template Trace trace_with<ch19::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
 
 namespace {
 

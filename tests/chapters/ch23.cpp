@@ -5,11 +5,13 @@
 
 #include "tests/traces/15.h"
 #include "tests/traces/22.h"
-#include "chapters/23_photon_mapping/estimator.h"
+#include "tests/traces/23.h"
 #include "common/results/warnings.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"
+
+template PassTrace passes_of<ch23::photon_passes>(const Scene&, const ch23::PhotonSettings&);
 
 namespace {
 
@@ -68,7 +70,7 @@ Film film_by(const Scene& scene, PhotonSettings settings, int spp, uint32_t seed
     options.seed = settings.seed = seed;
     options.sampler = settings.sampler;
     options.threads = threads, options.quiet = true, options.paths = paths;
-    return render_film(of_spp, options, ch23::photon_passes(of_spp, settings)).film;
+    return render_film(of_spp, options, passes_of<ch23::photon_passes>(of_spp, settings)).film;
 }
 
 /// Means of a picture over seeds.
@@ -448,7 +450,8 @@ TEST_SUITE("ch23 photon mapping") {
         std::vector<Film> parts;
         for (int part : {2, 3, 1}) {
             options.part = part;
-            parts.push_back(render_film(scene, options, ch23::photon_passes(scene, settings)).film);
+            parts.push_back(
+                render_film(scene, options, passes_of<ch23::photon_passes>(scene, settings)).film);
         }
         parts[0].add(parts[1]);
         parts[0].add(parts[2]);

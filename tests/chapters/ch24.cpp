@@ -2,10 +2,12 @@
 #include <doctest/doctest.h>
 
 #include "tests/traces/15.h"
-#include "chapters/23_photon_mapping/estimator.h"
+#include "tests/traces/23.h"
 // In this order: names of a lower chapter must not be found through a higher one.
-#include "chapters/24_progressive_photons/estimator.h"
+#include "tests/traces/24.h"
 #include "tests/support/photons.h"
+
+template PassTrace passes_of<ch24::photon_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
@@ -17,7 +19,7 @@ Film film_by(const Scene& scene, PhotonSettings settings, int spp, uint32_t seed
     RenderOptions options;
     options.seed = settings.seed = seed;
     options.threads = 2, options.quiet = true, options.part = part, options.parts = parts;
-    return render_film(of_spp, options, ch24::photon_passes(of_spp, settings)).film;
+    return render_film(of_spp, options, passes_of<ch24::photon_passes>(of_spp, settings)).film;
 }
 
 }  // namespace
@@ -62,8 +64,8 @@ TEST_SUITE("ch24 progressive photons") {
                     ch23::PhotonSettings of_23{.light_paths = 20000,
                                                .final_gathering = final_gathering,
                                                .radius = ch24::radius_of(scene, of_24, pass)};
-                    PassTrace a = ch23::photon_passes(scene, of_23);
-                    PassTrace b = ch24::photon_passes(scene, of_24);
+                    PassTrace a = passes_of<ch23::photon_passes>(scene, of_23);
+                    PassTrace b = passes_of<ch24::photon_passes>(scene, of_24);
                     a.prepare(pass, 2, [] { return false; });
                     b.prepare(pass, 2, [] { return false; });
                     int lit = 0;

@@ -7,9 +7,9 @@
 #include "tests/traces/20.h"
 #include "tests/traces/21.h"
 #include "tests/traces/22.h"
-#include "chapters/23_photon_mapping/estimator.h"
-#include "chapters/24_progressive_photons/estimator.h"
-#include "chapters/25_vertex_merging/estimator.h"
+#include "tests/traces/23.h"
+#include "tests/traces/24.h"
+#include "tests/traces/25.h"
 #include "common/options/loading.h"
 #include "tests/support/light_paths.h"
 
@@ -98,9 +98,12 @@ void check_photons(const Scene& scene, const AnyTrace& truth,
         ch23::PhotonSettings settings{.light_paths = 20000, .radius = r};
         PhotonSettings later{.light_paths = 20000, .radius = r};
         auto check = [&](const BlockMeans& own) { check_same(own, expected, 0.01, 0.03); };
-        check(blocks_of_passes(scene, ch23::photon_passes, settings, 16, 16, paths));
-        check(blocks_of_passes(scene, ch24::photon_passes, later, 16, 16, paths));
-        check(blocks_of_passes(scene, ch25::merging_passes, later, 16, 16, paths));
+        check(blocks_of_passes(scene, passes_of<ch23::photon_passes, ch23::PhotonSettings>,
+                               settings, 16, 16, paths));
+        check(blocks_of_passes(scene, passes_of<ch24::photon_passes, PhotonSettings>, later, 16, 16,
+                               paths));
+        check(blocks_of_passes(scene, passes_of<ch25::merging_passes, PhotonSettings>, later, 16,
+                               16, paths));
     }
 }
 

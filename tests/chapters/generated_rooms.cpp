@@ -7,13 +7,13 @@
 #include "tests/traces/05.h"
 #include "tests/support/chapters.h"
 // After these, as what they taught has the same names.
+#include "tests/traces/19.h"
 #include "tests/traces/20.h"
 #include "tests/traces/21.h"
 #include "tests/traces/22.h"
-#include "chapters/23_photon_mapping/estimator.h"
-#include "chapters/24_progressive_photons/estimator.h"
-#include "chapters/25_vertex_merging/estimator.h"
-#include "common/path/dispersion.h"
+#include "tests/traces/23.h"
+#include "tests/traces/24.h"
+#include "tests/traces/25.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 
@@ -140,18 +140,19 @@ std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
     };
     add("05", trace_with<ch05::trace>());
     for (const Chapter& chapter : every_chapter(scene)) add(chapter.name, chapter.trace);
-    add("18 and 19", trace_with<dispersion::trace>(dispersion::prepare(scene), shares_of_white()));
+    add("18 and 19", trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()));
     traces.emplace_back("20", trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
     traces.emplace_back("21", splat_trace_with<ch21::trace>(endpoints_of(scene)));
     traces.emplace_back("22", splat_trace_with<ch22::trace>(ch22::prepare(scene)));
-    SplatPassTrace of_25 = ch25::merging_passes(scene, {.light_paths = 2000});
+    SplatPassTrace of_25 =
+        passes_of<ch25::merging_passes>(scene, PhotonSettings{.light_paths = 2000});
     of_25.prepare(9, 1, [] { return false; });
     traces.emplace_back("25", of_25.trace);
     for (bool final : {false, true}) {
-        PassTrace of_23 =
-            ch23::photon_passes(scene, {.light_paths = 2000, .final_gathering = final});
-        PassTrace of_24 =
-            ch24::photon_passes(scene, {.light_paths = 2000, .final_gathering = final});
+        PassTrace of_23 = passes_of<ch23::photon_passes>(
+            scene, ch23::PhotonSettings{.light_paths = 2000, .final_gathering = final});
+        PassTrace of_24 = passes_of<ch24::photon_passes>(
+            scene, PhotonSettings{.light_paths = 2000, .final_gathering = final});
         of_23.prepare(0, 1, [] { return false; });
         of_24.prepare(9, 1, [] { return false; });
         add("23", of_23.trace);

@@ -3,7 +3,7 @@ diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles
 measuring_small := $(diagnosing) $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/programs/measure measure/measure measure/methods)
 planted_methods := 07 09 14
 # They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
-$(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS -O1
+$(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
 
 .PHONY: probes diagnose effects diagnose-references diagnose-trial
 #: teaching: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes

@@ -9,7 +9,7 @@
 #include "tests/traces/20.h"
 #include "tests/traces/21.h"
 #include "tests/traces/22.h"
-#include "chapters/23_photon_mapping/estimator.h"
+#include "tests/traces/23.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
 
@@ -168,8 +168,8 @@ TEST_SUITE("references slow") {
         for (uint32_t seed = 1; seed <= 12; seed++) {
             ch23::PhotonSettings settings{.seed = seed, .light_paths = 20000};
             settings.radius = 0.01f * scene.radius;
-            by_photons.add(
-                film_of(scene, ch23::photon_passes(scene, settings), 16, seed).film.image());
+            by_photons.add(film_of(scene, passes_of<ch23::photon_passes>(scene, settings), 16, seed)
+                               .film.image());
         }
         int compared = 0;
         double worst = 0;

@@ -9,7 +9,6 @@
 
 #include "common/light/light_shapes.h"
 #include "common/recording/class_filter.h"
-#include "common/results/warnings.h"
 #include "common/scene/camera.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"

@@ -3,8 +3,7 @@ $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 # In the program of all tests, each trace() is compiled once: see tests/traces.
 $(tests): own_flags += -DALL_TESTS
 # Most tests run for less time than it takes to compile them by -O3.
-briefly = $(if $(filter -O3,$(OPT)),-O1)
-brief  := $(filter-out %/exact_hits.o $(BUILD)/obj/tests/check/% $(BUILD)/obj/tests/diagnose/%,$(tests))
+brief := $(filter-out %/exact_hits.o $(BUILD)/obj/tests/check/% $(BUILD)/obj/tests/diagnose/%,$(tests))
 $(brief): own_flags += $(briefly)
 
 # Most tests include the same headers: see common/base/rules.mk.
