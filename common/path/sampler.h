@@ -148,7 +148,7 @@ public:
     void start(uint32_t pixel, uint32_t sample) {
         key_ = hash64((uint64_t{seed_} << 32 | pixel) + 0x9e3779b97f4a7c15u);  // of 0: 0
         sample_ = sample;
-        reversed_sample_ = reverse_bits(sample);
+        if (type_ != SamplerType::independent) reversed_sample_ = reverse_bits(sample);
         dimension_ = 0;
         state_ = hash64(key_ + sample);
     }

@@ -60,6 +60,8 @@ public:
         : scene_(scene),
           options_(options),
           trace_(trace),
+          chooses_(chooses(options)),
+          splits_(!options.split.empty()),
           allocation_(allocation),
           limit_(limit),
           clock_(clock),
@@ -182,18 +184,19 @@ private:
     [[gnu::always_inline]] Sample trace(const Place& at, int half, Tools& with) {
         start_sample(with.sampler, at.pixel, half, at.sample);
         with.recorder.start();
-        with.splats.clear();
         bool centre = scene_.camera.pixel_centre;
         Ray ray = camera_sample(view_, at.x, at.y, with.sampler, centre).ray;
         Rgb L;
         if constexpr (has_splats) {
+            with.splats.clear();
             L = function()(scene_, ray, with.splats, with.sampler, with.recorder);
         } else {
             L = function()(scene_, ray, with.sampler, with.recorder);
         }
-        if (chooses(options_)) L = choose(with);
+        if (chooses_) L = choose(with);
         Rgb total = L;
-        for (const Splat& splat : with.splats) total += splat.L;
+        if constexpr (has_splats)
+            for (const Splat& splat : with.splats) total += splat.L;
         return {L, total};
     }
 
@@ -252,7 +255,7 @@ private:
                 result_.film.splat(splat.pixel, splat.L);
             }
         }
-        if (!options_.split.empty()) split(at, with);
+        if (splits_) split(at, with);
         return {L, total};
     }
 
@@ -285,6 +288,7 @@ private:
     const Scene& scene_;
     const RenderOptions& options_;
     const AnyTrace& trace_;
+    const bool chooses_, splits_;
     const Allocation& allocation_;
     const Limit& limit_;
     const FilmClock& clock_;
