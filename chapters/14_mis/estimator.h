@@ -85,9 +85,9 @@ inline float mis_emission(const Scene& scene, const Lights& lights, const Hit& x
 inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {
     Rgb L, beta = {1, 1, 1};
-    Hit last;              // the previous vertex
-    float pdf_b = 0;       // of the direction that was sampled there
-    bool only_way = true;  // light sampling cannot find the light hit next
+    Hit last;                     // the previous vertex
+    float pdf_b = 0;              // of the direction that was sampled there
+    bool specular_bounce = true;  // light sampling cannot find the light hit next
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
@@ -96,7 +96,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         // Add the light emitted there, times its MIS weight.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = only_way ? 1 : mis_emission(scene, lights, last, pdf_b, x);
+            float mis_b = specular_bounce ? 1 : mis_emission(scene, lights, last, pdf_b, x);
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -116,7 +116,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         L += beta * direct_light(scene, lights, *x, wo, u, recorder);
 
         // Continue in that direction, and divide by its density.
-        last = *x, pdf_b = s.pdf_w, only_way = s.specular;
+        last = *x, pdf_b = s.pdf_w, specular_bounce = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;

@@ -50,9 +50,9 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
     if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
-    Candidates c;          // at the previous vertex
-    float pdf_b = 0;       // of the direction that was sampled there
-    bool only_way = true;  // light sampling cannot find the light hit next
+    Candidates c;                 // at the previous vertex
+    float pdf_b = 0;              // of the direction that was sampled there
+    bool specular_bounce = true;  // light sampling cannot find the light hit next
     for (int depth = 0;; depth++) {
         // Find the next vertex, or the sky.
         std::optional<Hit> x = intersect(scene, ray);
@@ -61,7 +61,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         // Add the light emitted there, times its MIS weight.
         Rgb Le = x ? emission(scene, *x) : scene.sky;
         if (!is_black(Le)) {
-            float mis_b = only_way ? 1 : mis_emission(scene, lights, c, pdf_b, x);
+            float mis_b = specular_bounce ? 1 : mis_emission(scene, lights, c, pdf_b, x);
             L += beta * Le * mis_b;
             recorder.emitted(Le, mis_b);
         }
@@ -82,7 +82,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
         L += beta * direct_light(scene, lights, c, u, recorder);
 
         // Continue in that direction, and divide by its density.
-        pdf_b = s.pdf_w, only_way = s.specular;
+        pdf_b = s.pdf_w, specular_bounce = s.specular;
         if (s.pdf_w == 0) return L;
         beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
         if (is_black(beta)) return L;

@@ -40,7 +40,7 @@ std::string why_not_replaced(const std::string& name);
 /// Renames an open file, over what has that name. False where that cannot be: errno says why. On
 /// Windows it cannot as long as a program has the old one open: this is tried for a second.
 bool rename_over(int file, const std::string& from, const std::string& to);
-/// The same for all files of a disk.
+/// A name of the disk that holds the folder: two folders of one disk have the same.
 std::string disk_of(const std::string& folder);
 
 /// The file of this program, which was started by the command `program`; with links resolved, and

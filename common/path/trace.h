@@ -25,7 +25,7 @@ struct PassTrace {
     Trace trace;
 };
 
-/// The same for a chapter that also adds splats.
+/// The estimator of a chapter that prepares something for each pass, and also adds splats.
 struct SplatPassTrace {
     std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     SplatTrace trace;

@@ -50,8 +50,8 @@ struct Rendering {
 /// that samples are distributed as in the whole render.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
                       const Allocation& allocation = {});
-/// The same for a chapter that also splats to other pixels, for one that prepares something for
-/// each pass, and for one that does both.
+/// Renders with an estimator that also splats to other pixels, that prepares something for each
+/// pass, or that does both.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
 Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
 Rendering render_film(const Scene& scene, const RenderOptions& options,

@@ -61,8 +61,8 @@ public:
     void ignore(const std::string& type, const std::vector<std::string>& names);
     /// Remembers something that we have not, for finish() to throw: so one run names all of it.
     void not_supported(const Position& at, const std::string& text);
-    /// The same for what has a stand-in, by its name in the table: where stand-ins are allowed it
-    /// is remembered, and no error.
+    /// Remembers something that we have not, but have a stand-in for, named as in the table. It is
+    /// an error for finish() to throw only where stand-ins are not allowed.
     void stand_in(const Position& at, const std::string& what, const std::string& text);
     /// Whether stand-ins are allowed.
     bool may_stand_in() const { return notes_->stand_ins(); }

@@ -104,6 +104,18 @@ TEST_SUITE("ch19 adaptive") {
         auto error_at = [](double x) { return 16 / x + 1 / (13 - 9 * x); };
         CHECK(error_at(4.0 / 3) < error_at(1.32));
         CHECK(error_at(4.0 / 3) < error_at(1.34));
+
+        // One pixel that varies: averages of 5, twice along each axis, are tents of 9.
+        std::fill(pilot.begin(), pilot.end(), PilotPixel{});
+        for (float L : {0.0f, 1.0f}) pilot[10 * width + 20].add({L, L, L});
+        densities = ch19::sample_density(pilot, width);
+        auto tent = [](int at) { return std::max(5 - std::abs(at), 0) / 25.0; };
+        for (int y = 0; y < height; y++) {
+            for (int x = 0; x < width; x++) {
+                double expected = width * height * tent(x - 20) * tent(y - 10);
+                CHECK(std::abs(densities[static_cast<size_t>(y * width + x)] - expected) < 1e-9);
+            }
+        }
     }
 
     TEST_CASE("truth: a pixel varies as relMSE measures it, channel by channel") {

@@ -135,5 +135,12 @@ TEST_SUITE("camera") {
             CHECK(ray.d == truth.d);
         }
         CHECK(sampler.u1() == same.u1());
+
+        // "pixel centre" takes the same two numbers, and does not use them.
+        auto [ray, film] = camera_sample(view, 7, 19, sampler, true);
+        same.u2();
+        CHECK(film.x == 7.5f);
+        CHECK(film.y == 19.5f);
+        CHECK(sampler.u1() == same.u1());
     }
 }

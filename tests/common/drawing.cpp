@@ -351,6 +351,20 @@ TEST_SUITE("drawing") {
             point + red + "Rotate 60 0 1 0 Rotate 90 1 0 0 Scale 9 1 9 " + square(0, true);
         Rgb seen = middle(plane);
         CHECK(is_about(seen, {0.5f * 0.625f, 0.25f * 0.625f, 0}));
+        // A small lamp where the camera, 4 away, has pixel (75, 40): of 101 pixels, 40 degrees.
+        float pixel = 8 * std::tan(pi / 9) / 101;
+        Image image = preview(
+            world_of("Translate " + std::to_string(25 * pixel) + " " + std::to_string(10 * pixel) +
+                         " 0 AreaLightSource \"diffuse\" Shape \"sphere\" "
+                         "\"float radius\" 0.036",
+                     101),
+            101, 101);
+        for (int y = 0; y < 101; y++) {
+            for (int x = 0; x < 101; x++) {
+                bool is_lamp = image.at(x, y) == Rgb{1, 0.75f, 0.05f};
+                CHECK(is_lamp == (std::abs(x - 75) + std::abs(y - 40) <= 1));
+            }
+        }
     }
 
     TEST_CASE(

@@ -259,6 +259,25 @@ TEST_SUITE("programs") {
             }
     }
 
+    TEST_CASE(
+        "truth: in a closed white room the depth limit ends every path, and each is counted") {
+        TemporaryFolder folder;
+        write_file_atomically(
+            folder / "white.pbrt",
+            "LookAt 0 0 -0.5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material \"diffuse\" "
+            "\"rgb reflectance\" [1 1 1] Shape \"sphere\" \"float radius\" 2 AreaLightSource "
+            "\"diffuse\" Translate 0 1 0 Shape \"sphere\" \"float radius\" 0.3");
+        for (const std::string& program : programs(true)) {
+            if (program < "07" || program == "26_radiosity") continue;  // no random paths
+            CAPTURE(program);
+            Words words = {folder / "white.pbrt", "--size", "8x8",     "--spp",          "2",
+                           "--max-depth",         "1",      "--stats", folder / "s.json"};
+            append(words, few_photons(program));
+            CHECK(run(program, words).code == 0);
+            CHECK(json_values(read_file(folder / "s.json"))["paths_cut_by_depth"] == "128");
+        }
+    }
+
     TEST_CASE("identity: the same bytes for 1, 2 and 7 threads and for each sampler") {
         for (const std::string& program : programs(true)) {
             CAPTURE(program);
@@ -379,6 +398,7 @@ TEST_SUITE("programs") {
                 return std::string(text);
             };
             CAPTURE(out);
+            CHECK((out.find("without the worst") != std::string::npos) == (trim > 0));
             for (const std::string& expected :
                  {line("A  %s  mean %.6g, standard error unknown\n", (folder / "a.pfm").c_str(),
                        c.mean_a),

@@ -103,6 +103,22 @@ TEST_SUITE("radiosity files and display") {
         CHECK(cut_off > 100);
     }
 
+    TEST_CASE("truth: a surface of one colour stays so, whatever the sizes of its triangles") {
+        Triangles triangles;
+        for (float x : {1.0f, 2.0f, 4.0f, 8.0f}) {
+            Vec3 a = {x, 0, 0}, b = {2 * x, 0, 0}, c = {2 * x, 3, 0}, d = {x, 3, 0};
+            triangles.push_back({{a, b, c}}), triangles.push_back({{a, c, d}});
+        }
+        Rgb own = {0.5f, 1, 20};
+        auto everywhere = [](uint32_t, uint32_t) { return true; };
+        for (const auto& corners :
+             smooth_corners(triangles, std::vector<Rgb>(8, own), 1e-3f, everywhere, 1)) {
+            for (Rgb b : corners)
+                for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b})
+                    CHECK(b.*channel == doctest::Approx(own.*channel).epsilon(1e-5).scale(0));
+        }
+    }
+
     TEST_CASE("input: mirrors of any shape are refused, with the place of their material") {
         for (const char* shape : {"Shape \"sphere\"", "Shape \"disk\""}) {
             Scene scene = world_of("AreaLightSource \"diffuse\"\n" + square(0, true) +

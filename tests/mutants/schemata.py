@@ -14,7 +14,7 @@ class Written:
     """The new text of a file, and which part of it belongs to which mutant."""
 
     def __init__(self, text, mutants):
-        self.original, self.out, self.size, self.parts = text, [], 0, []
+        self.original, self.mutants, self.out, self.size, self.parts = text, mutants, [], 0, []
         groups = {}
         for m in mutants:
             for start, end, new in m.edits:
@@ -75,3 +75,9 @@ class Written:
             return []
         size = min(part[1] - part[0] for part in around)
         return [part[2] for part in around if part[1] - part[0] == size]
+
+    def of_constants(self, line):
+        """The mutants that change a constant whose name stands in a line of the new text."""
+        named = set(re.findall(r"\w+", self.text.split("\n")[line - 1]))
+        return [m for m in self.mutants if m.place.const_span and named & set(
+            re.findall(r"(\w+)\s*[\[={(]", self.original[slice(*m.place.const_span)])[:1])]
