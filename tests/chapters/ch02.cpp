@@ -221,6 +221,20 @@ TEST_SUITE("ch02 pictures and slopes") {
         }
     }
 
+    TEST_CASE("picture: strata have lines at their edges, and uniform points have none") {
+        for (PointSet set : {PointSet::uniform, PointSet::jittered, PointSet::rooks}) {
+            Image image(151, 151);
+            ch02::draw_strata({image, 0, 0, 151, 151}, set, 36, {1, 1, 1});
+            float is_drawn = set == PointSet::uniform ? 0.0f : 1.0f;
+            // A sixth of the way to the right and up, and half-way to the next such line.
+            CHECK(image.at(25, 62).g == is_drawn);
+            CHECK(image.at(62, 125).g == is_drawn);
+            bool is_crossed = set == PointSet::rooks;  // by lines at each 36th
+            CHECK((image.at(37, 62).g == 1) == is_crossed);
+            CHECK((image.at(62, 113).g == 1) == is_crossed);
+        }
+    }
+
     TEST_CASE("identity: the slope of N^-3/4 is -3/4") {
         CHECK(fitted_slope({16, 64, 256}, {1.0, std::pow(4, -0.75), std::pow(16, -0.75)}) ==
               doctest::Approx(-0.75).epsilon(1e-12).scale(0));

@@ -1084,6 +1084,9 @@ TEST_SUITE("ch26 program") {
                 CHECK(std::stod(end.out.substr(at + reflect.size())) ==
                       doctest::Approx(mean).epsilon(0.06).scale(0));
             }
+            at = end.out.find(" shots: of ");
+            REQUIRE(at != end.out.npos);  // whether these are enough is asked after each 16
+            CHECK(std::stoi(end.out.substr(end.out.rfind('\n', at) + 1)) % 16 == 0);
             at = end.out.find("\nwarning: the light that surfaces reflect is wrong: ");
             CHECK((at != end.out.npos) == is_wrong);
         }

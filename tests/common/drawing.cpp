@@ -177,6 +177,16 @@ TEST_SUITE("drawing") {
         REQUIRE(eyes.size() == 1);
         CHECK(eyes[0][1] < 480);
         CHECK(eyes[0][1] > 440);
+        // The square of side 2 around (0, 0, 0), seen from an eye 1 beside and 5 before it.
+        auto edges = numbers_in(alone, "M", "M%f %fL%f %f", "stroke='#bbb'");
+        REQUIRE(edges.size() == 4);
+        Vec2 middle, eye = {eyes[0][0], eyes[0][1]};
+        for (const auto& e : edges) middle.x += (e[0] + e[2]) / 8, middle.y += (e[1] + e[3]) / 8;
+        for (const auto& e : edges) {
+            float side = std::abs(e[0] - e[2]) + std::abs(e[1] - e[3]);
+            CHECK(near(side, 2 * (eye.x - middle.x)));
+            CHECK(near(2.5f * side, eye.y - middle.y, 0.3f));
+        }
     }
 
     TEST_CASE("truth: rays have the marks of what became of them") {

@@ -31,6 +31,11 @@ struct Told {
     Sum rows, printed;
     double scattered = 0;  // of the rows with a D in their class, all channels
 };
+size_t significant_digits(std::string number) {
+    std::erase(number, '.');
+    number.erase(0, number.find_first_not_of("-0"));
+    return std::min(number.find_first_not_of("0123456789"), number.size());
+}
 std::map<std::string, Told> read_table(const std::string& text) {
     std::map<std::string, Told> pixels;
     std::istringstream lines(text.substr(text.rfind("\npixel ")));
@@ -43,6 +48,7 @@ std::map<std::string, Told> read_table(const std::string& text) {
         for (std::string word; words >> word;) cells.push_back(word);
         REQUIRE(cells.size() >= 5);
         size_t n = cells.size();
+        for (size_t i = n - 3; i < n; i++) CHECK(significant_digits(cells[i]) <= 7);
         bool is_sum = cells[n - 4] == "sum";
         if (!is_sum && cells[n - 5].find('D') != std::string::npos) {
             for (size_t i = n - 3; i < n; i++) pixels[cells[0]].scattered += std::stod(cells[i]);

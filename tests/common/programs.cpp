@@ -259,22 +259,32 @@ TEST_SUITE("programs") {
             }
     }
 
-    TEST_CASE(
-        "truth: in a closed white room the depth limit ends every path, and each is counted") {
+    TEST_CASE("truth: paths end at the depth limit in a white room, and in a black one at once") {
         TemporaryFolder folder;
-        write_file_atomically(
-            folder / "white.pbrt",
-            "LookAt 0 0 -0.5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material \"diffuse\" "
-            "\"rgb reflectance\" [1 1 1] Shape \"sphere\" \"float radius\" 2 AreaLightSource "
-            "\"diffuse\" Translate 0 1 0 Shape \"sphere\" \"float radius\" 0.3");
+        auto stats = [&](const std::string& program, const char* reflectance, const char* depth) {
+            write_file_atomically(
+                folder / "a.pbrt",
+                "LookAt 0 0 -0.5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material "
+                "\"diffuse\" \"rgb reflectance\" " +
+                    std::string(reflectance) +
+                    " Shape \"sphere\" \"float radius\" 2 AreaLightSource \"diffuse\" "
+                    "Translate 0 1 0 Shape \"sphere\" \"float radius\" 0.3");
+            Words words = {folder / "a.pbrt", "--size", "8x8",     "--spp",          "2",
+                           "--max-depth",     depth,    "--stats", folder / "s.json"};
+            append(words, few_photons(program));
+            CHECK(run(program, words).code == 0);
+            return json_values(read_file(folder / "s.json"));
+        };
         for (const std::string& program : programs(true)) {
             if (program < "07" || program == "26_radiosity") continue;  // no random paths
             CAPTURE(program);
-            Words words = {folder / "white.pbrt", "--size", "8x8",     "--spp",          "2",
-                           "--max-depth",         "1",      "--stats", folder / "s.json"};
-            append(words, few_photons(program));
-            CHECK(run(program, words).code == 0);
-            CHECK(json_values(read_file(folder / "s.json"))["paths_cut_by_depth"] == "128");
+            CHECK(stats(program, "[1 1 1]", "1")["paths_cut_by_depth"] == "128");
+            auto black = stats(program, "[0 0 0]", "50");
+            CHECK(black["paths_cut_by_depth"] == "0");
+            // Those of 21, 22 and 25 begin at both ends.
+            std::string number = program.substr(0, 2);
+            bool both = number == "21" || number == "22" || number == "25";
+            CHECK(black["rays"] == (both ? "256" : "128"));
         }
     }
 

@@ -89,12 +89,25 @@ TEST_SUITE("radiosity files and display") {
             }
             auto everywhere = [](uint32_t, uint32_t) { return true; };
             CornerColours corner = smooth_corners(triangles, own, 1e-3f, everywhere, 1);
+            // Smoothing is linear: of colours that are higher by 100, nothing is cut off.
+            std::vector<Rgb> higher = own;
+            for (Rgb& b : higher) b += Rgb{100, 100, 100};
+            CornerColours uncut = smooth_corners(triangles, higher, 1e-3f, everywhere, 1);
             for (size_t i = 0; i < triangles.size(); i++)
                 for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
                     float mean = 0, least = infinity;
                     for (Rgb b : corner[i])
                         mean += b.*channel / 3, least = std::min(least, b.*channel);
                     CHECK(least >= 0);
+                    float sum = 0, lowest = infinity;
+                    for (Rgb b : uncut[i])
+                        sum += b.*channel - 100, lowest = std::min(lowest, b.*channel - 100);
+                    float below = sum / 3 - lowest, keep = std::min(own[i].*channel / below, 1.0f);
+                    for (size_t c = 0; c < 3 && lowest < -1e-4f; c++) {
+                        float off = uncut[i][c].*channel - 100 - sum / 3;
+                        CHECK(std::abs(corner[i][c].*channel - own[i].*channel - keep * off) <
+                              2e-4f);
+                    }
                     if (least > 1e-6f * mean) continue;
                     cut_off++;
                     CHECK(mean == doctest::Approx(own[i].*channel).epsilon(1e-4).scale(0));

@@ -61,10 +61,12 @@ def all_runs():
     add("$B/12_ris $S/thousand-lights.pbrt --size 24x16 --spp 4 --threads 1 --out a.pfm")
     add("$B/10_cosine_sampling $S/knot.pbrt --size 24x16 --spp 2 --threads 2 --out a.pfm")
     add("$B/19_adaptive $S/high-contrast.pbrt --size 40x32 --spp 32 --threads 1 --out a.pfm --stats a.json")
-    for chapter in ("09_light_sampling", "15_mis_ris", "22_fast_bidirectional"):
-        add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --explain 12,9,1 --out a.pfm")
-        add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --explain-brightest --out a.pfm")
-        add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --split d --out a.pfm")
+    photons = ["23_photon_mapping", "24_progressive_photons", "25_vertex_merging"]
+    for chapter in ["05_ray_casting"] + walks + photons:
+        few = " --photons 2000" if chapter in photons[:2] else ""
+        for words in ("--explain 12,9,1", "--explain-brightest --max-depth 2", "--split d"):
+            add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 {words}{few} --out a.pfm")
+    for chapter in ("09_light_sampling", "15_mis_ris", "22_fast_bidirectional", "24_progressive_photons"):
         add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 24x16 --spp 4 --paths 'L(S|D)?D*E' --out a.pfm")
 
     add("$B/21_bidirectional $S/cornell-spheres.pbrt --size 8x8 --spp 1 --pyramid b.png --out a.pfm --quiet")
@@ -92,7 +94,7 @@ def all_runs():
     still = ("sed -e '/ActiveTransform/d; s/.spectrum eta. .glass.*/\"float eta\" 1.7/; s/.float shutter.*//;"
              " s/.float lensradius. [0-9.]*//; s/.float focaldistance. [0-9.]*//%s' $M/everything.pbrt >still.pbrt; ")
     add("for f in $T/*.pbrt; do $B/07_path_tracing $f --size 8x8 --spp 2 --threads 1 --out a.pfm; done")
-    for chapter in walks:
+    for chapter in walks + photons:
         smooth = "; s/.float roughness. [0-9.]*//" if chapter < "13" else ""
         no_points = "; /Source .point/d; /Source .distant/d" if chapter < "09" else ""
         scene = "$M/everything.pbrt" if chapter[:2] in ("18", "19") else "still.pbrt"
