@@ -504,6 +504,18 @@ TEST_SUITE("ch03 pairs of dimensions") {
 }
 
 TEST_SUITE("ch03 slopes") {
+    TEST_CASE("truth: the table's efficiency is 1 / (relative error^2 seconds)") {
+        Table table = ch03::compare_sets(64, 1).first;
+        REQUIRE(table.columns == std::vector<std::string>{"points", "N", "pi", "error of pi",
+                                                          "of xy", "of xyzw", "seconds",
+                                                          "efficiency"});
+        for (const auto& row : table.rows) {
+            double relative = std::stod(row[3]) / std::stod(row[2]);
+            CHECK(std::stod(row[7]) * relative * relative * std::stod(row[6]) ==
+                  doctest::Approx(1).epsilon(0.12).scale(0));  // two digits of each
+        }
+    }
+
     TEST_CASE(
         "variance: in one, two and four dimensions the error falls with the slope of theory") {
         // 400 runs know an error to 3.5 %, and a slope over a factor 64 to 0.012.

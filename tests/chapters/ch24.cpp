@@ -55,8 +55,20 @@ TEST_SUITE("ch24 radius") {
 
 TEST_SUITE("ch24 progressive photons") {
     TEST_CASE("identity: each pass is one of chapter 23 with that pass's radius") {
-        for (const char* name : {"cornell-spheres", "veach-mis"}) {
-            Scene scene = scene_from(std::string("scenes/") + name + ".pbrt", 12, 5);
+        // A lamp over rough metal, and a mirror above that shows it from there once more.
+        Scene mirrored = world_of(
+            "Material \"conductor\" \"float roughness\" 0.4 AttributeBegin Translate 0 -1 0 "
+            "Scale 9 1 9 " +
+                square(0, true) +
+                "AttributeEnd AttributeBegin Material "
+                "\"conductor\" Translate 0 2 0 Scale 9 1 9 " +
+                square(0, false) +
+                "AttributeEnd AreaLightSource \"diffuse\" Translate 0 1 0 Shape \"sphere\" "
+                "\"float radius\" 0.5",
+            12);
+        mirrored.max_depth = 5;
+        for (const Scene& scene : {scene_from("scenes/cornell-spheres.pbrt", 12, 5),
+                                   scene_from("scenes/veach-mis.pbrt", 12, 5), mirrored}) {
             CameraView view = camera_view(scene.camera, scene.width, scene.height);
             for (bool final_gathering : {false, true}) {
                 PhotonSettings of_24{.light_paths = 20000, .final_gathering = final_gathering};

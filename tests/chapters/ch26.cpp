@@ -346,6 +346,14 @@ TEST_SUITE("ch26 form factors") {
         CHECK(stats.variance() > 0);
     }
 
+    TEST_CASE("truth: form factors by one point of each: cos cos A / (pi d^2)") {
+        auto floor = patches_of(quad({}, {0.1f, 0, 0}, {0, 0.1f, 0}));
+        auto above = patches_of(quad({3, 0, 4}, {0, 0.1f, 0}, {0.1f, 0, 0}));
+        double truth = 0.8 * 0.8 * 0.01 / (pi_exact * 25);
+        CHECK(form_factor(floor, above, FormFactors::point) ==
+              doctest::Approx(truth).epsilon(1e-3).scale(0));
+    }
+
     TEST_CASE("truth: what a wall hides: half of a square is seen past it") {
         // The wall stands in the plane x = 1/2 and hides all that is beyond it.
         Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
@@ -1195,6 +1203,12 @@ TEST_SUITE("ch26 program") {
         CHECK(end.code == 0);
         CHECK(end.out.find(" million form factors, ") < end.out.find("50 shots: of "));
         CHECK(end.out.find(" patches in an open room: ") != std::string::npos);
+        size_t at = end.out.find("\nrow sums ");
+        REQUIRE(at != std::string::npos);
+        double lowest = 0, highest = 0;
+        REQUIRE(std::sscanf(end.out.c_str() + at, "\nrow sums %lf to %lf before their repair\n",
+                            &lowest, &highest) == 2);
+        CHECK((0 < lowest && lowest < highest && highest < 1.5));
         CHECK(folder.names() ==
               std::set<std::string>{"a.png", "a-000020.png", "a-000040.png", "a.ply"});
         // The reader of scenes reads the mesh: the area of the room's patches.

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "tests/traces/08.h"
@@ -60,6 +61,7 @@ std::map<std::string, Told> read_table(const std::string& text) {
     return pixels;
 }
 
+constexpr double pi_exact = std::numbers::pi;
 bool near(double a, double b) { return std::abs(a - b) <= 1e-5 * std::abs(b) + 1e-12; }
 
 /// How many elements of an SVG are opened, less those closed: 0 for one that is well-formed.
@@ -244,6 +246,78 @@ TEST_SUITE("explain") {
             CHECK(text.find("    ends: the depth limit, 1 scattering events\nfrom the eye:\n") !=
                   std::string::npos);
         }
+    }
+
+    TEST_CASE("truth: the densities told of a light sample are those of a lamp over a floor") {
+        TemporaryFolder folder;
+        write_file_atomically(
+            folder / "a.pbrt",
+            "LookAt 0 1 -4 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material \"diffuse\" "
+            "Shape "
+            "\"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [-9 0 -9 0 0 30 9 0 -9] "
+            "AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"sphere\" \"float radius\" 0.5");
+        int told = 0;
+        for (const std::string& program : programs(true)) {
+            if (program < "09" || program == "26_radiosity") continue;
+            CAPTURE(program);
+            Words words = {folder / "a.pbrt", "--size", "8x8",   "--spp",         "4",
+                           "--explain",       "4,4,1",  "--out", folder / "a.pfm"};
+            append(words, few_photons(program));
+            std::string text = run(program, words).out;
+            double x = 0, z = 0, y = 0, pdf_l = 0, pdf_b = 0;
+            size_t at = text.find("    samples a light along wi (");
+            if (at == text.npos) continue;
+            size_t vertex = text.rfind("\nvertex ", at);
+            REQUIRE(std::sscanf(text.c_str() + vertex, "\nvertex %*d diffuse at (%lf, 0, %lf)", &x,
+                                &z) == 2);
+            REQUIRE(
+                std::sscanf(text.c_str() + at,
+                            "    samples a light along wi (%*f, %lf, %*f): pdf_l %lf, pdf_b %lf",
+                            &y, &pdf_l, &pdf_b) == 3);
+            // The lamp fills a cone whose half angle has the sine 0.5 / distance.
+            double cos_cone = std::sqrt(1 - 0.25 / (x * x + 9 + z * z));
+            CHECK(near(1 / (2 * pi_exact * (1 - cos_cone)), pdf_l));
+            // 09 samples the hemisphere evenly; 23 and 24 stop here, and sample no direction.
+            if (program < "10")
+                CHECK(near(1 / (2 * pi_exact), pdf_b));
+            else
+                CHECK(near(few_photons(program).empty() ? y / pi_exact : 0, pdf_b));
+            told++;
+        }
+        CHECK(told >= 14);
+    }
+
+    TEST_CASE("identity: a path from the eye is the same, however many numbers the light's took") {
+        TemporaryFolder folder;
+        const std::string room =
+            "LookAt 0 0 -0.5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material \"diffuse\" "
+            "\"rgb reflectance\" [.5 .5 .5] Shape \"sphere\" \"float radius\" 2 ";
+        auto eye_path = [&](const std::string& program, const char* light) {
+            write_file_atomically(folder / "a.pbrt", room + light);
+            Words words = {folder / "a.pbrt", "--size", "8x8",           "--spp", "4",
+                           "--sampler",       "sobol",  "--max-depth",   "4",     "--explain",
+                           "3,3,1",           "--out",  folder / "a.pfm"};
+            std::string text = run(program, words).out, path;
+            std::istringstream lines(text.substr(text.find("from the eye:\n")));
+            for (std::string line; std::getline(lines, line);) {
+                if (line.starts_with("vertex ")) path += line.substr(line.find("  ")) + "\n";
+                if (line.starts_with("    goes on ")) path += line + "\n";
+                if (line.starts_with("    s ")) break;
+            }
+            return path;
+        };
+        std::vector<std::string> paths;
+        for (const char* program :
+             {"21_bidirectional", "22_fast_bidirectional", "25_vertex_merging"}) {
+            CAPTURE(program);
+            std::string path = eye_path(program, "LightSource \"point\"");
+            CHECK(std::count(path.begin(), path.end(), '\n') >= 4);
+            CHECK(path == eye_path(program,
+                                   "AreaLightSource \"diffuse\" Translate 0 1 0 Shape \"sphere\" "
+                                   "\"float radius\" 0.01"));
+            paths.push_back(path);
+        }
+        CHECK(paths[0] == paths[1]);
     }
 
     TEST_CASE("truth: of a lamp behind a board the shadow rays are told as blocked, and drawn so") {

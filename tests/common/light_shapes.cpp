@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <set>
 
 #include "common/light/solid_angle.h"
 #include "tests/support/gates.h"
@@ -218,6 +219,17 @@ TEST_SUITE("solid angle") {
 }
 
 TEST_SUITE("light shapes") {
+    TEST_CASE("identity: rounding errors on a light are the same along each axis") {
+        std::set<float> errors;
+        for (const char* at : {"50 1 0", "0 50 1", "1 0 50", "-50 1 0", "0 1 -50"}) {
+            Scene scene = world_of(std::string("AreaLightSource \"diffuse\" Translate ") + at +
+                                   " Shape \"sphere\" \"float radius\" 10");
+            errors.insert(emitter_of(scene, 0).eps);
+        }
+        CHECK(errors.size() == 1);
+        CHECK(*errors.begin() == rounding_error(60));
+    }
+
     TEST_CASE("identity: areas, and which two triangles make one piece") {
         std::vector<double> areas = {1, 4, pi_exact, pi_exact / 4};
         for (size_t i = 0; i < areas.size(); i++) {

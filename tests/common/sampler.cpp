@@ -215,6 +215,27 @@ TEST_SUITE("sampler: bits") {
         }
     }
 
+    TEST_CASE("identity: after a jump come the numbers of that dimension, whatever was drawn") {
+        // Of stratified numbers this is the stratum, one of 4 x 4.
+        for (SamplerType type : {SamplerType::stratified, SamplerType::sobol}) {
+            std::set<std::pair<float, float>> drawn;
+            for (uint32_t dimension : {8u, 16u, 4096u}) {
+                for (int before : {0, 1, 2, 9}) {
+                    Sampler sampler(type, 7, 16);
+                    sampler.start(3, 5);
+                    for (int i = 0; i < before; i++) sampler.u2();
+                    sampler.jump(dimension);
+                    Vec2 u = sampler.u2();
+                    if (type == SamplerType::stratified)
+                        u = {std::floor(4 * u.x), std::floor(4 * u.y)};
+                    drawn.insert({u.x, u.y});
+                }
+            }
+            CHECK(drawn.size() <= 3);  // one for each dimension; strata may be the same
+            CHECK(drawn.size() >= 2);
+        }
+    }
+
     TEST_CASE("identity: another seed, pixel, sample or dimension gives other numbers") {
         for (SamplerType type : all_types) {
             Sampler a(type, 7, 16), b(type, 8, 16);
