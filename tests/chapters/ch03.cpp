@@ -510,6 +510,7 @@ TEST_SUITE("ch03 slopes") {
                                                           "of xy", "of xyzw", "seconds",
                                                           "efficiency"});
         for (const auto& row : table.rows) {
+            if (row[6] == "0") continue;  // less than a coarse clock can tell
             double relative = std::stod(row[3]) / std::stod(row[2]);
             CHECK(std::stod(row[7]) * relative * relative * std::stod(row[6]) ==
                   doctest::Approx(1).epsilon(0.12).scale(0));  // two digits of each

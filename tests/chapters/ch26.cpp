@@ -430,6 +430,21 @@ TEST_SUITE("ch26 patches") {
         CHECK_FALSE(open.closed);
     }
 
+    TEST_CASE("truth: a line cuts the square that it enters, and none that it ends before") {
+        for (Vec3 at : {Vec3{}, Vec3{10, -20, 30}}) {
+            auto pieces_for = [&](float end) {
+                std::vector<ch26::Polygon> pieces = {
+                    {at, at + Vec3{1, 0, 0}, at + Vec3{1, 1, 0}, at + Vec3{0, 1, 0}}};
+                Vec3 a = at + Vec3{0.5f, -1, 0}, b = at + Vec3{0.5f, end, 0};
+                ch26::cut(pieces, a, b, {0, 0, 1}, 1e-4f);
+                return pieces.size();
+            };
+            CHECK(pieces_for(-0.2f) == 1);
+            CHECK(pieces_for(0.2f) == 2);
+            CHECK(pieces_for(2) == 2);
+        }
+    }
+
     TEST_CASE("failure: no light under a wall: patches are cut where it stands") {
         // Two rooms in one box, a lamp in the first: each surface runs through below the wall.
         Vec3 y = {0, 1, 0}, z = {0, 0, 1};
