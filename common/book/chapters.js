@@ -81,7 +81,7 @@ const chapters = {
     },
     '25_vertex_merging': {
         kind: 'film', scene: 'sds', against: '22_fast_bidirectional', spp: 8,
-        own: [number('photons', 'light paths in each pass', 0)]
+        own: [number('photons', 'light paths in each pass (0: automatic)', 0)]
     },
     '26_radiosity': {
         kind: 'once', scene: 'cornell',

@@ -54,7 +54,6 @@ function race(live) {
     const time = field('time', 'seconds each', {type: 'number', min: 1, value: 5});
     const chart = svg('svg', {viewBox: '0 0 360 220', class: 'chart', role: 'img', 'aria-label': 'error against time'});
     const viewer = new Viewer(), said = make('p', {class: 'status', role: 'status'});
-    viewer.node.hidden = true;
     const form = make('form', {class: 'options'}, other, words, time, make('button', {type: 'submit'}, 'Race'));
     form.onsubmit = async event => {
         event.preventDefault();
@@ -93,10 +92,7 @@ async function run_race({live, viewer, chart, said, seconds}, methods) {
         const error = reference ? relMse(message, reference) : (message.error / message.mean) ** 2;
         method.measure = reference ? 'relMSE' : '(standard error of the mean / mean)²';
         if (error > 0 && Number.isFinite(error)) method.points.push([message.seconds, error]);
-        if (shown[0] && shown[1]) {
-            viewer.node.hidden = false;
-            viewer.set([...shown, ...reference ? [reference] : []]);
-        }
+        if (shown[0] && shown[1]) viewer.set([...shown, ...reference ? [reference] : []]);
         draw_chart(chart, methods);
     }));
     const results = await Promise.all(runs);

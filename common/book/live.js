@@ -32,7 +32,7 @@ class Live {
     fields() {
         const about = this.about, own = (about.own || []).map(o => o.values ?
             field(o.name, o.label, {'data-own': true}, o.values) :
-            field(o.name, o.label, {'data-own': true, type: 'number', min: 1, value: o.value}));
+            field(o.name, o.label, {'data-own': true, type: 'number', min: Math.min(1, o.value), value: o.value}));
         const seed = field('seed', 'seed', {type: 'number', min: 0, value: 0});
         if (about.kind === 'table') return [field('n', 'samples', {type: 'number', min: 1, value: about.n}), seed];
         const names = Object.keys(this.data.scenes).map(file => file.slice(7, -5));

@@ -29,7 +29,6 @@ async function readPicture(name, bytes) {
 const own = {names: [], bytes: []};
 const viewer = new Viewer(), said = make('pre', {class: 'printed', tabindex: 0, hidden: true});
 const problem = make('p', {class: 'errors', role: 'alert'});
-viewer.node.hidden = true;
 const inputs = ['A', 'B, the reference'].map((label, k) => make('input', {
     type: 'file', accept: '.pfm,.ppm,.png', name: 'AB'[k], onchange: event => take(k, event.target.files)
 }));
@@ -67,5 +66,5 @@ async function compare() {
     problem.textContent = errors.join('\n');
     if (code !== 0) return;
     said.hidden = false, said.textContent = out.join('\n');
-    viewer.node.hidden = false, viewer.set(pictures);
+    viewer.set(pictures);
 }

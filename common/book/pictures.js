@@ -46,7 +46,7 @@ class Viewer {
             ['e', 'darker', () => this.expose(-0.5)], ['E', 'brighter', () => this.expose(0.5)],
             ['d', 'error view', () => this.toggleError()], ['z', 'zoom', () => this.magnify()]
         ].map(([key, name, act]) => make('button', {type: 'button', title: `key ${key}`, onclick: act}, name)));
-        this.node = make('div', {class: 'viewer'}, this.stage, this.range, this.choices, this.buttons, this.readout);
+        this.node = make('div', {class: 'viewer', hidden: true}, this.stage, this.range, this.choices, this.buttons, this.readout);
         this.canvas.onpointermove = event => this.read(this.pixelAt(event));
         this.canvas.onpointerdown = event => this.read(this.pixelAt(event));
         this.canvas.onclick = event => this.pick?.(this.pixelAt(event));
@@ -55,7 +55,7 @@ class Viewer {
     }
 
     set(pictures) {
-        this.pictures = pictures;
+        this.pictures = pictures, this.node.hidden = false;
         if (pictures.length !== this.count) this.left = 0, this.right = Math.min(1, pictures.length - 1);
         this.count = pictures.length;
         const {width, height} = pictures[0];

@@ -1,5 +1,5 @@
 // Headless Firefox, driven by its own protocol (Marionette) over a local socket: the same calls as Browser.
-const {spawn} = require('child_process'), fs = require('fs'), net = require('net'), os = require('os'), path = require('path');
+const {Browser} = require('./browser.js'), {spawn} = require('child_process'), fs = require('fs'), net = require('net'), os = require('os'), path = require('path');
 
 const settings = {
     'marionette.port': 0,  // one that is free
@@ -13,6 +13,8 @@ const keys = {ArrowRight: '\uE014', ArrowLeft: '\uE012', ArrowDown: '\uE015', En
 
 /// What Browser (browser.js) is for Chromium.
 class Firefox {
+    until = Browser.prototype.until;
+    close = Browser.prototype.close;
     constructor(program) {
         this.profile = fs.mkdtempSync(path.join(os.tmpdir(), 'book-'));
         fs.writeFileSync(path.join(this.profile, 'user.js'), Object.entries(settings)
@@ -64,13 +66,6 @@ class Firefox {
     async value(expression) {
         return (await this.send('ExecuteScript', {script: 'return window.eval(arguments[0])', args: [expression]})).value;
     }
-    async until(expression, seconds = 30) {
-        for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
-            if (await this.value(expression)) return;
-            await new Promise(resolve => setTimeout(resolve, 50));
-        }
-        throw new Error(`not within ${seconds} s: ${expression}`);
-    }
     /// Lets the browser itself, not the page, do something.
     async do(script) {
         await this.send('SetContext', {value: 'chrome'}, 'Marionette');
@@ -94,12 +89,6 @@ class Firefox {
     }
     async screenshot(file) {
         fs.writeFileSync(file, Buffer.from((await this.send('TakeScreenshot', {full: false})).value, 'base64'));
-    }
-    async close() {
-        const ended = new Promise(resolve => this.process.on('exit', resolve));
-        this.process.kill();
-        await ended;
-        fs.rmSync(this.profile, {recursive: true, force: true});
     }
 }
 module.exports = {Firefox};

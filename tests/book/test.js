@@ -76,11 +76,26 @@ async function every_page(browser) {
         bad.slice(0, 10).join('; '));
 }
 
-/// What a chapter makes in the page, with the form as `set` leaves it, and on the command line.
+/// Clicks on Render: with the form as it is, until something is to be seen; then as `set` leaves it, which
+/// makes what the program makes.
 async function same_bytes(browser, chapter, set, args) {
     await browser.open(page(chapter));
     await browser.until(`document.querySelector('.go')`);
-    await browser.value(`live.fill(${JSON.stringify(set)}); live.render().then(() => 0)`);
+    const idle = await browser.value(`live.viewer.node.checkVisibility()`), render = async () => {
+        const {x, y, width, height} = await box_of(browser, '.go');
+        await browser.click(x + width / 2, y + height / 2);
+    };
+    await render();
+    const shown = await browser.until(`(() => { const canvas = live.viewer.canvas, {width, height} = canvas;
+        const {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
+        return canvas.checkVisibility() && data.filter((v, i) => i % 4 === 1 && v > 16).length > width * height / 100;
+    })()`, 60).then(() => true, () => false);
+    check(`Render with the defaults shows a picture, and there was none: ${chapter}`, shown && !idle);
+    await browser.value(`live.stop()`);
+    await browser.until(`document.querySelector('.stop').disabled`);
+    await browser.value(`live.fill(${JSON.stringify(set)}); live.status.textContent = ''`);
+    await render();
+    await browser.until(`live.status.textContent.startsWith('done') && document.querySelector('.stop').disabled`, 60);
     const here = await browser.value(`Array.from(live.result?.['out/picture.pfm'] || [],
         byte => String.fromCharCode(byte)).join('')`);
     const file = `${build}/book-test.pfm`;
@@ -332,6 +347,7 @@ async function searching(browser) {
 /// Two files of the reader's own, and what the program `compare` says of them.
 async function own_pictures(browser) {
     await browser.open(`${book}/common/book/own_pictures.html`);
+    check('there is no empty picture', !await browser.value(`viewer.node.checkVisibility()`));
     const files = ['a', 'b'].flatMap((name, seed) => ['pfm', 'ppm', 'png'].map(kind => {
         const file = `${build}/book-test-${name}.${kind}`;
         execFileSync(`${build}/15_mis_ris`, ['scenes/cornell.pbrt', '--size', '48x32', '--spp', '4', '--seed', `${seed}`,
