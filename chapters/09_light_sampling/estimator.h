@@ -57,7 +57,7 @@ enum class LightMeasure : uint8_t { area, solid_angle };
 ///   by area:  pdf_w = pdf_A d^2 / cos_y;  the estimate, ~ cos_y / d^2, has a spike near x
 ///
 /// zero    if y faces away, is edge-on, or is x itself (cos_y is then not a number)
-/// error   unbiased; near a light Var -> infinity by area, but <= about mean^2 / 3 by solid angle
+/// error   unbiased; near a light Var -> infinity by area, but <= about 2 mean^2 by solid angle
 /// source  Shirley et al. 1996      tested by  "variance: near-light", within 5 standard errors
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u,
                                      LightMeasure measure) {

@@ -66,7 +66,7 @@ struct LightSample {
 /// Samples a point y of an area light; pdf_w is the density of its direction seen from x.
 ///
 /// zero    if y faces away, is edge-on, or is x itself (cos_y is then not a number)
-/// error   unbiased; Var <= about mean^2 / 3, however near, for a light that is all in front of x
+/// error   unbiased; Var <= about 2 mean^2, however near, for one shape that is all in front of x
 /// source  Shirley et al. 1996      tested by  "variance: near-light", within 5 standard errors
 inline LightSample sample_area_light(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     LightPoint y = sample_solid_angle(scene, light, x.p, u);

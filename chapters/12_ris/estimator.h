@@ -106,7 +106,7 @@ inline Proposal prepare(const Scene& scene, int M) {
 ///   Ld = W f Le V cos / pdf_one      one point on the light that was kept
 ///
 /// Unbiased if p_hat > 0 wherever the light contributes.
-/// Var = Var_p / M + (1 - 1/M) Var_q: Var_q, caused by shadows, remains however large M is.
+/// Var = Var_p / M + (1 - 1/M) Var_q for independent candidates: Var_q, by shadows, remains.
 /// source  Talbot et al. 2005      tested by  "truth: RIS on four lights, all tuples", to 1e-5
 inline Rgb direct_light(const Scene& scene, const Proposal& p, const Hit& x, Vec3 wo,
                         ResamplingNumbers u, Recorder& recorder) {

@@ -114,7 +114,7 @@ enum class Strategy : uint8_t { bsdf, light };
 ///
 /// bsdf: all emission that the path hits counts, and no light is sampled. light: emission counts
 /// only directly from the camera and after mirrors and glass.
-/// Unbiased; each strategy has lights that it hardly finds.      source  Veach, Guibas 1995, fig. 2
+/// Unbiased, but bsdf never finds point and distant lights.      source  Veach, Guibas 1995, fig. 2
 /// tested by  "ch13 glossy", within 5 standard errors; light: exactly as 11 without rough metal
 inline Rgb trace(const Scene& scene, const LightTable& lights, Strategy strategy, Ray ray,
                  Sampler& sampler, Recorder& recorder) {

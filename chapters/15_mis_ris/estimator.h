@@ -144,7 +144,7 @@ inline float mis_emission(const Scene& scene, const Lights& lights, const Candid
 ///
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
-/// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
+/// Unbiased up to scene.max_depth scattering events.
 /// source  Veach, Guibas 1995      tested by  "ch15 mis ris", within 5 standard errors
 inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,
                  Recorder& recorder) {

@@ -40,7 +40,7 @@ inline float sample_time(const Camera& camera, float u) {
 ///
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
-/// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
+/// Unbiased up to scene.max_depth scattering events.
 /// source  Veach, Guibas 1995      tested by  "ch16 lens ...",
 ///   where nothing is new exactly as the chapter before, else within 5 standard errors
 inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sampler,

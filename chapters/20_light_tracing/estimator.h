@@ -33,7 +33,7 @@ inline Pinhole pinhole_of(const Scene& scene) {
 
 /// The importance We of light from direction `away`, times the cosine, in sr^-1.
 ///
-///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos over A: 1
+///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos dw: 1
 ///
 /// From the pinhole, a patch dA of the film at distance d has solid angle dw = dA cos^3 / d^2. All
 /// points of the film have the same weight, so We cos = dA / dw / A = 1 / (A cos^3) with d = 1.

@@ -97,7 +97,7 @@ inline float mis_weight(const Scene& scene, const Merging& merging, const Subpat
 /// Merges the t-th vertex from the eye with the light paths that have arrived near it.
 ///
 ///   L = beta rho / pi  sum over photons nearer than r of  mis_merge K(d / r) flux / (pi r^2)
-///   K = 2 (1 - d^2 / r^2), as in chapter 23
+///   K = 2 (1 - d^2 / r^2), as in chapter 23; in mis_merge, p_merge is for a disk with K = 1
 ///   mis_merge = 1 / (1 + sum of p_i / p_merge on the light's side + the same on the eye's side)
 ///
 /// Biased, as in chapter 23.      source  Georgiev et al. 2012; Hachisuka et al. 2012

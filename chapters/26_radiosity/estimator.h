@@ -133,11 +133,12 @@ inline double sweep(const Matrix& G, const std::vector<Patch>& patch, Sweep kind
     return change;
 }
 
-/// Sweeps until what is still to come is below `wanted`, a share of the largest H.
+/// Sweeps until what is probably still to come is below `wanted`, a share of the largest H.
 ///
-///   still to come <= q / (1 - q) change,    q = this change / the one before
+///   still to come ~ q / (1 - q) change,    q = this change / the one before
 ///
-/// The change alone is too small: where each bounce keeps 99 %, a hundred more like it follow.
+/// An estimate, since q may still grow. The change alone is too small: where each bounce keeps
+/// 99 %, a hundred more like it follow.
 inline void solve(const Matrix& G, const std::vector<Patch>& patch, Sweep kind, double wanted,
                   Solution& s, const Stopped& stopped = {}) {
     s.H.resize(G.size());

@@ -21,8 +21,8 @@ float pdf_area(const Scene& scene, size_t light);
 ///   more           a triangle chosen by area, then its spherical triangle
 ///   disk           its bounding square, one side towards x; no sample where it misses the disk
 ///
-/// If x is farther away than two radii, or inside a sphere: by area, which is then as good. If x is
-/// on the light within rounding, its side is unknown: by area, which contributes almost nothing.
+/// If x is farther away than two radii, or inside a sphere: by area, which is faster. If x is on
+/// the light within rounding, its side is unknown: by area, which contributes almost nothing.
 /// source  cone: Shirley, Wang 1991; triangle: Arvo 1995
 /// tested by  "consistency: a light's samples agree with its density", "truth: squares from near"
 inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, Vec2 u);

@@ -7,8 +7,8 @@
 
 /// A direction sampled from a BSDF. pdf_w == 0: no sample, the path ends.
 ///
-/// specular: light leaves in one direction only. f and pdf_w are then Dirac deltas, and these
-/// fields hold only the factors before the deltas, which cancel in f cos / pdf_w.
+/// specular: mirror or glass, where light leaves in one direction or two. f and pdf_w are then
+/// Dirac deltas; these fields hold the factors before the deltas, which cancel in f cos / pdf_w.
 struct BsdfSample {
     Vec3 wi;          // unit
     Rgb f;            // sr^-1, without the cosine

@@ -48,7 +48,7 @@ inline void set_index(Hit& x, Wavelength& light) {
 ///
 ///   L = Le(x_0) + sum over the path's vertices of  beta_k Ld(x_k) + mis_b beta_k+1 Le(x_k+1)
 ///
-/// Unbiased up to scene.max_depth scattering events. Never much worse than the better strategy.
+/// Unbiased up to scene.max_depth scattering events.
 /// source  Veach, Guibas 1995      tested by  "ch18 dispersion",
 ///   where nothing is new exactly as the chapter before, else within 5 standard errors
 inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vector<Rgb>& white,

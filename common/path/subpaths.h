@@ -109,7 +109,7 @@ inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
 }
 
 /// The density, in sr^-1, with which a path that came from `from` leaves x in direction `to`.
-/// Mirrors and glass: 1, as walks from both ends choose the direction with the same probability.
+/// Mirrors and glass: 1, though by refraction it is n2^2 cos_2 / (n1^2 cos_1) times the way back's.
 inline float pdf_onwards(const Scene& scene, bool from_light, const Hit& x, Vec3 from, Vec3 to) {
     if (is_specular(*x.material)) return 1;
     Hit y = seen_from(scene, x, from);
