@@ -25,7 +25,7 @@ function Link(link)
     found:write(file .. "\n")
     if path:match("README%.md$") then path = path:gsub("README%.md$", "index.html")
     elseif path:match("%.md$") then path = path:gsub("%.md$", ".html")
-    else path = path .. ".html" end
+    else path = path:gsub("/$", "") .. ".html" end
     link.target = path .. anchor
     return link
 end
