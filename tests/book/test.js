@@ -81,7 +81,8 @@ async function every_page(browser) {
 async function same_bytes(browser, chapter, set, args) {
     await browser.open(page(chapter));
     await browser.until(`document.querySelector('.go')`);
-    const idle = await browser.value(`live.viewer.node.checkVisibility()`), render = async () => {
+    const idle = await browser.value(`live.viewer.node.checkVisibility()`);
+    const render = async () => {
         const {x, y, width, height} = await box_of(browser, '.go');
         await browser.click(x + width / 2, y + height / 2);
     };
@@ -346,8 +347,6 @@ async function searching(browser) {
 
 /// Two files of the reader's own, and what the program `compare` says of them.
 async function own_pictures(browser) {
-    await browser.open(`${book}/common/book/own_pictures.html`);
-    check('there is no empty picture', !await browser.value(`viewer.node.checkVisibility()`));
     const files = ['a', 'b'].flatMap((name, seed) => ['pfm', 'ppm', 'png'].map(kind => {
         const file = `${build}/book-test-${name}.${kind}`;
         execFileSync(`${build}/15_mis_ris`, ['scenes/cornell.pbrt', '--size', '48x32', '--spp', '4', '--seed', `${seed}`,
@@ -360,6 +359,7 @@ async function own_pictures(browser) {
     for (const i of [0, 1, 2]) {
         const [a, b] = [files[i], files[i + 3]], kind = path.extname(a);
         await browser.open(`${book}/common/book/own_pictures.html`);
+        check('there is no empty picture', !await browser.value(`viewer.node.checkVisibility()`));
         await give(0, a, fs.readFileSync(a));
         await give(1, b, fs.readFileSync(b));
         await browser.until(`said.textContent.includes('verdict:')`, 60);
