@@ -17,7 +17,7 @@ $(BUILD)/gnuplot:
 chart: $(BUILD)/chart $(BUILD)/growth $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
 	$(if $(SCENE),,$(BUILD)/growth $(call quick,--quick))
-#: measuring: make front        the chart of the front page, anew
+#: maintaining: make front        the chart of the front page, anew
 front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart cornell --methods all --seconds 60
 	cp out/chart-cornell.svg tests/measure/front.svg; cp out/chart-summary.tsv tests/measure/front.tsv
@@ -34,10 +34,10 @@ efficiency: $(BUILD)/efficiency $(made)
 #: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time
 compare: $(BUILD)/efficiency $(made)
 	@$< $(or $(SCENE),cornell) $(chosen) --equal-time
-#: measuring: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
+#: maintaining: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
 radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
 	@$< $(SCENE)
-#: measuring: make references   render what the charts compare with
+#: maintaining: make references   render what the charts compare with
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
 #: measuring: make bench        rays per second of each step of chapter 06, beside Embree
