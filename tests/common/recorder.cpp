@@ -189,7 +189,8 @@ TEST_SUITE("class filter") {
         }
         CHECK(error("LD{10000}E").ends_with("column 4: a count is at most 9999"));
         CHECK(error(std::string(100000, '(')).ends_with("column 1001: the expression is too long"));
-        CHECK(error(std::string(9, '(')).ends_with("column 9: brackets are nested more than 8 deep"));
+        CHECK(
+            error(std::string(9, '(')).ends_with("column 9: brackets are nested more than 8 deep"));
         for (const char* other : {"L\\1E", "^LE$", "L E", "ld", "L\xc3\xa4"})
             CHECK(error(other) != "");
     }
