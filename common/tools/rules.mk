@@ -30,7 +30,7 @@ readmes: programs
 check_pages: programs
 	$(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
 
-#: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy
+#: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy (13 minutes)
 tidy: compile_commands.json
 	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
 	printf '%s\n' $(compiled) | xargs -n 1 -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet -p .
