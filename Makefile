@@ -26,9 +26,11 @@ objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)
 common    := $(call objects,common,common/tools/% common/book/%)
 tests     := $(call objects,tests,tests/measure/% tests/fuzz/% tests/check/names.cpp)
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
+# Programs that tests start: see tests/*/rules.mk.
+started    =
 made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt zone-plate.pbrt)
 
-.PHONY: all programs test host test-slow help clean always $(numbers)
+.PHONY: all programs test host test-slow help help-all clean always $(numbers)
 .SECONDARY .DELETE_ON_ERROR .SECONDEXPANSION:
 
 #: starting: make              install what is missing, build, and render all pictures into out/
@@ -42,17 +44,20 @@ previous  := programs
 $(foreach c,$(chapters),$(eval out/$c.png: | $(previous))$(eval previous := out/$c.png))
 
 #: starting: make test         build, and run all tests but the slow ones; T='NAME': those so named
-test: $(BUILD)/tests programs $(if $(T),,check_pages)
+test: $(BUILD)/tests programs $$(started) $(if $(T),,check_pages)
 	tests/run $(BUILD) $(if $(T),--test-case="$$T",--quick)
-#: starting: make test-slow    run the slow ones
-test-slow: $(BUILD)/tests programs
+#: maintaining: make test-slow    run the slow tests (9 minutes)
+test-slow: $(BUILD)/tests programs $$(started)
 	tests/run $(BUILD) --slow
 
 #: starting: make 07           build and run one chapter
-$(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $(made)
+$(numbers): $$(filter $(BUILD)/$$@_%,$(chapters:%=$(BUILD)/%)) $$(made_for_$$@)
 	$(RUN) $<
 
-#: starting: make programs     build the programs, and run nothing
+# What the default scene of each chapter needs.
+$(foreach n,$(numbers),$(eval made_for_$n = $$(filter $$(addsuffix .%,$$(shell \
+    grep -oh 'scenes/[a-z-]*' chapters/$n_*/main.cpp)),$$(made))))
+#: maintaining: make programs     build the programs, and run nothing
 programs: $(chapters:%=$(BUILD)/%) $(tools:%=$(BUILD)/%) $(made)
 $(BUILD)/tests: $$(tests) $(common)
 	$(link)
@@ -84,3 +89,6 @@ clean:
 #: maintaining: make SAN=1 test   under the sanitizers of addresses and undefined behaviour
 help:
 	@common/tools/help
+#: starting: make help-all     these commands, and those that only makers use
+help-all:
+	@common/tools/help all

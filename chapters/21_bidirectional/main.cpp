@@ -18,8 +18,9 @@ int main(int argc, char** argv) {
             "all"};
         Option pyramid = {"pyramid", "FILE", "also write all short strategies as one sheet",
                           [&](const std::string& text) { sheet = text; }, ""};
-        RenderOptions options = parse_render_options(
-            argc, argv, "21_bidirectional", "scenes/cornell-spheres.pbrt", {strategy, pyramid});
+        RenderOptions options =
+            parse_render_options(argc, argv, "21_bidirectional",
+                                 {"scenes/cornell-spheres.pbrt", 16}, {strategy, pyramid});
         options.search = LightSearch::both_ends;
         options.strategy = alone, options.unweighted = !alone.empty();
         Scene scene = load(options, features_of(21));

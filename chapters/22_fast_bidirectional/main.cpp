@@ -19,8 +19,8 @@ int main(int argc, char** argv) {
                             },
                             "15"};
         RenderOptions options =
-            parse_render_options(argc, argv, "22_fast_bidirectional", "scenes/cornell-spheres.pbrt",
-                                 {chances_option, direct_by});
+            parse_render_options(argc, argv, "22_fast_bidirectional",
+                                 {"scenes/cornell-spheres.pbrt", 32}, {chances_option, direct_by});
         options.search = LightSearch::both_ends;
         Scene scene = load(options, features_of(22));
         return render(scene, options,

@@ -1,6 +1,6 @@
 # The book: all pages as HTML, and in them the programs of all chapters as one WebAssembly module.
 .PHONY: book slides
-#: reading: make book         all pages as HTML, with chapters that run in them: out/book/index.html
+#: reading: make book         all pages as HTML, with chapters that run in them: out/book/index.html (3 minutes)
 book: $(made)
 	@command -v em++ >/dev/null || common/tools/install emscripten || true
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \

@@ -7,7 +7,6 @@
 #include "common/base/files.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
-#include "common/base/regex.h"
 #include "common/explaining/path_drawing.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
@@ -162,8 +161,8 @@ RenderOptions explain_brightest(const RenderOptions& options, const Rendering& r
         percent(s.largest / all).c_str(),
         options.paths.empty() ? "paths of class L.*D.*E, without lamps that are merely seen"
                               : "that of --paths");
-    std::string again =
-        replace_each(options.command, " --explain-brightest(?= |$)", " --explain " + place);
+    std::string again = options.command, brightest = " --explain-brightest";
+    again.replace(again.find(brightest), brightest.size(), " --explain " + place);
     std::printf("To see it again: %s\n\n", again.c_str());
     return found;
 }

@@ -119,6 +119,18 @@ size_t parse_choice(const std::string& option, const std::string& text,
     fail_value(option, text, words);
 }
 
+std::vector<int> split_numbers(const std::string& text, char separator) {
+    std::vector<int> numbers;
+    for (size_t begin = 0, end = 0; end < text.size(); begin = end + 1) {
+        end = std::min(text.find(separator, begin), text.size());
+        std::string digits = text.substr(begin, end - begin);
+        bool is_number = digits.find_first_not_of("0123456789") == std::string::npos;
+        if (!is_number || digits.empty() || digits.size() > 9) return {};
+        numbers.push_back(std::stoi(digits));
+    }
+    return numbers;
+}
+
 double parse_positive(const std::string& option, const std::string& text) {
     double value = to_number(text).value_or(0);
     if (!(value > 0) || !std::isfinite(value)) {

@@ -31,6 +31,8 @@ int64_t parse_integer(const std::string& option, const std::string& text, int64_
 /// The index of `text` in the words `known`, or UsageError that suggests the most similar one.
 size_t parse_choice(const std::string& option, const std::string& text,
                     const std::vector<std::string>& known);
+/// The numbers of at most 9 digits in a text such as "256x256"; none if it has another form.
+std::vector<int> split_numbers(const std::string& text, char separator);
 /// A number greater than 0, or UsageError.
 double parse_positive(const std::string& option, const std::string& text);
 

@@ -6,7 +6,6 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
-#include "common/base/regex.h"
 #include "common/options/project.h"
 #include "common/picture/notes.h"
 #include "common/recording/class_filter.h"
@@ -23,22 +22,23 @@ void add_output(std::vector<std::string>& out, const std::string& path, bool tab
 }
 
 void parse_size(const std::string& text, RenderOptions& options) {
-    std::vector<std::string> groups = groups_of(text, "(\\d{1,5})x(\\d{1,5})");
-    if (groups.empty()) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
-    options.width = static_cast<int>(parse_integer("size", groups[1], 1, 65536));
-    options.height = static_cast<int>(parse_integer("size", groups[2], 1, 65536));
+    std::vector<int> sides = split_numbers(text, 'x');
+    if (sides.size() != 2) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
+    for (int side : sides)
+        if (side < 1 || side > 65536) fail_value("size", text, "sides of 1 to 65536 pixels");
+    options.width = sides[0], options.height = sides[1];
     if (int64_t{options.width} * options.height > 1 << 28) {
         fail_value("size", text, "at most 2^28 pixels");
     }
 }
 
 void parse_explain(const std::string& text, RenderOptions& options) {
-    std::vector<std::string> groups = groups_of(text, "(\\d{1,9}),(\\d{1,9})(?:,(\\d{1,9}))?");
-    if (groups.empty()) fail_value("explain", text, "X,Y or X,Y,SAMPLE");
+    std::vector<int> place = split_numbers(text, ',');
+    if (place.size() != 2 && place.size() != 3) fail_value("explain", text, "X,Y or X,Y,SAMPLE");
     options.explain = true;
-    options.explain_x = std::stoi(groups[1]);
-    options.explain_y = std::stoi(groups[2]);
-    options.explain_sample = groups[3].empty() ? -1 : std::stoi(groups[3]);
+    options.explain_x = place[0];
+    options.explain_y = place[1];
+    options.explain_sample = place.size() == 2 ? -1 : place[2];
 }
 
 void parse_film(const std::string& text, RenderOptions& options) {
@@ -54,9 +54,9 @@ double parse_interval(const std::string& text) {
 }
 
 void parse_part(const std::string& text, RenderOptions& options) {
-    std::vector<std::string> groups = groups_of(text, "(\\d{1,9})/(\\d{1,9})");
-    if (!groups.empty()) {
-        options.part = std::stoi(groups[1]), options.parts = std::stoi(groups[2]);
+    std::vector<int> numbers = split_numbers(text, '/');
+    if (numbers.size() == 2) {
+        options.part = numbers[0], options.parts = numbers[1];
         if (options.part >= 1 && options.part <= options.parts) return;
     }
     fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
@@ -123,7 +123,7 @@ std::string parse_picture(const std::string& option, const std::string& text) {
 }
 
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
-                                   const std::string& scene, std::vector<Option> extra,
+                                   const DefaultScene& scene, std::vector<Option> extra,
                                    const std::vector<std::string>& takes) {
     RenderOptions o;
     o.name = name;
@@ -175,7 +175,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     options.insert(options.begin(), extra.begin(), extra.end());
     parse_options(
         argc, argv, "[SCENE]",
-        "Chapter " + name + " on a pbrt-v4 scene (default: the project's " + scene +
+        "Chapter " + name + " on a pbrt-v4 scene (default: the project's " + scene.file +
             ").\nWrites into the folder where it is started. Ctrl-C keeps the picture so far: exit "
             "code 3.",
         options, [&](const std::string& word) {
@@ -185,7 +185,10 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
             }
             o.scene = word;
         });
-    if (o.scene.empty()) o.scene = project_file(argv[0], scene);
+    if (o.scene.empty()) {
+        o.scene = project_file(argv[0], scene.file);
+        if (o.spp == 0) o.spp = scene.spp;
+    }
     check_together(o);
     if (o.out.empty()) o.out = {"out/" + name + ".ppm"};
     if (o.threads == 0)

@@ -53,10 +53,17 @@ struct RenderOptions {
     std::vector<std::pair<std::string, std::function<Image(const Film&)>>> pictures = {};
 };
 
+/// The scene that a chapter renders if none is named, and its samples per pixel (0: as it says).
+struct DefaultScene {
+    DefaultScene(const char* name, int samples = 0) : file(name), spp(samples) {}
+    std::string file;
+    int spp;
+};
+
 /// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.
 /// `takes` names the general options that apply to it (empty: all); it refuses the others.
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
-                                   const std::string& scene, std::vector<Option> extra = {},
+                                   const DefaultScene& scene, std::vector<Option> extra = {},
                                    const std::vector<std::string>& takes = {});
 
 /// The file name of a picture, or UsageError.

@@ -9,7 +9,6 @@
 #include "common/base/json.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
-#include "common/base/regex.h"
 #include "common/options/command_line.h"
 #include "common/picture/finite_part.h"
 #include "common/picture/notes.h"
@@ -185,15 +184,26 @@ std::string mean_and_error(const Film& film) {
     return text + of_others;
 }
 
+/// The command without the options that --explain does not accept.
+std::string without_film(std::string command) {
+    for (const char* option : {" --film", " --part"}) {  // and --film-every
+        for (size_t at; (at = command.find(option)) != std::string::npos;) {
+            size_t value = command.find_first_of("= ", at + 1) + 1;
+            bool quoted = command[value] == '\'';
+            size_t end = command.find(quoted ? '\'' : ' ', value + 1) + (quoted ? 1 : 0);
+            command.erase(at, end - at);
+        }
+    }
+    return command;
+}
+
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     if (!options.quiet) print_summary(scene, options, r);
     bool all_written = write_files(scene, options, r);
     flush_stdout();  // while signals are still handled
     if (r.stats.not_finite == 0 && all_written) return r.stats.interrupted ? 3 : 0;
     if (r.stats.not_finite == 0) return 1;
-    // The command without the options that --explain does not accept.
-    const char* film_words = " --(film|film-every|part)(=| )('[^']*'|[^ ]*)";
-    std::string command = replace_each(options.command, film_words, "");
+    std::string command = without_film(options.command);
     std::fprintf(stderr, "error: %llu samples were not finite; to see one: %s --explain %d,%d,%d\n",
                  static_cast<unsigned long long>(r.stats.not_finite), command.c_str(),
                  r.stats.bad_x, r.stats.bad_y, r.stats.bad_sample);

@@ -1,5 +1,5 @@
 # Pages, and what looks at the text of the code.
-.PHONY: diff steps lint pictures gallery readmes student-edition tidy
+.PHONY: diff lint pictures gallery readmes student-edition tidy
 
 #: reading: make diff CH=08   what a chapter changes of the one before
 diff:
@@ -7,14 +7,10 @@ diff:
 #: maintaining: make lint         the rules that the text of the code keeps
 lint:
 	common/tools/check_text
-	common/tools/steps
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 #: teaching: make student-edition   student/: the project without solutions, answers and diffs; CH=09: with exercises up to 09
 student-edition: $(made)
 	@common/tools/student_edition $(CH)
-#: maintaining: make steps        how large the step of each chapter is from the one before
-steps:
-	@common/tools/steps
 #: maintaining: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
 pictures: programs
 	common/tools/make_pictures $(BUILD)
@@ -34,7 +30,7 @@ readmes: programs
 check_pages: programs
 	$(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
 
-#: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy
+#: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy (13 minutes)
 tidy: compile_commands.json
 	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
 	printf '%s\n' $(compiled) | xargs -n 1 -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet -p .

@@ -1,5 +1,5 @@
 # The book, tried out in headless browsers.
 .PHONY: test-book
-#: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live
+#: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes)
 test-book: book programs
 	tests/book/run out/book $(BUILD)

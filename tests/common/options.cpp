@@ -184,9 +184,9 @@ TEST_SUITE("options") {
                   "error: " + c.option + c.error + ", not '" + c.value + "'");
         }
         CHECK(usage_error({"--size", "0x4"}) ==
-              "error: --size takes a whole number from 1 to 65536, not '0'");
+              "error: --size takes sides of 1 to 65536 pixels, not '0x4'");
         CHECK(usage_error({"--size", "4x99999"}) ==
-              "error: --size takes a whole number from 1 to 65536, not '99999'");
+              "error: --size takes sides of 1 to 65536 pixels, not '4x99999'");
         CHECK(usage_error({"--paths", "LD("}) ==
               "error: --paths \"LD(\", column 3: this ( is not closed");
         CHECK(usage_error({"--paths", "LDD"}) ==

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <regex>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/regex.h"
 
 namespace {
 
@@ -210,19 +210,20 @@ Quantity prediction(const Hypothesis& h, const std::string& key) {
 /// For each two known mistakes with the same words, the mixture of both that explains the evidence
 /// best. If they differ in a number of "times", this may be any number.      routine: the words
 std::vector<Hypothesis> mixtures(const std::vector<Hypothesis>& known, const Evidence& evidence) {
-    auto number_of = [](const std::vector<std::string>& groups) {
-        return groups[2].empty() ? std::stod(groups[3]) : 1 / std::stod(groups[3]);
+    auto number_of = [](const std::smatch& groups) {
+        return groups[2].length() == 0 ? std::stod(groups[3]) : 1 / std::stod(groups[3]);
     };
-    std::vector<std::vector<std::string>> words;
-    for (const Hypothesis& h : known)
-        words.push_back(groups_of(h.text, "(.* )(1/)?([24])( times.*)"));
+    const std::regex times("(.* )(1/)?([24])( times.*)");
+    std::vector<std::smatch> words(known.size());
+    for (size_t i = 0; i < known.size(); i++) std::regex_match(known[i].text, words[i], times);
     std::vector<Hypothesis> all;
     for (size_t i = 0; i < known.size(); i++)
         for (size_t j = i + 1; j < known.size(); j++) {
             std::string text = known[i].text, routine = text;
             bool numbered = !words[i].empty() && !words[j].empty();
-            if (numbered) routine = words[i][1] + words[i][4];
-            if (numbered ? routine != words[j][1] + words[j][4] : text != known[j].text) continue;
+            if (numbered) routine = words[i].str(1) + words[i].str(4);
+            if (numbered ? routine != words[j].str(1) + words[j].str(4) : text != known[j].text)
+                continue;
             Evidence both = known[i].predicted;
             both.insert(known[j].predicted.begin(), known[j].predicted.end());
             double weights = 0, sum = 0;
@@ -238,7 +239,7 @@ std::vector<Hypothesis> mixtures(const std::vector<Hypothesis>& known, const Evi
                 double a = number_of(words[i]), b = number_of(words[j]);
                 double number = std::max(a + t * (b - a), 0.0);
                 t = (number - a) / (b - a);
-                text = words[i][1] + format("about %.2g", number) + words[i][4];
+                text = words[i].str(1) + format("about %.2g", number) + words[i].str(4);
             } else {
                 t = std::clamp(t, 0.0, 1.0);
             }
@@ -446,7 +447,7 @@ Diagnosis judge(const Folder& folder, const References& references,
         for (const std::string& name : best) d.name += (d.name.empty() ? "" : "; or ") + name;
         d.text += std::to_string(best.size()) +
                   " mistakes explain all numbers about equally well:\n    " +
-                  replace_each(d.name, "; or ", "; or\n    ") + ".\n";
+                  std::regex_replace(d.name, std::regex("; or "), "; or\n    ") + ".\n";
     } else {
         d.text += best.empty()
                       ? "No known mistake explains all numbers.\n"

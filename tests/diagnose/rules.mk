@@ -11,7 +11,7 @@ probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-programs: $(BUILD)/diagnose  # tests start it
+started += $(BUILD)/diagnose
 #: maintaining: make effects      measure anew what mistakes do to the small scenes (15 minutes; ONLY='eta')
 effects: $(BUILD)/diagnose_effects
 	@$< $(BUILD)/diagnosed/rows.tsv --spp 256 $(if $(ONLY),--only '$(ONLY)')

@@ -7,7 +7,6 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/regex.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/work.h"
@@ -41,9 +40,9 @@ MeasureOptions parse_measure_options(int argc, char** argv, const std::string& p
          integer("runs", o.runs, 2, 100000)},
         {"size", "WxH", "pixels (default: as the scene says)",
          [&](const std::string& text) {
-             std::vector<std::string> groups = groups_of(text, "(\\d{1,5})x(\\d{1,5})");
-             if (groups.empty()) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
-             o.width = std::stoi(groups[1]), o.height = std::stoi(groups[2]);
+             std::vector<int> sides = split_numbers(text, 'x');
+             if (sides.size() != 2) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
+             o.width = sides[0], o.height = sides[1];
          }},
         {"max-depth", "D", "scattering events (default: as the scene says)",
          integer("max-depth", o.max_depth, 0, 1 << 30)},

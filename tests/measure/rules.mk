@@ -13,47 +13,47 @@ $(BUILD)/bench: LIBS += $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3
 $(BUILD)/gnuplot:
 	@command -v gnuplot >/dev/null || common/tools/install gnuplot-nox; mkdir -p $(@D); touch $@
 
-#: measuring: make chart        error against time of all chapters, and how time grows (QUICK=1: 5 minutes; SCENE=cornell)
+#: measuring: make chart        error against time of all chapters, and how time grows (16 minutes; QUICK=1: 5; SCENE=cornell)
 chart: $(BUILD)/chart $(BUILD)/growth $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
 	$(if $(SCENE),,$(BUILD)/growth $(call quick,--quick))
-#: measuring: make front        the chart of the front page, anew
+#: maintaining: make front        the chart of the front page, anew
 front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart cornell --methods all --seconds 60
 	cp out/chart-cornell.svg tests/measure/front.svg; cp out/chart-summary.tsv tests/measure/front.tsv
 	common/tools/fill_readmes --text README.md
-#: measuring: make stability    do methods fail where theory says, as it says, and nowhere else?
+#: measuring: make stability    do methods fail where theory says, as it says, and nowhere else? (3 minutes)
 stability: $(BUILD)/stability $(made)
 	$<
-#: measuring: make agree        z values of every chapter against the others, on every scene
+#: measuring: make agree        z values of every chapter against the others, on every scene (8 minutes)
 agree: $(BUILD)/agree $(BUILD)/gnuplot $(made)
 	$< $(SCENE)
-#: measuring: make efficiency CH=14   a chapter's error, time and efficiency beside the one before
+#: measuring: make efficiency CH=14   a chapter's error, time and efficiency beside the one before (3 minutes)
 efficiency: $(BUILD)/efficiency $(made)
 	@$< $(or $(CH),$(SCENE),cornell) $(chosen)
-#: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time
+#: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time (2 minutes)
 compare: $(BUILD)/efficiency $(made)
 	@$< $(or $(SCENE),cornell) $(chosen) --equal-time
-#: measuring: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
+#: maintaining: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
 radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
 	@$< $(SCENE)
-#: measuring: make references   render what the charts compare with
+#: maintaining: make references   render what the charts compare with (40 minutes)
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
-#: measuring: make bench        rays per second of each step of chapter 06, beside Embree
+#: measuring: make bench        rays per second of each step of chapter 06, beside Embree (2 minutes)
 bench: $(BUILD)/bench $(BUILD)/gnuplot
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency passes radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
 harness := $(common) $(support)
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
-#: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's)
+#: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's) (15 minutes)
 teeth: $(harness) $(made)
 	@$(teeth)
 #: teaching: make break CH=09 N=2   plant the second mistake of that page's "Break it", and show its test red
 break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
-#: maintaining: make kills        end renders by 300 signals at random moments: no film or picture is lost
+#: maintaining: make kills        end renders by 300 signals at random moments: no film or picture is lost (4 minutes)
 kills: $(BUILD)/15_mis_ris $(BUILD)/07_path_tracing
 	tests/kills $(BUILD)
 #: maintaining: make parts        render parts by GNU parallel and Slurm: the same bytes as one run
