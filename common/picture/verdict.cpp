@@ -20,7 +20,7 @@ std::string short_number(double x) {
     return text;
 }
 
-bool has_8_bits(const PictureFacts& facts) { return !facts.file.ends_with(".pfm"); }
+bool has_8_bits(const PictureFacts& facts) { return !has_ending(facts.file, ".pfm"); }
 
 std::string about_means(const Comparison& c, double standard_error, bool is_cut_off) {
     double difference = c.mean_a - c.mean_b;
