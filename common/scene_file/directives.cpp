@@ -275,34 +275,38 @@ void Directives::object_begin(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     std::string name = lexer.unescape(token);
     if (open_object_) fail(lexer.at(word), "ObjectBegin inside an object");
-    if (objects_.contains(name)) fail(lexer.at(token), "a second object " + quote(name));
+    Object& object = objects_[name];
+    if (object.defined) fail(lexer.at(token), "a second object " + quote(name));
     begin(lexer, word);
-    open_object_ = &objects_[name];
+    object.defined = true;
+    open_object_ = &object;
 }
 
 void Directives::object_end(Lexer& lexer, const Token& word) {
     end(lexer, word);
+    const Object& object = *open_object_;
     open_object_ = nullptr;
+    for (const auto& [at, state] : object.early) place_object(object, at, state);
 }
 
 void Directives::object_instance(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     if (open_object_) fail(lexer.at(word), "ObjectInstance inside an object");
-    auto found = objects_.find(lexer.unescape(token));
-    if (found == objects_.end()) {
-        std::vector<std::string> known;
-        for (const auto& [name, object] : objects_) known.push_back(name);
-        fail_unknown(lexer.at(token), "object", lexer.unescape(token), known);
-    }
-    for (const auto& [shape, state] : found->second.shapes) {
+    Object& object = objects_[lexer.unescape(token)];
+    if (object.defined) return place_object(object, lexer.at(word), state_);
+    object.early.emplace_back(lexer.at(token), state_);
+}
+
+void Directives::place_object(const Object& object, const Position& at, const State& state) {
+    for (const auto& [shape, inside] : object.shapes) {
         if (++placed_ > limits_.directives) {
-            stop_reading(lexer.at(word), "more than " + std::to_string(limits_.directives) +
-                                             " shapes of objects are placed");
+            stop_reading(at, "more than " + std::to_string(limits_.directives) +
+                                 " shapes of objects are placed");
         }
         Params params = shape;
-        State where = state;
-        where.start = state_.start * state.start, where.end = state_.end * state.end;
-        if (where.unusable.empty()) where.unusable = state_.unusable;
+        State where = inside;
+        where.start = state.start * inside.start, where.end = state.end * inside.end;
+        if (where.unusable.empty()) where.unusable = state.unusable;
         place(params, where);
     }
 }
@@ -425,8 +429,13 @@ const Transform& Directives::still_transform(Params& params) const {
     return state_.start;
 }
 
-void Directives::check_materials() const {
-    std::vector<std::string> known;
+// Names may be defined after their use, but must be defined.
+void Directives::check_names() const {
+    std::vector<std::string> known, known_objects;
+    for (const auto& [name, object] : objects_)
+        if (object.defined) known_objects.push_back(name);
+    for (const auto& [name, object] : objects_)
+        if (!object.defined) fail_unknown(object.early[0].first, "object", name, known_objects);
     std::set<uint32_t> used;
     for (const Shape& shape : scene_.shapes) used.insert(shape.material);
     std::map<uint32_t, const std::string*> undefined;  // by index, which is the order of first use
@@ -493,7 +502,7 @@ void Directives::stand_in_for_missing() {
 void Directives::check_complete() {
     Position file = {scene_.file};
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
-    check_materials();
+    check_names();
     check_uvs(scene_.geometry);
     for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
     for (const auto& [name, named] : named_materials_) {
