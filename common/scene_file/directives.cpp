@@ -429,30 +429,31 @@ const Transform& Directives::still_transform(Params& params) const {
     return state_.start;
 }
 
-// Names may be defined after their use, but must be defined.
+// Names of objects and materials may be defined after their use, but must be defined.
 void Directives::check_names() const {
-    std::vector<std::string> known, known_objects;
-    for (const auto& [name, object] : objects_)
-        if (object.defined) known_objects.push_back(name);
-    for (const auto& [name, object] : objects_)
-        if (!object.defined) fail_unknown(object.early[0].first, "object", name, known_objects);
     std::set<uint32_t> used;
     for (const Shape& shape : scene_.shapes) used.insert(shape.material);
-    std::map<uint32_t, const std::string*> undefined;  // by index, which is the order of first use
-    for (const auto& [name, material] : named_materials_) {
-        if (material.defined) known.push_back(name);
-        if (!material.defined && used.contains(material.index)) undefined[material.index] = &name;
+    std::map<std::string, std::vector<std::string>> known;  // by kind
+    std::map<Position, std::pair<std::string, std::string>> wrong;
+    for (const auto& [name, object] : objects_) {
+        if (object.defined) known["object"].push_back(name);
+        if (!object.defined) wrong[object.early[0].first] = {"object", name};
     }
-    std::vector<std::string> wrong;
-    for (const auto& [index, name] : undefined) {
-        if (wrong.size() == most_errors) {
-            wrong.push_back(message_at({scene_.file}, "error", too_much_is_wrong));
+    for (const auto& [name, material] : named_materials_) {
+        if (material.defined) known["NamedMaterial"].push_back(name);
+        if (!material.defined && used.contains(material.index))
+            wrong[material.first_use] = {"NamedMaterial", name};
+    }
+    std::vector<std::string> lines;
+    for (const auto& [at, what] : wrong) {
+        if (lines.size() == most_errors) {
+            lines.push_back(message_at({scene_.file}, "error", too_much_is_wrong));
             break;
         }
-        wrong.push_back(message_at(named_materials_.at(*name).first_use, "error",
-                                   unknown("NamedMaterial", *name, known)));
+        const auto& [kind, name] = what;
+        lines.push_back(message_at(at, "error", unknown(kind, name, known[kind])));
     }
-    if (!wrong.empty()) throw InputError(join_lines(wrong));
+    if (!lines.empty()) throw InputError(join_lines(lines));
 }
 
 // A mesh may be given a material whose texture is named later.

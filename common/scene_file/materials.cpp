@@ -296,7 +296,8 @@ Light read_light(Params& params, const Transform& world_from_light) {
         // The mean of a picture is not known: it could not be read.
         bool is_picture = params.find("string", "filename");
         light.L = is_picture ? Rgb{0.5f, 0.5f, 0.5f} : params.illuminant("L", {1, 1, 1});
-        light.L *= scale * read_total(params, "illuminance", pi);
+        light.L *= scale;
+        light.L *= read_total(params, "illuminance", pi);
     } else {
         params.fail_type({"distant", "infinite", "point"});
     }
