@@ -110,10 +110,10 @@ void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b
     explain("below 5 standard errors the means may be the same, beyond they are not");
     for (size_t i = 0; i < c.channels.size(); i++) {
         const ChannelComparison& channel = c.channels[i];
-        std::printf("%-5s  %.4g, %.4g: A - B %.3g (%s by blocks; median of A/B %.5g\n",
-                    channel_names[i], channel.mean_a, channel.mean_b,
-                    channel.mean_a - channel.mean_b,
-                    difference(channel, channel.standard_error).c_str(), channel.median_ratio);
+        std::printf(
+            "%-5s  means %.4g and %.4g: A - B %.3g (%s standard errors; median of A/B %.5g\n",
+            channel_names[i], channel.mean_a, channel.mean_b, channel.mean_a - channel.mean_b,
+            difference(channel, channel.standard_error).c_str(), channel.median_ratio);
     }
     print_errors(o, c);
     std::printf("verdict: %s\n", verdict(c, se, a, b).c_str());
