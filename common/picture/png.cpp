@@ -218,7 +218,8 @@ Image decode_png(const std::string& path, const std::string& bytes, float gamma)
     std::string file(signature);  // without empty parts, which stb copies to nowhere
     for_chunks(path, bytes, [&](std::string_view kind, std::string_view data) {
         if (kind == "CgBI")
-            fail({path}, "a .png picture as Xcode packs it (CgBI), with other colours: convert it");
+            fail({path},
+                 "a .png picture of Xcode (CgBI), whose colors are in another order: save it anew");
         if (kind == "IEND" || !data.empty())
             file += png_chunk(std::string(kind) + std::string(data));
     });
