@@ -1,5 +1,6 @@
 // Chapter 19 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/19_adaptive/estimator.h"
+#include "common/base/files.h"
 #include "common/picture/heat_map.h"
 #include "common/program/render.h"
 
@@ -28,7 +29,7 @@ int main(int argc, char** argv) {
             argc, argv, "19_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});
         auto counts_of = [&](const Film& film) {
             float most = 4 * static_cast<float>(film.spp());
-            return map.ends_with(".pfm") ? film.counts() : heat_map(film.counts(), most);
+            return has_ending(map, ".pfm") ? film.counts() : heat_map(film.counts(), most);
         };
         if (!map.empty()) options.pictures = {{map, counts_of}};
         Scene scene = load(options, features_of(19));

@@ -52,7 +52,7 @@ inline std::vector<Option> own_options(Settings& s) {
         {"every", "K", "write a picture after each K shots: NAME-000100.png, ...",
          number("every", s.every, 1 << 30)},
         {"mesh", "FILE.ply", "also write the patches with their colours", [&](const auto& text) {
-             if (!text.ends_with(".ply")) fail_value("mesh", text, "a .ply file");
+             if (!has_ending(text, ".ply")) fail_value("mesh", text, "a .ply file");
              s.mesh = text;
          }}};
 }

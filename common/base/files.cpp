@@ -179,6 +179,10 @@ bool same_file(const std::string& a, const std::string& b) {
            (lower_case(x.filename()) == lower_case(y.filename()) && ignores_case(x.parent_path()));
 }
 
+bool has_ending(const std::string& path, const std::string& ending) {
+    return lower_case(file_path(path)).ends_with(ending);
+}
+
 void make_folder(const std::string& path) {
     std::error_code error, none;
     fs::create_directories(file_path(path), error);

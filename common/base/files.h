@@ -44,6 +44,9 @@ void check_writable(const std::string& path);
 /// ignores that; it need not exist yet.
 bool same_file(const std::string& a, const std::string& b);
 
+/// Whether the file's name ends so, such as in ".pfm", be it in capitals.
+bool has_ending(const std::string& path, const std::string& ending);
+
 /// Makes the folder and those above it where they are not there. Throws InputError.
 void make_folder(const std::string& path);
 

@@ -13,7 +13,7 @@
 namespace {
 
 void add_output(std::vector<std::string>& out, const std::string& path, bool table) {
-    bool tsv = table && path.ends_with(".tsv");
+    bool tsv = table && has_ending(path, ".tsv");
     if (!tsv && !is_image_path(path)) {
         fail_value("out", path,
                    table ? "a .ppm, .pfm, .png or .tsv file" : "a .ppm, .pfm or .png file");
@@ -42,7 +42,7 @@ void parse_explain(const std::string& text, RenderOptions& options) {
 }
 
 void parse_film(const std::string& text, RenderOptions& options) {
-    if (!text.ends_with(film_ending)) fail_value("film", text, "a .film file");
+    if (!has_ending(text, film_ending)) fail_value("film", text, "a .film file");
     options.film = text;
 }
 

@@ -8,7 +8,17 @@
 
 namespace {
 
-double brightness(Rgb c) { return (double{c.r} + double{c.g} + double{c.b}) / 3; }
+constexpr int brightness = 3;  // behind red, green and blue
+
+double value(Rgb c, int channel) {
+    if (channel == brightness) return (double{c.r} + double{c.g} + double{c.b}) / 3;
+    return double{channel == 0 ? c.r : channel == 1 ? c.g : c.b};
+}
+
+bool is_grey(const Image& image) {
+    auto same = [](Rgb c) { return c.r == c.g && c.g == c.b; };
+    return std::all_of(image.pixels.begin(), image.pixels.end(), same);
+}
 
 /// The squared error of a pixel, averaged over its channels: plain, and relative.
 struct PixelError {
@@ -62,11 +72,11 @@ void sum_errors(std::vector<PixelError> errors, double trim, Comparison& result)
     result.worst_share = sum > 0 ? worst / sum : 0;
 }
 
-double median_ratio(const Image& a, const Image& b) {
+double median_ratio(const Image& a, const Image& b, int channel) {
     std::vector<double> ratios;
     for (size_t i = 0; i < a.pixels.size(); i++) {
-        double y = brightness(b.pixels[i]);
-        if (y > 0) ratios.push_back(brightness(a.pixels[i]) / y);
+        double y = value(b.pixels[i], channel);
+        if (y > 0) ratios.push_back(value(a.pixels[i], channel) / y);
     }
     if (ratios.empty()) return NAN;
     std::sort(ratios.begin(), ratios.end());
@@ -74,51 +84,69 @@ double median_ratio(const Image& a, const Image& b) {
     return ratios.size() % 2 ? ratios[middle] : (ratios[middle - 1] + ratios[middle]) / 2;
 }
 
-void compare_blocks(const Image& a, const Image& b, Comparison& result) {
+/// Compares one channel, block by block; `worst`: by block, what is worst in any channel so far.
+ChannelComparison compare_channel(const Image& a, const Image& b, int channel,
+                                  std::vector<double>& worst) {
+    RunningStats mean_a, mean_b;
+    for (Rgb p : a.pixels) mean_a.add(value(p, channel));
+    for (Rgb p : b.pixels) mean_b.add(value(p, channel));
+    ChannelComparison result{mean_a.mean(), mean_b.mean(), median_ratio(a, b, channel)};
     double variance = 0, pixels = 0;  // of the sum of the differences
+    size_t block = 0;
     for (int y0 = 0; y0 < a.height; y0 += comparison_block) {
         for (int x0 = 0; x0 < a.width; x0 += comparison_block) {
             RunningStats difference, level;
             for (int y = y0; y < std::min(a.height, y0 + comparison_block); y++) {
                 for (int x = x0; x < std::min(a.width, x0 + comparison_block); x++) {
-                    difference.add(brightness(a.at(x, y)) - brightness(b.at(x, y)));
-                    level.add(std::abs(brightness(b.at(x, y))));
+                    difference.add(value(a.at(x, y), channel) - value(b.at(x, y), channel));
+                    level.add(std::abs(value(b.at(x, y), channel)));
                 }
             }
+            double& z = worst[block++];
             if (difference.count() < 16) continue;  // too few pixels to estimate the spread
             double n = static_cast<double>(difference.count());
             variance += n * difference.variance();
             pixels += n;
-            result.blocks++;
+            z = std::max(z, 0.0);
             double d = std::abs(difference.mean());
             if (d <= 1e-6 * level.mean()) continue;  // rounding
-            double z = d / difference.standard_error();
-            result.beyond_5 += z > 5;
-            if (z <= result.worst_z) continue;
-            result.worst_z = z, result.worst_x = x0, result.worst_y = y0;
+            z = std::max(z, d / difference.standard_error());
+            result.beyond_5 += d / difference.standard_error() > 5;
         }
     }
     result.standard_error = pixels > 0 ? std::sqrt(variance) / pixels : NAN;
+    return result;
 }
 
 }  // namespace
 
 Comparison compare(const Image& a, const Image& b, double trim) {
-    Comparison result;
-    RunningStats mean_a, mean_b;
-    for (Rgb p : a.pixels) mean_a.add(brightness(p));
-    for (Rgb p : b.pixels) mean_b.add(brightness(p));
-    result.mean_a = mean_a.mean();
-    result.mean_b = mean_b.mean();
+    // Compare the brightness and, where they can differ otherwise, the channels.
+    int across = (a.width + comparison_block - 1) / comparison_block;
+    int down = (a.height + comparison_block - 1) / comparison_block;
+    std::vector<double> worst(static_cast<size_t>(across * down), -1);  // -1: too small a block
+    Comparison result{compare_channel(a, b, brightness, worst)};
+    bool are_grey = is_grey(a) && is_grey(b);
+    for (int channel = 0; channel < 3 && !are_grey; channel++)
+        result.channels.push_back(compare_channel(a, b, channel, worst));
+    for (int i = 0; i < across * down; i++) {
+        double z = worst[static_cast<size_t>(i)];
+        result.blocks += z >= 0;
+        if (z <= result.worst_z) continue;
+        result.worst_z = z;
+        result.worst_x = i % across * comparison_block;
+        result.worst_y = i / across * comparison_block;
+    }
+    result.beyond_5 =
+        static_cast<int>(std::count_if(worst.begin(), worst.end(), [](double z) { return z > 5; }));
+
     sum_errors(errors_of(a, b), trim, result);
-    result.median_ratio = median_ratio(a, b);
     for (size_t i = 0; i < a.pixels.size(); i++) {
         Rgb p = a.pixels[i], q = b.pixels[i];
         bool differ =
             (p.r == 1) != (q.r == 1) || (p.g == 1) != (q.g == 1) || (p.b == 1) != (q.b == 1);
         result.cut_off += differ;
     }
-    compare_blocks(a, b, result);
     return result;
 }
 

@@ -2,27 +2,36 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/picture/image.h"
 
+/// The means of one channel, or of the brightness, which is the mean of the three.
+struct ChannelComparison {
+    double mean_a = 0, mean_b = 0;
+    double median_ratio = 0;    // median ratio of a / b where b > 0
+    double standard_error = 0;  // of mean_a - mean_b; NaN where there is no block
+    int beyond_5 = 0;           // blocks
+};
+
 /// The result of compare(). Errors are means of a - b over pixels and channels; b: the reference.
-struct Comparison {
-    double mean_a = 0, mean_b = 0;  // over pixels and channels
+struct Comparison : ChannelComparison {         // of the brightness
+    std::vector<ChannelComparison> channels{};  // red, green and blue; none where both are grey
     double mse = 0, rmse = 0;
-    double rel_mse = 0;       // of (a-b)^2 / (b^2 + 0.01)
-    double worst_share = 0;   // of the squared error, in the worst 0.1 % of the pixels
-    double median_ratio = 0;  // median ratio of brightness a / b where b > 0
-    int cut_off = 0;          // pixels with a channel of 1, the most in 8 bits, in one picture only
+    double rel_mse = 0;      // of (a-b)^2 / (b^2 + 0.01)
+    double worst_share = 0;  // of the squared error, in the worst 0.1 % of the pixels
+    int cut_off = 0;         // pixels with a channel of 1, the most in 8 bits, in one picture only
 
     // Differences of blocks of 8 x 8 pixels, in standard errors. These are estimated from the
-    // spread of a - b within a block, which needs pixels with independent noise.
-    double standard_error = 0;  // of mean_a - mean_b; NaN where there is no block
-    int blocks = 0, beyond_5 = 0;
+    // spread of a - b within a block, which needs pixels with independent noise. Of the brightness
+    // and the channels, the one that differs most counts.
+    int blocks = 0;
     double worst_z = 0;
     int worst_x = 0, worst_y = 0;  // top left pixel of that block
 };
 
 inline constexpr int comparison_block = 8;
+inline constexpr const char* channel_names[] = {"red", "green", "blue"};
 
 /// Compares a with the reference b, pictures of the same size.
 ///

@@ -31,12 +31,6 @@ float from_srgb(float code) {
 
 namespace {
 
-std::string extension(const std::string& path) {
-    std::string name = file_name(file_path(path));
-    size_t dot = name.find_last_of("./");
-    return dot == std::string::npos || name[dot] == '/' ? "" : name.substr(dot);
-}
-
 // The colour of pixels that are not finite, in formats that cannot store them: magenta.
 constexpr Rgb not_a_color = {1, 0, 1};
 
@@ -183,8 +177,7 @@ Image decode_pfm(Header header, size_t channels) {
 }  // namespace
 
 bool is_image_path(const std::string& path) {
-    std::string kind = extension(path);
-    return kind == ".ppm" || kind == ".pfm" || kind == ".png";
+    return has_ending(path, ".ppm") || has_ending(path, ".pfm") || has_ending(path, ".png");
 }
 
 std::string encode_png(const Image& image, const std::string& comment) {
@@ -192,10 +185,9 @@ std::string encode_png(const Image& image, const std::string& comment) {
 }
 
 void write_image(const std::string& path, const Image& image, const std::string& comment) {
-    std::string kind = extension(path);
-    if (kind == ".ppm") return write_file_atomically(path, encode_ppm(image, comment));
-    if (kind == ".pfm") return write_file_atomically(path, encode_pfm(image));
-    if (kind == ".png") return write_file_atomically(path, encode_png(image, comment));
+    if (has_ending(path, ".ppm")) return write_file_atomically(path, encode_ppm(image, comment));
+    if (has_ending(path, ".pfm")) return write_file_atomically(path, encode_pfm(image));
+    if (has_ending(path, ".png")) return write_file_atomically(path, encode_png(image, comment));
     fail({path}, "a picture's name must end in .ppm, .pfm or .png");
 }
 
@@ -203,7 +195,7 @@ Image read_image(const std::string& path) { return decode_image(path, read_file(
 
 Image decode_image(const std::string& path, const std::string& bytes, float gamma) {
     if (is_png(bytes)) return decode_png(path, bytes, gamma);
-    if (is_jpg(bytes) || extension(path) == ".tga") return decode_jpg_or_tga(path, bytes, gamma);
+    if (is_jpg(bytes) || has_ending(path, ".tga")) return decode_jpg_or_tga(path, bytes, gamma);
     if (bytes.starts_with("\x76\x2f\x31\x01")) {
         fail({path}, "an .exr picture: pbrt makes a .pfm of it, by imgtool convert --outfile " +
                          path.substr(0, path.rfind('.')) + ".pfm " + path);

@@ -1,7 +1,6 @@
 #include "common/picture/png.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -48,18 +47,8 @@ constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view comment_key = {"Comment\0", 8};
 
 uint32_t crc32(std::string_view bytes) {
-    static const std::array<uint32_t, 256> of_byte = [] {
-        std::array<uint32_t, 256> table;
-        for (uint32_t i = 0; i < 256; i++) {
-            table[i] = i;
-            for (int bit = 0; bit < 8; bit++)
-                table[i] = (table[i] >> 1) ^ (table[i] & 1 ? 0xedb88320u : 0);
-        }
-        return table;
-    }();
-    uint32_t crc = ~0u;
-    for (char byte : bytes) crc = (crc >> 8) ^ of_byte[(crc ^ static_cast<uint8_t>(byte)) & 255];
-    return ~crc;
+    auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    return stbiw__crc32(const_cast<unsigned char*>(data), static_cast<int>(bytes.size()));
 }
 
 std::string big_endian(size_t value) {
@@ -68,9 +57,18 @@ std::string big_endian(size_t value) {
     return bytes;
 }
 
-size_t big_endian_at(std::string_view bytes, size_t at) {
+/// The byte at a place; 0 behind the end.
+size_t byte_at(std::string_view bytes, size_t at) {
+    return at < bytes.size() ? static_cast<uint8_t>(bytes[at]) : 0;
+}
+size_t big_endian_at(std::string_view bytes, size_t at, size_t count = 4) {
     size_t value = 0;
-    for (size_t i = 0; i < 4; i++) value = value << 8 | static_cast<uint8_t>(bytes[at + i]);
+    for (size_t i = 0; i < count; i++) value = value << 8 | byte_at(bytes, at + i);
+    return value;
+}
+size_t little_endian_at(std::string_view bytes, size_t at, size_t count = 4) {
+    size_t value = 0;
+    for (size_t i = count; i-- > 0;) value = value << 8 | byte_at(bytes, at + i);
     return value;
 }
 
@@ -79,9 +77,9 @@ template <typename Visit>
 void for_chunks(const std::string& path, std::string_view bytes, const Visit& visit) {
     std::string_view kind;
     for (size_t at = signature.size(); kind != "IEND";) {
-        if (bytes.size() - at < 12 || big_endian_at(bytes, at) > bytes.size() - at - 12)
-            fail({path}, "the picture is cut short, or damaged");
         size_t length = big_endian_at(bytes, at);
+        if (bytes.size() - at < 12 || length > bytes.size() - at - 12)
+            fail({path}, "the picture is cut short, or damaged");
         kind = bytes.substr(at + 4, 4);
         if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length))
             fail({path}, "a damaged .png picture: a checksum is wrong");
@@ -91,39 +89,52 @@ void for_chunks(const std::string& path, std::string_view bytes, const Visit& vi
 }
 
 /// Whether a .tga file has fewer pixels than its header says: stb would make them up.
-bool tga_is_cut(const std::string& bytes) {
-    auto byte = [&](size_t i) { return size_t{static_cast<uint8_t>(bytes[i])}; };
+bool tga_is_cut(std::string_view file) {
+    auto byte = [&](size_t i) { return byte_at(file, i); };
     constexpr size_t header = 18;
-    if (bytes.size() < header) return true;
-    size_t palette = (byte(5) + 256 * byte(6)) * ((byte(7) + 7) / 8), each = (byte(16) + 7) / 8;
-    size_t left = (byte(12) + 256 * byte(13)) * (byte(14) + 256 * byte(15));
+    if (file.size() < header) return true;
+    size_t palette = little_endian_at(file, 5, 2) * ((byte(7) + 7) / 8), each = (byte(16) + 7) / 8;
+    size_t left = little_endian_at(file, 12, 2) * little_endian_at(file, 14, 2);
     size_t at = header + byte(0) + (byte(1) != 0 ? palette : 0);
     bool is_packed = byte(2) >= 8;
-    if (!is_packed) return bytes.size() < at + left * each;
-    while (left > 0 && at < bytes.size()) {
+    if (!is_packed) return file.size() < at + left * each;
+    while (left > 0 && at < file.size()) {
         size_t pixels = 1 + (byte(at) & 127);
         at += 1 + (byte(at) & 128 ? 1 : pixels) * each;
         left -= std::min(left, pixels);
     }
-    return left > 0 || at > bytes.size();
+    return left > 0 || at > file.size();
 }
 
 /// Whether a .jpg file has no end, or a Huffman table of more than 256 codes: stb has no room for
-/// more. A table stands where the bytes FF C4 do.
-bool jpg_is_damaged(const std::string& bytes) {
-    auto byte = [&](size_t i) {
-        return i < bytes.size() ? size_t{static_cast<uint8_t>(bytes[i])} : 0;
-    };
-    for (size_t at = 0; (at = bytes.find("\xff\xc4", at)) != std::string::npos; at += 2) {
-        size_t table = at + 4, end = at + 2 + 256 * byte(at + 2) + byte(at + 3);
-        while (table < end && table < bytes.size()) {
+/// more.
+bool jpg_is_damaged(std::string_view file) {
+    constexpr size_t tables = 0xc4, end_of_picture = 0xd9;
+    for (size_t at = 2; (at = file.find('\xff', at)) < file.size();) {
+        size_t marker = byte_at(file, at + 1), end = at + 2 + big_endian_at(file, at + 2, 2);
+        if (marker == end_of_picture) return false;
+        for (size_t table = at + 4; marker == tables && table < end;) {
             size_t codes = 0;
-            for (size_t i = 1; i <= 16; i++) codes += byte(table + i);
+            for (size_t i = 1; i <= 16; i++) codes += byte_at(file, table + i);
             if (codes > 256) return true;
             table += 17 + codes;
         }
+        // Fill bytes, pixels that are FF, and restarts are followed by no segment.
+        bool has_segment = marker > 1 && marker != 0xff && (marker < 0xd0 || marker > 0xd8);
+        at = has_segment ? end : at + (marker == 0xff ? 1 : 2);
     }
-    return bytes.rfind("\xff\xd9") == std::string::npos;
+    return true;
+}
+
+/// The bytes before the data: ten, and by the bits of the fourth an extra field, a name, a comment
+/// and a checksum. All bytes where these are not packed by gzip.
+size_t size_of_gzip_header(std::string_view bytes) {
+    size_t flags = byte_at(bytes, 3), size = 10;
+    if (flags & 4) size += 2 + little_endian_at(bytes, size, 2);
+    for (size_t flag : {8u, 16u})
+        if (flags & flag) size = std::min(bytes.find('\0', size), bytes.size()) + 1;
+    if (flags & 2) size += 2;
+    return is_gzip(bytes) && byte_at(bytes, 2) == 8 ? std::min(size, bytes.size()) : bytes.size();
 }
 
 /// What stb makes of a file, in linear values.
@@ -160,39 +171,32 @@ std::string png_chunk(const std::string& kind_and_data) {
     return big_endian(kind_and_data.size() - 4) + kind_and_data + big_endian(crc32(kind_and_data));
 }
 
-bool is_gzip(const std::string& bytes) { return bytes.starts_with("\x1f\x8b"); }
+bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 std::string unpack_gzip(const std::string& path, const std::string& bytes) {
-    auto byte = [&](size_t i) {
-        return i < bytes.size() ? uint32_t{static_cast<uint8_t>(bytes[i])} : 0;
-    };
-    auto end_of_text = [&](size_t at) {
-        size_t end = bytes.find('\0', at);
-        return end == std::string::npos ? bytes.size() : end + 1;
-    };
-    // The header: ten bytes, and by the bits of the fourth an extra field, a name and a comment.
-    size_t at = 10;
-    if (byte(3) & 4) at += 2 + byte(at) + 256 * byte(at + 1);
-    for (uint32_t flag : {8u, 16u})
-        if (byte(3) & flag) at = end_of_text(at);
-    if (byte(3) & 2) at += 2;
     constexpr size_t most = 1032, behind = 8;  // times larger; a checksum and the length
-    if (at + behind > bytes.size() || byte(2) != 8u || bytes.size() > most_bytes)
-        fail({path}, "not whole, or larger than 1 GB: packed by gzip");
-    most_memory = (1 << 16) + most * bytes.size();
-    int size = 0;
-    std::unique_ptr<char, void (*)(void*)> text(
-        stbi_zlib_decode_noheader_malloc(bytes.data() + at,
-                                         static_cast<int>(bytes.size() - behind - at), &size),
-        std::free);
-    auto little = [&](size_t i) {
-        return byte(i) | byte(i + 1) << 8 | byte(i + 2) << 16 | byte(i + 3) << 24;
-    };
-    std::string_view unpacked(text.get(), text ? static_cast<size_t>(size) : 0);
-    size_t tail = bytes.size() - behind;
-    if (!text || unpacked.size() != little(tail + 4) || crc32(unpacked) != little(tail))
-        fail({path}, "damaged: gzip's checksum is another");
-    return std::string(unpacked);
+    std::string text;
+    for (size_t at = 0; at < bytes.size();) {
+        // stb looks at a few bytes behind the data, and so is given the rest of the file too.
+        std::string_view part = std::string_view(bytes).substr(at);
+        auto* start = reinterpret_cast<stbi_uc*>(const_cast<char*>(part.data()));
+        stbi__zbuf state = {};
+        state.zbuffer = start + size_of_gzip_header(part);
+        state.zbuffer_end = start + part.size();
+        constexpr int room = 1 << 14;
+        most_memory = std::min(most_bytes, room + 2 * most * part.size());
+        auto* memory = static_cast<char*>(STBI_MALLOC(room));
+        bool is_whole = memory && stbi__do_zlib(&state, memory, room, 1, 0);
+        std::unique_ptr<char, void (*)(void*)> unpacked(state.zout_start, std::free);
+        size_t size = static_cast<size_t>(state.zout - state.zout_start);
+        size_t tail = static_cast<size_t>(state.zbuffer - start - state.num_bits / 8);
+        if (!is_whole || tail + behind > part.size() || size != little_endian_at(part, tail + 4) ||
+            crc32({unpacked.get(), size}) != little_endian_at(part, tail))
+            fail({path}, "damaged, cut short, or larger than 1 GB: packed by gzip");
+        text.append(unpacked.get(), size);
+        at = std::min(bytes.find_first_not_of('\0', at + tail + behind), bytes.size());
+    }
+    return text;
 }
 
 bool is_png(const std::string& bytes) { return bytes.starts_with(signature); }
@@ -213,6 +217,9 @@ std::string encode_png(int width, int height, const std::string& codes,
 Image decode_png(const std::string& path, const std::string& bytes, float gamma) {
     std::string file(signature);  // without empty parts, which stb copies to nowhere
     for_chunks(path, bytes, [&](std::string_view kind, std::string_view data) {
+        if (kind == "CgBI")
+            fail({path},
+                 "a .png picture of Xcode (CgBI), whose colors are in another order: save it anew");
         if (kind == "IEND" || !data.empty())
             file += png_chunk(std::string(kind) + std::string(data));
     });

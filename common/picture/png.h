@@ -4,7 +4,7 @@
 #include "common/picture/image.h"
 
 /// Whether a file is packed by gzip.
-bool is_gzip(const std::string& bytes);
+bool is_gzip(std::string_view bytes);
 
 /// What such a file holds; throws InputError for one that is damaged.
 std::string unpack_gzip(const std::string& path, const std::string& bytes);

@@ -20,27 +20,79 @@ std::string short_number(double x) {
     return text;
 }
 
-bool has_8_bits(const PictureFacts& facts) { return !facts.file.ends_with(".pfm"); }
+bool has_8_bits(const PictureFacts& facts) { return !has_ending(facts.file, ".pfm"); }
+
+/// The relative difference of the means; 0 where they differ by rounding alone.
+double difference_of(const ChannelComparison& c) {
+    double difference = c.mean_a - c.mean_b;
+    if (std::abs(difference) <= 1e-6 * std::abs(c.mean_b)) return 0;
+    return difference / std::abs(c.mean_b);  // infinite for 0
+}
+
+/// How many standard errors the means differ by.
+double z_of(const ChannelComparison& c, double standard_error) {
+    return difference_of(c) == 0 ? 0 : std::abs(c.mean_a - c.mean_b) / standard_error;
+}
+
+/// "2 % brighter"
+std::string how_bright(const ChannelComparison& c) {
+    double d = difference_of(c);
+    std::string much = std::isinf(d) ? "" : percent(std::abs(d)) + " ";
+    return much + (d > 0 ? "brighter" : "darker");
+}
+
+/// Noise alone puts about one block of a million beyond 5; some more, as errors are estimates.
+bool has_bad_blocks(const ChannelComparison& c, int blocks) {
+    return c.beyond_5 > 2 && c.beyond_5 > blocks / 200;
+}
+
+/// Those channels whose means differ, each with how; empty where none does, or all in the same way,
+/// which the brightness says. `z`: is set to the largest.
+std::string about_channels(const Comparison& c, double standard_error, double& z) {
+    double least = INFINITY, most = -INFINITY, blocks_error = 0;
+    for (const ChannelComparison& channel : c.channels) {
+        least = std::min(least, difference_of(channel));
+        most = std::max(most, difference_of(channel));
+        blocks_error += channel.standard_error / 3;
+    }
+    if (z > 5 && (least > most / 2 || most < least / 2)) return "";
+    // Where pixels share their noise, the blocks know only a part of it.
+    double share = std::max(1.0, standard_error / blocks_error);
+    std::string text;
+    for (size_t i = 0; i < c.channels.size(); i++) {
+        double channel_z = z_of(c.channels[i], share * c.channels[i].standard_error);
+        if (!(channel_z > 5)) continue;
+        z = text.empty() ? channel_z : std::max(z, channel_z);
+        text += (text.empty() ? "" : ", ") + how_bright(c.channels[i]) + " in " + channel_names[i];
+    }
+    return text;
+}
 
 std::string about_means(const Comparison& c, double standard_error, bool is_cut_off) {
-    double difference = c.mean_a - c.mean_b;
-    if (std::abs(difference) <= 1e-6 * std::abs(c.mean_b)) return "the same mean";
-    double z = std::abs(difference) / standard_error;
-    if (std::isnan(z)) return "how sure the means are is not known";
-    if (z > 5) {
-        std::string much = c.mean_b == 0 ? "" : percent(std::abs(difference / c.mean_b)) + " ";
-        return "other means: A is " + much + (difference > 0 ? "brighter" : "darker") +
-               " than B, " +
+    double z = z_of(c, standard_error);
+    std::string channels = about_channels(c, standard_error, z);
+    if (!channels.empty() || z > 5) {
+        return "other means: A is " + (channels.empty() ? how_bright(c) : channels) + " than B, " +
                (is_cut_off ? "perhaps by noise that 8 bits cut off"
                            : "and noise does not do that") +
                " (" + short_number(z) + " standard errors)";
     }
-    // Noise alone puts about one block of a million beyond 5; some more, as errors are estimates.
-    if (!is_cut_off && c.beyond_5 > 2 && c.beyond_5 > c.blocks / 200) {
-        return "the same mean within the noise, but not everywhere: " + std::to_string(c.beyond_5) +
-               " of " + std::to_string(c.blocks) + " blocks differ by more than noise does";
+    bool are_same = z == 0;
+    std::string where;
+    for (size_t i = 0; i < c.channels.size(); i++) {
+        are_same &= difference_of(c.channels[i]) == 0;
+        if (!has_bad_blocks(c.channels[i], c.blocks)) continue;
+        where += (where.empty() ? " in " : " and ") + std::string(channel_names[i]);
     }
-    return "the same mean within the noise";
+    if (where == " in red and green and blue") where = "";
+    bool is_known = c.blocks > 0 || are_same || z > 0;
+    if (std::isnan(z) || !is_known) return "how sure the means are is not known";
+    if (!is_cut_off && has_bad_blocks(c, c.blocks)) {
+        return "the same mean within the noise, but not everywhere: " + std::to_string(c.beyond_5) +
+               " of " + std::to_string(c.blocks) + " blocks differ" + where +
+               " by more than noise does";
+    }
+    return are_same ? "the same mean" : "the same mean within the noise";
 }
 
 double spp_of(const PictureFacts& facts) {

@@ -31,9 +31,10 @@ std::vector<std::string> doubts(const PictureFacts& a, const PictureFacts& b);
 /// One sentence: do the means agree, and which picture has the smaller error? standard_error: that
 /// of the difference of the means.
 ///
-/// Means differ if they are more than five standard errors apart. Errors are compared if both are
-/// known. The ratio of their squares is a ratio of samples, since variance falls as 1 / samples.
-/// For different scenes it says only that they differ.
-/// tested by  "truth: verdicts"
+/// Means differ if they are more than five standard errors apart, in brightness or in a channel,
+/// which is then named. Errors are compared if both are known. The ratio of their squares is a
+/// ratio of samples, since variance falls as 1 / samples. For different scenes it says only that
+/// they differ.
+/// tested by  "truth: verdicts", "truth: the verdict names the channels that differ"
 std::string verdict(const Comparison& c, double standard_error, const PictureFacts& a,
                     const PictureFacts& b);

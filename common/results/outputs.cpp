@@ -44,9 +44,9 @@ void check_space(const Scene& scene, const std::vector<std::string>& files) {
     uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
     std::vector<FutureFile> known;
     for (const std::string& file : files) {
-        if (file.ends_with(".pfm")) known.push_back({file, pixels * sizeof(Rgb)});
-        if (file.ends_with(".ppm")) known.push_back({file, pixels * 3});
-        if (file.ends_with(film_ending)) known.push_back({file, pixels * sizeof(PixelSum)});
+        if (has_ending(file, ".pfm")) known.push_back({file, pixels * sizeof(Rgb)});
+        if (has_ending(file, ".ppm")) known.push_back({file, pixels * 3});
+        if (has_ending(file, film_ending)) known.push_back({file, pixels * sizeof(PixelSum)});
     }
     check_space(known);
 }

@@ -67,7 +67,7 @@ void write_results(const TableOptions& options, const Table& table, const std::s
         std::error_code ignored;  // the write reports it
         if (file_name(file_path(path)).starts_with("out/"))
             std::filesystem::create_directories("out", ignored);
-        if (path.ends_with(".tsv")) {
+        if (has_ending(path, ".tsv")) {
             write_file_atomically(path, tab_separated(table));
         } else {
             write_image(path, picture, options.comment);

@@ -275,34 +275,38 @@ void Directives::object_begin(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     std::string name = lexer.unescape(token);
     if (open_object_) fail(lexer.at(word), "ObjectBegin inside an object");
-    if (objects_.contains(name)) fail(lexer.at(token), "a second object " + quote(name));
+    Object& object = objects_[name];
+    if (object.defined) fail(lexer.at(token), "a second object " + quote(name));
     begin(lexer, word);
-    open_object_ = &objects_[name];
+    object.defined = true;
+    open_object_ = &object;
 }
 
 void Directives::object_end(Lexer& lexer, const Token& word) {
     end(lexer, word);
+    const Object& object = *open_object_;
     open_object_ = nullptr;
+    for (const auto& [at, state] : object.early) place_object(object, at, state);
 }
 
 void Directives::object_instance(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     if (open_object_) fail(lexer.at(word), "ObjectInstance inside an object");
-    auto found = objects_.find(lexer.unescape(token));
-    if (found == objects_.end()) {
-        std::vector<std::string> known;
-        for (const auto& [name, object] : objects_) known.push_back(name);
-        fail_unknown(lexer.at(token), "object", lexer.unescape(token), known);
-    }
-    for (const auto& [shape, state] : found->second.shapes) {
+    Object& object = objects_[lexer.unescape(token)];
+    if (object.defined) return place_object(object, lexer.at(word), state_);
+    object.early.emplace_back(lexer.at(token), state_);
+}
+
+void Directives::place_object(const Object& object, const Position& at, const State& state) {
+    for (const auto& [shape, inside] : object.shapes) {
         if (++placed_ > limits_.directives) {
-            stop_reading(lexer.at(word), "more than " + std::to_string(limits_.directives) +
-                                             " shapes of objects are placed");
+            stop_reading(at, "more than " + std::to_string(limits_.directives) +
+                                 " shapes of objects are placed");
         }
         Params params = shape;
-        State where = state;
-        where.start = state_.start * state.start, where.end = state_.end * state.end;
-        if (where.unusable.empty()) where.unusable = state_.unusable;
+        State where = inside;
+        where.start = state.start * inside.start, where.end = state.end * inside.end;
+        if (where.unusable.empty()) where.unusable = state.unusable;
         place(params, where);
     }
 }
@@ -425,25 +429,31 @@ const Transform& Directives::still_transform(Params& params) const {
     return state_.start;
 }
 
-void Directives::check_materials() const {
-    std::vector<std::string> known;
+// Names of objects and materials may be defined after their use, but must be defined.
+void Directives::check_names() const {
     std::set<uint32_t> used;
     for (const Shape& shape : scene_.shapes) used.insert(shape.material);
-    std::map<uint32_t, const std::string*> undefined;  // by index, which is the order of first use
-    for (const auto& [name, material] : named_materials_) {
-        if (material.defined) known.push_back(name);
-        if (!material.defined && used.contains(material.index)) undefined[material.index] = &name;
+    std::map<std::string, std::vector<std::string>> known;  // by kind
+    std::map<Position, std::pair<std::string, std::string>> wrong;
+    for (const auto& [name, object] : objects_) {
+        if (object.defined) known["object"].push_back(name);
+        if (!object.defined) wrong[object.early[0].first] = {"object", name};
     }
-    std::vector<std::string> wrong;
-    for (const auto& [index, name] : undefined) {
-        if (wrong.size() == most_errors) {
-            wrong.push_back(message_at({scene_.file}, "error", too_much_is_wrong));
+    for (const auto& [name, material] : named_materials_) {
+        if (material.defined) known["NamedMaterial"].push_back(name);
+        if (!material.defined && used.contains(material.index))
+            wrong[material.first_use] = {"NamedMaterial", name};
+    }
+    std::vector<std::string> lines;
+    for (const auto& [at, what] : wrong) {
+        if (lines.size() == most_errors) {
+            lines.push_back(message_at({scene_.file}, "error", too_much_is_wrong));
             break;
         }
-        wrong.push_back(message_at(named_materials_.at(*name).first_use, "error",
-                                   unknown("NamedMaterial", *name, known)));
+        const auto& [kind, name] = what;
+        lines.push_back(message_at(at, "error", unknown(kind, name, known[kind])));
     }
-    if (!wrong.empty()) throw InputError(join_lines(wrong));
+    if (!lines.empty()) throw InputError(join_lines(lines));
 }
 
 // A mesh may be given a material whose texture is named later.
@@ -493,7 +503,7 @@ void Directives::stand_in_for_missing() {
 void Directives::check_complete() {
     Position file = {scene_.file};
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
-    check_materials();
+    check_names();
     check_uvs(scene_.geometry);
     for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
     for (const auto& [name, named] : named_materials_) {

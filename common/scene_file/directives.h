@@ -80,7 +80,9 @@ private:
 
     /// The shapes between ObjectBegin and ObjectEnd, which each ObjectInstance places.
     struct Object {
+        bool defined = false;
         std::vector<std::pair<Params, State>> shapes;
+        std::vector<std::pair<Position, State>> early;  // instances that stand before it
     };
 
     struct NamedMaterial {
@@ -91,12 +93,13 @@ private:
 
     Params read_params(Lexer& lexer, const Token& word, const std::string& target);
     void place(Params& params, const State& where);
+    void place_object(const Object& object, const Position& at, const State& state);
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(Params& params) const;
     std::optional<Material> read_any_material(Params& params);
     std::optional<Material> read_mix(Params& params);
     bool is_left_out(Params& params, const State& where);
-    void check_materials() const;
+    void check_names() const;
     void check_uvs(const Geometry& g);
     void check_complete();
     void stand_in_for_missing();

@@ -17,7 +17,7 @@ Rgb read_rgb(const Param& param) {
 }
 
 // "reflectance": one colour, or a texture and its largest value. Whether it is given.
-bool read_reflectance(Params& params, const TextureReader& textures, Material& material) {
+bool read_reflectance(Params& params, TextureReader& textures, Material& material) {
     std::optional<Rgb> rgb = read_reflectance(params, "reflectance");
     std::optional<NamedTexture> texture = textures.find(params, "reflectance");
     if (rgb) material.reflectance = *rgb;
@@ -133,11 +133,18 @@ Material read_dielectric(Params& params, TextureReader& textures) {
     return material;
 }
 
-// Multiplies L by a parameter that must not be negative.
-float read_factor(Params& params, const std::string& name, float fallback) {
-    float value = params.number(name, fallback);
-    if (value < 0) fail(params.at(name), quote(name) + " must not be negative");
-    return value;
+// Multiplies L by "scale", which must not be negative.
+float read_scale(Params& params) {
+    float scale = params.number("scale", 1);
+    if (scale < 0) fail(params.at("scale"), "\"scale\" must not be negative");
+    return scale;
+}
+
+// What L is multiplied by for "power" or "illuminance", if L = 1 makes `of_one`. As in pbrt, values
+// of 0 or less have no effect.
+float read_total(Params& params, const std::string& name, float of_one) {
+    float total = params.number(name, 0);
+    return total > 0 ? total / of_one : 1;
 }
 
 Vec3d read_point(Params& params, const std::string& name, Vec3 fallback) {
@@ -193,7 +200,7 @@ std::optional<Material> read_material(Params& params, TextureReader& textures) {
             if (type == "diffusetransmission") material.reflectance = {0.25f, 0.25f, 0.25f};
             read_reflectance(params, textures, material);
             if (type == "diffusetransmission" && material.texture == 0) {
-                float scale = read_factor(params, "scale", 1);
+                float scale = read_scale(params);
                 material.reflectance = scale * material.reflectance;
                 for (float* c :
                      {&material.reflectance.r, &material.reflectance.g, &material.reflectance.b})
@@ -217,12 +224,9 @@ AreaEmission read_area_light(Params& params) {
                         "an image on an area light is not supported");
     }
     AreaEmission emission;
-    emission.L = params.illuminant("L", {1, 1, 1}) * read_factor(params, "scale", 1);
+    emission.L = params.illuminant("L", {1, 1, 1}) * read_scale(params);
     emission.two_sided = params.boolean("twosided", false);
-    if (const Param* power = params.find_exactly("float", "power", 1)) {
-        emission.power = static_cast<float>(power->numbers[0]);
-        if (!(emission.power > 0)) fail(power->at, "\"power\" must be greater than 0");
-    }
+    emission.power = std::max(0.0f, params.number("power", 0));
     check_brightness(params, emission.L);
     params.finish();
     return emission;
@@ -239,12 +243,12 @@ std::optional<SkyImage> read_sky_image(Params& params, const Transform& world_fr
                   std::abs(dot(sky.z, sky.x))}) > 1e-4f) {
         fail(params.at(), "the sky's picture may be turned and mirrored, but not sheared");
     }
-    float scale = read_factor(params, "scale", 1);
+    float scale = read_scale(params);
     Position at = params.at("filename");
     std::string path = files.find(at, params.string("filename", ""));
     Image image;
-    if (const Param* illuminance = params.find("float", "illuminance")) {
-        params.stand_in(illuminance->at, "the illuminance of a picture of the sky",
+    if (params.number("illuminance", 0) > 0) {
+        params.stand_in(params.at("illuminance"), "the illuminance of a picture of the sky",
                         "\"illuminance\" of a picture of the sky is not supported");
     }
     bool is_read = params.read([&] { image = decode_image(path, files.read(path, at)); },
@@ -274,31 +278,26 @@ std::optional<SkyImage> read_sky_image(Params& params, const Transform& world_fr
 Light read_light(Params& params, const Transform& world_from_light) {
     Light light;
     light.at = kept(params.at());
-    float scale = read_factor(params, "scale", 1);
+    float scale = read_scale(params);
     bool is_spot = params.type() == "spot";
     bool is_beam = is_spot || params.type() == "goniometric" || params.type() == "projection";
     if (params.type() == "point" || (is_beam && params.stands_in())) {
         light.type = LightType::point;
         light.p = read_position(params, world_from_light);
         light.L = params.illuminant("I", {1, 1, 1}) * scale;
-        if (params.find("float", "power")) {
-            float angle = is_spot ? solid_angle_of_spot(params) : 4 * pi;
-            light.L *= read_factor(params, "power", 0) / angle;
-        }
+        light.L *= read_total(params, "power", is_spot ? solid_angle_of_spot(params) : 4 * pi);
         if (is_beam) params.ignore_rest();
     } else if (params.type() == "distant") {
         light.type = LightType::distant;
         light.p = read_direction(params, world_from_light);
-        light.L = params.illuminant("L", {1, 1, 1}) * scale * read_factor(params, "illuminance", 1);
+        light.L = params.illuminant("L", {1, 1, 1}) * scale * read_total(params, "illuminance", 1);
     } else if (params.type() == "infinite") {
         light.type = LightType::infinite;
         // The mean of a picture is not known: it could not be read.
         bool is_picture = params.find("string", "filename");
         light.L = is_picture ? Rgb{0.5f, 0.5f, 0.5f} : params.illuminant("L", {1, 1, 1});
         light.L *= scale;
-        if (params.find("float", "illuminance")) {
-            light.L *= read_factor(params, "illuminance", 0) / pi;
-        }
+        light.L *= read_total(params, "illuminance", pi);
     } else {
         params.fail_type({"distant", "infinite", "point"});
     }

@@ -38,10 +38,11 @@ float read_radius(Params& params) {
     return radius;
 }
 
-// A parameter that has not the value at which the shape is whole is not supported.
-void require(Params& params, const std::string& name, float value, const std::string& otherwise) {
-    if (params.number(name, value) == value) return;
-    params.stand_in(params.at(name), "a part of a sphere or disk", otherwise);
+// Parts are not supported. pbrt clamps an angle above 360 degrees.
+void require_whole(Params& params, const std::string& name, bool is_whole) {
+    if (params.number("phimax", 360) >= 360 && is_whole) return;
+    params.stand_in(params.at(is_whole ? "phimax" : name), "a part of a sphere or disk",
+                    "only whole spheres and disks are supported");
 }
 
 // The number of the axes of a sphere or disk; -1 where they are the world's.
@@ -55,9 +56,10 @@ int add_axes(const Transform& t, Scene& scene) {
 
 int add_sphere(Params& params, const ShapeState& state, Scene& scene) {
     float radius = read_radius(params);
-    require(params, "zmin", -radius, "only whole spheres are supported");
-    require(params, "zmax", radius, "only whole spheres are supported");
-    require(params, "phimax", 360, "only whole spheres are supported");
+    // In either order, and clamped to the sphere, as in pbrt.
+    float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
+    bool is_cut = std::min(z0, z1) > -radius || std::max(z0, z1) < radius;
+    require_whole(params, z1 == radius ? "zmin" : "zmax", !is_cut);
     const Transform& t = state.world_from_object;
     double scale = uniform_scale(params, {t.x, t.y, t.z},
                                  "a sphere scaled differently along its axes is not supported");
@@ -70,8 +72,7 @@ int add_sphere(Params& params, const ShapeState& state, Scene& scene) {
 
 int add_disk(Params& params, const ShapeState& state, Scene& scene) {
     float radius = read_radius(params);
-    require(params, "innerradius", 0, "only whole disks are supported");
-    require(params, "phimax", 360, "only whole disks are supported");
+    require_whole(params, "innerradius", params.number("innerradius", 0) == 0);
     const Transform& t = state.world_from_object;
     double scale = uniform_scale(params, {t.x, t.y},
                                  "a disk scaled differently along its axes is not supported");

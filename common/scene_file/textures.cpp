@@ -127,19 +127,29 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
     if (is_float ? floats_.contains(name) : known_.contains(name)) {
         fail(lexer.at(name_token), "a second texture " + quote(name));
     }
-    if (is_float) {
-        floats_.insert({name, {params, {}}});
-        return;
-    }
+    auto early = unknown_.find(name);
     try {
-        known_[name] = read_spectrum(params);
+        if (is_float) floats_.insert({name, {params, {}}});
+        if (!is_float) known_[name] = read_spectrum(params);
     } catch (const InputError&) {
         known_[name] = NamedTexture{};  // so that who names it is not wrong too
         throw;
     }
+    if (early == unknown_.end()) return;
+    fail(lexer.at(name_token), "the texture " + quote(name) + " must be defined above line " +
+                                   std::to_string(early->second.line) + " of " +
+                                   quote_file(early->second.file) + ", which names it");
 }
 
-std::optional<NamedTexture> TextureReader::find(Params& params, const std::string& name) const {
+template <class Map>
+void TextureReader::fail_unknown_texture(const Param& param, const Map& known) {
+    unknown_.try_emplace(param.strings[0], param.at);
+    std::vector<std::string> names;
+    for (const auto& [name, texture] : known) names.push_back(name);
+    fail_unknown(param.at, "texture", param.strings[0], names);
+}
+
+std::optional<NamedTexture> TextureReader::find(Params& params, const std::string& name) {
     const Param* param = params.find_exactly("texture", name, 1);
     if (!param) return {};
     auto found = known_.find(param->strings[0]);
@@ -148,9 +158,7 @@ std::optional<NamedTexture> TextureReader::find(Params& params, const std::strin
         fail(param->at, "the texture " + quote(param->strings[0]) +
                             " is of type \"float\", and must be of type \"spectrum\"");
     }
-    std::vector<std::string> names;
-    for (const auto& [known, texture] : known_) names.push_back(known);
-    fail_unknown(param->at, "texture", param->strings[0], names);
+    fail_unknown_texture(*param, known_);
 }
 
 float TextureReader::number(Params& params, const std::string& name, float fallback) {
@@ -170,11 +178,7 @@ Rgb TextureReader::mean_input(Params& params, const std::string& name, float fal
     }
     float value = param ? fallback : params.number(name, fallback);
     auto found = param ? floats_.find(param->strings.at(0)) : floats_.end();
-    if (param && found == floats_.end()) {
-        std::vector<std::string> names;
-        for (const auto& [known, texture] : floats_) names.push_back(known);
-        fail_unknown(param->at, "texture", param->strings[0], names);
-    }
+    if (param && found == floats_.end()) fail_unknown_texture(*param, floats_);
     if (found != floats_.end()) {
         FloatTexture& texture = found->second;
         if (!texture.mean) {

@@ -25,7 +25,7 @@ public:
     /// Reads what stands after the word Texture; defaults: of Attribute.
     void read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults);
     /// The texture that a parameter "texture NAME" names; nothing where it is not given.
-    std::optional<NamedTexture> find(Params& params, const std::string& name) const;
+    std::optional<NamedTexture> find(Params& params, const std::string& name);
     /// A number, or the mean of the texture that a parameter "texture NAME" names, as a stand-in.
     float number(Params& params, const std::string& name, float fallback);
 
@@ -46,6 +46,8 @@ private:
     NamedTexture read_picture(Params& params);
     uint32_t picture(Params& params, const Position& at, float gamma);
     void read_texels(const std::string& path, const Position& at, float gamma);
+    template <class Map>
+    [[noreturn]] void fail_unknown_texture(const Param& param, const Map& known);
     uint32_t add(const Position& at, const Texture& texture, Rgb mean);
 
     const Limits limits_;
@@ -58,6 +60,7 @@ private:
         std::optional<float> mean;  // once it was asked for
     };
     std::map<std::string, NamedTexture> known_;
+    std::map<std::string, Position> unknown_;  // who named a texture that was not known yet
     std::map<std::string, FloatTexture> floats_;
     std::map<std::pair<std::string, float>, Picture> pictures_;  // by canonical name and gamma
     uint64_t texels_ = 0;

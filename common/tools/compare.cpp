@@ -70,6 +70,13 @@ void print_mean(const char* name, const PictureFacts& facts, double mean) {
     }
 }
 
+/// "3 %), 20", of standard errors.
+std::string difference(const ChannelComparison& c, double standard_error) {
+    double d = c.mean_a - c.mean_b;
+    bool same = std::abs(d) <= 1e-6 * std::abs(c.mean_b);  // rounding
+    return percent(d / c.mean_b) + "), " + digits(same ? 0 : d / standard_error, 3);
+}
+
 /// A figure, and on the next line what it is.
 void explain(const char* words) { std::printf("    %s\n", words); }
 
@@ -94,15 +101,20 @@ void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b
            const Comparison& c) {
     print_mean("A", a, c.mean_a);
     print_mean("B", b, c.mean_b);
-    double difference = c.mean_a - c.mean_b, se = std::hypot(a.standard_error, b.standard_error);
+    double se = std::hypot(a.standard_error, b.standard_error);
     bool known = !std::isnan(se);
     if (!known) se = c.standard_error;
-    bool same = std::abs(difference) <= 1e-6 * std::abs(c.mean_b);  // rounding
-    std::printf("A - B  %.3g (%s), %s standard errors by %s\n", difference,
-                percent(difference / c.mean_b).c_str(),
-                digits(same ? 0 : difference / se, 3).c_str(),
+    std::printf("A - B  %.3g (%s standard errors by %s\n", c.mean_a - c.mean_b,
+                difference(c, se).c_str(),
                 known ? "the files beside both" : "the differences of pixels within blocks");
     explain("below 5 standard errors the means may be the same, beyond they are not");
+    for (size_t i = 0; i < c.channels.size(); i++) {
+        const ChannelComparison& channel = c.channels[i];
+        std::printf(
+            "%-5s  means %.4g and %.4g: A - B %.3g (%s standard errors; median of A/B %.5g\n",
+            channel_names[i], channel.mean_a, channel.mean_b, channel.mean_a - channel.mean_b,
+            difference(channel, channel.standard_error).c_str(), channel.median_ratio);
+    }
     print_errors(o, c);
     std::printf("verdict: %s\n", verdict(c, se, a, b).c_str());
 }

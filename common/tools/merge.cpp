@@ -32,7 +32,7 @@ MergeOptions parse(int argc, char** argv) {
     }
     o.out = words[0];
     o.films.assign(words.begin() + 1, words.end());
-    if (!is_image_path(o.out) && !o.out.ends_with(film_ending)) {
+    if (!is_image_path(o.out) && !has_ending(o.out, film_ending)) {
         throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
     }
     std::vector<std::string> written = {o.out};

@@ -358,21 +358,33 @@ TEST_SUITE("film error") {
         // 5 x 3 blocks, of which the last column and row are 5 pixels wide.
         Comparison c = compare(a, b);
         CHECK(c.blocks == 15);
-        double variance = 0, worst = 0;
+        double worst = 0;
+        std::array<double, 4> variance = {};
         int beyond = 0, worst_x = 0, worst_y = 0;
         for (int y0 = 0; y0 < height; y0 += 8)
             for (int x0 = 0; x0 < width; x0 += 8) {
-                std::vector<double> d;
-                for (int y = y0; y < std::min(height, y0 + 8); y++)
-                    for (int x = x0; x < std::min(width, x0 + 8); x++)
-                        d.push_back(bright(a.at(x, y)) - bright(b.at(x, y)));
-                double n = static_cast<double>(d.size()), v = variance_of_mean(d);
-                variance += n * n * v;
-                double z = std::abs(mean_of(d)) / std::sqrt(v);
-                beyond += z > 5;
-                if (z > worst) worst = z, worst_x = x0, worst_y = y0;
+                bool is_beyond = false;
+                for (size_t channel = 0; channel < 4; channel++) {
+                    std::vector<double> d;
+                    for (int y = y0; y < std::min(height, y0 + 8); y++)
+                        for (int x = x0; x < std::min(width, x0 + 8); x++) {
+                            Rgb e = a.at(x, y), f = b.at(x, y);
+                            d.push_back(std::array{
+                                double{e.r} - double{f.r}, double{e.g} - double{f.g},
+                                double{e.b} - double{f.b}, bright(e) - bright(f)}[channel]);
+                        }
+                    double n = static_cast<double>(d.size()), v = variance_of_mean(d);
+                    variance[channel] += n * n * v;
+                    double z = std::abs(mean_of(d)) / std::sqrt(v);
+                    is_beyond |= z > 5;
+                    if (z > worst) worst = z, worst_x = x0, worst_y = y0;
+                }
+                beyond += is_beyond;
             }
-        CHECK(c.standard_error == about(std::sqrt(variance) / (width * height)));
+        CHECK(c.standard_error == about(std::sqrt(variance[3]) / (width * height)));
+        for (size_t i = 0; i < 3; i++)
+            CHECK(c.channels.at(i).standard_error ==
+                  about(std::sqrt(variance[i]) / (width * height)));
         CHECK(c.worst_z == about(worst, 1e-3));
         CHECK(c.worst_x == worst_x);
         CHECK(c.worst_y == worst_y);

@@ -109,6 +109,41 @@ TEST_SUITE("comparison") {
         CHECK(verdict(c, 0.01, a, b) == "the same picture");
     }
 
+    TEST_CASE("truth: the verdict names the channels that differ") {
+        Image b = noisy(grey(64, 64, 1), 0.1f, 1);
+        for (Rgb& p : b.pixels) p = {0.5f * p.r, p.g, 0.2f * p.b};
+        auto verdict_of = [&](auto change, double known_error = 0) {
+            Image a = b;
+            for (size_t i = 0; i < a.pixels.size(); i++)
+                a.pixels[i] = change(b.pixels[i], i % 16 < 8);
+            Comparison c = compare(a, b);
+            return verdict(c, std::max(c.standard_error, known_error), {}, {});
+        };
+        const std::string other = "other means: A is ", not_noise = " than B, and noise does not";
+        auto exchanged = [](Rgb p, bool) { return Rgb{p.b, p.g, p.r}; };
+        for (double known_error : {0.0, 1e-3}) {
+            CHECK(
+                verdict_of(exchanged, known_error)
+                    .starts_with(other + "60 % darker in red, 150 % brighter in blue" + not_noise));
+        }
+        CHECK(verdict_of([](Rgb p, bool) {
+                  return Rgb{p.r, 1.02f * p.g, p.b};
+              }).starts_with(other + "2 % brighter in green" + not_noise));
+        CHECK(verdict_of([](Rgb p, bool) {
+                  return Rgb{p.r, p.g, 0};
+              }).starts_with(other + "100 % darker in blue" + not_noise));
+        CHECK(verdict_of([](Rgb p, bool) {
+                  return p * 1.02f;
+              }).starts_with(other + "2 % brighter" + not_noise));
+        // Errors that cancel in each channel's mean.
+        CHECK(
+            verdict_of([](Rgb p, bool left) {
+                return p + (left ? 1.0f : -1.0f) * Rgb{0.1f, -0.1f, 0};
+            })
+                .starts_with("the same mean within the noise, but not everywhere: 64 of 64 blocks "
+                             "differ in red and green by more"));
+    }
+
     TEST_CASE("identity: notes are read from a .ppm, a .png and a .json as they were written") {
         TemporaryFolder folder;
         const Notes notes = {{"chapter", "09_light_sampling"},

@@ -436,6 +436,31 @@ TEST_SUITE("reader: shapes") {
         CHECK(scene.shapes[g.spheres[1].shape].reverse);
     }
 
+    TEST_CASE(
+        "input: a sphere, disk or cylinder is whole where pbrt clamps its limits to the whole") {
+        auto is_whole = [](const std::string& shape) {
+            try {
+                return parse_world("Shape " + shape).geometry.size() > 0;
+            } catch (const InputError&) {
+                return false;
+            }
+        };
+        for (const char* limits :
+             {"\"float zmin\" -2", "\"float zmax\" 7", "\"float zmin\" -9 \"float zmax\" 9",
+              "\"float zmin\" 1 \"float zmax\" -1", "\"float zmin\" 3 \"float zmax\" -3",
+              "\"float phimax\" 360.5"})
+            CHECK(is_whole(std::string("\"sphere\" ") + limits));
+        for (const char* limits :
+             {"\"float zmin\" -.99", "\"float zmax\" .5", "\"float zmin\" 2", "\"float zmax\" -2",
+              "\"float zmin\" .5 \"float zmax\" -1", "\"float zmin\" 3 \"float zmax\" 5",
+              "\"float phimax\" 359", "\"float phimax\" 0", "\"float phimax\" -360"})
+            CHECK(!is_whole(std::string("\"sphere\" ") + limits));
+        CHECK(is_whole("\"disk\" \"float phimax\" 1e9"));
+        CHECK(!is_whole("\"disk\" \"float innerradius\" -.5"));
+        const std::string cylinder = "Shape \"cylinder\"";
+        check_same(parse_world(cylinder), parse_world(cylinder + " \"float phimax\" 400"));
+    }
+
     TEST_CASE("input: a disk faces its own z axis") {
         auto disk = [](const std::string& before) {
             return parse_world(before +
@@ -510,6 +535,7 @@ TEST_SUITE("reader: shortcuts of scene files") {
         CHECK(scene.lights.size() == 1);  // the sky
         CHECK(notes[0].ends_with("lights inside an object are left out, as in pbrt"));
         CHECK_THROWS_WITH(read(object), "scene.pbrt: error: no Shape");
+        check_same(read(twice + "Identity " + object), scene);  // instances before the object
         Limits limits;
         limits.primitives = 3;
         CHECK_THROWS_WITH(parse_scene("scene.pbrt", start + object + twice, nullptr, {}, limits),

@@ -222,6 +222,20 @@ TEST_SUITE("reader: lights") {
         CHECK(near(light.L * (4 * pi), {100, 50, 200}));
     }
 
+    TEST_CASE("input: a power or illuminance that is not above 0 has no effect, as in pbrt") {
+        for (const char* none : {"0", "-0.0", "-1", "-1e30"}) {
+            for (const auto& [type, total] : {std::pair("point", "power"),
+                                              {"distant", "illuminance"},
+                                              {"infinite", "illuminance"}}) {
+                const std::string light =
+                    std::string("LightSource \"") + type + "\" \"float scale\" 3";
+                CHECK(light_of(light + " \"float " + total + "\" " + none).L == light_of(light).L);
+            }
+            const std::string lamp = "AreaLightSource \"diffuse\" \"float power\" ";
+            CHECK(parse_world(lamp + none + ' ' + quad).lights[0].L == Rgb{1, 1, 1});
+        }
+    }
+
     TEST_CASE("input: distant lights") {
         Light light = light_of("LightSource \"distant\"");
         CHECK(light.type == LightType::distant);

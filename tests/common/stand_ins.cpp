@@ -262,6 +262,31 @@ TEST_SUITE("stand-ins") {
         }
     }
 
+    TEST_CASE(
+        "input: what stands in the segments of a .jpg is no marker, and endings may be capitals") {
+        const std::string jpg = read_file("tests/fuzz/corpus/sky.jpg"),
+                          tga = read_file("tests/fuzz/corpus/sky.tga");
+        const std::string table = "\xff\xc4\1\1" + std::string(200, '\xff'), end = "\xff\xd9";
+        std::vector<Rgb> expected = decode_image("a.jpg", jpg).pixels;
+        for (const char* kind : {"\xe1", "\xed", "\xfe"}) {  // Exif, Photoshop, a comment
+            const std::string segment = "\xff" + (kind + std::string("\0\xd0", 2)) + table + end;
+            CHECK(decode_image("a.JPG", jpg.substr(0, 2) + segment + jpg.substr(2)).pixels ==
+                  expected);
+            std::string cut = jpg.substr(0, 2) + segment + jpg.substr(2, jpg.size() - 5);
+            CHECK_THROWS_AS(decode_image("a.jpg", cut), InputError);
+        }
+        // A table of more than 256 codes.
+        CHECK_THROWS_AS(decode_image("a.jpg", jpg.substr(0, 2) + table + jpg.substr(2)),
+                        InputError);
+        CHECK(decode_image("a.TGA", tga).pixels == decode_image("a.tga", tga).pixels);
+        for (const char* path : {"a.PPM", "a.Pfm", "a.PNG"}) CHECK(is_image_path(path));
+        // A .png as Xcode packs it.
+        const std::string png = read_file("tests/fuzz/corpus/sky.png");
+        CHECK_THROWS_WITH_AS(
+            decode_image("a.png", png.substr(0, 8) + png_chunk("CgBI1234") + png.substr(8)),
+            doctest::Contains("CgBI"), InputError);
+    }
+
     TEST_CASE("input: a room as others write them is read, with coated materials as stand-ins") {
         Files files;
         std::filesystem::copy("tests/fuzz/corpus/sky.tga", files.folder / "wood.tga");
@@ -341,6 +366,14 @@ TEST_SUITE("stand-ins") {
         CHECK(files.world("Shape \"plymesh\" \"string filename\" \"a.ply.gz\"")
                   .geometry.triangles.size() == 1);
         std::string packed = read_file(files.folder / "a.pbrt.gz");
+        // What gzip makes of an empty file: two bytes of data, then a checksum and a length of 0.
+        const std::string none("\x1f\x8b\x08\0\0\0\0\0\0\3\3\0\0\0\0\0\0\0\0\0", 20),
+            padding(9, '\0');
+        CHECK(unpack_gzip("none", none) == "");
+        CHECK(unpack_gzip("parts", none + packed + none + packed + padding) ==
+              unpack_gzip("a", packed) + unpack_gzip("a", packed));
+        CHECK_THROWS_AS(unpack_gzip("parts", packed + none.substr(0, 15)), InputError);
+        CHECK_THROWS_AS(unpack_gzip("parts", packed + "more"), InputError);
         for (size_t i = 10; i < packed.size(); i++) {
             std::string damaged = packed;
             damaged[i] ^= 1;
