@@ -2,7 +2,9 @@
 #pragma once
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
+#include <utility>
 
 struct Quantity {
     double mean = 0, se = 0;
@@ -54,28 +56,11 @@ public:
         Quantity r = ratio(probe, name);
         return !(std::abs(r.mean - 1) <= std::max(5 * r.se, least));
     }
-    bool right(const std::string& probe, const std::string& name = "LDE") const {
-        return has(probe) && !off(probe, name);
-    }
-    /// Whether the ratio is this one, within its error.
-    bool is(const std::string& probe, const std::string& name, double value) const {
-        if (!has(probe)) return false;
-        Quantity r = ratio(probe, name);
-        return std::abs(r.mean - value) <= std::max(4 * r.se, 0.04 * value);
-    }
     /// Light of a class that should bring nothing.
     bool leaks(const std::string& probe, const std::string& name) const {
         if (find(expected_, probe, name).mean > 0) return false;
         Quantity m = find(measured_, probe, name);
         return !(m.mean <= std::max(4 * m.se, 2e-3));
-    }
-    /// Light of any class that should bring nothing; its name, or "".
-    std::string leak(const std::string& probe) const {
-        auto row = measured_.find(probe);
-        if (row == measured_.end()) return "";
-        for (const auto& [name, q] : row->second)
-            if (is_class(name) && leaks(probe, name)) return name;
-        return "";
     }
 
     static constexpr double least = 0.008;  // by which a mean must be off
@@ -83,3 +68,36 @@ public:
 private:
     Quantities measured_, expected_;
 };
+
+/// "1/pi" for 0.318: the nearest factor that mistakes are known to make, or "".
+inline std::string name_factor(double ratio) {
+    constexpr double pi_exact = std::numbers::pi;
+    static const std::pair<double, const char*> factors[] = {{pi_exact, "pi"},
+                                                             {1 / pi_exact, "1/pi"},
+                                                             {2 * pi_exact, "2 pi"},
+                                                             {0.5 / pi_exact, "1/(2 pi)"},
+                                                             {4 * pi_exact, "4 pi"},
+                                                             {0.25 / pi_exact, "1/(4 pi)"},
+                                                             {2, "2"},
+                                                             {0.5, "1/2"},
+                                                             {3, "3"},
+                                                             {1.0 / 3, "1/3"},
+                                                             {4, "4"},
+                                                             {0.25, "1/4"},
+                                                             {2.25, "eta^2"},
+                                                             {1 / 2.25, "1/eta^2"},
+                                                             {1.5, "3/2"},
+                                                             {2.0 / 3, "2/3"},
+                                                             {4.0 / 3, "4/3"},
+                                                             {0.75, "3/4"},
+                                                             {2 / (3 * pi_exact), "2/(3 pi)"},
+                                                             {pi_exact * pi_exact, "pi^2"},
+                                                             {1 / (pi_exact * pi_exact), "1/pi^2"}};
+    std::string best;
+    double least = 0.04;
+    for (const auto& [value, text] : factors) {
+        double distance = std::abs(std::log(ratio / value));
+        if (distance < least) least = distance, best = text;
+    }
+    return best;
+}

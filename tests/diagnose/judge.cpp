@@ -149,7 +149,7 @@ std::string scene_of(const std::string& key) { return key.substr(0, key.find('/'
 Hypothesis with_factor(const Evidence& evidence, const std::set<std::string>& scenes,
                        const std::set<std::string>& unknown, const char* what) {
     double weights = 0, sum = 0;
-    Hypothesis h{"-", "", {}, true};
+    Hypothesis h{"-", "", {}};
     for (const auto& [key, q] : evidence) {
         if (key.ends_with(" dark") || !scenes.contains(scene_of(key))) continue;
         double weight = 1 / (q.se * q.se + 1e-4 * q.mean * q.mean + 1e-8);
@@ -243,7 +243,7 @@ std::vector<Hypothesis> mixtures(const std::vector<Hypothesis>& known, const Evi
             } else {
                 t = std::clamp(t, 0.0, 1.0);
             }
-            Hypothesis h{routine, text, {}, true};
+            Hypothesis h{routine, text, {}};
             for (const auto& [key, of_either] : both) {
                 Quantity p = prediction(known[i], key), r = prediction(known[j], key);
                 double mean = p.mean + t * (r.mean - p.mean);
@@ -419,7 +419,7 @@ Diagnosis judge(const Folder& folder, const References& references,
         if (!h.text.empty()) hypotheses.push_back(h);
     std::vector<std::string> best;
     auto fitting = [&] {
-        std::vector<Fit> fits = explanations(hypotheses, evidence, INFINITY);
+        std::vector<Fit> fits = explanations(hypotheses, evidence);
         std::erase_if(fits,
                       [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });
         return fits;

@@ -29,8 +29,9 @@ struct Diagnosis {
 };
 
 /// A tile is off if its distance from the reference would happen by chance in one of a thousand
-/// such sets of pictures, and is 0.8 % at least (8 bits: 3 %). A mistake is named by the rules of
-/// name_mistake(), and only if it predicts something of each scene that is off. tested by  "truth:
+/// such sets of pictures, and is 0.8 % at least (8 bits: 3 %). A mistake is named only if it
+/// explains all numbers, a thousand times better than every other known one, and predicts something
+/// of each scene that is off; else two that do, or several of one kind. tested by  "truth:
 /// the mistake in another renderer's pictures is named"
 Diagnosis judge(const Folder& folder, const References& references,
                 const std::vector<Hypothesis>& effects);

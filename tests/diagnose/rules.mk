@@ -1,20 +1,19 @@
 # Pictures of small scenes by any renderer: what is wrong with them?
-diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge check/naming check/probes)
+diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge diagnose/explanations check/probes)
 measuring_small := $(diagnosing) $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/programs/measure measure/measure measure/methods)
 planted_methods := 07 09 14
 # They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
 $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
 
-.PHONY: probes diagnose effects diagnose-references diagnose-trial
+.PHONY: probes diagnose effects diagnose-references
 #: teaching: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes
 probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-started += $(BUILD)/diagnose
-#: maintaining: make effects      measure anew what mistakes do to the small scenes (15 minutes; ONLY='eta')
+#: maintaining: make effects      measure anew what mistakes do to the small scenes (6 minutes)
 effects: $(BUILD)/diagnose_effects
-	@$< $(BUILD)/diagnosed/rows.tsv --spp 256 $(if $(ONLY),--only '$(ONLY)')
+	@$< $(BUILD)/diagnosed/rows.tsv --spp 256
 $(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.tsv tests/diagnose/plant tests/diagnose/planted.h
 	@tests/diagnose/plant $(BUILD)/diagnosed
 	@for chapter in $(planted_methods); do echo "compile chapter $$chapter with mistakes"; \
@@ -23,9 +22,6 @@ $(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $(planted_methods:%=$(BUILD)/diagnosed/%.o) $(filter %.o,$^) -o $@
 # What the small scenes should be, by chapters that agree (5 minutes).
 diagnose-references: $(BUILD)/diagnose_references
-	@$< --references --spp 8192 $(if $(ONLY),--only '$(ONLY)')
+	@$< --references --spp 8192
 $(BUILD)/diagnose_references: $(patsubst %,$(BUILD)/obj/tests/measure/method_%.o,08 10 14 15 21) $(measuring_small) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-#: maintaining: make diagnose-trial   plant mistakes in a tracer of another style, and count what build/diagnose names (13 minutes; FILL=1, ONLY=)
-diagnose-trial: $(BUILD)/diagnose
-	@tests/diagnose/trial $(BUILD) '$(ONLY)' $(FILL)

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "common/picture/image.h"
-#include "tests/check/naming.h"
+#include "tests/diagnose/explanations.h"
 #include "tests/diagnose/scenes.h"
 
 /// Numbers of one scene: of its 4 x 4 tiles, row by row; of a coloured scene first those of red.

@@ -11,7 +11,6 @@
 #include "tests/check/probes.h"
 #include "tests/diagnose/judge.h"
 #include "tests/support/folder.h"
-#include "tests/support/run_program.h"
 
 namespace {
 
@@ -173,29 +172,5 @@ TEST_SUITE("diagnose") {
         Folder same = read_folder(folder.path());
         CHECK(same.scenes.empty());
         CHECK(same.notes.at(0).ends_with("are the same: they need different seeds"));
-    }
-
-    TEST_CASE("truth: mistakes in a tracer of another style are named") {
-        if (std::system("command -v node >/dev/null") != 0) return;  // it is JavaScript
-        TemporaryFolder folder;
-        std::string scenes = "SCENES='frame floor slant far sky mirror sphere-2 pearl' ";
-        for (const char* words :
-             {"rows of the file from the top", "distance instead of its square"}) {
-            std::string command = scenes + "tests/diagnose/trial " + program_folder.string() +
-                                  " '" + words + "' >" + (folder / "says");
-            CHECK(std::system(command.c_str()) == 0);
-            std::string says = read_file(folder / "says");
-            CAPTURE(says);
-            CHECK(says.find("| yes |") != std::string::npos);
-        }
-    }
-}
-
-TEST_SUITE("diagnose slow") {
-    TEST_CASE("truth: correct variants of a tracer of another style are called right") {
-        if (std::system("command -v node >/dev/null") != 0) return;
-        CHECK(std::system(
-                  ("tests/diagnose/trial " + program_folder.string() + " c >/dev/null").c_str()) ==
-              0);
     }
 }

@@ -28,6 +28,7 @@ TEST_SUITE("exercises") {
         CHECK(says(text, "    // Sample a light.\n"));
         CHECK(says(text, "    // Yours. As it was: chapters/08_russian_roulette/estimator.h\n"));
         CHECK(says(text, "    return x.material->reflectance / pi;"));  // as in chapter 08
+        CHECK(says(text, "    not_written(\"sample_light\");\n}"));
         CHECK_FALSE(says(text, "y.pdf_w /= static_cast<float>(N);"));
         CHECK_FALSE(says(text, "direct_light(scene, *x"));
     }

@@ -33,7 +33,7 @@ Image picture_of(const std::string& text, const Method& method, const MeasureOpt
 }
 
 /// The references: by chapters that find light in different ways.
-int write_references(const MeasureOptions& o, const std::string& only) {
+int write_references(const MeasureOptions& o) {
     constexpr int batches = 8;
     std::string text =
         "# What the 4 x 4 tiles of the small scenes should be, row by row (of coloured scenes "
@@ -41,13 +41,7 @@ int write_references(const MeasureOptions& o, const std::string& only) {
         "# those of red), and a standard error. By chapters 08, 10, 14, 15 and 21, which agree:\n"
         "# make diagnose-references.\n";
     int disagree = 0;
-    std::string before = only.empty() ? "" : read_file(references_file);
     for (const SmallScene& scene : small_scenes()) {
-        size_t at = before.find("\n" + scene.name + "\t");
-        if (!only.empty() && scene.name != only && at != std::string::npos) {
-            text += before.substr(at + 1, before.find('\n', at + 1) - at);
-            continue;
-        }
         std::vector<Tiles> answers;
         for (const Method& method : methods_named({"08", "10", "14", "15", "21"})) {
             std::vector<RunningStats> stats(count_tiles(scene));
@@ -233,7 +227,7 @@ bool are_alike(const std::map<std::string, Tiles>& one, const std::map<std::stri
 }
 
 /// Measures the effects, and writes them down.
-int write_effects(const MeasureOptions& o, const std::string& rows, const std::string& only) {
+int write_effects(const MeasureOptions& o, const std::string& rows) {
     struct Way {
         const char* method;
         bool cosine, sky;
@@ -257,21 +251,11 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
     std::map<std::string, std::vector<std::map<std::string, Tiles>>> known;  // by words
     std::map<std::string, bool> shown;  // by words: in any scene
     std::istringstream lines(read_file(rows));
-    std::string before = only.empty() ? "" : read_file(effects_file);
     for (std::string line; std::getline(lines, line);) {
         std::istringstream stream(line);
         std::string cells[6];
         for (std::string& cell : cells) std::getline(stream, cell, '\t');
         const std::string& how = cells[3];
-        if (!std::regex_search(cells[2], std::regex(only))) {
-            // What is not measured anew stays.
-            std::string words = "\t" + cells[2] + "\t";
-            for (size_t at; (at = before.find(words)) != std::string::npos;) {
-                size_t from = before.rfind('\n', at) + 1, end = before.find('\n', at) + 1;
-                text += before.substr(from, end - from), before.erase(from, end - from);
-            }
-            continue;
-        }
         std::map<std::string, Tiles> with_uniform_sky;  // way a: of other scenes, k has the same
         for (char name : cells[1]) {
             bool is_code = ways.contains(name);
@@ -353,14 +337,10 @@ int write_effects(const MeasureOptions& o, const std::string& rows, const std::s
 int main(int argc, char** argv) {
     return run_program([&] {
         bool references = false;
-        std::string only;
         std::vector<Option> flags = {
-            {"references", "", "what is right", [&](const std::string&) { references = true; }},
-            {"only", "WORDS",
-             "measure only mistakes whose words match this pattern, or this scene's references",
-             [&](const std::string& words) { only = words; }}};
+            {"references", "", "what is right", [&](const std::string&) { references = true; }}};
         MeasureOptions o =
             parse_measure_options(argc, argv, "ROWS", "Measures the small scenes.", {}, flags);
-        return references ? write_references(o, only) : write_effects(o, o.words.at(0), only);
+        return references ? write_references(o) : write_effects(o, o.words.at(0));
     });
 }

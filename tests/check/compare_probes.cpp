@@ -1,13 +1,13 @@
-// names NN: renders small scenes by chapter NN, and says which mistake would make them as they are.
+// compare_probes NN: renders small scenes by chapter NN, and says what is not as it should be.
+#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <set>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
-#include "tests/check/naming.h"
+#include "tests/check/findings.h"
 #include "tests/check/probes.h"
 #include "tests/measure/measure.h"
 #include "tests/support/seal.h"
@@ -16,7 +16,6 @@ namespace {
 
 constexpr int batches = 16;
 constexpr const char* reference_file = "tests/check/references.tsv";
-constexpr const char* hypotheses_file = "tests/check/hypotheses.tsv";
 
 /// The quantities of one probe, from the spread of several renders.
 std::map<std::string, Quantity> measure(const Method& method, const Probe& probe,
@@ -36,8 +35,7 @@ std::map<std::string, Quantity> measure(const Method& method, const Probe& probe
         values["rays"] = static_cast<double>(r.stats.rays) / taken;
         double noise = r.film.standard_error() * std::sqrt(taken) / r.film.mean();
         if (std::isfinite(noise)) values["noise"] = noise;
-        double& parts = values["parts"];
-        for (const auto& [name, film] : r.classes) values[name] = film.mean(), parts += film.mean();
+        for (const auto& [name, film] : r.classes) values[name] = film.mean();
         for (const auto& [name, value] : values) {
             RunningStats& s = stats[name];
             while (s.count() < static_cast<uint64_t>(batch)) s.add(0);  // had nothing before
@@ -90,8 +88,7 @@ Quantities measure_all(const Method& method, const MeasureOptions& o, double tim
         auto row = measure(method, probe, o, static_cast<int>(probe.samples * more), seed);
         for (const auto& [name, q] : row)
             if (is_seen(method, name)) found[probe.name][name] = q;
-        bool all_seen = !method.name.starts_with("20");
-        if (!all_seen) found[probe.name].erase("all"), found[probe.name].erase("parts");
+        if (method.name.starts_with("20")) found[probe.name].erase("all");
     }
     return found;
 }
@@ -123,31 +120,105 @@ Findings findings_of(const Method& method, const MeasureOptions& o, double times
         row = found.contains(row->first) ? std::next(row) : expected.erase(row);
     for (auto& [probe, row] : expected)
         std::erase_if(row, [&](const auto& cell) {
-            bool all = cell.first == "all" || cell.first == "parts";
+            bool all = cell.first == "all";
             return !is_seen(method, cell.first) || (all && method.name.starts_with("20"));
         });
     return {found, expected};
 }
 
-/// Everything that is off, for who wants to think for himself.
-void print_rest(const Findings& f, const char* way, int most) {
-    int count = 0, classes = 0;
+/// A number that is off.
+struct Off {
+    std::string probe, name;
+    Quantity ratio;  // or what a class brings that should bring nothing: `leaks`
+    bool leaks = false;
+};
+
+/// Whether a number that is no mean of light is looked at: some mistakes show in no other.
+bool tells(const std::string& probe, const std::string& name) {
+    static const std::set<std::pair<std::string, std::string>> all = {{"floor", "samples"},
+                                                                      {"sphere", "rays"},
+                                                                      {"red", "noise"},
+                                                                      {"sizes", "noise"},
+                                                                      {"floor", "noise"}};
+    return all.contains({probe, name});
+}
+
+/// The classes of path that are off, and pictures that are, though none of their classes is.
+std::vector<Off> means_off(const Findings& f) {
+    std::vector<Off> all;
+    std::set<std::string> probes;
     for (const auto& [probe, row] : f.expected())
-        for (const auto& [name, q] : row) {
-            if (!is_class(name)) continue;
-            classes++;
-            if (!f.off(probe, name) || ++count > most) continue;
-            Quantity r = f.ratio(probe, name);
-            std::printf("    %-18s %-10s %8.4f +- %.4f  %s\n", probe.c_str(), name.c_str(), r.mean,
-                        r.se, way);
-        }
-    for (const auto& [probe, row] : f.measured()) {
-        std::string leak = f.leak(probe);
-        if (!leak.empty() && ++count <= most)
-            std::printf("    %-18s %-10s light where there should be none  %s\n", probe.c_str(),
-                        leak.c_str(), way);
+        for (const auto& [name, q] : row)
+            if (is_class(name) && q.mean > 0 && f.off(probe, name))
+                all.push_back({probe, name, f.ratio(probe, name)}), probes.insert(probe);
+    for (const auto& [probe, row] : f.measured())
+        for (const auto& [name, q] : row)
+            if (is_class(name) && f.leaks(probe, name))
+                all.push_back({probe, name, q, true}), probes.insert(probe);
+    for (const auto& [probe, row] : f.expected())
+        if (row.contains("all") && f.off(probe, "all") && !probes.contains(probe))
+            all.push_back({probe, "all", f.ratio(probe, "all")});
+    return all;
+}
+
+/// Of pictures whose means are right: too many samples, too few rays, too much noise.
+std::vector<Off> work_off(const Findings& f) {
+    std::vector<Off> all;
+    auto is_more = [&](const char* probe, const char* name, double times) {
+        Quantity r = f.ratio(probe, name);
+        return f.has(probe) && r.mean - 3 * r.se > times;
+    };
+    auto add = [&](const char* probe, const char* name) {
+        all.push_back({probe, name, f.ratio(probe, name)});
+    };
+    if (is_more("floor", "samples", 1.1)) add("floor", "samples");
+    if (f.has("sphere") && f.ratio("sphere", "rays").mean < 0.9) add("sphere", "rays");
+    if (is_more("red", "noise", 1.25)) add("red", "noise");
+    if (is_more("sizes", "noise", 1.5) && !is_more("floor", "noise", 1.3)) add("sizes", "noise");
+    return all;
+}
+
+/// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
+std::string worst_of(const std::vector<Off>& off) {
+    auto distance = [](const Off& o) {
+        double z = std::abs(o.ratio.mean - 1) / std::max(o.ratio.se, 1e-3);
+        return o.leaks ? 0 : std::isfinite(z) ? z : 1e9;
+    };
+    const Off& o = *std::max_element(off.begin(), off.end(), [&](const Off& a, const Off& b) {
+        return distance(a) < distance(b);
+    });
+    std::string what, factor = name_factor(o.ratio.mean);
+    for (const Probe& probe : all_probes())
+        if (probe.name == o.probe) what = probe.what;
+    what = (o.name == "all" ? "the light" : o.name) + " in " + what + " is ";
+    if (o.leaks) return what + "there, and should not be";
+    char number[40];
+    std::snprintf(number, sizeof number, "%.3g", o.ratio.mean);
+    return what + number + (factor.empty() ? "" : " (" + factor + ")") + " of what it should be";
+}
+
+/// What is off, by one way in which the chapter finds light. Returns whether anything is.
+bool print_off(const Findings& f, const std::string& way) {
+    constexpr size_t most = 12;
+    std::vector<Off> off = means_off(f);
+    int classes = 0;
+    for (const auto& [probe, row] : f.expected())
+        for (const auto& [name, q] : row) classes += is_class(name);
+    if (off.empty()) off = work_off(f);
+    size_t of_paths = static_cast<size_t>(
+        std::count_if(off.begin(), off.end(), [](const Off& o) { return is_class(o.name); }));
+    if (off.empty()) return false;
+    std::printf("%zu of %d classes of path are off%s. Most surely: %s.\n", of_paths, classes,
+                way.c_str(), worst_of(off).c_str());
+    for (size_t i = 0; i < std::min(off.size(), most); i++) {
+        const Off& o = off[i];
+        std::printf("    %-18s %-10s ", o.probe.c_str(), o.name.c_str());
+        if (o.leaks)
+            std::printf("light where there should be none\n");
+        else
+            std::printf("%8.4f +- %.4f\n", o.ratio.mean, o.ratio.se);
     }
-    std::printf("%d of %d classes of path are off%s%s\n", count, classes, *way ? ", " : "", way);
+    return true;
 }
 
 /// What all chapters say of each quantity, and what each says of itself.
@@ -168,6 +239,7 @@ Answers ask_all(const MeasureOptions& o) {
                 // What depends on how a chapter works has its name behind it in the file.
                 bool of_noise = name == "noise" || name == "rays";
                 bool own = of_noise || is_blurred(probe, method);
+                if (!is_class(name) && name != "all" && !tells(probe, name)) continue;
                 if (name == "samples" || (method.biased && (of_noise || !own))) continue;
                 if (own) answers.own[probe][name + " " + method.name] = q;
                 if (!own) answers.of_all[probe][name].push_back(q);
@@ -198,7 +270,7 @@ int write_references(const MeasureOptions& o) {
     Answers answers = ask_all(o);
     std::string text =
         "# What each class of path brings in the probes: mean, standard error. By all chapters\n"
-        "# together: build/names --references. Noise and rays are those of one chapter.\n";
+        "# together: build/compare_probes --references. Noise and rays are those of one chapter.\n";
     auto add = [&](const std::string& probe, const std::string& name, Quantity q) {
         char line[200];
         std::snprintf(line, sizeof line, "%s\t%s\t%.6g\t%.2g\n", probe.c_str(), name.c_str(),
@@ -207,7 +279,7 @@ int write_references(const MeasureOptions& o) {
     };
     int disagree = 0;
     for (const auto& [probe, row] : answers.of_all) {
-        add(probe, "samples", {1, 0});
+        if (tells(probe, "samples")) add(probe, "samples", {1, 0});
         for (const auto& [name, values] : row) {
             Quantity mean = pooled(probe + " " + name, values, disagree);
             if (mean.mean > 1e-4 || !is_class(name)) add(probe, name, mean);
@@ -219,68 +291,39 @@ int write_references(const MeasureOptions& o) {
     return disagree == 0 ? 0 : 1;
 }
 
-/// The chapter's own code, in which the routines stand that are named.
-std::string solution_of(const std::string& chapter) {
-    for (const auto& entry : std::filesystem::directory_iterator("chapters"))
-        if (entry.path().filename().string().starts_with(chapter + "_"))
-            return read_file((entry.path() / "estimator.h").string());
-    return "";
-}
-
-int check(const std::string& chapter, const MeasureOptions& o, bool predicts) {
+int check(const std::string& chapter, const MeasureOptions& o) {
     const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
     const Method method = methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0);
-    // Predictions are measured with other random numbers, and with fewer, since there are many.
-    uint32_t seed = predicts ? 100 : 1;
-    double times = predicts ? 1.5 : times_checked;
-    Findings found = findings_of(method, o, times, seed);
-    std::vector<Findings> other;
-    for (const Method& m : all_methods())
-        if (m.name == chapter + "-area" || m.name == chapter + "-bsdf")
-            other.push_back(findings_of(m, o, times, seed));
-    const Findings* second = other.empty() ? nullptr : other.data();
-    if (predicts) {
-        std::printf("%s\n", prediction_text(evidence_of(found, second)).c_str());
-        return 0;
-    }
+    Findings found = findings_of(method, o, times_checked, 1);
     if (found.black()) {
-        std::printf(
-            "All pictures are black: trace brings no light at all. Is it written, and does it "
-            "return L?\n");
+        std::printf("All pictures are black: trace brings no light at all. Does it return L?\n");
         return 1;
     }
-    const char* way = chapter == "09" ? "by area" : "by the BSDF alone";
-    std::vector<Hypothesis> hypotheses =
-        read_hypotheses(read_file(hypotheses_file), chapter, solution_of(chapter));
-    std::string name = name_mistake(hypotheses, found, second);
-    if (name.empty()) name = "Light comes by every class of path as it should.";
-    std::printf("%s\n\n", name.c_str());
-    print_rest(found, "", 12);
-    if (second) print_rest(*second, way, 6);
-    // For who does not want to read the name yet: tests/check/check.
-    std::string where = where_to_look(evidence_of(found, second));
-    if (!where.empty() && name.find(where) == std::string::npos)
-        std::printf("Where to look: %s\n", where.c_str());
-    return name.starts_with("Light comes") ? 0 : 1;
+    bool off = print_off(found, "");
+    for (const Method& m : all_methods()) {
+        bool by_area = m.name == chapter + "-area", by_bsdf = m.name == chapter + "-bsdf";
+        if (!by_area && !by_bsdf) continue;
+        off |= print_off(findings_of(m, o, times_checked, 1),
+                         by_area ? ", by area" : ", by the BSDF alone");
+    }
+    if (!off) std::printf("Light comes by every class of path as it should.\n");
+    return off ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     return seal(run_program([&] {
-        bool references = false, predicts = false;
-        std::vector<Option> flags = {
-            {"references", "", "measure what is right by all chapters, and write it down",
-             [&](const std::string&) { references = true; }},
-            {"prediction", "",
-             "print what is not as it should be, as tests/check/hypotheses.tsv has it",
-             [&](const std::string&) { predicts = true; }}};
+        bool references = false;
+        std::vector<Option> flags = {{"references", "",
+                                      "measure what is right by all chapters, and write it down",
+                                      [&](const std::string&) { references = true; }}};
         MeasureOptions o = parse_measure_options(argc, argv, "CHAPTER",
                                                  "Renders small scenes by a chapter, and says "
-                                                 "which mistake would make them as they are.",
+                                                 "what is not as it should be.",
                                                  {}, flags);
         if (references) return write_references(o);
         if (o.words.size() != 1) throw UsageError("error: one chapter is needed, such as 09");
-        return check(o.words[0], o, predicts);
+        return check(o.words[0], o);
     }));
 }
