@@ -206,4 +206,23 @@ TEST_SUITE("every chapter") {
             }
         }
     }
+
+    TEST_CASE(
+        "furnace: inside a lamp that loses 1 % at a bounce, and inside one that loses nothing") {
+        for (const auto& [a, max_depth] : {std::pair(std::string("0.99 "), 100000), {"1 ", 99}}) {
+            CAPTURE(max_depth);
+            const std::string L = "0.01 0.01 0.01";
+            Scene scene = world_of("ReverseOrientation AreaLightSource \"diffuse\" \"rgb L\" [" +
+                                   L + "] Material \"diffuse\" \"rgb reflectance\" [" + a + a + a +
+                                   "] Shape \"sphere\"");
+            scene.max_depth = max_depth;
+            for (const Chapter& chapter : every_chapter(scene)) {
+                if (chapter.name < "10") continue;  // directions that are uniform: far more noise
+                CAPTURE(chapter.name);
+                RunningStats s = repeat(scene, {{0, 0, 0}, {0, 0, 1}}, chapter.trace, 2000);
+                CHECK(std::abs(s.mean() - 1) < 5 * s.standard_error() + 1e-4);
+                CHECK(s.standard_error() < 0.03);
+            }
+        }
+    }
 }
