@@ -7,6 +7,7 @@
 #include "common/base/percent.h"
 #include "common/light/light_table.h"
 #include "common/material/cosine.h"
+#include "common/path/light_paths.h"
 #include "common/path/sampler.h"
 #include "common/results/black_picture.h"
 #include "common/results/metal_light.h"
@@ -19,6 +20,7 @@ constexpr double too_much = 0.01;    // of a picture, in one sample
 constexpr double few_samples = 100;  // effective samples: below, intervals are too short
 constexpr double few_pixels = 30, few_audits = 16;  // that the error is estimated from
 constexpr double few_hits = 50;                     // of a light that is found by random hits
+constexpr double few_paths = 10;                    // from lights, to a part of the picture
 
 bool is_receiver(const Material& m) {
     return !is_specular(m) && !(m.type == MaterialType::diffuse && is_black(m.reflectance));
@@ -85,6 +87,52 @@ bool surfaces_face_each_other(const Scene& scene) {
     return false;
 }
 
+/// The light, in the picture's mean, of those places for which there are fewest paths from lights:
+/// all together hardly one of them is reached. Only light that comes straight from a light.
+double light_by_few_paths(const Scene& scene, double paths) {
+    constexpr uint32_t tried = 1 << 14;
+    Endpoints endpoints = endpoints_of(scene);
+    double q = endpoints.p_image;
+    if (scene.lights.empty() && q == 0) return 0;
+    std::vector<std::pair<double, double>> places;  // paths that reach it; its light
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < tried; i++) {
+        sampler.start(0, i);
+        Vec2 u = sampler.u2();
+        Ray ray = camera_ray(endpoints.camera.view, {u.x * static_cast<float>(scene.width),
+                                                     u.y * static_cast<float>(scene.height)});
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x || is_specular(*x->material)) continue;
+        double v = to_unit_double(sampler.u2());
+        float pmf = static_cast<float>(q), power = pi * scene.radius * scene.radius;
+        LightSample y;
+        if (v < q) {
+            y = sample_image(*scene.sky_image, endpoints.image_cdf, v / q, sampler.u2());
+            power *= average(y.Le) / y.pdf_w;
+        } else {
+            size_t light = pick_light(endpoints.lights, (v - q) / (1 - q));
+            y = sample_one_light(scene, light, *x, sampler.u2());
+            pmf = static_cast<float>(1 - q) * pmf_light(endpoints.lights, light);
+            power = light_power(scene, light);
+        }
+        float cos_x = dot(y.wi, x->n);
+        if (y.pdf_w == 0 || cos_x <= 0 || occluded(scene, spawn_ray(*x, y.wi, y.dist))) continue;
+        // A path carries power / pmf; this place has this area, and this is its irradiance.
+        float pixels = importance_cos(endpoints.camera, ray.d) * std::abs(dot(ray.d, x->ng));
+        double area = double{x->t} * double{x->t} / double{pixels} / tried;
+        double E = static_cast<double>(average(y.Le) * cos_x / y.pdf_w);
+        Rgb L = eval_bsdf(*x, -ray.d, y.wi) * y.Le * (cos_x / y.pdf_w / pmf);
+        places.emplace_back(paths * E * area / double{power}, static_cast<double>(average(L)));
+    }
+    std::sort(places.begin(), places.end());
+    double reached = 0, light = 0;
+    for (auto [hits, L] : places) {
+        reached += hits;
+        if (reached < few_paths) light += L;
+    }
+    return light / tried;
+}
+
 /// Adds warnings about light that this method leaves out, or finds by random hits.
 void add_missed_light(const Scene& scene, const RenderOptions& options, const Film& film,
                       std::vector<std::string>& lines) {
@@ -108,6 +156,11 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
                 percent(metal.share) +
                 " of the picture shows metal that is nearly a mirror: few paths from a light leave "
                 "it towards the camera, so the true error may be larger than the reported one");
+        }
+        if (options.paths.empty() && light_by_few_paths(scene, samples) > 2 * error) {
+            lines.push_back(
+                "so few paths from a light reach a part of what the camera sees that its light may "
+                "be missing: the true error may be larger than the reported one");
         }
         if (share > 0) {
             lines.push_back(percent(share) +
