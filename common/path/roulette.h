@@ -5,12 +5,12 @@
 
 /// The probability q that a path of throughput beta continues.
 ///
-///   q = max(beta), within [0.05, 0.95];  1 for the first few vertices
+///   q = max(beta), within [0.05, 1];  1 for the first few vertices
 ///
-/// The largest channel of beta: where q is below 0.95, no channel of beta / q is above 1.
-/// At most 0.95: so paths that lose nothing (between mirrors, in total reflection) end as well.
+/// The largest channel of beta: where q is below 1, no channel of beta / q is above 1.
+/// At most 1: a path that loses nothing continues up to the depth limit.
 /// At least 0.05: so one survival multiplies the weight by at most 20.
 inline float survival_probability(Rgb beta, int depth) {
     if (depth < 3) return 1;
-    return std::clamp(max_component(beta), 0.05f, 0.95f);
+    return std::clamp(max_component(beta), 0.05f, 1.0f);
 }

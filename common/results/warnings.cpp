@@ -7,6 +7,7 @@
 #include "common/base/percent.h"
 #include "common/light/light_table.h"
 #include "common/material/cosine.h"
+#include "common/path/light_paths.h"
 #include "common/path/sampler.h"
 #include "common/results/black_picture.h"
 #include "common/results/metal_light.h"
@@ -19,6 +20,7 @@ constexpr double too_much = 0.01;    // of a picture, in one sample
 constexpr double few_samples = 100;  // effective samples: below, intervals are too short
 constexpr double few_pixels = 30, few_audits = 16;  // that the error is estimated from
 constexpr double few_hits = 50;                     // of a light that is found by random hits
+constexpr double few_paths = 10;                    // from lights, to a part of the picture
 
 bool is_receiver(const Material& m) {
     return !is_specular(m) && !(m.type == MaterialType::diffuse && is_black(m.reflectance));
@@ -85,6 +87,91 @@ bool surfaces_face_each_other(const Scene& scene) {
     return false;
 }
 
+/// The light of those places that the fewest paths reach: together fewer than few_paths.
+double light_of_fewest(std::vector<std::pair<double, double>> places) {  // paths, light
+    std::sort(places.begin(), places.end());
+    double reached = 0, light = 0;
+    for (auto [paths, L] : places) {
+        reached += paths;
+        if (reached < few_paths) light += L;
+    }
+    return light;
+}
+
+/// The part of the picture's mean that hardly any path from a light finds. Only direct light: light
+/// samples at visible points tell how many paths reach each of them.
+double light_by_few_paths(const Scene& scene, double paths) {
+    constexpr uint32_t tried = 1 << 14;
+    Endpoints endpoints = endpoints_of(scene);
+    double q = endpoints.p_image;
+    if (scene.max_depth == 0 || (scene.lights.empty() && q == 0)) return 0;
+    std::vector<std::pair<double, double>> places;  // paths that reach it; its light
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < tried; i++) {
+        sampler.start(0, i);
+        Vec2 u = sampler.u2();
+        Ray ray = camera_ray(endpoints.camera.view, {u.x * static_cast<float>(scene.width),
+                                                     u.y * static_cast<float>(scene.height)});
+        std::optional<Hit> x = intersect(scene, ray);
+        if (!x || is_specular(*x->material)) continue;
+        double v = to_unit_double(sampler.u2());
+        float pmf = static_cast<float>(q), power = pi * scene.radius * scene.radius;
+        LightSample y;
+        if (v < q) {
+            y = sample_image(*scene.sky_image, endpoints.image_cdf, v / q, sampler.u2());
+            power *= average(y.Le) / y.pdf_w;
+        } else {
+            size_t light = pick_light(endpoints.lights, (v - q) / (1 - q));
+            y = sample_one_light(scene, light, *x, sampler.u2());
+            pmf = static_cast<float>(1 - q) * pmf_light(endpoints.lights, light);
+            power = light_power(scene, light);
+        }
+        float cos_x = dot(y.wi, x->n);
+        if (y.pdf_w == 0 || cos_x <= 0 || occluded(scene, spawn_ray(*x, y.wi, y.dist))) continue;
+        // A path carries power / pmf; this place has this area, and this is its irradiance.
+        float pixels = importance_cos(endpoints.camera, ray.d) * std::abs(dot(ray.d, x->ng));
+        double area = double{x->t} * double{x->t} / double{pixels} / tried;
+        double E = static_cast<double>(average(y.Le) * cos_x / y.pdf_w);
+        Rgb L = eval_bsdf(*x, -ray.d, y.wi) * y.Le * (cos_x / y.pdf_w / pmf);
+        places.emplace_back(paths * E * area / double{power}, static_cast<double>(average(L)));
+    }
+    return light_of_fewest(places) / tried;
+}
+
+/// The share of the light of point and distant lights to mirrors and glass that few paths carry.
+double share_by_few_paths_to_mirrors(const Scene& scene, double paths) {
+    if (scene.max_depth < 2) return 0;
+    double area = 0, all = 0;  // m^2, of the outlines of mirrors and glass, about; W
+    Vec3 middle;               // of them
+    auto add = [&](uint32_t shape, float a, Vec3 p) {
+        if (!is_specular(scene.materials[scene.shapes[shape].material])) return;
+        area += double{a};
+        middle += a * p;
+    };
+    const Geometry& g = scene.geometry;
+    for (const Triangle& t : g.triangles) {
+        Vec3 p = g.positions[t.v[0]], a = g.positions[t.v[1]] - p, b = g.positions[t.v[2]] - p;
+        add(t.shape, length(cross(a, b)) / 8, p);
+    }
+    for (const Sphere& s : g.spheres) add(s.shape, pi * s.r * s.r, s.c);
+    for (const Disk& d : g.disks) add(d.shape, pi * d.r * d.r / 2, d.c);
+    middle = middle / static_cast<float>(area);
+    Endpoints endpoints = endpoints_of(scene);
+    std::vector<std::pair<double, double>> lights;  // paths that reach them; its light
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        const Light& light = scene.lights[i];
+        bool distant = light.type == LightType::distant;
+        if (!distant && light.type != LightType::point) continue;
+        float d = distant ? scene.radius / 2 : length(light.p - middle);
+        double share = std::min(1.0, area / (4 * std::numbers::pi * double{d} * double{d}));
+        double pmf = (1 - endpoints.p_image) * double{pmf_light(endpoints.lights, i)};
+        double power = share * double{light_power(scene, i)};
+        lights.emplace_back(paths * pmf * share, power);
+        all += power;
+    }
+    return all > 0 ? light_of_fewest(lights) / all : 0;
+}
+
 /// Adds warnings about light that this method leaves out, or finds by random hits.
 void add_missed_light(const Scene& scene, const RenderOptions& options, const Film& film,
                       std::vector<std::string>& lines) {
@@ -108,6 +195,11 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
                 percent(metal.share) +
                 " of the picture shows metal that is nearly a mirror: few paths from a light leave "
                 "it towards the camera, so the true error may be larger than the reported one");
+        }
+        if (options.paths.empty() && light_by_few_paths(scene, samples) > 2 * error) {
+            lines.push_back(
+                "so few paths from a light reach a part of what the camera sees that its light may "
+                "be missing: the true error may be larger than the reported one");
         }
         if (share > 0) {
             lines.push_back(percent(share) +
@@ -158,6 +250,12 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     auto is_diffuse = [](const Material& m) { return m.type == MaterialType::diffuse; };
     auto is_rough_metal = [&](const Material& m) { return is_receiver(m) && !is_diffuse(m); };
     bool merges = options.search == LightSearch::merging;
+    if ((options.search == LightSearch::both_ends || merges) &&
+        share_by_few_paths_to_mirrors(scene, samples) > 0.01) {
+        lines.push_back(
+            "hardly any path from a point or distant light hits a mirror or glass: the light that "
+            "these cast on surfaces may be missing");
+    }
     if (merges && any_material(is_diffuse)) lines.push_back(blurred);
     if (merges && !any_material(is_rough_metal)) return;
     if (options.search == LightSearch::both_ends || merges) {

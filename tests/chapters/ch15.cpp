@@ -113,6 +113,10 @@ TEST_SUITE("ch15 two lights") {
             for (int k = 0; k < 2000; k++) {
                 int N = static_cast<int>(scene.lights.size()), M = 3 + k % 70;
                 ch15::Lights lights = ch15::prepare(scene, M);
+                double all =
+                    std::accumulate(lights.candidates.begin(), lights.candidates.end(), 0.0);
+                REQUIRE(std::abs(all - std::min(N, M)) < 1e-3);
+                REQUIRE(std::ranges::max(lights.candidates) < 1.00001f);
                 Hit x = somewhere(scene, random);
                 double u = to_unit_double(random.u2());
                 ch15::Candidates c;
@@ -122,10 +126,15 @@ TEST_SUITE("ch15 two lights") {
                 std::vector<double> w;
                 for (int i = 0; i < c.size; i++) {
                     size_t light = c.light[i];
-                    size_t expected =
-                        N <= M ? static_cast<size_t>(i) : pick_light(lights.table, (i + u) / M);
+                    int always = N <= M ? N : static_cast<int>(lights.always.size());
+                    double drawn = M - always;
+                    size_t expected = N <= M ? static_cast<size_t>(i)
+                                      : i < always
+                                          ? lights.always[static_cast<size_t>(i)]
+                                          : pick_light(lights.table, (i - always + u) / drawn);
                     REQUIRE(light == expected);
-                    double candidates = N <= M ? 1 : M * double{pmf_light(lights.table, light)};
+                    double candidates =
+                        i < always ? 1 : drawn * double{pmf_light(lights.table, light)};
                     w.push_back(p_hat_by_type(scene, light, x) / candidates);
                 }
                 std::vector<double> expected = inclusions(w);

@@ -74,11 +74,12 @@ Scene seen(const std::string& world, const std::string& look = "0 2 -4  0 0.3 0 
 }
 
 /// What is said of a scene beside a film that has nothing to be warned of.
-Lines told(const Scene& scene, LightSearch search, const std::string& strategy = "") {
+Lines told(const Scene& scene, LightSearch search, const std::string& strategy = "", int spp = 4) {
     RenderOptions options;
     options.search = search;
     if (!strategy.empty()) options.own = {{"strategy", strategy}};
-    return warnings_of(scene, options, Rendering{quiet_film(scene.width, scene.height), {}, {}});
+    return warnings_of(scene, options,
+                       Rendering{quiet_film(scene.width, scene.height, spp), {}, {}});
 }
 
 }  // namespace
@@ -228,7 +229,7 @@ TEST_SUITE("warning rules") {
             CHECK(told(scene, LightSearch::light_sampling) == c.light_sampling);
             CHECK(told(scene, LightSearch::by_chance) == c.by_chance);
             CHECK(told(scene, LightSearch::direct) == c.direct);
-            CHECK(told(scene, LightSearch::both_ends) == c.both_ends);
+            CHECK(told(scene, LightSearch::both_ends, "", 1024) == c.both_ends);
             CHECK(told(scene, LightSearch::photons) == Lines{blurred});
         }
         // Direct light alone, and not even that.
@@ -278,7 +279,33 @@ TEST_SUITE("warning rules") {
             Scene right = seen(half(material, "0") + high_lamp, "0 3 0  0 0 0  0 0 1", "20");
             CHECK(told(right, LightSearch::from_lights) == line("50"));
         }
-        CHECK(told(seen(in(diffuse, floor_2) + high_lamp), LightSearch::from_lights) == Lines{});
+    }
+
+    TEST_CASE(
+        "truth: paths from lights that hardly reach what the camera sees, or glass, are told") {
+        // The disk on which paths from the sky and the sun begin grows with the ground.
+        auto tells = [](const std::string& world, LightSearch search, const std::string& line) {
+            Scene scene = seen(world);
+            Film film = film_with(16, 16, 256, [](size_t, int s) { return 2 * (s % 2); });
+            RenderOptions options;
+            options.search = search;
+            Lines lines = warnings_of(scene, options, Rendering{film, {}, {}});
+            return std::ranges::any_of(lines, [&](const auto& l) { return l.starts_with(line); });
+        };
+        for (bool far : {false, true}) {
+            CAPTURE(far);
+            std::string ground = in(diffuse, (far ? "Scale 5e3 1 5e3 " : "Scale 2 1 2 ") + floor_2);
+            std::string roof = in(diffuse, "Translate 0 9 0 Scale 6e3 1 6e3 " + floor_2);
+            for (const std::string& light : {sky, distant}) {
+                CHECK(tells(ground + light, LightSearch::from_lights, "so few paths") == far);
+                CHECK(!tells(ground + roof + light, LightSearch::from_lights, "so few paths"));
+            }
+            std::string with_glass = ground + in(glass, ball("0 1 0", "0.5"));
+            for (LightSearch search : {LightSearch::both_ends, LightSearch::merging}) {
+                CHECK(tells(with_glass + distant, search, "hardly any path") == far);
+                CHECK(!tells(with_glass + sky, search, "hardly any path"));
+            }
+        }
     }
 
     TEST_CASE("truth: what a chapter has to say of its own comes last") {
