@@ -46,7 +46,10 @@ void prepare(Scene& scene, int threads, const Report& report) {
     if (report) report("preparing lights and surfaces", 0);
     scene.moves_or_varies = !scene.movers.empty() || !scene.textures.all.empty();
     Box box = bounds_of(scene.geometry);
+    uint32_t prims = scene.geometry.size();
     for (Mover& mover : scene.movers) {
+        mover.first_prim = prims;
+        prims += mover.geometry.size();
         mover.geometry.facet_normals = facet_normals(mover.geometry);
         mover.bvh = build_bvh(mover.geometry, threads);
         mover.box = box_over_time(mover);
