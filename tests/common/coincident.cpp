@@ -40,7 +40,7 @@ TEST_SUITE("coincident") {
         // lamps. In space: balls. And faces that are given twice.
         CHECK(notes_of(ceiling + lamp + small) == note("5", with_shape));
         CHECK(notes_of(level("1", ".4", ".4", "2", "2") + lamp + small) == note("5", with_shape));
-        CHECK(notes_of(ceiling + lamp + disk) == note("5", with_shape));
+        CHECK(notes_of(ceiling + lamp + disk).size() == 1);
         CHECK(notes_of(turn + ceiling + "Rotate 20 0 1 0\n" + lamp + small).size() == 1);
         CHECK(notes_of(lamp + small + small) ==
               note("5", "this lamp and the lamp at test.pbrt:4:1"));
