@@ -164,7 +164,7 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
     };
 
     // Faces that shine, and what is near each of them.
-    constexpr uint64_t most = 1'000'000;
+    constexpr uint64_t most = 300'000;
     uint64_t compared = 0;
     for (const Light& light : scene.lights) {
         uint32_t end = light.first_prim + light.prims;
