@@ -125,28 +125,6 @@ void near(const Bvh& bvh, const Box& box, const std::function<bool(uint32_t)>& v
     }
 }
 
-/// The same for faces with the same corners, in any order; for others next to never.
-uint64_t hash_of(const Geometry& g, uint32_t prim) {
-    auto hash = [](Vec3 p) {
-        const float numbers[] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f, 0};  // 0 in place of -0
-        Checksum sum;
-        sum.add({reinterpret_cast<const char*>(numbers), sizeof numbers});
-        return sum.value();
-    };
-    return visit(
-        g, prim,
-        [&](const Triangle& t) {
-            const auto& p = g.positions;
-            return hash(p[t.v[0]]) + hash(p[t.v[1]]) + hash(p[t.v[2]]);
-        },
-        [&](const Sphere& s) {
-            return hash(s.c) + 3 * hash({s.r, 0, 0});
-        },
-        [&](const Disk& d) {
-            return hash(d.c) + 5 * hash({d.r, 0, 0}) + 7 * (hash(d.n) + hash(-d.n));
-        });
-}
-
 }  // namespace
 
 std::vector<std::string> notes_of_coincident(const Scene& scene) {
@@ -155,12 +133,13 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
         auto number = [](const auto& primitive) { return primitive.shape; };
         return visit(g, prim, number, number, number);
     };
-    std::set<std::pair<uint32_t, uint32_t>> pairs;  // of shapes
-    auto add = [&](uint32_t a, uint32_t b) {
-        // First a lamp, if there is one, else what comes later.
-        auto [one, other] = std::pair(shape_of(a), shape_of(b));
+    // Pairs of shapes: first a lamp, if there is one, else what comes later.
+    std::set<std::pair<uint32_t, uint32_t>> pairs;
+    auto compare = [&](uint32_t a, uint32_t b) {
+        uint32_t one = shape_of(a), other = shape_of(b);
         auto worth = [&](uint32_t i) { return std::pair(scene.shapes[i].light >= 0, i); };
-        pairs.insert(worth(one) > worth(other) ? std::pair(one, other) : std::pair(other, one));
+        if (worth(one) < worth(other)) std::swap(one, other);
+        if (!pairs.contains({one, other}) && coincide(g, a, b)) pairs.emplace(one, other);
     };
 
     // Faces that shine, and what is near each of them.
@@ -177,21 +156,28 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
                 bool later = b > a || scene.shapes[shape_of(b)].light < 0;  // each pair once
                 Box other = box_of(g, b);
                 Vec3 gap = max(box.low - other.high, other.low - box.high);
-                if (later && b != a && max_component(gap) <= 0 && coincide(g, a, b)) add(a, b);
+                if (later && b != a && max_component(gap) <= 0) compare(a, b);
                 return ++compared < most;
             });
         }
     }
 
-    // Faces that are given twice.
-    std::vector<std::pair<uint64_t, uint32_t>> faces;
+    // Faces that are given twice: they have one box. So have the two triangles of a rectangle.
+    std::vector<std::pair<uint64_t, uint32_t>> boxes;
     for (uint32_t i = 0; i < g.size() && scene.shapes.size() > 1; i++) {
-        faces.emplace_back(hash_of(g, i), i);
+        Box box = box_of(g, i);
+        Vec3 ends[] = {box.low + Vec3{}, box.high + Vec3{}};  // 0 in place of -0
+        Checksum sum;
+        sum.add({reinterpret_cast<const char*>(ends), sizeof ends});
+        boxes.emplace_back(sum.value(), i);
     }
-    std::sort(faces.begin(), faces.end());
-    for (size_t i = 1; i < faces.size(); i++) {
-        uint32_t a = faces[i - 1].second, b = faces[i].second;
-        if (faces[i - 1].first == faces[i].first && shape_of(a) != shape_of(b)) add(a, b);
+    std::sort(boxes.begin(), boxes.end());
+    for (size_t i = 0; i < boxes.size(); i++) {
+        for (size_t k = i + 1; k < std::min(i + 9, boxes.size()); k++) {
+            uint32_t a = boxes[i].second, b = boxes[k].second;
+            if (boxes[i].first != boxes[k].first) break;
+            if (shape_of(a) != shape_of(b)) compare(a, b);
+        }
     }
 
     std::vector<std::string> notes;
