@@ -65,12 +65,12 @@ inline const Shape& place_hit(const Scene& scene, const Geometry& g, const Ray& 
             return hit_details::finish(sphere, ray.o + found.t * ray.d, x);
         },
         [&](const Disk& disk) { return hit_details::finish(disk, ray.o + found.t * ray.d, x); });
-    x.material = &scene.materials[scene.shapes[shape].material];
     return scene.shapes[shape];
 }
 
 /// Turns the normals to the side that the ray came from, and fills in the rest but for the texture.
-inline void finish_hit(const Shape& shape, const Ray& ray, const PrimHit& found, Hit& x) {
+inline void finish_hit(const Scene& scene, const Shape& shape, const Ray& ray, const PrimHit& found,
+                       Hit& x) {
     float away = dot(ray.d, x.ng);
     if (away == 0) [[unlikely]]
         away = hit_details::tilt(ray, x.ng);
@@ -82,6 +82,7 @@ inline void finish_hit(const Shape& shape, const Ray& ray, const PrimHit& found,
 
     x.t = found.t;
     x.time = ray.time;
+    x.material = &scene.materials[shape.material];
     x.light = shape.light;
     x.prim = found.prim;
 }
@@ -91,7 +92,7 @@ void look_up_texture(const Scene& scene, const Geometry& g, const PrimHit& found
 
 /// Fills in all of x.
 inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
-    finish_hit(place_hit(scene, scene.geometry, ray, found, x), ray, found, x);
+    finish_hit(scene, place_hit(scene, scene.geometry, ray, found, x), ray, found, x);
     if (x.material->texture != 0) look_up_texture(scene, scene.geometry, found, x);
 }
 
@@ -109,7 +110,7 @@ inline std::optional<Hit> nearest(const Scene& scene, const Ray& ray) {
     std::optional<Hit> x;
     if (found.prim != PrimHit::none) {
         x.emplace();
-        finish_hit(place_hit(scene, scene.geometry, ray, found, *x), ray, found, *x);
+        finish_hit(scene, place_hit(scene, scene.geometry, ray, found, *x), ray, found, *x);
     }
     if (scene.moves_or_varies) [[unlikely]]
         vary_or_move(scene, ray, found, x);

@@ -81,11 +81,12 @@ void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x)
         if (found.prim == PrimHit::none) continue;
         x.emplace();
         const Shape& shape = place_hit(scene, mover.geometry, back, found, *x);
+        x->material = &scene.materials[shape.material];
         if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
         carry_on(world_from_start, *x);
         rest.t_max = found.t;
         found.prim += mover.first_prim;
-        finish_hit(shape, rest, found, *x);
+        finish_hit(scene, shape, rest, found, *x);
     }
 }
 

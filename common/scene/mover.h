@@ -33,4 +33,4 @@ void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x)
 bool occluded_by_movers(const Scene& scene, const Ray& ray);
 
 /// interpolated_normal() at x, a point of a mover, at its time.
-Vec3 normal_of_mover(const Scene& scene, const Hit& x);
+[[gnu::cold]] Vec3 normal_of_mover(const Scene& scene, const Hit& x);

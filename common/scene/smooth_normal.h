@@ -17,9 +17,11 @@ inline Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
 /// The normal of the mesh at x, smoothed, on the side of x.ng. x.n is the same but where it would
 /// look away from the ray that found x: there finish_hit() has put x.ng in its place.
 inline Vec3 smooth_normal(const Scene& scene, const Hit& x) {
-    if (x.n != x.ng) return x.n;
-    bool rests = scene.movers.empty() || x.prim < scene.geometry.size();
-    Vec3 n = rests ? interpolated_normal(scene.geometry, x.prim, x.p) : normal_of_mover(scene, x);
+    const Geometry& g = scene.geometry;
+    bool replaced = x.n == x.ng && !g.normals.empty() && x.prim < g.triangles.size();
+    bool moves = x.n == x.ng && !scene.movers.empty() && x.prim >= g.size();
+    if (!replaced && !moves) return x.n;
+    Vec3 n = replaced ? interpolated_normal(g, x.prim, x.p) : normal_of_mover(scene, x);
     if (!(dot(n, n) > 0)) return x.ng;
     n = normalize(n);
     return dot(n, x.ng) < 0 ? -n : n;

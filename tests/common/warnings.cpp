@@ -66,7 +66,7 @@ TEST_SUITE("warnings") {
                   "21_bidirectional", "22_fast_bidirectional", "25_vertex_merging"}) {
                 CAPTURE(program);
                 Said sky = said_of(program, camera + "LightSource \"infinite\"\n" + shapes,
-                                   {"--stand-in"});
+                                   {"--stand-in", "--spp", "16"});
                 CHECK(sky.mean == 1);
                 CHECK(!sky.warns());
             }
