@@ -90,14 +90,14 @@ void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x)
     }
 }
 
-Vec3 normal_of_mover(const Scene& scene, const Hit& x) {
-    auto behind =
-        std::upper_bound(scene.movers.begin(), scene.movers.end(), x.prim,
-                         [](uint32_t prim, const Mover& mover) { return prim < mover.first_prim; });
+Vec3 normal_of_mover(const Scene& scene, uint32_t prim, Vec3 p, float time) {
+    auto behind = std::upper_bound(
+        scene.movers.begin(), scene.movers.end(), prim,
+        [](uint32_t number, const Mover& mover) { return number < mover.first_prim; });
     const Mover& mover = behind[-1];
-    Transform world_from_start = mover.world_from_start(static_cast<double>(x.time));
-    Vec3 p = to_vec3(transform_point(inverse(world_from_start), Vec3d(x.p)));
-    Vec3 n = interpolated_normal(mover.geometry, x.prim - mover.first_prim, p);
+    Transform world_from_start = mover.world_from_start(static_cast<double>(time));
+    Vec3 back = to_vec3(transform_point(inverse(world_from_start), Vec3d(p)));
+    Vec3 n = interpolated_normal(mover.geometry, prim - mover.first_prim, back);
     return to_vec3(transform_normal(world_from_start, Vec3d(n)));
 }
 

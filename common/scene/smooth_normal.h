@@ -21,7 +21,8 @@ inline Vec3 smooth_normal(const Scene& scene, const Hit& x) {
     bool replaced = x.n == x.ng && !g.normals.empty() && x.prim < g.triangles.size();
     bool moves = x.n == x.ng && !scene.movers.empty() && x.prim >= g.size();
     if (!replaced && !moves) return x.n;
-    Vec3 n = replaced ? interpolated_normal(g, x.prim, x.p) : normal_of_mover(scene, x);
+    Vec3 n = replaced ? interpolated_normal(g, x.prim, x.p)
+                      : normal_of_mover(scene, x.prim, x.p, x.time);
     if (!(dot(n, n) > 0)) return x.ng;
     n = normalize(n);
     return dot(n, x.ng) < 0 ? -n : n;
