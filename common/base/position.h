@@ -59,13 +59,17 @@ inline std::string quote_file(const std::string& name) {
     return name.size() <= longest ? '"' + name + '"' : quote(name);
 }
 
+/// "file:line:column"; for a file as a whole "file".
+inline std::string place_text(const Position& at) {
+    if (at.line == 0) return at.file;
+    return at.file + ':' + std::to_string(at.line) + ':' + std::to_string(at.column);
+}
+
 /// "file:line:column: kind: text", the form in which compilers and editors know it; for a file as a
 /// whole "file: kind: text".
 inline std::string message_at(const Position& at, const std::string& kind,
                               const std::string& text) {
-    std::string place = at.file;
-    if (at.line > 0) place += ':' + std::to_string(at.line) + ':' + std::to_string(at.column);
-    return printable(place + ": " + kind + ": " + text);
+    return printable(place_text(at) + ": " + kind + ": " + text);
 }
 
 /// Throws the InputError for something wrong at a place in a file.

@@ -55,5 +55,5 @@ struct Hit {
     [[no_unique_address]] MaterialAt material;  // front takes the room that this leaves
     bool front;     // on the normal's side: where a light emits, outside of glass
     int light;      // index into Scene::lights; -1: emits no light
-    uint32_t prim;  // index into Scene::geometry
+    uint32_t prim;  // index into Scene::geometry, and behind that into those of the movers
 };

@@ -8,6 +8,7 @@
 
 #include "common/base/position.h"
 #include "common/options/loading_progress.h"
+#include "common/scene/coincident.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "common/scene_file/stand_ins.h"
@@ -88,9 +89,15 @@ Scene load(const RenderOptions& options, Features features) {
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
     size_t prims = scene.geometry.size();
+    std::vector<std::string> notes;
     // About, while it is built: 300 bytes for each.
     needing_memory("the hierarchy of " + std::to_string(prims) + " triangles, spheres and disks",
-                   300 * prims, [&] { prepare(scene, options.threads, report); });
+                   300 * prims, [&] {
+                       prepare(scene, options.threads, report);
+                       if (!options.quiet) notes = notes_of_coincident(scene);
+                   });
+    progress.clear();
+    for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
     return scene;
 }
 

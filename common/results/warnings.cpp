@@ -16,8 +16,9 @@
 
 namespace {
 
-constexpr double too_much = 0.01;    // of a picture, in one sample
-constexpr double few_samples = 100;  // effective samples: below, intervals are too short
+constexpr double too_much = 0.01;     // of a picture, in one sample
+constexpr double negligible = 0.001;  // standard error, of the mean: no noise to warn of
+constexpr double few_samples = 100;   // effective samples: below, intervals are too short
 constexpr double few_pixels = 30, few_audits = 16;  // that the error is estimated from
 constexpr double few_hits = 50;                     // of a light that is found by random hits
 constexpr double few_paths = 10;                    // from lights, to a part of the picture
@@ -304,15 +305,17 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
                         " of the whole picture");
     }
     double effective = film.effective_samples();
-    if (effective > 0 && effective < few_samples) {
+    bool has_noise = !(film.standard_error() < negligible * film.mean());  // or it is unknown
+    if (has_noise && effective > 0 && effective < few_samples) {
         lines.push_back(
             "as few as " + std::to_string(std::lround(effective)) +
             " samples determine the picture: the true error is larger than the reported one");
     }
     Film::ErrorBasis basis = film.error_basis();
-    bool one_in_many = basis.pixels < few_pixels && basis.squares > 0 &&
-                       counts.largest * counts.largest > 0.05 * basis.squares;
-    if (one_in_many && effective >= few_samples) {
+    double excess = std::max(counts.largest - film.mean(), 0.0);
+    bool one_in_many =
+        basis.pixels < few_pixels && basis.squares > 0 && excess * excess > 0.05 * basis.squares;
+    if (has_noise && one_in_many && effective >= few_samples) {
         lines.push_back(
             "a few bright samples determine the error: the true error is larger than the reported "
             "one");

@@ -54,11 +54,10 @@ inline uint32_t finish(const Disk& disk, Vec3 p, Hit& x) {
 
 }  // namespace hit_details
 
-/// Fills in x but for its texture, the point where the ray meets the primitive found. In its place:
-/// a copy would have to wait until all parts are in memory.
-inline void make_hit(const Scene& scene, const Geometry& g, const Ray& ray, const PrimHit& found,
-                     Hit& x) {
-    // Work out the point and its normals on the shape that was hit.
+/// Puts x where the ray meets the primitive found, with the normals that the surface has there, and
+/// returns its shape. In its place: a copy would have to wait until all parts are in memory.
+inline const Shape& place_hit(const Scene& scene, const Geometry& g, const Ray& ray,
+                              const PrimHit& found, Hit& x) {
     uint32_t shape = visit(
         g, found.prim,
         [&](const Triangle& triangle) { return hit_details::finish(g, triangle, found, x); },
@@ -66,21 +65,25 @@ inline void make_hit(const Scene& scene, const Geometry& g, const Ray& ray, cons
             return hit_details::finish(sphere, ray.o + found.t * ray.d, x);
         },
         [&](const Disk& disk) { return hit_details::finish(disk, ray.o + found.t * ray.d, x); });
+    return scene.shapes[shape];
+}
 
-    // Turn the normals to the side that the ray came from.
+/// Turns the normals to the side that the ray came from, and fills in the rest but for the texture.
+inline void finish_hit(const Scene& scene, const Shape& shape, const Ray& ray, const PrimHit& found,
+                       Hit& x) {
     float away = dot(ray.d, x.ng);
     if (away == 0) [[unlikely]]
         away = hit_details::tilt(ray, x.ng);
     x.front = away < 0;
-    if (scene.shapes[shape].reverse) x.front = !x.front;
+    if (shape.reverse) x.front = !x.front;
     if (away > 0) x.ng = -x.ng;
     if (dot(x.n, x.ng) < 0) x.n = -x.n;
     if (dot(ray.d, x.n) >= 0) x.n = x.ng;  // a smoothed normal that looks away cannot be used
 
     x.t = found.t;
     x.time = ray.time;
-    x.material = &scene.materials[scene.shapes[shape].material];
-    x.light = scene.shapes[shape].light;
+    x.material = &scene.materials[shape.material];
+    x.light = shape.light;
     x.prim = found.prim;
 }
 
@@ -89,7 +92,7 @@ void look_up_texture(const Scene& scene, const Geometry& g, const PrimHit& found
 
 /// Fills in all of x.
 inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
-    make_hit(scene, scene.geometry, ray, found, x);
+    finish_hit(scene, place_hit(scene, scene.geometry, ray, found, x), ray, found, x);
     if (x.material->texture != 0) look_up_texture(scene, scene.geometry, found, x);
 }
 
@@ -105,7 +108,10 @@ namespace hit_details {
 inline std::optional<Hit> nearest(const Scene& scene, const Ray& ray) {
     PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
     std::optional<Hit> x;
-    if (found.prim != PrimHit::none) make_hit(scene, scene.geometry, ray, found, x.emplace());
+    if (found.prim != PrimHit::none) {
+        x.emplace();
+        finish_hit(scene, place_hit(scene, scene.geometry, ray, found, *x), ray, found, *x);
+    }
     if (scene.moves_or_varies) [[unlikely]]
         vary_or_move(scene, ray, found, x);
     return x;

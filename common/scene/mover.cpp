@@ -1,6 +1,8 @@
 #include "common/scene/mover.h"
 
-#include "common/scene/intersect.h"
+#include <algorithm>
+
+#include "common/scene/smooth_normal.h"
 
 namespace {
 
@@ -17,10 +19,11 @@ bool meets(const Ray& ray, Vec3 low, Vec3 high) {
 }
 
 /// The ray as the mover sees it, whose primitives stay where they are at time 0.
-Ray carried_back(const Ray& ray, const Transform& world_from_start) {
+Ray carried_back(const Mover& mover, const Ray& ray, const Transform& world_from_start) {
     Transform back = inverse(world_from_start);
     return {to_vec3(transform_point(back, Vec3d(ray.o))),
-            to_vec3(transform_vector(back, Vec3d(ray.d))), ray.t_max, ray.time};
+            to_vec3(transform_vector(back, Vec3d(ray.d))), ray.t_max, ray.time,
+            ray.from - mover.first_prim};
 }
 
 /// What was met, carried to where it is at the ray's time.
@@ -32,7 +35,6 @@ void carry_on(const Transform& t, Hit& x) {
     double stretch = std::max({length(t.x), length(t.y), length(t.z)});
     x.eps = static_cast<float>(stretch) * (x.eps + rounding_error(before)) +
             rounding_error(max_component(abs(x.p)));
-    x.prim = PrimHit::none;
 }
 
 }  // namespace
@@ -74,21 +76,37 @@ void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x)
     for (const Mover& mover : scene.movers) {
         if (!meets(rest, mover.box.low, mover.box.high)) continue;
         Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        Ray back = carried_back(rest, world_from_start);
+        Ray back = carried_back(mover, rest, world_from_start);
         PrimHit found = closest_hit(mover.bvh, mover.geometry, back);
         if (found.prim == PrimHit::none) continue;
-        make_hit(scene, mover.geometry, back, found, x.emplace());
+        x.emplace();
+        const Shape& shape = place_hit(scene, mover.geometry, back, found, *x);
+        x->material = &scene.materials[shape.material];
         if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
         carry_on(world_from_start, *x);
         rest.t_max = found.t;
+        found.prim += mover.first_prim;
+        finish_hit(scene, shape, rest, found, *x);
     }
+}
+
+Vec3 normal_of_mover(const Scene& scene, uint32_t prim, Vec3 p, float time) {
+    auto behind = std::upper_bound(
+        scene.movers.begin(), scene.movers.end(), prim,
+        [](uint32_t number, const Mover& mover) { return number < mover.first_prim; });
+    const Mover& mover = behind[-1];
+    Transform world_from_start = mover.world_from_start(static_cast<double>(time));
+    Vec3 back = to_vec3(transform_point(inverse(world_from_start), Vec3d(p)));
+    Vec3 n = interpolated_normal(mover.geometry, prim - mover.first_prim, back);
+    return to_vec3(transform_normal(world_from_start, Vec3d(n)));
 }
 
 bool occluded_by_movers(const Scene& scene, const Ray& ray) {
     for (const Mover& mover : scene.movers) {
         if (!meets(ray, mover.box.low, mover.box.high)) continue;
         Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        if (any_hit(mover.bvh, mover.geometry, carried_back(ray, world_from_start))) return true;
+        if (any_hit(mover.bvh, mover.geometry, carried_back(mover, ray, world_from_start)))
+            return true;
     }
     return false;
 }

@@ -15,6 +15,7 @@ struct Mover {
     Motion motion;                // world from object
     Transform object_from_start;  // object from where the primitives are
     Geometry geometry;
+    uint32_t first_prim = 0;  // its number among all: those of Scene::geometry come first
     Bvh bvh;
     Box box;                       // around all places that it comes to
     const Position* at = nullptr;  // where a scene file makes it, for messages
@@ -30,3 +31,7 @@ struct Scene;
 /// Replaces x by what the ray meets first among the movers, where that is nearer, at its time.
 void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x);
 bool occluded_by_movers(const Scene& scene, const Ray& ray);
+
+/// interpolated_normal() at p, a point of a mover, at this time. By values: a Hit that is referred
+/// to has to be in memory.
+[[gnu::cold]] Vec3 normal_of_mover(const Scene& scene, uint32_t prim, Vec3 p, float time);

@@ -46,15 +46,19 @@ void prepare(Scene& scene, int threads, const Report& report) {
     if (report) report("preparing lights and surfaces", 0);
     scene.moves_or_varies = !scene.movers.empty() || !scene.textures.all.empty();
     Box box = bounds_of(scene.geometry);
+    uint32_t prims = scene.geometry.size();
     for (Mover& mover : scene.movers) {
+        mover.first_prim = prims;
+        prims += mover.geometry.size();
         mover.geometry.facet_normals = facet_normals(mover.geometry);
         mover.bvh = build_bvh(mover.geometry, threads);
         mover.box = box_over_time(mover);
         box.low = min(box.low, mover.box.low), box.high = max(box.high, mover.box.high);
     }
     bool empty = scene.geometry.size() == 0 && scene.movers.empty();
-    scene.radius = empty ? 0 : length(box.high - box.low) / 2;
-    scene.centre = (box.low + box.high) / 2;
+    // Without shapes a sphere around the camera, so that skies and suns have a power.
+    scene.radius = empty ? 1 : length(box.high - box.low) / 2;
+    scene.centre = empty ? scene.camera.o : (box.low + box.high) / 2;
     scene.light_shapes = light_shapes_of(scene);
     scene.geometry.facet_normals = facet_normals(scene.geometry);
     scene.bvh = build_bvh(scene.geometry, threads, report);

@@ -36,6 +36,7 @@ struct Shape {
     int light = -1;         // into Scene::lights; -1: does not shine
     bool reverse = false;   // a sphere whose normal points inwards; others are turned when read
     int axes = -1;          // of a sphere or disk, into Scene::axes; -1: the world's
+    const Position* at = nullptr;  // where a scene file makes it, for messages
 };
 
 /// The axes of a shape's own space, in the world: unit vectors.
@@ -66,12 +67,8 @@ struct UsedStandIn {
 
     /// `Shape "curve" as nothing (3 places, first scene.pbrt:4:1)`.
     std::string text() const {
-        std::string place = first.file;
-        if (first.line > 0) {
-            place += ':' + std::to_string(first.line) + ':' + std::to_string(first.column);
-        }
         return what + " as " + instead + " (" + std::to_string(places) +
-               (places == 1 ? " place, " : " places, first ") + place + ')';
+               (places == 1 ? " place, " : " places, first ") + place_text(first) + ')';
     }
 };
 

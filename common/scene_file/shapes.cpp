@@ -121,7 +121,7 @@ template <class Primitive>
 void add_shape(const Params& params, const ShapeState& state, std::vector<Primitive>& primitives,
                size_t first, bool reverse, int axes, Scene& scene) {
     if (first == primitives.size()) return;
-    Shape shape = {state.material, -1, reverse, axes};
+    Shape shape = {state.material, -1, reverse, axes, kept(params.at())};
     bool shines = state.emission && !is_black(state.emission->L);
     if (!shines || state.emission->power == 0) {
         if (shines) {

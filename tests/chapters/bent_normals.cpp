@@ -290,17 +290,19 @@ TEST_SUITE("bent normals") {
 
     TEST_CASE("agreement: smoothed normals") {
         // Paths from lights against paths from the eye, over paint: few and large triangles, so
-        // that normals lean far.
+        // that normals lean far. At rest, and while the ball turns and is stretched.
         std::string ball = "Material \"diffuse\" \"rgb reflectance\" [.7 .7 .7]\n" +
                            smooth_ball({0.4f, 0, 0}, 0.9f);
         for (std::string light :
              {"LightSource \"distant\" \"point3 from\" [3 2 -1] \"point3 to\" [0 0 0]\n",
-              "LightSource \"point\" \"point3 from\" [2 1 -3]\n", "LightSource \"infinite\"\n"}) {
+              "LightSource \"point\" \"point3 from\" [2 1 -3]\n", "LightSource \"infinite\"\n",
+              "LightSource \"distant\" \"point3 from\" [3 2 -1] \"point3 to\" [0 0 0]\n"
+              "ActiveTransform EndTime Rotate 100 1 0 1 Scale 1.2 0.6 1 ActiveTransform All\n"}) {
             CAPTURE(light);
-            Scene scene = world_of(light + "AttributeBegin Translate 0 -1 0 " +
-                                   leaning_square(0.6, 9) + "AttributeEnd " + ball);
+            Scene scene = world_of("AttributeBegin Translate 0 -1 0 " + leaning_square(0.6, 9) +
+                                   "AttributeEnd " + light + ball);
             scene.max_depth = 3;
-            Trace eye = trace_with<ch15::trace>(ch15::prepare(scene));
+            Trace eye = trace_with<ch16::trace>(ch16::prepare(scene));
             SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
             CHECK(check_classes(scene, eye, scene, walk, 400000) >= 4);
             BlockMeans a = blocks_of(scene, eye, 16, 32, 8), b = blocks_of(scene, walk, 64, 32, 8);

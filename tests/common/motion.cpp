@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "common/scene/mover.h"
+#include "common/scene/smooth_normal.h"
 #include "tests/support/estimators.h"
 
 namespace {
@@ -123,6 +124,8 @@ TEST_SUITE("motion") {
                 CHECK(length(a->p - b->p) < 2e-5f);
                 CHECK(length(a->n - b->n) < 1e-4f);
                 CHECK(length(a->ng - b->ng) < 1e-4f);
+                a->n = a->ng, b->n = b->ng;  // as if it looked away from this ray
+                CHECK(length(smooth_normal(moving, *a) - smooth_normal(still, *b)) < 1e-4f);
                 CHECK(std::abs(length(a->n) - 1) < 1e-5f);
                 CHECK(std::abs(length(a->ng) - 1) < 1e-5f);
                 CHECK(a->time == ray.time);

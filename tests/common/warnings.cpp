@@ -59,6 +59,19 @@ const std::string downwards = "Translate 0 5 0 Rotate 90 1 0 0 Shape \"disk\"\n"
 }  // namespace
 
 TEST_SUITE("warnings") {
+    TEST_CASE("truth: a sky alone is as bright as it is, and there is nothing to warn of") {
+        for (std::string shapes : {"", "Material \"interface\" Shape \"sphere\""})
+            for (std::string program :
+                 {"05_ray_casting", "09_light_sampling", "15_mis_ris", "19_adaptive",
+                  "21_bidirectional", "22_fast_bidirectional", "25_vertex_merging"}) {
+                CAPTURE(program);
+                Said sky = said_of(program, camera + "LightSource \"infinite\"\n" + shapes,
+                                   {"--stand-in", "--spp", "16"});
+                CHECK(sky.mean == 1);
+                CHECK(!sky.warns());
+            }
+    }
+
     TEST_CASE("failure: a black picture names what makes it black") {
         const std::string plain = "14_mis", by_chance = "07_path_tracing",
                           by_light = "20_light_tracing";

@@ -1,0 +1,61 @@
+#include "common/scene/coincident.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/scenes.h"
+
+namespace {
+
+/// A rectangle in the plane of height y, from (x0, z0) to (x1, z1); reads "x0 z0 x1 z1".
+std::string level(const std::string& y, const std::string& x0, const std::string& z0,
+                  const std::string& x1, const std::string& z1) {
+    return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [" + x0 + " " +
+           y + " " + z0 + " " + x1 + " " + y + " " + z0 + " " + x1 + " " + y + " " + z1 + " " + x0 +
+           " " + y + " " + z1 + "]\n";
+}
+const std::string lamp = "AreaLightSource \"diffuse\"\n",
+                  small = level("1", "-.5", "-.5", ".5", ".5"),
+                  ceiling = level("1", "-2", "-2", "2", "2"),
+                  disk = "Translate 0 1 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" .3\n",
+                  ball = "Shape \"sphere\" \"float radius\" 2\n",
+                  turn = "Rotate 37 1 2 3 Translate 30 40 50\n";
+
+std::vector<std::string> notes_of(const std::string& world) {
+    return notes_of_coincident(
+        scene_of("Camera \"perspective\"\nWorldBegin LightSource \"infinite\"\n" + world));
+}
+
+}  // namespace
+
+TEST_SUITE("coincident") {
+    TEST_CASE("truth: surfaces in one place are named, and no others") {
+        const std::string end =
+            " lie in one place, where rounding decides which of them a ray meets";
+        auto note = [&](const std::string& line, const std::string& both) {
+            return std::vector<std::string>{"test.pbrt:" + line + ":1: note: " + both + end};
+        };
+        const std::string with_shape = "this lamp and the Shape at test.pbrt:3:1";
+        const std::vector<std::string> none;
+        // In a plane: all of a lamp, a corner of it, by a disk, of a wall that is turned, and two
+        // lamps. In space: balls. And faces that are given twice.
+        CHECK(notes_of(ceiling + lamp + small) == note("5", with_shape));
+        CHECK(notes_of(level("1", ".4", ".4", "2", "2") + lamp + small) == note("5", with_shape));
+        CHECK(notes_of(ceiling + lamp + disk).size() == 1);
+        CHECK(notes_of(turn + ceiling + "Rotate 20 0 1 0\n" + lamp + small).size() == 1);
+        CHECK(notes_of(lamp + small + small) ==
+              note("5", "this lamp and the lamp at test.pbrt:4:1"));
+        CHECK(notes_of(ball + lamp + ball) == note("5", with_shape));
+        CHECK(notes_of(small + "Material \"conductor\"\n" + small) ==
+              note("5", "this Shape and the Shape at test.pbrt:3:1"));
+        CHECK(notes_of(lamp + small + "ReverseOrientation\n" + disk).size() == 1);
+        // Two triangles of a lamp, a wall that it touches, a millimetre, what crosses it, a ball
+        // that it touches, and two walls that overlap but are not the same.
+        CHECK(notes_of(lamp + small) == none);
+        CHECK(notes_of(level("1", ".5", "-2", "2", "2") + lamp + small) == none);
+        CHECK(notes_of(level("1.001", "-2", "-2", "2", "2") + lamp + small) == none);
+        CHECK(notes_of("Translate 0 1 0 Rotate .01 0 0 1 Translate 0 -1 0\n" + ceiling +
+                       "Identity\n" + lamp + small) == none);
+        CHECK(notes_of("Translate 0 3 0\n" + ball + "Identity\n" + lamp + small) == none);
+        CHECK(notes_of(ceiling + small) == none);
+    }
+}
