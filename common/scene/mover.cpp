@@ -37,6 +37,16 @@ void carry_on(const Transform& t, Hit& x) {
             rounding_error(max_component(abs(x.p)));
 }
 
+Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
+    if (g.normals.empty() || prim >= g.triangles.size()) return {};
+    const auto& v = g.triangles[prim].v;
+    Vec3 p0 = g.positions[v[0]], e1 = g.positions[v[1]] - p0, e2 = g.positions[v[2]] - p0;
+    Vec3 area = cross(e1, e2);
+    float b1 = dot(cross(p - p0, e2), area) / dot(area, area);
+    float b2 = dot(cross(e1, p - p0), area) / dot(area, area);
+    return (1 - b1 - b2) * g.normals[v[0]] + b1 * g.normals[v[1]] + b2 * g.normals[v[2]];
+}
+
 }  // namespace
 
 Box box_over_time(const Mover& mover) {
@@ -90,7 +100,8 @@ void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x)
     }
 }
 
-Vec3 normal_of_mover(const Scene& scene, uint32_t prim, Vec3 p, float time) {
+Vec3 interpolated_normal(const Scene& scene, uint32_t prim, Vec3 p, float time) {
+    if (prim < scene.geometry.size()) return interpolated_normal(scene.geometry, prim, p);
     auto behind = std::upper_bound(
         scene.movers.begin(), scene.movers.end(), prim,
         [](uint32_t number, const Mover& mover) { return number < mover.first_prim; });

@@ -31,7 +31,3 @@ struct Scene;
 /// Replaces x by what the ray meets first among the movers, where that is nearer, at its time.
 void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x);
 bool occluded_by_movers(const Scene& scene, const Ray& ray);
-
-/// interpolated_normal() at p, a point of a mover, at this time. By values: a Hit that is referred
-/// to has to be in memory.
-[[gnu::cold]] Vec3 normal_of_mover(const Scene& scene, uint32_t prim, Vec3 p, float time);

@@ -45,10 +45,12 @@ void prepare(Scene& scene, int threads, const Report& report) {
 
     if (report) report("preparing lights and surfaces", 0);
     scene.moves_or_varies = !scene.movers.empty() || !scene.textures.all.empty();
+    scene.has_normals = !scene.geometry.normals.empty();
     Box box = bounds_of(scene.geometry);
     uint32_t prims = scene.geometry.size();
     for (Mover& mover : scene.movers) {
         mover.first_prim = prims;
+        scene.has_normals = scene.has_normals || !mover.geometry.normals.empty();
         prims += mover.geometry.size();
         mover.geometry.facet_normals = facet_normals(mover.geometry);
         mover.bvh = build_bvh(mover.geometry, threads);

@@ -91,6 +91,7 @@ struct Scene {
     std::optional<SkyImage> sky_image;     // else the sum of all infinite lights
     std::vector<Mover> movers;             // shapes that move; they do not shine
     bool moves_or_varies = false;          // has movers or textures; prepare() finds out
+    bool has_normals = false;              // of a mesh's corners; prepare() finds out
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel
