@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/base/system.h"
 #include "common/picture/film_file.h"
 
@@ -39,16 +40,19 @@ void add_later(const std::string& folder, const std::vector<std::string>& others
     }
 }
 
-/// Checks the disk space for files of known size: uncompressed pictures, and the sums of a film.
+/// Checks the disk space for files, those of known size above all: uncompressed pictures, and the
+/// sums of a film. If only some disks are full, the other files are worth the render.
 void check_space(const Scene& scene, const std::vector<std::string>& files) {
     uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
     std::vector<FutureFile> known;
     for (const std::string& file : files) {
-        if (file.ends_with(".pfm")) known.push_back({file, pixels * sizeof(Rgb)});
-        if (file.ends_with(".ppm")) known.push_back({file, pixels * 3});
-        if (file.ends_with(film_ending)) known.push_back({file, pixels * sizeof(PixelSum)});
+        bool is_film = file.ends_with(film_ending);
+        uint64_t bytes = file.ends_with(".pfm")   ? sizeof(Rgb)
+                         : file.ends_with(".ppm") ? 3
+                                                  : is_film * sizeof(PixelSum);
+        known.push_back({file, std::max<uint64_t>(bytes * pixels, 1)});
     }
-    check_space(known);
+    tell(check_space(known));
 }
 
 }  // namespace
