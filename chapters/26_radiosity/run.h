@@ -200,8 +200,10 @@ private:
         if (film_.empty()) return false;
         film_lock_ = std::make_shared<FileLock>(film_);
         bool is_new = size_of(film_) == 0;
-        if (is_new) save_film();
-        tell(check_space({{film_, size_of(film_)}}));
+        uint64_t bytes = label().size() + sizeof(uint64_t);
+        for (auto piece : numbers_of(solution_)) bytes += piece.size();
+        check_space({{film_, (is_new ? 2 : 1) * bytes}});  // each is written beside the one before
+        if (is_new) done([&] { save_film(); });
         return !is_new;
     }
     void write_picture() {

@@ -12,6 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/base/system.h"
 
 namespace fs = std::filesystem;
@@ -183,7 +184,7 @@ void write_outputs(std::vector<Output> outputs) {
             errors += path + ": error: cannot write: out of memory\n";
         }
     }
-    if (!errors.empty()) throw InputError(errors);
+    if (!errors.empty()) throw InputError(errors.substr(0, errors.size() - 1));
 }
 
 void check_writable(const std::string& path) {
@@ -221,6 +222,8 @@ void make_folder(const std::string& path) {
 }
 
 void check_outputs(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
+    std::string errors;
+    size_t refused = 0;
     for (size_t i = 0; i < files.size(); i++) {
         if (file_name(file_path(files[i])).starts_with("out/")) make_folder("out");
         for (const std::string& input : inputs) {
@@ -233,8 +236,16 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
             if (!same_file(files[i], files[j])) continue;
             throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
         }
-        check_writable(files[i]);
+        try {
+            check_writable(files[i]);
+        } catch (const InputError& error) {
+            errors += error.what() + std::string("\n");
+            refused++;
+        }
     }
+    bool has_none = refused > 0 && refused == files.size();
+    if (has_none) throw InputError(errors.substr(0, errors.size() - 1));
+    tell(errors);
 }
 
 std::string check_space(const std::vector<FutureFile>& files) {
@@ -255,7 +266,8 @@ std::string check_space(const std::vector<FutureFile>& files) {
                             megabytes(free) + " are free") +
                   '\n';
     }
-    if (!full.empty() && full.size() == needed.size()) throw InputError(errors);
+    bool has_none = !full.empty() && full.size() == needed.size();
+    if (has_none) throw InputError(errors.substr(0, errors.size() - 1));
     return errors;
 }
 

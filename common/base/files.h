@@ -76,8 +76,8 @@ bool same_file(const std::string& a, const std::string& b);
 void make_folder(const std::string& path);
 
 /// Asked before the work whose results are to be written to these files: makes the folder out/ when
-/// one of them is in it, and throws InputError for one that cannot be written, UsageError when two
-/// are the same or one is an input.
+/// one of them is in it, and throws UsageError when two are the same or one is an input. One that
+/// cannot be written is told, since the others are worth the work; if none can, throws InputError.
 void check_outputs(const std::vector<std::string>& files,
                    const std::vector<std::string>& inputs = {});
 

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "common/base/error.h"
+
 namespace fs = std::filesystem;
 
 #ifdef _WIN32
@@ -372,11 +374,16 @@ double plain_strtod(const char* text, char** end) {
 }
 
 void prepare_streams() {
+    constexpr rlim_t least_stack = 128 << 10;  // bytes
     for (int fd = 0; fd <= 2; fd++) {
         if (::fcntl(fd, F_GETFD) == -1) ::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
     }
     // Writing beyond a file size limit, or to a closed pipe.
     for (int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+    rlimit stack = {};
+    bool is_known = ::getrlimit(RLIMIT_STACK, &stack) == 0;
+    if (is_known && stack.rlim_cur < least_stack)
+        throw InputError("error: out of memory: the stack needs " + megabytes(least_stack));
     // What is printed waits for the end, when all files are written.
     static char buffer[1 << 16];
     std::setvbuf(stdout, buffer, _IOFBF, sizeof buffer);

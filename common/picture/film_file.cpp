@@ -179,6 +179,12 @@ void write_film(const std::string& path, const FilmLabel& label, const Film& fil
     file.commit(lock);
 }
 
+uint64_t largest_size(const Film& film) {
+    uint64_t bytes = 1 << 13;  // of the label
+    for (const std::vector<PixelSum>* sums : sums_of(film)) bytes += bytes_of(*sums).size();
+    return bytes;
+}
+
 void check_film_is_file(const std::string& path) {
     std::error_code none;
     std::filesystem::file_status status = std::filesystem::status(file_path(path), none);

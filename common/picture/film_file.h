@@ -19,6 +19,8 @@ inline constexpr const char* film_ending = ".film";
 /// InputError; the file that was there before stays until the new one is whole and on the disk.
 void write_film(const std::string& path, const FilmLabel& label, const Film& film,
                 FileLock* lock = nullptr);
+/// The most bytes that its file has.
+uint64_t largest_size(const Film& film);
 
 /// Throws InputError for a pipe or a device: a film is read before it is written again.
 void check_film_is_file(const std::string& path);

@@ -1,14 +1,8 @@
 #include "common/rendering/film_clock.h"
 
-#include "common/base/error.h"
-#include "common/base/report.h"
 #include "common/rendering/film_keeping.h"
 
 void FilmClock::save(const Rendering& rendering) {
-    try {
-        save_film(scene_, options_, rendering);
-    } catch (const InputError& error) {
-        tell(error.what() + std::string("\n"));
-    }
+    try_to_save_film(scene_, options_, rendering);
     last_ = Clock::now();
 }

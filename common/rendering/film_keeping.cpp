@@ -67,10 +67,9 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     if (options.film.empty()) return;
     rendering.film_lock = std::make_shared<FileLock>(options.film);
     bool is_new = size_of(options.film) == 0;
-    if (is_new) save_film(scene, options, rendering);
-    tell(check_space(
-        {{options.film, size_of(options.film)}}));  // of the next one, which is written beside it
-    if (is_new) return;
+    // Each film is written beside the one before.
+    check_space({{options.film, (is_new ? 2 : 1) * largest_size(rendering.film)}});
+    if (is_new) return try_to_save_film(scene, options, rendering);
     LabeledFilm found = read_film(options.film);
     check_options(options.film, found.label, film_options(scene, options));
     if (found.label.samples.empty()) return;  // it was stopped before it had samples
@@ -112,4 +111,13 @@ void save_film(const Scene& scene, const RenderOptions& options, const Rendering
     if (options.film.empty()) return;
     write_film(options.film, label_of(scene, options, rendering), rendering.film,
                rendering.film_lock.get());
+}
+
+void try_to_save_film(const Scene& scene, const RenderOptions& options,
+                      const Rendering& rendering) {
+    try {
+        save_film(scene, options, rendering);
+    } catch (const InputError& error) {
+        tell(error.what() + std::string("\n"));
+    }
 }

@@ -18,3 +18,5 @@ FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rende
 
 /// Writes the film that the options name, if any. Throws InputError.
 void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+/// The same; tells what is wrong, and the render goes on.
+void try_to_save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);

@@ -40,16 +40,13 @@ void add_later(const std::string& folder, const std::vector<std::string>& others
     }
 }
 
-/// Checks the disk space for files, those of known size above all: uncompressed pictures, and the
-/// sums of a film. If only some disks are full, the other files are worth the render.
+/// Checks the disk space for files: that of uncompressed pictures is known, others have at least a
+/// byte. If only some disks are full, the other files are worth the render.
 void check_space(const Scene& scene, const std::vector<std::string>& files) {
     uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
     std::vector<FutureFile> known;
     for (const std::string& file : files) {
-        bool is_film = file.ends_with(film_ending);
-        uint64_t bytes = file.ends_with(".pfm")   ? sizeof(Rgb)
-                         : file.ends_with(".ppm") ? 3
-                                                  : is_film * sizeof(PixelSum);
+        uint64_t bytes = file.ends_with(".pfm") ? sizeof(Rgb) : file.ends_with(".ppm") ? 3 : 0;
         known.push_back({file, std::max<uint64_t>(bytes * pixels, 1)});
     }
     tell(check_space(known));
@@ -71,7 +68,10 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
         if (!file.empty()) files.push_back(file);
     for (const auto& [file, picture] : options.pictures) files.push_back(file);
     files.insert(files.end(), more.begin(), more.end());
-    if (!options.film.empty()) check_film_is_file(options.film);
+    if (!options.film.empty()) {  // not to go on without it
+        check_film_is_file(options.film);
+        check_writable(options.film);
+    }
     std::vector<std::string> others = inputs;
     others.insert(others.end(), files.begin(), files.end());
     if (!options.split.empty()) {
@@ -83,5 +83,6 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
         add_later(file_name(file_path(options.out[0]).parent_path()), others, is_beside, files);
     }
     check_outputs(files, inputs);
+    std::erase(files, options.film);  // its own room is asked for where its size is known
     check_space(scene, files);
 }

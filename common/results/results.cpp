@@ -181,7 +181,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
     try {
         outputs.write();
     } catch (const InputError& error) {
-        errors += error.what();
+        errors += error.what() + std::string("\n");
     }
     if (!options.quiet) {
         print_summary(scene, options, r);
