@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <termios.h>
 
+#include <filesystem>
+
 #include "common/options/options.h"
 #include "common/rendering/progress.h"
 #include "tests/support/run_program.h"
@@ -84,23 +86,26 @@ TEST_SUITE("surroundings") {
         for (bool is_terminal : {true, false}) {
             CAPTURE(is_terminal);
             std::string out = folder / (is_terminal ? "a.ppm" : "b.ppm");
-            Finished end = Process([&] {
-                               int ends[2] = {-1, -1};
-                               if (is_terminal) {
-                                   ends[1] = terminal();
-                                   ::tcflow(ends[1], TCOOFF);
-                               } else if (::pipe(ends) == 0) {
-                                   ::fcntl(ends[1], F_SETFL, O_NONBLOCK);
-                                   while (::write(ends[1], "x", 1) == 1) {
-                                   }
-                                   ::fcntl(ends[1], F_SETFL, 0);
-                               }
-                               if (ends[1] < 0) return 77;
-                               ::dup2(ends[1], STDERR_FILENO);
-                               ::alarm(30);  // s: is caught, too, so that it is exit code 3
-                               return execute(path_tracer, {spheres, "--size", "16x16", "--time",
-                                                            "0.5", "--out", out});
-                           }).wait();
+            Process process([&] {
+                int ends[2] = {-1, -1};
+                if (is_terminal) {
+                    ends[1] = terminal();
+                    ::tcflow(ends[1], TCOOFF);
+                } else if (::pipe(ends) == 0) {
+                    ::fcntl(ends[1], F_SETFL, O_NONBLOCK);
+                    while (::write(ends[1], "x", 1) == 1) {
+                    }
+                    ::fcntl(ends[1], F_SETFL, 0);
+                }
+                if (ends[1] < 0) return 77;
+                ::dup2(ends[1], STDERR_FILENO);
+                return execute(path_tracer,
+                               {spheres, "--size", "16x16", "--time", "0.5", "--out", out});
+            });
+            for (int ms = 0; ms < 20000 && !std::filesystem::exists(out); ms += 10) ::usleep(10000);
+            ::usleep(200'000);
+            process.kill(SIGKILL);  // where it waits
+            Finished end = process.wait();
             if (end.code == 77) {
                 MESSAGE("skipped: no terminals here");
                 continue;
