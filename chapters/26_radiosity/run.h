@@ -1,13 +1,12 @@
 // What surrounds the lesson: the order of the work, its costs, pictures on the way, and the report.
 #pragma once
 #include <cstdio>
-#include <filesystem>
 
 #include "chapters/26_radiosity/check.h"
 #include "chapters/26_radiosity/settings.h"
 #include "chapters/26_radiosity/tessellate.h"
 #include "chapters/26_radiosity/variants.h"
-#include "common/base/system.h"
+#include "common/base/report.h"
 #include "common/path/trace.h"
 #include "common/picture/notes.h"
 #include "common/program/render.h"
@@ -155,8 +154,7 @@ private:
         const std::vector<Patch>& patch = patches_->patch;
         start(patch, solution_);
         check_numbers(scene_.file, patch, solution_);
-        std::error_code none;
-        if (!film_.empty() && std::filesystem::exists(file_path(film_), none)) {
+        if (finds_film()) {
             read_numbers(film_, label(), numbers_of(solution_));
             check_numbers(film_, patch, solution_);
             check_balance(film_, balance_of(patch, solution_));
@@ -191,12 +189,23 @@ private:
             write();
             return true;
         } catch (const InputError& error) {
-            std::fprintf(stderr, "%s\n", error.what());
+            tell(error.what() + std::string("\n"));
             return false;
         }
     }
     std::string label() const { return film_label(scene_, options_, settings_, n()); }
-    void save_film() { save_numbers(film_, label(), numbers_of(solution_)); }
+    void save_film() { save_numbers(film_, label(), numbers_of(solution_), film_lock_.get()); }
+    /// Whether there is a film to continue; else makes one.
+    bool finds_film() {
+        if (film_.empty()) return false;
+        film_lock_ = std::make_shared<FileLock>(film_);
+        bool is_new = size_of(film_) == 0;
+        uint64_t bytes = label().size() + sizeof(uint64_t);
+        for (auto piece : numbers_of(solution_)) bytes += piece.size();
+        check_space({{film_, (is_new ? 2 : 1) * bytes}});  // each is written beside the one before
+        if (is_new) done([&] { save_film(); });
+        return !is_new;
+    }
     void write_picture() {
         RenderOptions quiet = options_;
         quiet.quiet = true, quiet.time = 0;
@@ -256,6 +265,7 @@ private:
     RenderOptions options_;
     Settings settings_;
     std::string film_;
+    std::shared_ptr<FileLock> film_lock_;
     Limit limit_;
     std::shared_ptr<Patches> patches_;
     Rows rows_;

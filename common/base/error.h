@@ -28,7 +28,7 @@ inline std::string megabytes(uint64_t bytes) {
 /// Does the work; where there is too little memory for it, throws an InputError that says what
 /// needed how much.
 template <typename Work>
-auto needing_memory(const std::string& what, uint64_t bytes, const Work& work) {
+decltype(auto) needing_memory(const std::string& what, uint64_t bytes, const Work& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {

@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <map>
 #include <random>
+#include <set>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/base/system.h"
 
 namespace fs = std::filesystem;
@@ -94,6 +96,13 @@ bool ignores_case(const fs::path& folder) {
 
 }  // namespace
 
+FileLock::FileLock(const std::string& path) : path_(path), lock_(lock_file(path)) {
+    if (lock_ >= 0) return;
+    if (errno != EWOULDBLOCK) fail(path, "cannot write", errno);
+    throw InputError(printable(path + ": error: another program is writing it"));
+}
+FileLock::~FileLock() { unlock_file(lock_, path_); }
+
 NewFile::NewFile(const std::string& path) : path_(path) {
     if (is_device(path)) {
         file_ = open_device(path);
@@ -136,14 +145,17 @@ void NewFile::write_through() {
     if (!reach_disk(file_)) fail(path_, "cannot write", errno);
 }
 
-void NewFile::commit() {
+void NewFile::commit(FileLock* lock) {
     // Closing may tell what is wrong with the disk; the lock stays until the file is in its place.
     if (!closes_well(file_)) fail(path_, "cannot write", errno);
     if (temporary_.empty()) return;
     std::string why = why_not_replaced(target_);
     if (why.empty() && !rename_over(file_, temporary_, target_)) why = std::strerror(errno);
     std::string kept = std::exchange(temporary_, "");
-    if (why.empty()) return;
+    if (why.empty()) {
+        if (lock != nullptr) pass_lock(lock->lock_, file_);
+        return;
+    }
 
     // Keep what was written. The next attempt of this process takes the same name.
     static const std::string ending = ".kept-" + random_letters();
@@ -153,10 +165,26 @@ void NewFile::commit() {
         printable(path_ + ": error: cannot write: " + why + "; what was to be written is " + kept));
 }
 
-void write_file_atomically(const std::string& path, std::string_view bytes) {
+void write_file_atomically(const std::string& path, std::string_view bytes, FileLock* lock) {
     NewFile file(path);
     file.write(bytes);
-    file.commit();
+    file.commit(lock);
+}
+
+void write_outputs(std::vector<Output> outputs) {
+    std::string errors;
+    std::stable_partition(outputs.begin(), outputs.end(),
+                          [](const Output& output) { return !is_device(output.first); });
+    for (const auto& [path, write] : outputs) {
+        try {
+            write();
+        } catch (const InputError& error) {
+            errors += error.what() + std::string("\n");
+        } catch (const std::bad_alloc&) {
+            errors += path + ": error: cannot write: out of memory\n";
+        }
+    }
+    if (!errors.empty()) throw InputError(errors.substr(0, errors.size() - 1));
 }
 
 void check_writable(const std::string& path) {
@@ -167,6 +195,12 @@ void check_writable(const std::string& path) {
     std::string why = why_not_replaced(follow_links(path));
     if (!why.empty()) throw InputError(printable(path + ": error: cannot write: " + why));
     NewFile never_committed(path);
+}
+
+uint64_t size_of(const std::string& path) {
+    std::error_code none;
+    uint64_t size = fs::file_size(file_path(path), none);
+    return none ? 0 : size;
 }
 
 bool same_file(const std::string& a, const std::string& b) {
@@ -192,6 +226,8 @@ void make_folder(const std::string& path) {
 }
 
 void check_outputs(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
+    std::string errors;
+    size_t refused = 0;
     for (size_t i = 0; i < files.size(); i++) {
         if (file_name(file_path(files[i])).starts_with("out/")) make_folder("out");
         for (const std::string& input : inputs) {
@@ -204,24 +240,39 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
             if (!same_file(files[i], files[j])) continue;
             throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
         }
-        check_writable(files[i]);
+        try {
+            check_writable(files[i]);
+        } catch (const InputError& error) {
+            errors += error.what() + std::string("\n");
+            refused++;
+        }
     }
+    bool has_none = refused > 0 && refused == files.size();
+    if (has_none) throw InputError(errors.substr(0, errors.size() - 1));
+    tell(errors);
 }
 
-void check_space(const std::vector<FutureFile>& files) {
+std::string check_space(const std::vector<FutureFile>& files) {
+    constexpr uint64_t unit = 4096;  // bytes: disks give whole ones
     std::map<std::string, uint64_t> needed;
+    std::set<std::string> full;
+    std::string errors;
     for (const FutureFile& file : files) {
-        if (is_device(file.path)) continue;
         std::error_code error;
         fs::path folder = folder_of(follow_links(file.path));
+        std::string disk = is_device(file.path) ? file.path : disk_of(file_name(folder));
         uint64_t free = fs::space(folder, error).available,
-                 all = needed[disk_of(file_name(folder))] += file.bytes;
-        if (error) continue;
-        if (all <= free) continue;
-        throw InputError(printable(file.path + ": error: cannot write: " + std::strerror(ENOSPC) +
-                                   ": what is to be written there needs " + megabytes(all) + ", " +
-                                   megabytes(free) + " are free"));
+                 all = needed[disk] += (file.bytes + unit - 1) / unit * unit;
+        bool is_full = !is_device(file.path) && !error && all > free;
+        if (!is_full || !full.insert(disk).second) continue;
+        errors += printable(file.path + ": error: cannot write: " + std::strerror(ENOSPC) +
+                            ": what is to be written there needs " + megabytes(all) + ", " +
+                            megabytes(free) + " are free") +
+                  '\n';
     }
+    bool has_none = !full.empty() && full.size() == needed.size();
+    if (has_none) throw InputError(errors.substr(0, errors.size() - 1));
+    return errors;
 }
 
 std::string read_file(const std::string& path) {

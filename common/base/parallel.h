@@ -8,13 +8,19 @@
 #include <vector>
 
 /// A thread that is waited for at the end of its block: std::jthread, which not all libraries have.
+/// Where no thread can be had, this one does the work.
 class JoinedThread {
 public:
     template <typename Work>
-    explicit JoinedThread(const Work& work) : thread_(work) {}
+    explicit JoinedThread(const Work& work) {
+        try {
+            thread_ = std::thread(work);
+        } catch (const std::exception&) {
+            work();
+        }
+    }
     JoinedThread(JoinedThread&&) = default;
-    ~JoinedThread() { join(); }
-    void join() {
+    ~JoinedThread() {
         if (thread_.joinable()) thread_.join();
     }
 

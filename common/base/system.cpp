@@ -7,6 +7,9 @@
 #include <iterator>
 #include <sstream>
 #include <system_error>
+#include <utility>
+
+#include "common/base/error.h"
 
 namespace fs = std::filesystem;
 
@@ -99,6 +102,20 @@ bool is_device(const std::string& name) {
 }
 bool takes_writes(const std::string&) { return true; }
 
+// The system removes a file beside it when this process ends, in whatever way.
+int lock_file(const std::string& name) {
+    HANDLE handle = CreateFileW(wide(name + ".lock").c_str(), GENERIC_WRITE, 0, nullptr,
+                                OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, nullptr);
+    if (handle != INVALID_HANDLE_VALUE)
+        return _open_osfhandle(reinterpret_cast<intptr_t>(handle), _O_BINARY | _O_NOINHERIT);
+    bool is_locked = GetLastError() == ERROR_SHARING_VIOLATION;
+    failed();
+    if (is_locked) errno = EWOULDBLOCK;
+    return -1;
+}
+void pass_lock(int&, int&) {}
+void unlock_file(int lock, const std::string&) { close_file(lock); }
+
 void remove_left_over(const std::string& name) { DeleteFileW(wide(name).c_str()); }
 void copy_permissions(const std::string&, int) {}
 
@@ -146,7 +163,7 @@ double plain_strtod(const char* text, char** end) {
 
 namespace {
 
-void (*handlers_before[std::size(stop_signals)])(int);
+std::vector<void (*)(int)> handlers_before(stop_signals.size());
 std::atomic<void (*)(int)> caught_by = nullptr;
 
 // Windows calls this in a thread of its own. When the window is closed or the user logs off, it
@@ -164,7 +181,7 @@ BOOL WINAPI console_event(DWORD event) {
 }  // namespace
 
 void catch_stop_signals(void (*handler)(int)) {
-    for (size_t i = 0; i < std::size(stop_signals); i++) {
+    for (size_t i = 0; i < stop_signals.size(); i++) {
         handlers_before[i] = std::signal(stop_signals[i], handler);
         if (handlers_before[i] == SIG_IGN) std::signal(stop_signals[i], SIG_IGN);
     }
@@ -172,13 +189,17 @@ void catch_stop_signals(void (*handler)(int)) {
 }
 void release_stop_signals() {
     caught_by = nullptr;
-    for (size_t i = 0; i < std::size(stop_signals); i++)
+    for (size_t i = 0; i < stop_signals.size(); i++)
         std::signal(stop_signals[i], handlers_before[i]);
 }
 void keep_catching(int signal, void (*handler)(int)) { std::signal(signal, handler); }
 void end_by_signal(int) { TerminateProcess(GetCurrentProcess(), ended_by_signal); }
+std::vector<int> all_stop_signals() { return {SIGINT, SIGTERM, SIGBREAK}; }
 
 void prepare_streams() {}
+size_t write_at_once(std::string_view text) {
+    return std::fwrite(text.data(), 1, text.size(), stderr);
+}
 
 // Windows starts programs here: with words in UTF-16, which main() gets in UTF-8. The streams take
 // bytes as they are, and a terminal shows them as UTF-8 and knows escape sequences.
@@ -204,8 +225,11 @@ extern "C" int wmain(int argc, wchar_t** argv) {
 #else
 
 #include <fcntl.h>
+#include <limits.h>
 #include <locale.h>
+#include <poll.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #ifdef __APPLE__
@@ -264,6 +288,27 @@ bool is_device(const std::string& name) {
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 bool takes_writes(const std::string& device) { return ::access(device.c_str(), W_OK) == 0; }
+
+int lock_file(const std::string& name) {
+    for (;;) {
+        int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file < 0) return -1;
+        bool is_locked = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        // Another program may have put its new one in the place of this one before the lock.
+        struct stat opened = {}, named = {};
+        bool is_there = ::fstat(file, &opened) == 0 && ::stat(name.c_str(), &named) == 0 &&
+                        opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+        if (is_there && !is_locked) return file;
+        ::close(file);
+        errno = EWOULDBLOCK;
+        if (is_locked) return -1;
+    }
+}
+void pass_lock(int& lock, int& file) { std::swap(lock, file); }
+void unlock_file(int lock, const std::string& name) {
+    if (bytes_in(lock) == 0) ::unlink(name.c_str());
+    ::close(lock);
+}
 
 // Its writer would hold its lock. While this has the lock itself, so that a writer that comes to
 // lock it then sees that it is gone.
@@ -329,31 +374,75 @@ double plain_strtod(const char* text, char** end) {
 }
 
 void prepare_streams() {
+    constexpr rlim_t least_stack = 128 << 10;  // bytes
     for (int fd = 0; fd <= 2; fd++) {
         if (::fcntl(fd, F_GETFD) == -1) ::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
     }
     // Writing beyond a file size limit, or to a closed pipe.
     for (int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+    rlimit stack = {};
+    bool is_known = ::getrlimit(RLIMIT_STACK, &stack) == 0;
+    if (is_known && stack.rlim_cur < least_stack)
+        throw InputError("error: out of memory: the stack needs " + megabytes(least_stack));
+    // What is printed waits for the end, when all files are written.
+    static char buffer[1 << 16];
+    std::setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+    // At the limit of time the system kills; so ask for a signal before it, to save in time.
+    rlimit time = {};
+    if (::getrlimit(RLIMIT_CPU, &time) != 0 || time.rlim_max == RLIM_INFINITY) return;
+    rlim_t before = std::clamp<rlim_t>(time.rlim_max / 5, 1, 30);  // s
+    time.rlim_cur = std::min(time.rlim_cur, time.rlim_max - before);
+    ::setrlimit(RLIMIT_CPU, &time);
 }
 
-static struct sigaction actions_before[std::size(stop_signals)];
+size_t write_at_once(std::string_view text) {
+    struct stat status = {};
+    bool is_file = ::fstat(STDERR_FILENO, &status) == 0 && S_ISREG(status.st_mode);
+    // Opened once more, so that only this does not wait: other programs share stderr.
+    const char* name = ::isatty(STDERR_FILENO) ? ::ttyname(STDERR_FILENO) : "/dev/fd/2";
+    int flags = O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+    int opened = is_file || name == nullptr ? -1 : ::open(name, flags);
+    bool never_waits = opened >= 0 && (::fcntl(opened, F_GETFL) & O_NONBLOCK) != 0;
+    pollfd to = {opened >= 0 ? opened : STDERR_FILENO, POLLOUT, 0};
+    ssize_t n = 0;
+    if (is_file || never_waits) {
+        n = ::write(to.fd, text.data(), text.size());
+    } else if (::poll(&to, 1, 0) == 1 && to.revents == POLLOUT) {
+        n = ::write(to.fd, text.data(), std::min<size_t>(text.size(), _POSIX_PIPE_BUF));
+    }
+    if (opened >= 0) ::close(opened);
+    return static_cast<size_t>(std::max<ssize_t>(n, 0));
+}
+
+std::vector<int> all_stop_signals() {
+    std::vector<int> all = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM,   SIGALRM,
+                            SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF};
+#ifdef __linux__
+    all.insert(all.end(), {SIGIO, SIGPWR, SIGSTKFLT});
+    for (int signal = SIGRTMIN; signal <= SIGRTMAX; signal++) all.push_back(signal);
+#endif
+    return all;
+}
+
+static std::vector<struct sigaction> actions_before(stop_signals.size());
 
 void catch_stop_signals(void (*handler)(int)) {
     struct sigaction stop {};
     stop.sa_handler = handler;
     stop.sa_flags = SA_RESTART;
-    for (size_t i = 0; i < std::size(stop_signals); i++) {
+    for (size_t i = 0; i < stop_signals.size(); i++) {
         ::sigaction(stop_signals[i], nullptr, &actions_before[i]);
         if (actions_before[i].sa_handler == SIG_IGN) continue;
         ::sigaction(stop_signals[i], &stop, nullptr);
     }
 }
 void release_stop_signals() {
-    for (size_t i = 0; i < std::size(stop_signals); i++)
+    for (size_t i = 0; i < stop_signals.size(); i++)
         ::sigaction(stop_signals[i], &actions_before[i], nullptr);
 }
 void keep_catching(int, void (*)(int)) {}
 void end_by_signal(int signal) {
+    if (signal == SIGXCPU) return;  // comes every second; the system ends the program by another
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }

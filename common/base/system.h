@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 /// The file that `name` names, and its name again. Names are UTF-8 in all of the code, and those
 /// that it makes have slashes; in Windows itself they are UTF-16, with backslashes.
@@ -26,6 +28,14 @@ uint64_t bytes_in(int file);
 bool reach_disk(int file);
 /// Whether all that was written could be taken, as closing the file tells. It stays open.
 bool closes_well(int file);
+
+/// Locks a file against other programs, until the process ends in whatever way, and makes an empty
+/// one where none is: the number of the lock. -1: errno is EWOULDBLOCK where another has it.
+int lock_file(const std::string& name);
+/// The lock of what `file`, open and new, has been put in the place of; `file` keeps the old one.
+void pass_lock(int& lock, int& file);
+/// Ends the lock; removes the file if it is empty still.
+void unlock_file(int lock, const std::string& name);
 
 /// A device or a pipe: it cannot be replaced, only written to.
 bool is_device(const std::string& name);
@@ -52,16 +62,16 @@ double plain_strtod(const char* text, char** end);
 
 /// Opens those of stdin, stdout and stderr that are closed, to read or write nothing. Else the next
 /// file opened would take its number, and printed text would end up in that file. Then lets what
-/// cannot be written fail with a message, not by a signal.
+/// cannot be written fail with a message, not by a signal; and keeps what is printed in memory.
 void prepare_streams();
+/// Writes to stderr what it takes without waiting, as a stopped terminal or a full pipe would let
+/// wait; returns how many bytes.
+size_t write_at_once(std::string_view text);
 
-/// The signals that ask a program to end. On Windows these are Ctrl-C, Ctrl-Break, and SIGTERM for
-/// a window that is closed.
-#ifdef _WIN32
-inline constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGBREAK};
-#else
-inline constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
-#endif
+/// All signals that end a program by default, except those of faults of its own. On Windows these
+/// are Ctrl-C, Ctrl-Break, and SIGTERM for a window that is closed.
+std::vector<int> all_stop_signals();
+inline const std::vector<int> stop_signals = all_stop_signals();
 /// Lets `handler` have them, except those that the program was started to ignore; and gives them
 /// back to who had them.
 void catch_stop_signals(void (*handler)(int signal));

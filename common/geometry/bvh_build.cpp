@@ -475,13 +475,10 @@ private:
             a();
             b();
         } else if (idle_threads_-- > 0) {
-            JoinedThread other([&] {
-                a();
+            parallel_for(2, 2, [&](int i) {
+                i == 0 ? a() : b();
                 idle_threads_++;
             });
-            b();
-            idle_threads_++;
-            other.join();
             idle_threads_--;
         } else {
             idle_threads_++;

@@ -12,6 +12,7 @@
 #include "common/base/nearest.h"
 #include "common/base/numbers.h"
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/base/system.h"
 
 namespace {
@@ -159,13 +160,15 @@ std::string command_line(int argc, char** argv) {
 }
 
 int run_program(const std::function<int()>& program) {
-    prepare_streams();
     auto report = [](const std::string& line, int code) {
-        std::fprintf(stderr, "%s\n", printable(line).c_str());
+        tell(printable(line) + "\n");
+        tell_rest();
         return code;
     };
     try {
+        prepare_streams();
         int code = program();
+        tell_rest();
         flush_stdout();
         return code;
     } catch (const UsageError& e) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/options/loading_progress.h"
 #include "common/scene/coincident.h"
 #include "common/scene/prepare.h"
@@ -17,15 +18,19 @@ namespace {
 
 /// Reads the scene, and prints its notes even if an error follows.
 Scene load_and_tell(const RenderOptions& options, const Report& report, LoadingProgress& progress) {
-    struct Notes {
-        LoadingProgress& progress;
-        std::vector<std::string> lines = {};
-        ~Notes() {
-            progress.clear();
-            for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
-        }
-    } notes{progress};
-    return load_scene(options.scene, &notes.lines, report, options.stand_in);
+    std::vector<std::string> notes;
+    auto tell_notes = [&] {
+        progress.clear();
+        for (const std::string& line : notes) tell(line + "\n");
+    };
+    try {
+        Scene scene = load_scene(options.scene, &notes, report, options.stand_in);
+        tell_notes();
+        return scene;
+    } catch (...) {
+        tell_notes();
+        throw;
+    }
 }
 
 /// The chapters that render scenes with this feature, such as "16 to 19, 23 and 24".
@@ -71,7 +76,7 @@ Rgb mean_of(const SkyImage& sky) {
 
 Scene load(const RenderOptions& options, Features features) {
     constexpr double pause = 10;  // s
-    LoadingProgress progress(stderr, isatty(STDERR_FILENO), pause);
+    LoadingProgress progress(isatty(STDERR_FILENO), pause);
     Report report;
     if (!options.quiet) {
         report = [&](const std::string& what, double share) { progress.show(what, share); };

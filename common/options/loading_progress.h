@@ -1,7 +1,6 @@
 // The progress messages while a large scene is loaded.
 #pragma once
 #include <chrono>
-#include <cstdio>
 #include <mutex>
 #include <string>
 
@@ -10,7 +9,7 @@
 class LoadingProgress {
 public:
     /// pause   s, between lines in a file
-    LoadingProgress(std::FILE* to, bool is_terminal, double pause);
+    LoadingProgress(bool is_terminal, double pause);
     ~LoadingProgress();
     LoadingProgress(const LoadingProgress&) = delete;
     LoadingProgress& operator=(const LoadingProgress&) = delete;
@@ -23,7 +22,6 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    std::FILE* const to_;
     const bool is_terminal_;
     const std::chrono::duration<double> pause_;  // between lines, or between drawings of the one
     std::mutex mutex_;

@@ -163,7 +163,7 @@ LabeledFilm FilmReader::read() {
 
 }  // namespace
 
-void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
+void write_film(const std::string& path, const FilmLabel& label, const Film& film, FileLock* lock) {
     NewFile file(path);
     Checksum checksum;
     std::string text = label_text(label, shape_of(film));
@@ -176,7 +176,13 @@ void write_film(const std::string& path, const FilmLabel& label, const Film& fil
     uint64_t sum = checksum.value();
     file.write({reinterpret_cast<const char*>(&sum), sizeof sum});
     file.write_through();
-    file.commit();
+    file.commit(lock);
+}
+
+uint64_t largest_size(const Film& film) {
+    uint64_t bytes = 1 << 13;  // of the label
+    for (const std::vector<PixelSum>* sums : sums_of(film)) bytes += bytes_of(*sums).size();
+    return bytes;
 }
 
 void check_film_is_file(const std::string& path) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "common/base/files.h"
 #include "common/picture/film.h"
 #include "common/picture/film_label.h"
 
@@ -16,7 +17,10 @@ inline constexpr const char* film_ending = ".film";
 /// Writes a film: a label in lines of text, the sums as they are in memory, and a checksum of both.
 /// The bytes depend on the samples, but not on their order. Throws
 /// InputError; the file that was there before stays until the new one is whole and on the disk.
-void write_film(const std::string& path, const FilmLabel& label, const Film& film);
+void write_film(const std::string& path, const FilmLabel& label, const Film& film,
+                FileLock* lock = nullptr);
+/// The most bytes that its file has.
+uint64_t largest_size(const Film& film);
 
 /// Throws InputError for a pipe or a device: a film is read before it is written again.
 void check_film_is_file(const std::string& path);

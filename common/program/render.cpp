@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/base/report.h"
 #include "common/explaining/explain.h"
 #include "common/rendering/tile_renderer.h"
 #include "common/results/outputs.h"
@@ -29,7 +30,7 @@ int explain_of_pass(const Scene& scene, const RenderOptions& options, const AnyP
     } catch (const TracingEnds&) {
     }
     if (limit.reached()) {
-        std::fprintf(stderr, "stopped before there was a path to explain\n");
+        tell("stopped before there was a path to explain\n");
         return 3;
     }
     RenderOptions as_rendered = options;

@@ -17,13 +17,14 @@ uint64_t checksum_of(std::string_view bytes) {
 
 }  // namespace
 
-void save_numbers(const std::string& path, const std::string& label, const Pieces& numbers) {
+void save_numbers(const std::string& path, const std::string& label, const Pieces& numbers,
+                  FileLock* lock) {
     std::string bytes = label;
     for (auto piece : numbers)
         bytes.append(reinterpret_cast<const char*>(piece.data()), piece.size());
     uint64_t sum = checksum_of(bytes);
     bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
-    write_file_atomically(path, bytes);
+    write_file_atomically(path, bytes, lock);
 }
 
 void read_numbers(const std::string& path, const std::string& label, const Pieces& numbers) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "common/base/files.h"
 #include "common/radiosity/display.h"
 
 /// The numbers of a solution, piece by piece, as they lie in memory.
@@ -11,7 +12,8 @@ using Pieces = std::vector<std::span<std::byte>>;
 
 /// Writes label, numbers, checksum. Throws InputError.
 /// label: lines that say what the solution is of, the last one empty.
-void save_numbers(const std::string& path, const std::string& label, const Pieces& numbers);
+void save_numbers(const std::string& path, const std::string& label, const Pieces& numbers,
+                  FileLock* lock = nullptr);
 
 /// Reads as many numbers as there is room for. Throws InputError for what is of something else, or
 /// damaged.

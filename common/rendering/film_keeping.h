@@ -7,8 +7,9 @@
 /// limited with --time but without --spp. Throws UsageError if there are more parts than samples.
 SampleRange wanted_samples(const Scene& scene, const RenderOptions& options);
 
-/// Continues from the film that the options name, if it exists. Throws InputError if its options
-/// differ, or if it has other samples than the wanted ones.
+/// Continues from the film that the options name, or makes one without samples; it is this
+/// program's alone then. Throws InputError if another program writes it, its options differ, it has
+/// other samples than the wanted ones, or its disk has no room to write it anew.
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering);
 
 /// The label of a film with all samples; and (below) with the given ones.
@@ -17,3 +18,5 @@ FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rende
 
 /// Writes the film that the options name, if any. Throws InputError.
 void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+/// The same; tells what is wrong, and the render goes on.
+void try_to_save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);

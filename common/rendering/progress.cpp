@@ -6,10 +6,12 @@
 #include <cstdio>
 #include <string>
 
+#include "common/base/report.h"
+
 Progress::Progress(bool quiet) : on_(!quiet), is_terminal_(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-    if (on_ && is_terminal_) std::fprintf(stderr, "\r\033[K");
+    if (on_ && is_terminal_) ::show("\r\033[K");
 }
 
 void Progress::show(double share, double seconds) {
@@ -18,12 +20,12 @@ void Progress::show(double share, double seconds) {
     if (!lock || seconds - last_ < (is_terminal_ ? 0.1 : 60)) return;
     last_ = seconds;
     share = std::min(share, 1.0);
-    if (!is_terminal_) {
-        std::fprintf(stderr, "%3.0f %%  %.0f s left\n", 100 * share, seconds / share - seconds);
-        return;
-    }
-    constexpr int width = 30;
+    char left[100];
+    std::snprintf(left, sizeof left, "%3.0f %%  %.0f s left", 100 * share,
+                  seconds / share - seconds);
+    if (!is_terminal_) return ::show(left + std::string("\n"));
+    constexpr size_t width = 30;
     std::string bar(static_cast<size_t>(share * width), '#');
-    std::fprintf(stderr, "\r[%-*s] %3.0f %%  %.0f s left\033[K", width, bar.c_str(), 100 * share,
-                 seconds / share - seconds);
+    bar.resize(width, ' ');
+    ::show("\r[" + bar + "] " + left + "\033[K");
 }

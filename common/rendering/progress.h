@@ -3,7 +3,7 @@
 #include <mutex>
 
 /// Shows the progress of the work and the remaining time: on a terminal as a bar, which disappears
-/// at the end; in a file as one line each minute.
+/// at the end; in a file as one line each minute. The work never waits for it.
 class Progress {
 public:
     explicit Progress(bool quiet);

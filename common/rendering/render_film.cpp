@@ -107,12 +107,24 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
         take_samples(scene, alone, trace, allocation, limit, pilot, again);
         decided.choose_densities = {};
     }
-    take_samples(scene, options, trace, decided, limit, wanted, result);
+    // The samples that there are outlive what goes wrong.
+    auto keep = [&](const std::string& error) {
+        if (result.film.samples() == 0) throw;
+        result.error = error;
+    };
+    try {
+        take_samples(scene, options, trace, decided, limit, wanted, result);
+    } catch (const InputError& error) {
+        keep(error.what());
+    } catch (const std::bad_alloc&) {
+        keep("error: out of memory");
+    }
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
     uint64_t all = uint64_t{static_cast<uint32_t>(scene.width)} *
                    static_cast<uint32_t>(scene.height) * (wanted.last - wanted.first);
-    result.stats.interrupted = limit.interrupted() && result.film.samples() < all;
+    result.stats.interrupted =
+        (limit.interrupted() || !result.error.empty()) && result.film.samples() < all;
     return result;
 }
 

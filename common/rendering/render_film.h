@@ -1,9 +1,11 @@
 // The render loop that calls a chapter's trace(): tiles, passes, threads, and stopping.
 #pragma once
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 
+#include "common/base/files.h"
 #include "common/options/options.h"
 #include "common/path/trace.h"
 #include "common/picture/allocation.h"
@@ -37,8 +39,9 @@ struct Rendering {
                                           // for all classes longer than 8 letters
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::vector<std::string> warnings = {};  // of the chapter's own
-    /// Other files that the chapter writes: the name, and the function that writes it.
-    std::vector<std::pair<std::string, std::function<void()>>> files = {};
+    std::vector<Output> files = {};          // others that the chapter writes
+    std::shared_ptr<FileLock> film_lock = {};
+    std::string error = {};  // that ended it before all samples were taken
 };
 
 /// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a

@@ -1,10 +1,10 @@
 // Stops work on Ctrl-C and similar signals, so that results so far are kept.
 #pragma once
 
-/// While it exists, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (on Windows: SIGBREAK) asks for a
-/// stop. The same signal ends the program if it comes again at least half a second later (timeout
-/// and others send it twice at once). Signals that the program was started to ignore, as by nohup,
-/// stay ignored. If several objects exist, only the first has an effect.
+/// While it exists, the first SIGINT (Ctrl-C), SIGTERM or other signal that would end the program
+/// (stop_signals) asks for a stop. The same signal ends the program if it comes again at least half
+/// a second later (timeout and others send it twice at once). Signals that the program was started
+/// to ignore, as by nohup, stay ignored. If several objects exist, only the first has an effect.
 class StopOnSignal {
 public:
     StopOnSignal();

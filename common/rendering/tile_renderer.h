@@ -96,6 +96,7 @@ public:
         PixelSum of_pass;
         uint64_t rays_before = rays_traced, rays = rays_before, paths_cut = 0;  // of whole samples
         int taken = 0;
+        std::exception_ptr thrown;
         bool in_pilot = has_pilot() && end_ <= allocation_.pilot;
         auto render_pixel = [&](int x, int y) {
             size_t pixel =
@@ -126,11 +127,14 @@ public:
             for_pixels(tile, render_pixel);
         } catch (const TracingEnds&) {
             // A sample that was given up is not counted: a continued render takes it again.
+        } catch (...) {
+            thrown = std::current_exception();
         }
         stats.rays = rays - rays_before, stats.paths_cut = paths_cut;
         std::lock_guard lock(mutex_);
         result_.stats.add(stats);
         if constexpr (has_passes) result_.film.add_to_batch(end_ - 1, of_pass);
+        if (thrown) std::rethrow_exception(thrown);
     }
 
 private:
@@ -240,6 +244,10 @@ private:
 
     Sample add_sample(const Place& at, Tools& with, RenderStats& stats) {
         auto [L, total] = trace(at, at.half, with);
+        // All that may fail comes first, so that no sample is in some of the films only.
+        std::vector<Contribution> parts;
+        if (splits_) parts = chosen_parts(with);
+        for (const Contribution& part : parts) film_of(part);
         int number = static_cast<int>(at.sample) * halves() + at.half;
         double value = static_cast<double>(average(total));
         if (!is_finite(total)) {
@@ -255,33 +263,36 @@ private:
                 result_.film.splat(splat.pixel, splat.L);
             }
         }
-        if (splits_) split(at, with);
+        for (const Contribution& part : parts) split(at, part);
         return {L, total};
     }
 
-    void split(const Place& at, Tools& with) {
-        for (const Contribution& part : chosen_parts(with)) {
-            // Keep all long paths together: the number of classes doubles with every letter.
-            bool is_long = part.path_class.size() > longest_class;
-            std::lock_guard lock(mutex_);
-            auto [film, added] = film_of(is_long ? "longer" : part.path_class);
-            if (added && result_.film.has_halves()) film->second.start_halves();
-            if (part.pixel == Contribution::own_pixel) {
-                film->second.add_part(at.pixel, part.L, at.half);
-            } else {
-                film->second.splat(part.pixel, part.L);
-            }
+    void split(const Place& at, const Contribution& part) {
+        Film& film = film_of(part);
+        std::lock_guard lock(mutex_);
+        if (part.pixel == Contribution::own_pixel) {
+            film.add_part(at.pixel, part.L, at.half);
+        } else {
+            film.splat(part.pixel, part.L);
         }
     }
 
-    auto film_of(const std::string& path_class) {
+    /// The film of the contribution's class.
+    Film& film_of(const Contribution& part) {
+        // Keep all long paths together: the number of classes doubles with every letter.
+        const std::string name =
+            part.path_class.size() > longest_class ? "longer" : part.path_class;
+        std::lock_guard lock(mutex_);
         size_t films = result_.classes.size() + 1;
         uint64_t bytes = (has_splats ? 3 : 1) * result_.film.pixels().size() * sizeof(PixelSum);
         return needing_memory(
             "--split: " + std::to_string(films) + " classes of paths, a film each,", films * bytes,
-            [&] {
-                return result_.classes.try_emplace(path_class, scene_.width, scene_.height,
-                                                   has_splats);
+            [&]() -> Film& {
+                auto found = result_.classes.find(name);
+                if (found != result_.classes.end()) return found->second;
+                Film empty(scene_.width, scene_.height, has_splats);
+                if (result_.film.has_halves()) empty.start_halves();
+                return result_.classes.emplace(name, std::move(empty)).first->second;
             });
     }
 

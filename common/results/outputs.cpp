@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/base/system.h"
 #include "common/picture/film_file.h"
 
@@ -39,16 +40,16 @@ void add_later(const std::string& folder, const std::vector<std::string>& others
     }
 }
 
-/// Checks the disk space for files of known size: uncompressed pictures, and the sums of a film.
+/// Checks the disk space for files: that of uncompressed pictures is known, others have at least a
+/// byte. If only some disks are full, the other files are worth the render.
 void check_space(const Scene& scene, const std::vector<std::string>& files) {
     uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
     std::vector<FutureFile> known;
     for (const std::string& file : files) {
-        if (has_ending(file, ".pfm")) known.push_back({file, pixels * sizeof(Rgb)});
-        if (has_ending(file, ".ppm")) known.push_back({file, pixels * 3});
-        if (has_ending(file, film_ending)) known.push_back({file, pixels * sizeof(PixelSum)});
+        uint64_t bytes = has_ending(file, ".pfm") ? sizeof(Rgb) : has_ending(file, ".ppm") ? 3 : 0;
+        known.push_back({file, std::max<uint64_t>(bytes * pixels, 1)});
     }
-    check_space(known);
+    tell(check_space(known));
 }
 
 }  // namespace
@@ -67,7 +68,10 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
         if (!file.empty()) files.push_back(file);
     for (const auto& [file, picture] : options.pictures) files.push_back(file);
     files.insert(files.end(), more.begin(), more.end());
-    if (!options.film.empty()) check_film_is_file(options.film);
+    if (!options.film.empty()) {  // not to go on without it
+        check_film_is_file(options.film);
+        check_writable(options.film);
+    }
     std::vector<std::string> others = inputs;
     others.insert(others.end(), files.begin(), files.end());
     if (!options.split.empty()) {
@@ -79,5 +83,6 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
         add_later(file_name(file_path(options.out[0]).parent_path()), others, is_beside, files);
     }
     check_outputs(files, inputs);
+    std::erase(files, options.film);  // its own room is asked for where its size is known
     check_space(scene, files);
 }

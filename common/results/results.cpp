@@ -9,6 +9,7 @@
 #include "common/base/json.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/options/command_line.h"
 #include "common/picture/finite_part.h"
 #include "common/picture/notes.h"
@@ -91,79 +92,69 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     }
 }
 
-/// Writes the results one by one; if one fails, the others are still written. Prints a message
-/// before steps that may take some time.
-class Writer {
+/// The files of a render. What is to be said of each that was written is added to `told`.
+class Outputs {
 public:
-    Writer(bool quiet, bool is_large) : quiet_(quiet), is_large_(is_large) {}
-
-    template <typename Write>
-    void write(const std::string& path, const Write& write, const std::string& note = "") {
-        try {
-            if (!quiet_ && is_large_) std::fprintf(stderr, "writing %s\n", path.c_str());
-            write();
-            if (!quiet_) std::printf("wrote %s%s\n", path.c_str(), note.c_str());
-        } catch (const InputError& error) {
-            std::fprintf(stderr, "%s\n", error.what());
-            failed_ = true;
-        } catch (const std::bad_alloc&) {
-            std::fprintf(stderr, "%s: error: cannot write: out of memory\n", path.c_str());
-            failed_ = true;
-        }
+    Outputs(const Scene& scene, const RenderOptions& options, const Rendering& r)
+        : scene_(scene), options_(options), r_(r) {
+        if (!options.film.empty()) add(options.film, [&] { save_film(scene, options, r); });
+        for (const auto& [path, write] : r.files) add(path, write);
+        for (const std::string& path : options.out) add_image(path, [&] { return r.film.image(); });
+        for (const auto& [path, picture] : options.pictures)
+            add_image(path, [&, &picture = picture] { return picture(r.film); });
+        if (!options.split.empty()) add_classes();
+        if (options.stats.empty()) return;
+        add(options.stats,
+            [&] { write_file_atomically(options.stats, stats_json(scene, options, r)); });
     }
-    bool failed() const { return failed_; }
+
+    /// Throws InputError for those that could not be written.
+    void write() { write_outputs(std::move(outputs_)); }
+    const std::string& told() const { return told_; }
 
 private:
-    const bool quiet_, is_large_;
-    bool failed_ = false;
+    void add(const std::string& path, const std::function<void()>& write,
+             const std::string& note = "") {
+        outputs_.push_back({path, [=, this] {
+                                bool is_large = r_.film.pixels().size() >= 1 << 20;
+                                if (is_large && !options_.quiet) tell("writing " + path + "\n");
+                                write();
+                                told_ += "wrote " + path + note + "\n";
+                            }});
+    }
+    void add_image(const std::string& path, const std::function<Image()>& image,
+                   const std::string& note = "") {
+        add(
+            path,
+            [=, this] { write_image(path, image(), comment_of(notes_of(scene_, options_, r_))); },
+            note);
+    }
+
+    /// A picture of each class as .pfm and .png, and all of them as one sheet.
+    void add_classes() {
+        for (const auto& [path_class, film] : r_.classes) {
+            std::string name = options_.split + "/" + path_class;
+            auto write = [this, &path_class = path_class, &film = film](const std::string& path) {
+                write_image(path, film.image(),
+                            comment_of(notes_of(scene_, options_, r_, path_class)));
+            };
+            add(
+                name + ".pfm", [=] { write(name + ".pfm"); },
+                "  " + (std::isfinite(film.mean()) ? "mean " + json_number(film.mean())
+                                                   : mean_and_error(film)));
+            outputs_.push_back({name + ".png", [=] { write(name + ".png"); }});
+        }
+        add_image(
+            options_.split + "/classes.png", [this] { return class_sheet(r_.classes); },
+            "  all of them with their shares; each also as .png");
+    }
+
+    const Scene& scene_;
+    const RenderOptions& options_;
+    const Rendering& r_;
+    std::vector<Output> outputs_;
+    std::string told_;
 };
-
-/// A picture of each class as .pfm and .png, and all of them as one sheet.
-void write_classes(const Scene& scene, const RenderOptions& options, const Rendering& r,
-                   Writer& writer) {
-    for (const auto& [path_class, film] : r.classes) {
-        std::string name = options.split + "/" + path_class;
-        writer.write(
-            name + ".pfm",
-            [&, &path_class = path_class, &film = film] {
-                for (const char* kind : {".png", ".pfm"}) {
-                    write_image(name + kind, film.image(),
-                                comment_of(notes_of(scene, options, r, path_class)));
-                }
-            },
-            "  " + (std::isfinite(film.mean()) ? "mean " + json_number(film.mean())
-                                               : mean_and_error(film)));
-    }
-    std::string path = options.split + "/classes.png";
-    writer.write(
-        path,
-        [&] { write_image(path, class_sheet(r.classes), comment_of(notes_of(scene, options, r))); },
-        "  all of them with their shares; each also as .png");
-}
-
-bool write_files(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    Writer writer(options.quiet, r.film.pixels().size() >= 1 << 20);
-    if (!options.film.empty()) {
-        writer.write(options.film, [&] { save_film(scene, options, r); });
-    }
-    for (const auto& [path, write] : r.files) writer.write(path, write);
-    Image image = r.film.image();
-    Notes notes = notes_of(scene, options, r);
-    for (const std::string& path : options.out) {
-        writer.write(path, [&] { write_image(path, image, comment_of(notes)); });
-    }
-    for (const auto& [path, picture] : options.pictures) {
-        writer.write(path, [&, &path = path, &picture = picture] {
-            write_image(path, picture(r.film), comment_of(notes));
-        });
-    }
-    if (!options.split.empty()) write_classes(scene, options, r, writer);
-    if (!options.stats.empty()) {
-        writer.write(options.stats,
-                     [&] { write_file_atomically(options.stats, stats_json(scene, options, r)); });
-    }
-    return !writer.failed();
-}
 
 }  // namespace
 
@@ -198,14 +189,24 @@ std::string without_film(std::string command) {
 }
 
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    if (!options.quiet) print_summary(scene, options, r);
-    bool all_written = write_files(scene, options, r);
-    flush_stdout();  // while signals are still handled
-    if (r.stats.not_finite == 0 && all_written) return r.stats.interrupted ? 3 : 0;
-    if (r.stats.not_finite == 0) return 1;
-    std::string command = without_film(options.command);
-    std::fprintf(stderr, "error: %llu samples were not finite; to see one: %s --explain %d,%d,%d\n",
-                 static_cast<unsigned long long>(r.stats.not_finite), command.c_str(),
-                 r.stats.bad_x, r.stats.bad_y, r.stats.bad_sample);
-    return 1;
+    std::string errors = r.error.empty() ? "" : r.error + "\n";
+    Outputs outputs(scene, options, r);
+    try {
+        outputs.write();
+    } catch (const InputError& error) {
+        errors += error.what() + std::string("\n");
+    }
+    if (!options.quiet) {
+        print_summary(scene, options, r);
+        std::fputs(outputs.told().c_str(), stdout);
+    }
+    if (r.stats.not_finite > 0) {
+        errors += "error: " + std::to_string(r.stats.not_finite) +
+                  " samples were not finite; to see one: " + without_film(options.command) +
+                  " --explain " + std::to_string(r.stats.bad_x) + ',' +
+                  std::to_string(r.stats.bad_y) + ',' + std::to_string(r.stats.bad_sample) + '\n';
+    }
+    tell(errors);
+    if (!errors.empty()) return 1;
+    return r.stats.interrupted ? 3 : 0;
 }

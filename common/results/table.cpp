@@ -63,14 +63,17 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) 
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,
                    const Image& picture) {
     if (!options.quiet) std::printf("%s\n%s", aligned(table).c_str(), notes.c_str());
+    std::vector<Output> outputs;
     for (const std::string& path : options.out) {
-        std::error_code ignored;  // the write reports it
-        if (file_name(file_path(path)).starts_with("out/"))
-            std::filesystem::create_directories("out", ignored);
-        if (has_ending(path, ".tsv")) {
-            write_file_atomically(path, tab_separated(table));
-        } else {
-            write_image(path, picture, options.comment);
-        }
+        outputs.push_back({path, [&] {
+                               if (file_name(file_path(path)).starts_with("out/"))
+                                   make_folder("out");
+                               if (has_ending(path, ".tsv")) {
+                                   write_file_atomically(path, tab_separated(table));
+                               } else {
+                                   write_image(path, picture, options.comment);
+                               }
+                           }});
     }
+    write_outputs(outputs);
 }

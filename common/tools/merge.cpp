@@ -79,12 +79,19 @@ int main(int argc, char** argv) {
         for (size_t i = 1; i < o.films.size(); i++) {
             add_film(sum, o.films[i], read_film(o.films[i]));
         }
-        if (is_image_path(o.out)) {
-            write_image(o.out, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
-        } else {
-            write_film(o.out, sum.label, sum.film);
+        std::vector<Output> outputs = {{o.out, [&] {
+                                            if (is_image_path(o.out)) {
+                                                Notes notes = notes_of(sum.label, sum.film.spp());
+                                                return write_image(o.out, sum.film.image(),
+                                                                   comment_of(notes));
+                                            }
+                                            FileLock lock(o.out);
+                                            write_film(o.out, sum.label, sum.film, &lock);
+                                        }}};
+        if (!o.stats.empty()) {
+            outputs.push_back({o.stats, [&] { write_file_atomically(o.stats, stats_json(sum)); }});
         }
-        if (!o.stats.empty()) write_file_atomically(o.stats, stats_json(sum));
+        write_outputs(outputs);
         print_summary(o, sum);
         const SampleCounts& counts = sum.label.counts;
         if (counts.not_finite == 0) return 0;

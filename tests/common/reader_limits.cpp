@@ -4,7 +4,6 @@
 #include "common/base/files.h"
 #include "common/base/percent.h"
 #include "common/geometry/bvh_build.h"
-#include "common/options/loading_progress.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/folder.h"
 #include "tests/support/run_program.h"
@@ -192,25 +191,6 @@ TEST_SUITE("reader: large scenes") {
             if (i > 0) CHECK(told[i].share > told[i - 1].share);
         }
         CHECK(told.back().share == 1);
-    }
-
-    TEST_CASE("truth: loading is told by lines in a file, and by one line on a terminal") {
-        TemporaryFolder folder;
-        auto show = [&](bool is_terminal, double pause) {
-            std::FILE* file = std::fopen((folder / "log").c_str(), "wb");
-            {
-                LoadingProgress progress(file, is_terminal, pause);
-                progress.show("reading a\n.ply", 0.344);
-                progress.show("building the hierarchy", 1);
-            }
-            std::fclose(file);
-            return read_file(folder / "log");
-        };
-        CHECK(show(false, 0) == "reading a?.ply ... 34 %\nbuilding the hierarchy ... 100 %\n");
-        CHECK(show(true, 0) ==
-              "\rreading a?.ply ... 34 %\033[K\rbuilding the hierarchy ... 100 %\033[K\r\033[K");
-        CHECK(show(false, 100) == "");
-        CHECK(show(true, 100) == "");
     }
 
     TEST_CASE("input: a program prints notes and all errors of a scene, and with --quiet errors") {

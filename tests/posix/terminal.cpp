@@ -1,28 +1,40 @@
 // What is printed on a terminal, and what ends a program at once.
 #include <doctest/doctest.h>
+#include <poll.h>
 #include <stdlib.h>
+#include <termios.h>
+
+#include <filesystem>
 
 #include "common/options/options.h"
 #include "common/rendering/progress.h"
-#include "tests/support/process.h"
+#include "tests/support/run_program.h"
 #include "tests/support/stand_ins.h"
 
 namespace {
+
+/// A new terminal, whose other end is `master`; -1 where there are none.
+int terminal(int* master = nullptr) {
+    int other = ::posix_openpt(O_RDWR | O_NOCTTY);
+    if (other < 0 || ::grantpt(other) != 0 || ::unlockpt(other) != 0) return -1;
+    if (master != nullptr) *master = other;
+    return ::open(::ptsname(other), O_RDWR | O_NOCTTY);
+}
 
 /// What `work` prints on stderr, which is a terminal.
 template <class Work>
 std::string on_terminal(const Work& work) {
     return Process([&] {
-               int master = ::posix_openpt(O_RDWR | O_NOCTTY);
-               if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) return 77;
-               int slave = ::open(::ptsname(master), O_RDWR | O_NOCTTY);
+               int master = -1, slave = terminal(&master);
+               if (slave < 0) return 77;
                ::dup2(slave, STDERR_FILENO);
                work();
                std::fflush(stderr);
-               ::fcntl(master, F_SETFL, O_NONBLOCK);
-               char text[4096];
-               ssize_t n = ::read(master, text, sizeof text);
-               if (n > 0) std::fwrite(text, 1, static_cast<size_t>(n), stdout);
+               for (pollfd more = {master, POLLIN, 0}; ::poll(&more, 1, 200) == 1;) {
+                   char text[4096];
+                   ssize_t n = ::read(master, text, sizeof text);
+                   if (n > 0) std::fwrite(text, 1, static_cast<size_t>(n), stdout);
+               }
                return 0;
            })
         .wait()
@@ -67,6 +79,40 @@ TEST_SUITE("surroundings") {
                   fifteen + "#########" + std::string(6, ' ') + "]  80 %  16 s left" + end + "\r[" +
                   fifteen + fifteen + "] 100 %  0 s left" + end + "\r" + end);
         CHECK(on_terminal(work(true)) == "");
+    }
+
+    TEST_CASE("truth: a stopped terminal or a full pipe behind stderr stops no render") {
+        TemporaryFolder folder;
+        for (bool is_terminal : {true, false}) {
+            CAPTURE(is_terminal);
+            std::string out = folder / (is_terminal ? "a.ppm" : "b.ppm");
+            Process process([&] {
+                int ends[2] = {-1, -1};
+                if (is_terminal) {
+                    ends[1] = terminal();
+                    ::tcflow(ends[1], TCOOFF);
+                } else if (::pipe(ends) == 0) {
+                    ::fcntl(ends[1], F_SETFL, O_NONBLOCK);
+                    while (::write(ends[1], "x", 1) == 1) {
+                    }
+                    ::fcntl(ends[1], F_SETFL, 0);
+                }
+                if (ends[1] < 0) return 77;
+                ::dup2(ends[1], STDERR_FILENO);
+                return execute(path_tracer,
+                               {spheres, "--size", "16x16", "--time", "0.5", "--out", out});
+            });
+            for (int ms = 0; ms < 20000 && !std::filesystem::exists(out); ms += 10) ::usleep(10000);
+            ::usleep(200'000);
+            process.kill(SIGKILL);  // where it waits
+            Finished end = process.wait();
+            if (end.code == 77) {
+                MESSAGE("skipped: no terminals here");
+                continue;
+            }
+            CHECK(end.code == 0);
+            CHECK(read_file(out).size() > 16 * 16 * 3);
+        }
     }
 
     TEST_CASE("truth: --help has a line for each option, and leaves out what means nothing") {
