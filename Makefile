@@ -26,7 +26,7 @@ objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)
 common    := $(call objects,common,common/tools/% common/book/%)
 tests     := $(call objects,tests,tests/measure/% tests/fuzz/% tests/check/names.cpp)
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
-made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt zone-plate.pbrt)
+made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt)
 
 .PHONY: all programs test host test-slow help clean always $(numbers)
 .SECONDARY .DELETE_ON_ERROR .SECONDEXPANSION:
