@@ -37,8 +37,6 @@ struct Rendering {
                                           // for all classes longer than 8 letters
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::vector<std::string> warnings = {};  // of the chapter's own
-    /// Other files that the chapter writes: the name, and the function that writes it.
-    std::vector<std::pair<std::string, std::function<void()>>> files = {};
 };
 
 /// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a

@@ -147,7 +147,6 @@ bool write_files(const Scene& scene, const RenderOptions& options, const Renderi
     if (!options.film.empty()) {
         writer.write(options.film, [&] { save_film(scene, options, r); });
     }
-    for (const auto& [path, write] : r.files) writer.write(path, write);
     Image image = r.film.image();
     Notes notes = notes_of(scene, options, r);
     for (const std::string& path : options.out) {
