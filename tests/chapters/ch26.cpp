@@ -354,9 +354,10 @@ TEST_SUITE("ch26 patches") {
             auto t = corners(scene, prim);
             whole += double{length(cross(t[1] - t[0], t[2] - t[0])) / 2};
         }
-        // The lamp has two sides, one of which sees the ceiling.
-        double lamp = 130.0 * 105;
-        CHECK(area == doctest::Approx(whole + lamp).epsilon(2e-3).scale(0));
+        // The lamp has two sides, one of which sees the ceiling; and so have the blocks, since
+        // patches of the floor lie below their sides.
+        double lamp = 130.0 * 105, blocks = 165.0 * (6 * 165 + 4 * 330);
+        CHECK(area == doctest::Approx(whole + lamp + blocks).epsilon(2e-3).scale(0));
     }
 
     TEST_CASE("truth: a room is closed or open, and sides without light have no patches") {
@@ -706,7 +707,7 @@ TEST_SUITE("ch26 radiosity") {
                 }
             CHECK(squares < 0.7 * before);
             before = squares;
-            CHECK(std::abs(film.mean() / paths.mean() - 1) < (wanted > 1000 ? 0.01 : 0.03));
+            CHECK(std::abs(film.mean() / paths.mean() - 1) < (wanted > 1000 ? 0.015 : 0.04));
         }
         CHECK(before < 0.01);
     }
@@ -758,7 +759,8 @@ TEST_SUITE("ch26 radiosity") {
             REQUIRE(x);
             CHECK(double{ch26::radiosity_at(shown, *x).g} ==
                   doctest::Approx(double{expected.g}).epsilon(1e-3).scale(0));
-            CHECK(ch26::radiosity_at(constant, *x).g == B[i].g);
+            CHECK(double{ch26::radiosity_at(constant, *x).g} ==
+                  doctest::Approx(double{B[i].g}).epsilon(1e-5));
         }
         // A side without light has no patches, and is black.
         auto below = intersect(scene, {{0.1f, -1, 0.1f}, {0, 1, 0}});
