@@ -3,9 +3,9 @@
 #include <cstring>
 #include <functional>
 
-#include "chapters/06_bvh/estimator.h"
 #include "common/base/error.h"
 #include "common/geometry/bvh_build.h"
+#include "common/path/sampler.h"
 #include "tests/measure/measure.h"
 #include "tests/support/room_meshes.h"
 #include "tests/support/work.h"
@@ -190,30 +190,23 @@ int main(int argc, char** argv) {
             });
         std::vector<BenchMesh> meshes = all_meshes();
         Work work("bench: rays per second on one thread", static_cast<double>(meshes.size()));
-        Table table{{"M rays/s", "rays", "four", "common", "Embree", "common/Embree"}, {}};
+        Table table{
+            {"M rays/s, ours / Embree", "primary", "bounce", "second bounce", "shadow", "short"},
+            {}};
         for (const BenchMesh& mesh : meshes) {
             work.next(mesh.name);
-            Scene scene;
-            scene.geometry = mesh.make();
-            const Geometry& g = scene.geometry;
+            Geometry g = mesh.make();
             Bvh bvh = build_bvh(g, 1);
-            ch06::Finder four = make_finder(scene, ch06::Step::four);
-            auto by_four = [&](const Ray& ray) {
-                ch06::Work sum;
-                return find(four, g, ray, sum).t;
-            };
             std::vector<Contender> contenders = {
-                contender(by_four, [&](const Ray& ray) { return by_four(ray) < infinity; }),
                 contender([&](const Ray& ray) { return closest_hit(bvh, g, ray).t; },
                           [&](const Ray& ray) { return any_hit(bvh, g, ray); })};
             if (have_embree) contenders.push_back(embree(g));
+            table.rows.push_back({mesh.name});
             for (const RaySet& set : rays_for(mesh, g, bvh, size)) {
-                std::vector<double> speed = speeds(contenders, set, runs);
-                std::vector<std::string> row = {mesh.name, set.name};
-                for (double s : speed) row.push_back(short_number(s));
-                if (have_embree) row.push_back(short_number(speed[1] / speed[2]));
-                row.resize(table.columns.size(), "-");
-                table.rows.push_back(row);
+                std::string cell;
+                for (double s : speeds(contenders, set, runs))
+                    cell += (cell.empty() ? "" : " / ") + short_number(s);
+                table.rows.back().push_back(cell);
             }
         }
         std::printf("%s", markdown(table).c_str());
