@@ -101,7 +101,7 @@ void draw_curves(const std::string& folder, const std::string& scene,
     std::vector<Line> lines;
     for (const Curve& c : curves) {
         ErrorLine line = c.rel_mse_over_time();
-        std::string than = first ? ": " + times_faster(c, first) : "";
+        std::string than = first ? ", times faster: " + times_faster(c, first) : "";
         lines.push_back(
             {scene, c.method->label + than, c.method->color, "", line.seconds, line.error});
     }
