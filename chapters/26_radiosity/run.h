@@ -67,17 +67,18 @@ inline Solution refine(const Patches& patches, Matrix& G, const ExchangeOf& exch
 }
 
 /// The whole matrix, repaired, and sweeps over it.
-inline Solution sweep_all(const Patches& patches, Matrix G, const ExchangeOf& exchange, Sweep kind,
+inline Solution sweep_all(const Patches& patches, Matrix& G, const ExchangeOf& exchange, Sweep kind,
                           int threads, const Limit& limit) {
     Solution s;
     s.H.resize(G.size());
     Stopped stopped = [&] { return limit.reached(); };
     for (size_t i = 0; i < G.size() && !stopped(); i++) row_of(G, i, threads, exchange);
     if (stopped()) return s;
-    repair(G, patches.patch, patches.closed, stopped);
-    solve(G, patches.patch, kind, 1e-10, s, stopped);
+    Matrix repaired = G;
+    repair(repaired, patches.patch, patches.closed, stopped);
+    solve(repaired, patches.patch, kind, 1e-10, s, stopped);
     for (size_t i = 0; i < G.size(); i++) {
-        double out = double{patches.patch[i].area} * (1 - row_sum(G[i], patches.patch[i]));
+        double out = double{patches.patch[i].area} * (1 - row_sum(repaired[i], patches.patch[i]));
         s.escaped += out * radiosity_of(patches.patch[i], s.H[i]);
     }
     return s;
@@ -126,10 +127,9 @@ inline int run(const Scene& scene, RenderOptions options, const Settings& settin
 
     // Compare with paths.
     Shown shown = show(scene, patches, s, settings.show, options.threads);
-    RenderOptions picture = options;
-    if (options.time > 0) picture.time = std::max(0.5, options.time - limit.elapsed());
+    RenderOptions picture = options, small = options;
+    if (options.time > 0) small.time = std::max(0.1, (options.time - limit.elapsed()) / 4);
     if (!limit.reached()) {
-        RenderOptions small = picture;
         small.quiet = true;
         Comparison c = compare_with_paths(scene, shown, small);
         char text[100];

@@ -787,6 +787,20 @@ TEST_SUITE("ch26 program") {
         }
     }
 
+    TEST_CASE("truth: each solver says the sums of the rows before their repair") {
+        for (const char* solver : {"southwell", "gauss-seidel"}) {
+            CAPTURE(solver);
+            TemporaryFolder folder;
+            Finished end = run_program_with({"--solver", solver, "--out", folder / "a.pfm"});
+            size_t at = end.out.find("row sums ");
+            REQUIRE(at != std::string::npos);
+            double lowest = 0, highest = 0;
+            REQUIRE(std::sscanf(end.out.c_str() + at, "row sums %lf to %lf before their repair\n",
+                                &lowest, &highest) == 2);
+            CHECK((0 < lowest && lowest < 0.5 && 1 < highest && highest < 1.1));
+        }
+    }
+
     TEST_CASE("failure: patches wider than their distance to a light: too bright, and a warning") {
         TemporaryFolder folder;
         for (auto [path, is_wrong] : {std::pair{"scenes/near-light.pbrt", true},
