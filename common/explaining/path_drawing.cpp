@@ -130,10 +130,12 @@ void draw_scene(Svg& svg, const View& view, const Scene& scene) {
     int width = std::max(1, static_cast<int>(view.size.x / 2));  // 2 x 2 of the panel each
     int height = std::max(1, static_cast<int>(view.size.y / 2));
     CameraView camera = camera_view(scene.camera, width, height);
-    Image image = preview(scene, width, height, [&](Vec2 pixel) {
+    auto ray_of = [&](Vec2 pixel) {
         return view.is_camera ? camera_ray(camera, pixel)
                               : ray_from_above(view, scene.camera, {2 * pixel.x, 2 * pixel.y});
-    });
+    };
+    float reach = view.is_camera ? infinity : scene.radius;  // what is lower is darker
+    Image image = preview(scene, width, height, ray_of, reach);
     svg.picture(view.corner, view.size, base64(encode_png(image, "")));
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point) continue;

@@ -16,8 +16,10 @@ inline Rgb flat_colour(const Hit& x) {
 /// What the ray of each pixel meets, lit along the ray; lamps are yellow.
 ///
 /// ray_of  (pixel) -> Ray; (0.5, 0.5) is the middle of the first pixel
+/// reach, m: what is this far away is half as bright
 template <class RayOf>
-Image preview(const Scene& scene, int width, int height, const RayOf& ray_of) {
+Image preview(const Scene& scene, int width, int height, const RayOf& ray_of,
+              float reach = infinity) {
     constexpr Rgb sky = {0.8f, 0.85f, 0.9f}, lamp = {1, 0.75f, 0.05f};
     Image image(width, height);
     for (int y = 0; y < height; y++) {
@@ -30,7 +32,8 @@ Image preview(const Scene& scene, int width, int height, const RayOf& ray_of) {
             } else if (!is_black(emission(scene, *hit))) {
                 pixel = lamp;
             } else {
-                pixel = (0.25f - 0.75f * dot(ray.d, hit->n)) * flat_colour(*hit);
+                pixel =
+                    (0.25f - 0.75f * dot(ray.d, hit->n)) / (1 + hit->t / reach) * flat_colour(*hit);
             }
         }
     }
