@@ -28,7 +28,7 @@ tests     := $(call objects,tests,tests/measure/% tests/fuzz/% tests/check/compa
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
 # Programs that tests start: see tests/*/rules.mk.
 started    =
-made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt zone-plate.pbrt)
+made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt)
 
 .PHONY: all programs test host test-slow help help-all clean always $(numbers)
 .SECONDARY .DELETE_ON_ERROR .SECONDEXPANSION:

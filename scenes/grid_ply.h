@@ -7,7 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/vec.h"
-#include "common/options/options.h"
+#include "common/options/command_line.h"
 
 struct GridPoint {
     Vec3 p, n;
@@ -47,14 +47,10 @@ std::string grid_ply(int rows, int columns, bool wraps, const PointAt& point_at)
 }
 
 /// The program around it: FILE.ply is what the command line names.
-inline int write_mesh(int argc, char** argv, const std::string& about,
-                      const std::function<std::string()>& make) {
+inline int write_mesh(int argc, char** argv, const std::function<std::string()>& make) {
     return run_program([&] {
-        std::string file;
-        parse_options(argc, argv, "FILE.ply", about, {},
-                      [&](const std::string& word) { file = word; });
-        if (file.empty()) throw UsageError("error: a file to write is needed");
-        write_file_atomically(file, make());
+        if (argc != 2) throw UsageError("error: the file to write is needed: FILE.ply");
+        write_file_atomically(argv[1], make());
         return 0;
     });
 }

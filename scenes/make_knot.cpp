@@ -33,6 +33,5 @@ GridPoint point_at(int i, int j) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return write_mesh(argc, argv, "Writes the mesh of knot.pbrt.",
-                      [] { return grid_ply(along, around, true, point_at); });
+    return write_mesh(argc, argv, [] { return grid_ply(along, around, true, point_at); });
 }

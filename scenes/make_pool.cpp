@@ -33,6 +33,5 @@ GridPoint point_at(int i, int j) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return write_mesh(argc, argv, "Writes the water of pool.pbrt.",
-                      [] { return grid_ply(cells + 1, cells + 1, false, point_at); });
+    return write_mesh(argc, argv, [] { return grid_ply(cells + 1, cells + 1, false, point_at); });
 }

@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/options/options.h"
+#include "common/options/command_line.h"
 #include "common/path/sampler.h"
 
 namespace {
@@ -93,11 +93,8 @@ std::string thousand_lights() {
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        std::string file;
-        parse_options(argc, argv, "FILE.pbrt", "Writes thousand-lights.pbrt.", {},
-                      [&](const std::string& word) { file = word; });
-        if (file.empty()) throw UsageError("error: a file to write is needed");
-        write_file_atomically(file, thousand_lights());
+        if (argc != 2) throw UsageError("usage: make_thousand-lights FILE.pbrt");
+        write_file_atomically(argv[1], thousand_lights());
         return 0;
     });
 }

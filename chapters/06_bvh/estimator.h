@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "common/geometry/bvh_build.h"
 #include "common/geometry/shapes.h"
 #include "common/scene/scene.h"
 
@@ -386,34 +385,30 @@ inline PrimHit traverse_four(const FourHierarchy& h, const Geometry& g, const Ra
 }
 
 /// The steps of the chapter, each faster than the one before.
-enum class Step : uint8_t { linear, median, sah, ordered, four, wide };
-inline const std::vector<std::string> step_names = {"linear",  "median", "sah",
-                                                    "ordered", "four",   "wide"};
+enum class Step : uint8_t { linear, median, sah, ordered, four };
+inline const std::vector<std::string> step_names = {"linear", "median", "sah", "ordered", "four"};
 
-/// What each step needs: a hierarchy (linear: none), one of nodes of four, or that of common/,
-/// whose nodes have as many children as one instruction tests.
+/// What each step needs: a hierarchy (linear: none), or one of nodes of four.
 struct Finder {
     Step step = Step::linear;
     Hierarchy hierarchy;
     FourHierarchy four;
-    Bvh wide;
 };
 
 inline Finder make_finder(const Scene& scene, Step step) {
     const Geometry& g = scene.geometry;
     switch (step) {
-        case Step::linear: return {step, {}, {}, {}};
-        case Step::median: return {step, build(g, split_median), {}, {}};
+        case Step::linear: return {step, {}, {}};
+        case Step::median: return {step, build(g, split_median), {}};
         case Step::sah:
-        case Step::ordered: return {step, build(g, split_sah), {}, {}};
-        case Step::four: return {step, {}, collapse(build(g, split_sah)), {}};
-        case Step::wide: return {step, {}, {}, build_bvh(g, 1)};
+        case Step::ordered: return {step, build(g, split_sah), {}};
+        case Step::four: return {step, {}, collapse(build(g, split_sah))};
     }
     return {};
 }
 
 /// The first primitive that the ray hits, as the step finds it. All steps find the same hit, bit
-/// for bit, but for `wide`: it works in float, and its t and weights differ in the last digits.
+/// for bit.
 inline PrimHit find(const Finder& f, const Geometry& g, const Ray& ray, Work& work) {
     switch (f.step) {
         case Step::linear: work.prims += g.size(); return linear_scan(g, ray);
@@ -421,14 +416,6 @@ inline PrimHit find(const Finder& f, const Geometry& g, const Ray& ray, Work& wo
         case Step::sah: return traverse(f.hierarchy, g, ray, false, work);
         case Step::ordered: return traverse(f.hierarchy, g, ray, true, work);
         case Step::four: return traverse_four(f.four, g, ray, work);
-        case Step::wide: {
-            BvhCount count;
-            PrimHit hit = closest_hit(f.wide, g, ray, count);
-            work.nodes += count.nodes;
-            work.boxes += count.nodes;
-            work.prims += count.blocks;
-            return hit;
-        }
     }
     return {};
 }

@@ -23,8 +23,7 @@ inline std::vector<std::string> measure(const Scene& scene, Step step,
     }
     static_cast<void>(t);
     auto per_ray = [&](uint64_t count) { return digits(static_cast<double>(count) / traced, 4); };
-    size_t nodes =
-        finder.hierarchy.nodes.size() + finder.four.nodes.size() + finder.wide.nodes.size();
+    size_t nodes = finder.hierarchy.nodes.size() + finder.four.nodes.size();
     bool binary = !finder.hierarchy.nodes.empty();
     return {step_names[static_cast<size_t>(step)],
             digits(build_seconds, 3),

@@ -8,7 +8,7 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         ch06::Step step = ch06::Step::ordered;
-        Option which{"step", "STEP", "drawn: linear, median, sah, ordered (default), four or wide",
+        Option which{"step", "STEP", "drawn: linear, median, sah, ordered (default) or four",
                      [&](const std::string& text) {
                          step =
                              static_cast<ch06::Step>(parse_choice("step", text, ch06::step_names));

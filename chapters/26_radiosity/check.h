@@ -1,114 +1,75 @@
 // Whether a solution can be right: its numbers, its balance of energy, and paths in the same room.
 #pragma once
-#include <cstdio>
-
 #include "chapters/26_radiosity/show.h"
-#include "common/base/parallel.h"
-#include "common/base/percent.h"
-#include "common/base/position.h"
-#include "common/base/stats.h"
-#include "common/scene/camera.h"
+#include "common/light/light_table.h"
+#include "common/material/basic_bsdf.h"
+#include "common/path/trace.h"
+#include "common/rendering/render_film.h"
 
 namespace ch26 {
 
-/// Throws InputError for a closed room that absorbs nothing: its light grows for ever.
-/// tested by  "input: a closed room that reflects all light is refused, an open one is not"
-inline void refuse_no_loss(const Scene& scene, const Patches& patches) {
-    if (!patches.closed) return;
-    Rgb least = {1, 1, 1};
-    for (const Patch& p : patches.patch) {
-        least = {std::min(least.r, p.rho.r), std::min(least.g, p.rho.g),
-                 std::min(least.b, p.rho.b)};
+/// What x reflects to wo, W m^-2 sr^-1, by a path of 16 bounces. Lights are sampled at each bounce;
+/// the last bounce finds the radiosity of a patch, without what it emits.
+/// tested by  "agreement: paths that end at patches, with chapter 15"
+inline Rgb by_path(const Scene& scene, const Shown& shown, const LightTable& lights, Hit x, Vec3 wo,
+                   Sampler& sampler) {
+    Rgb L, beta = {1, 1, 1};
+    for (int bounces = 16;; bounces--) {
+        x.n = x.ng;
+        double u = to_unit_double(sampler.u2());
+        LightSample y = sample_light(scene, lights, x, u, sampler.u2());
+        BsdfSample s = basic_bsdf::sample_bsdf(x, wo, 0, sampler.u2());
+        if (y.pdf_w > 0 && !occluded(scene, spawn_ray(x, y.wi, y.dist)))
+            L += beta * (basic_bsdf::eval_bsdf(x, wo, y.wi) * y.Le * (dot(y.wi, x.n) / y.pdf_w));
+        if (s.pdf_w == 0) return L;
+        auto z = intersect(scene, spawn_ray(x, s.wi));
+        if (!z) return L;
+        float cos_over_pdf = dot(s.wi, x.n) / s.pdf_w;
+        if (bounces == 1) {
+            Rgb reflected = radiosity_at(shown, *z) / pi - emission(scene, *z);
+            return L + beta * (s.f * reflected * cos_over_pdf);
+        }
+        beta = beta * s.f * cos_over_pdf;
+        x = *z, wo = -s.wi;
     }
-    if (max_component(least) < 1) return;
-    fail({scene.file},
-         "a closed room whose surfaces reflect all light has no solution: it would "
-         "grow with each bounce");
-}
-
-/// Throws InputError for radiosity that is not finite, or negative.
-inline void check_numbers(const std::string& file, const std::vector<Patch>& patch,
-                          const Solution& s) {
-    for (size_t i = 0; i < patch.size(); i++) {
-        Rgb B = to_rgb(radiosity_of(patch[i], s.H[i]));
-        bool good = is_finite(B) && std::min({B.r, B.g, B.b}) >= 0;
-        if (good && (s.unshot.empty() || std::isfinite(largest_of(s.unshot[i])))) continue;
-        char text[200];
-        std::snprintf(text, sizeof text,
-                      "the radiosity of the patch at (%g, %g, %g) is %g %g %g: not a number that a "
-                      "picture can show",
-                      double{patch[i].centre.x}, double{patch[i].centre.y},
-                      double{patch[i].centre.z}, double{B.r}, double{B.g}, double{B.b});
-        fail({file}, text);
-    }
-}
-
-/// Throws InputError when absorbed, escaped and unshot light are not all that lamps emit.
-inline void check_balance(const std::string& file, const Balance& b) {
-    if (std::abs(b.error()) < 1e-6) return;
-    fail({file},
-         "the energy of the solution does not balance: absorbed, escaped and unshot light "
-         "are " +
-             percent(1 + b.error()) + " of what lamps emit");
 }
 
 /// The light that surfaces reflect to the camera, W m^-2 sr^-1, mean of the picture: by patches,
-/// and by paths. emitted: what the camera sees of lamps.
+/// and by paths.
 struct Comparison {
-    RunningStats patches, paths, difference, emitted;
+    double patches = 0, paths = 0;
+    double error = 0, rounding = 0;  // of their difference: standard error; at most
 
-    double error() const { return difference.standard_error(); }
-    /// Whether the two differ by more than 5 %, than noise explains, and than rounding does.
-    bool differ() const {
-        return std::abs(patches.mean() - paths.mean()) >
-               0.05 * paths.mean() + 2 * error() + 1e-5 * emitted.mean();
-    }
-    void add(const Scene& scene, const Shown& shown, Ray ray, Sampler& sampler) {
-        constexpr int bounces = 16;
-        double by_patches = 0, by_paths = 0, Le = 0;
-        if (std::optional<Hit> x = intersect(scene, ray)) {
-            Recorder recorder;
-            Sampler same = sampler;  // a final gather has the first bounce of the path
-            Le = double{average(emission(scene, *x))};
-            by_patches = double{average(trace(scene, shown, ray, same, recorder))} - Le;
-            by_paths = double{average(final_gather(scene, shown, *x, -ray.d, sampler, bounces))};
-        }
-        patches.add(by_patches), paths.add(by_paths), emitted.add(Le);
-        difference.add(by_patches - by_paths);
-    }
-    void merge(const Comparison& b) {
-        patches.merge(b.patches), paths.merge(b.paths), emitted.merge(b.emitted);
-        difference.merge(b.difference);
-    }
+    /// Whether the two differ by more than 5 % and than noise and rounding explain.
+    bool differ() const { return std::abs(patches - paths) > 0.05 * paths + 2 * error + rounding; }
 };
 
-/// Compares a picture with paths of up to 16 bounces; what comes after these, patches say.
-/// More paths until the error is below 1 %, at most 64 x 64 x 128; the same for any number of
-/// threads.
+/// Compares a picture of 64 x 64 pixels with 16 paths for each, for at most o.time.
 /// tested by  "failure: patches wider than their distance to a light: too bright, and a warning"
-inline Comparison compare_with_paths(const Scene& scene, const Shown& shown, int threads,
-                                     const Stopped& stopped = {}) {
-    constexpr int side = 64, most = 128;
-    CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    float dx = static_cast<float>(scene.width) / side, dy = static_cast<float>(scene.height) / side;
-    Comparison all;
-    for (uint32_t sample = 0;; sample++) {
-        std::vector<Comparison> rows(side);
-        parallel_for(side, threads, [&](int y) {
-            Sampler sampler(SamplerType::independent, 0, most);
-            for (int x = 0; x < side; x++) {
-                sampler.start(static_cast<uint32_t>(y * side + x), sample);
-                Vec2 u = sampler.u2();
-                Vec2 film = {(static_cast<float>(x) + u.x) * dx,
-                             (static_cast<float>(y) + u.y) * dy};
-                rows[static_cast<size_t>(y)].add(scene, shown, camera_ray(view, film), sampler);
-            }
-        });
-        for (const Comparison& row : rows) all.merge(row);
-        bool is_known = all.error() <= 0.01 * all.paths.mean() + 1e-5 * all.emitted.mean();
-        bool is_enough = is_known || (stopped && stopped());
-        if (sample + 1 == most || (sample > 2 && is_enough)) return all;
-    }
+inline Comparison compare_with_paths(const Scene& scene, const Shown& shown,
+                                     const RenderOptions& o) {
+    Scene small = scene;
+    small.width = small.height = 64, small.spp = 16;
+    LightTable lights = build_light_table(light_pmf(small, 0.25));
+    auto film_of = [&](const auto& value) {
+        Trace trace = [&](const Scene&, Ray ray, Sampler& sampler, Recorder&) {
+            std::optional<Hit> x = intersect(small, ray);
+            return x ? value(*x, -ray.d, sampler) : Rgb{};
+        };
+        return render_film(small, o, trace).film;
+    };
+    auto paths = [&](const Hit& x, Vec3 wo, Sampler& sampler) {
+        return by_path(small, shown, lights, x, wo, sampler);
+    };
+    auto difference = [&](const Hit& x, Vec3 wo, Sampler& sampler) {
+        Rgb by_patches = radiosity_at(shown, x) / pi - emission(small, x);
+        return by_patches - paths(x, wo, sampler);
+    };
+    auto emitted = [&](const Hit& x, Vec3, Sampler&) { return emission(small, x); };
+    double by_paths = film_of(paths).mean();
+    Film more = film_of(difference);
+    return {by_paths + more.mean(), by_paths, more.standard_error(),
+            1e-5 * film_of(emitted).mean()};
 }
 
 }  // namespace ch26

@@ -10,7 +10,6 @@
 //
 // The code keeps  G_ij = A_i F_ij = A_j F_ji,  m^2, which is the same from both ends.
 #pragma once
-#include "chapters/26_radiosity/final_gather.h"
 #include "chapters/26_radiosity/rows.h"
 #include "chapters/26_radiosity/solution.h"
 #include "common/recording/recorder.h"
@@ -65,7 +64,7 @@ inline double point_to_polygon(Vec3 x, Vec3 n, std::span<const Vec3> polygon) {
 ///
 /// Far away for both sizes: from the centre of t. Nearer: from three points, with which the mean of
 /// any quadratic polynomial is exact. Nearer still: the mean over the quarters of t, and so on.
-inline double mean_to_polygon(const std::array<Vec3, 3>& t, Vec3 n, const Patch& q, int depth) {
+inline double mean_to_polygon(const Corners& t, Vec3 n, const Patch& q, int depth) {
     Vec3 centre = (t[0] + t[1] + t[2]) / 3;
     float size2 = longest_edge2(t) + longest_edge2(q.p), d2 = length_squared(centre - q.centre);
     if (d2 > 36 * size2) return point_to_polygon(centre, n, q.p);
@@ -104,6 +103,13 @@ inline double exchange(const Scene& scene, const Patch& p, const Patch& q, uint3
     constexpr int deepest = 4;
     const Patch &small = p.area <= q.area ? p : q, &large = p.area <= q.area ? q : p;
     return visible * double{small.area} * mean_to_polygon(small.p, small.n, large, deepest);
+}
+
+/// exchange() of any two of the patches.
+inline ExchangeOf form_factors(const Scene& scene, const Patches& patches, uint32_t seed) {
+    return [&, seed](uint32_t i, uint32_t j) {
+        return exchange(scene, patches.patch[i], patches.patch[j], hash32(i, hash32(j, seed)));
+    };
 }
 
 // Step 3: gathering. Each patch takes light from all others.
@@ -221,11 +227,9 @@ inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s,
 /// Biased: as if each patch had one radiosity, or those between its corners were in between.
 /// source  Goral, Torrance, Greenberg, Battaile 1984
 /// tested by  "ch26 radiosity", furnace to 1e-5, chapter 15 to 3 %
-inline Rgb trace(const Scene& scene, const Shown& shown, Ray ray, Sampler& sampler, Recorder&) {
+inline Rgb trace(const Scene& scene, const Shown& shown, Ray ray, Sampler&, Recorder&) {
     std::optional<Hit> x = intersect(scene, ray);
-    if (!x) return {};
-    if (shown.show != Show::gather) return radiosity_at(shown, *x) / pi;
-    return emission(scene, *x) + final_gather(scene, shown, *x, -ray.d, sampler);
+    return x ? radiosity_at(shown, *x) / pi : Rgb{};
 }
 
 }  // namespace ch26

@@ -1,4 +1,4 @@
-// The matrix of what patches exchange, row by row, as long as there is room for it.
+// The matrix of what patches exchange, row by row.
 #pragma once
 #include <span>
 
@@ -6,75 +6,40 @@
 
 namespace ch26 {
 
-/// What patches i < j exchange: G_ij = A_i F_ij, m^2. Any thread may ask.
-using ExchangeOf = std::function<double(uint32_t i, uint32_t j)>;
-
-/// The least and the largest sum of a row, before rows are repaired.
-struct RowSums {
-    double lowest = 1e300, highest = 0;
-};
-
-/// All of G, m^2, row by row.
+/// G_ij, m^2, row by row; a row that is not known yet is empty.
 using Matrix = std::vector<std::vector<float>>;
 
-/// Rows of G. Each is computed when it is asked for, and kept if there is room for all.
-/// tested by  "identity: rows that are not kept are the rows that are, for any threads and order"
-class Rows {
-public:
-    static constexpr size_t most_kept = size_t{1} << 30;  // bytes
+/// What patches i < j exchange. Any thread may ask.
+using ExchangeOf = std::function<double(uint32_t i, uint32_t j)>;
 
-    Rows(const std::vector<Patch>& patch, int threads, ExchangeOf exchange)
-        : threads_(threads), exchange_(std::move(exchange)) {
-        for (const Patch& p : patch) area_.push_back(double{p.area});
-        if (bytes() <= most_kept) kept_.resize(patch.size());
-    }
-
-    size_t bytes() const { return area_.size() * area_.size() * sizeof(float); }
-    bool keeps() const { return !kept_.empty(); }
-    const RowSums& sums() const { return sums_; }
-
-    /// What patch i exchanges with each patch; valid until the next call.
-    std::span<const float> row(size_t i) {
-        if (!keeps()) return last_ = compute(i);
-        if (kept_[i].empty()) kept_[i] = compute(i);
-        return kept_[i];
-    }
-    /// All rows, which are kept no more. Where there is no room for all: nothing.
-    Matrix take_all() {
-        for (size_t i = 0; i < kept_.size(); i++) row(i);
-        return std::move(kept_);
-    }
-
-private:
-    std::vector<float> compute(size_t i) {
-        constexpr size_t block = 256;
-        size_t n = area_.size(), blocks = (n + block - 1) / block;
-        std::vector<float> row(n);
-        parallel_for(static_cast<int>(blocks), threads_, [&](int b) {
-            size_t first = static_cast<size_t>(b) * block;
-            for (size_t j = first; j < std::min(n, first + block); j++) {
-                if (keeps() && !kept_[j].empty()) {
-                    row[j] = kept_[j][i];
-                } else if (j != i) {
-                    row[j] = static_cast<float>(exchange_(static_cast<uint32_t>(std::min(i, j)),
-                                                          static_cast<uint32_t>(std::max(i, j))));
-                }
+/// Row i of G; computes what other rows do not know yet.
+/// tested by  "identity: rows are the same for any threads and order, and each pair is asked once"
+inline const std::vector<float>& row_of(Matrix& G, size_t i, int threads,
+                                        const ExchangeOf& exchange) {
+    if (!G[i].empty()) return G[i];
+    constexpr size_t block = 256;
+    size_t n = G.size(), blocks = (n + block - 1) / block;
+    std::vector<float> row(n);
+    parallel_for(static_cast<int>(blocks), threads, [&](int number) {
+        size_t first = static_cast<size_t>(number) * block;
+        for (size_t j = first; j < std::min(n, first + block); j++) {
+            auto a = static_cast<uint32_t>(i), b = static_cast<uint32_t>(j);
+            if (!G[j].empty()) {
+                row[j] = G[j][i];
+            } else if (j != i) {
+                row[j] = static_cast<float>(exchange(std::min(a, b), std::max(a, b)));
             }
-        });
-        double sum = 0;
-        for (float G : row) sum += double{G} / area_[i];
-        sums_.lowest = std::min(sums_.lowest, sum);
-        sums_.highest = std::max(sums_.highest, sum);
-        return row;
-    }
+        }
+    });
+    return G[i] = row;
+}
 
-    std::vector<double> area_;  // m^2
-    int threads_ = 1;
-    ExchangeOf exchange_;
-    Matrix kept_;
-    std::vector<float> last_;
-    RowSums sums_;
-};
+/// The share of the light of a patch that arrives anywhere, by its row: 1 in a closed room.
+inline double row_sum(const std::vector<float>& row, const Patch& p) {
+    double sum = 0;
+    for (float G : row) sum += double{G};
+    return sum / double{p.area};
+}
 
 /// Makes the rows' sums right, and keeps G_ij = G_ji: each row and column is multiplied by d_i.
 ///

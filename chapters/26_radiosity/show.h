@@ -1,9 +1,11 @@
-// A solution made ready for the picture.
+// A solution made ready for the picture: --show.
 #pragma once
 #include "chapters/26_radiosity/estimator.h"
-#include "common/radiosity/display.h"
+#include "common/picture/smooth_corners.h"
 
 namespace ch26 {
+
+enum class Show : uint8_t { constant, smooth };
 
 /// Whether one surface goes on from p to q: alike, about in one plane, and no wall in between.
 inline bool goes_on(const Scene& scene, const Patch& p, const Patch& q) {
@@ -12,23 +14,18 @@ inline bool goes_on(const Scene& scene, const Patch& p, const Patch& q) {
                 q.centre + 0.1f * std::sqrt(q.area) * q.n);
 }
 
-/// The corners of all patches.
-inline Triangles triangles_of(const std::vector<Patch>& patch) {
-    Triangles triangles;
-    for (const Patch& p : patch) triangles.push_back(p.p);
-    return triangles;
-}
-
 /// Shows one radiosity for each patch, W m^-2: the same at all of its corners, or smooth.
 inline Shown make_shown(const Scene& scene, const std::shared_ptr<const Patches>& patches,
                         const std::vector<Rgb>& B, Show how, int threads) {
-    Shown shown{patches, {}, how, build_light_table(light_pmf(scene, 0.25))};
+    Shown shown{patches, {}};
     const std::vector<Patch>& patch = patches->patch;
     if (how == Show::constant) {
         for (Rgb b : B) shown.B.push_back({b, b, b});
     } else {
+        Triangles triangles;
+        for (const Patch& p : patch) triangles.push_back(p.p);
         shown.B = smooth_corners(
-            triangles_of(patch), B, 4e-5f * scene.radius,
+            triangles, B, 4e-5f * scene.radius,
             [&](uint32_t i, uint32_t j) { return goes_on(scene, patch[i], patch[j]); }, threads);
     }
     return shown;

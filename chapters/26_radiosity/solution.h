@@ -1,36 +1,12 @@
 // The state of a solution, and where the light went.
 #pragma once
+#include <memory>
+
 #include "chapters/26_radiosity/patches.h"
 
 namespace ch26 {
 
-/// W m^-2 in red, green and blue. In double: a thousand sweeps must not lose energy.
-struct Radiosity {
-    double r = 0, g = 0, b = 0;
-
-    Radiosity() = default;
-    Radiosity(double red, double green, double blue) : r(red), g(green), b(blue) {}
-    Radiosity(Rgb x) : r(double{x.r}), g(double{x.g}), b(double{x.b}) {}
-};
-inline Radiosity operator+(Radiosity x, Radiosity y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
-inline Radiosity operator-(Radiosity x, Radiosity y) { return {x.r - y.r, x.g - y.g, x.b - y.b}; }
-inline Radiosity operator*(Radiosity x, Radiosity y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
-inline Radiosity operator*(double s, Radiosity x) { return {s * x.r, s * x.g, s * x.b}; }
-inline Radiosity& operator+=(Radiosity& x, Radiosity y) { return x = x + y; }
-/// x / y; 0 where y is 0.
-inline Radiosity ratio(Radiosity x, Radiosity y) {
-    return {y.r > 0 ? x.r / y.r : 0, y.g > 0 ? x.g / y.g : 0, y.b > 0 ? x.b / y.b : 0};
-}
-inline Radiosity min(Radiosity x, Radiosity y) {
-    return {std::min(x.r, y.r), std::min(x.g, y.g), std::min(x.b, y.b)};
-}
-inline double sum_of(Radiosity x) { return x.r + x.g + x.b; }
-inline double largest_of(Radiosity x) {
-    return std::max({std::abs(x.r), std::abs(x.g), std::abs(x.b)});
-}
-inline Rgb to_rgb(Radiosity x) {
-    return {static_cast<float>(x.r), static_cast<float>(x.g), static_cast<float>(x.b)};
-}
+using Radiosity = Rgbd;  // W m^-2. In double: a thousand sweeps must not lose energy
 
 /// What each patch has received so far.
 struct Solution {
@@ -39,6 +15,21 @@ struct Solution {
     uint64_t steps = 0;             // sweeps, or shots
     Radiosity escaped;              // W, out of the room
 };
+
+/// A solution made ready for the picture.
+struct Shown {
+    std::shared_ptr<const Patches> patches;
+    std::vector<std::array<Rgb, 3>> B;  // of each patch, at its corners, W m^-2
+};
+
+/// B at a point of a surface, W m^-2: linear between the corners of its patch; black where there is
+/// no patch.
+inline Rgb radiosity_at(const Shown& shown, const Hit& x) {
+    Place at = place_of(*shown.patches, x);
+    if (at.patch == no_side) return {};
+    const auto& b = shown.B[at.patch];
+    return at.b[0] * b[0] + at.b[1] * b[1] + at.b[2] * b[2];
+}
 
 /// Where the power of the lamps went, W: emitted = absorbed + escaped + unshot.
 /// tested by  "identity: all that lamps emit is absorbed, escapes, or is unshot"

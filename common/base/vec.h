@@ -117,6 +117,32 @@ inline bool is_finite(Rgb a) {
     return std::isfinite(a.r) && std::isfinite(a.g) && std::isfinite(a.b);
 }
 
+/// The same in double, for sums of many.
+struct Rgbd {
+    double r = 0, g = 0, b = 0;
+
+    Rgbd() = default;
+    Rgbd(double red, double green, double blue) : r(red), g(green), b(blue) {}
+    Rgbd(Rgb x) : r(double{x.r}), g(double{x.g}), b(double{x.b}) {}
+};
+inline Rgbd operator+(Rgbd x, Rgbd y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
+inline Rgbd operator-(Rgbd x, Rgbd y) { return {x.r - y.r, x.g - y.g, x.b - y.b}; }
+inline Rgbd operator*(Rgbd x, Rgbd y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
+inline Rgbd operator*(double s, Rgbd x) { return {s * x.r, s * x.g, s * x.b}; }
+inline Rgbd& operator+=(Rgbd& x, Rgbd y) { return x = x + y; }
+/// x / y; 0 where y is 0.
+inline Rgbd ratio(Rgbd x, Rgbd y) {
+    return {y.r > 0 ? x.r / y.r : 0, y.g > 0 ? x.g / y.g : 0, y.b > 0 ? x.b / y.b : 0};
+}
+inline Rgbd min(Rgbd x, Rgbd y) {
+    return {std::min(x.r, y.r), std::min(x.g, y.g), std::min(x.b, y.b)};
+}
+inline double sum_of(Rgbd x) { return x.r + x.g + x.b; }
+inline double largest_of(Rgbd x) { return std::max({std::abs(x.r), std::abs(x.g), std::abs(x.b)}); }
+inline Rgb to_rgb(Rgbd x) {
+    return {static_cast<float>(x.r), static_cast<float>(x.g), static_cast<float>(x.b)};
+}
+
 /// An orthonormal, right-handed frame s, t, n around a unit vector n.
 ///
 /// source  Duff et al. 2017, "Building an Orthonormal Basis, Revisited": no branch, and no

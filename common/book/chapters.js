@@ -12,7 +12,7 @@ const chapters = {
     '05_ray_casting': {kind: 'film', scene: 'cornell-spheres'},
     '06_bvh': {
         kind: 'once', scene: 'knot', words: ['--quiet'],  // the table needs a clock of the processor
-        own: [choice('step', 'work of', 'ordered', 'linear', 'median', 'sah', 'four', 'wide')]
+        own: [choice('step', 'work of', 'ordered', 'linear', 'median', 'sah', 'four')]
     },
     '07_path_tracing': {kind: 'film', scene: 'cornell'},
     '08_russian_roulette': {kind: 'film', scene: 'cornell', against: '07_path_tracing'},
@@ -87,7 +87,6 @@ const chapters = {
         kind: 'once', scene: 'cornell',
         own: [number('patches', 'patches at least', 1200),
               number('shots', 'shots at most', 1000),
-              choice('form-factors', 'form factors by', 'contour', 'chance', 'point'),
               choice('show', 'show', 'smooth', 'constant')]
     }
 };

@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "common/explaining/labels.h"
-#include "common/explaining/scene_outline.h"
-#include "common/scene/camera.h"
+#include "common/explaining/preview.h"
+#include "common/explaining/svg.h"
 
 namespace {
 
@@ -89,6 +88,14 @@ View panel_from_above(const Scene& scene, Box box, float left) {
     return {false, {left, margin}, {side, side}, o, scale * right, -scale * away, {}, 1};
 }
 
+/// The ray down from a pixel of that view, from the height of the eye on.
+Ray ray_from_above(const View& view, const Camera& camera, Vec2 pixel) {
+    Vec3 down = -signed_axis(upward_axis(camera), camera.up);
+    Vec3 o = view.o + pixel.x / dot(view.rx, view.rx) * view.rx +
+             pixel.y / dot(view.ry, view.ry) * view.ry;
+    return {o + dot(camera.o - o, down) * down, down};
+}
+
 /// A box around the path and the scene, without parts of the scene far away from the visible part.
 Box box_around(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& path) {
     Box box, all = bounds_of(scene.geometry);
@@ -120,23 +127,16 @@ void draw_line(Svg& svg, const View& view, Vec3 a, Vec3 b, const char* style) {
 }
 
 void draw_scene(Svg& svg, const View& view, const Scene& scene) {
-    if (view.is_camera) {
-        float half = 0.5f;  // a point of the preview for 2 x 2 of the panel
-        Image image = preview(scene, std::max(1, static_cast<int>(half * view.size.x)),
-                              std::max(1, static_cast<int>(half * view.size.y)));
-        svg.picture(view.corner, view.size, base64(encode_png(image, "")));
-    } else {
-        Vec3 down = normalize(cross(view.rx, view.ry));
-        auto draw = [&](const std::vector<Segment>& segments, const char* style) {
-            std::vector<std::pair<Vec2, Vec2>> lines;
-            for (auto [a, b] : segments) {
-                if (auto line = view.project(a, b)) lines.push_back(*line);
-            }
-            svg.lines(lines, style);
-        };
-        draw(outline(scene, down), "stroke='#bbb' stroke-width='1'");
-        draw(lamp_outline(scene, down), "stroke='#e0a800' stroke-width='3'");
-    }
+    int width = std::max(1, static_cast<int>(view.size.x / 2));  // 2 x 2 of the panel each
+    int height = std::max(1, static_cast<int>(view.size.y / 2));
+    CameraView camera = camera_view(scene.camera, width, height);
+    auto ray_of = [&](Vec2 pixel) {
+        return view.is_camera ? camera_ray(camera, pixel)
+                              : ray_from_above(view, scene.camera, {2 * pixel.x, 2 * pixel.y});
+    };
+    float reach = view.is_camera ? infinity : scene.radius;  // what is lower is darker
+    Image image = preview(scene, width, height, ray_of, reach);
+    svg.picture(view.corner, view.size, base64(encode_png(image, "")));
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point) continue;
         if (auto at = view.project(light.p)) svg.circle(*at, 6, "fill='#fc2' stroke='#e0a800'");
@@ -177,20 +177,16 @@ void draw_vertices(Svg& svg, const View& view, Vec3 eye, const std::vector<PathV
         Vec3 from = first ? eye : path[static_cast<size_t>(x.from)].p;
         draw_line(svg, view, from, x.p, from_light.back() ? orange : red);
     }
-    Labels labels;
-    std::vector<std::pair<Vec2, std::string>> marks;
     auto mark = [&](Vec3 p, const std::string& name, const char* style) {
         std::optional<Vec2> at = view.project(p);
         if (!at) return;
         svg.circle(*at, 3.5f, style);
-        labels.keep_free(*at);
-        marks.push_back({*at, name});
+        svg.text({at->x + 6, at->y - 6}, name);
     };
     if (!view.is_camera) mark(eye, "E", "fill='#000'");
     for (size_t i = 0; i < path.size(); i++) {
         mark(path[i].p, std::to_string(i + 1), from_light[i] ? "fill='#e70'" : "fill='#c03'");
     }
-    for (const auto& [at, name] : marks) labels.put(svg, at, name);
 }
 
 void draw_legend(Svg& svg, float top) {

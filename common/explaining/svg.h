@@ -2,8 +2,6 @@
 #pragma once
 #include <cstdio>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "common/base/vec.h"
 
@@ -12,13 +10,6 @@ public:
     void line(Vec2 a, Vec2 b, const char* style) {
         add("<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' %s/>\n", double{a.x}, double{a.y},
             double{b.x}, double{b.y}, style);
-    }
-    void lines(const std::vector<std::pair<Vec2, Vec2>>& all, const char* style) {
-        body_ += "<path d='";
-        for (auto [a, b] : all) {
-            add("M%.1f %.1fL%.1f %.1f", double{a.x}, double{a.y}, double{b.x}, double{b.y});
-        }
-        add("' %s/>\n", style);
     }
     void circle(Vec2 c, float r, const char* style) {
         add("<circle cx='%.1f' cy='%.1f' r='%.1f' %s/>\n", double{c.x}, double{c.y}, double{r},

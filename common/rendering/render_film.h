@@ -39,7 +39,6 @@ struct Rendering {
                                           // for all classes longer than 8 letters
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::vector<std::string> warnings = {};  // of the chapter's own
-    std::vector<Output> files = {};          // others that the chapter writes
     std::shared_ptr<FileLock> film_lock = {};
     std::string error = {};  // that ended it before all samples were taken
 };

@@ -27,7 +27,7 @@ bool is_of_split(const fs::path& name) {
 /// Adds the files of a folder that may be written later. Their names are not known yet, so these
 /// are the existing files and those of `others`, if their names match.
 void add_later(const std::string& folder, const std::vector<std::string>& others,
-               const IsWritten& is_written, std::vector<std::string>& files) {
+               std::vector<std::string>& files) {
     std::vector<std::string> names;
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(file_path(folder.empty() ? "." : folder), none))
@@ -36,7 +36,7 @@ void add_later(const std::string& folder, const std::vector<std::string>& others
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     for (const std::string& name : names) {
-        if (is_written(name)) files.push_back(file_name(file_path(folder) / file_path(name)));
+        if (is_of_split(name)) files.push_back(file_name(file_path(folder) / file_path(name)));
     }
 }
 
@@ -58,8 +58,7 @@ std::string drawing_path(const RenderOptions& options) {
     return file_name(file_path(options.out[0]).replace_extension(".svg"));
 }
 
-void check_outputs(const Scene& scene, const RenderOptions& options,
-                   const std::vector<std::string>& more, const IsWritten& is_beside) {
+void check_outputs(const Scene& scene, const RenderOptions& options) {
     std::vector<std::string> inputs(scene.files.begin(), scene.files.end());
     if (options.explain || options.explain_brightest)
         return check_outputs({drawing_path(options)}, inputs);
@@ -67,7 +66,6 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
     for (const std::string& file : {options.film, options.stats})
         if (!file.empty()) files.push_back(file);
     for (const auto& [file, picture] : options.pictures) files.push_back(file);
-    files.insert(files.end(), more.begin(), more.end());
     if (!options.film.empty()) {  // not to go on without it
         check_film_is_file(options.film);
         check_writable(options.film);
@@ -77,10 +75,7 @@ void check_outputs(const Scene& scene, const RenderOptions& options,
     if (!options.split.empty()) {
         make_folder(options.split);
         others.push_back("LE.pfm");  // of any class
-        add_later(options.split, others, is_of_split, files);
-    }
-    if (is_beside) {
-        add_later(file_name(file_path(options.out[0]).parent_path()), others, is_beside, files);
+        add_later(options.split, others, files);
     }
     check_outputs(files, inputs);
     std::erase(files, options.film);  // its own room is asked for where its size is known

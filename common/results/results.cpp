@@ -98,7 +98,6 @@ public:
     Outputs(const Scene& scene, const RenderOptions& options, const Rendering& r)
         : scene_(scene), options_(options), r_(r) {
         if (!options.film.empty()) add(options.film, [&] { save_film(scene, options, r); });
-        for (const auto& [path, write] : r.files) add(path, write);
         for (const std::string& path : options.out) add_image(path, [&] { return r.film.image(); });
         for (const auto& [path, picture] : options.pictures)
             add_image(path, [&, &picture = picture] { return picture(r.film); });

@@ -16,9 +16,8 @@ pictures: programs
 	common/tools/make_pictures $(BUILD)
 	common/tools/make_strips $(BUILD)
 #: maintaining: make gallery      render the six pictures of 1280x720 at the top of README.md, in 25 minutes
-gallery: programs $(BUILD)/make_gallery $(BUILD)/make_knot
-	$(BUILD)/make_gallery $(BUILD)/gallery
-	$(BUILD)/make_knot $(BUILD)/gallery/knot.ply
+gallery: programs $(BUILD)/make_gallery
+	$(RUN) $(BUILD)/make_gallery scenes/gallery
 	common/tools/make_gallery $(BUILD)
 	common/tools/fill_readmes --text README.md
 #: maintaining: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)

@@ -39,9 +39,8 @@ std::vector<OwnOption> own_options() {
     }
     const std::string room = "scenes/cornell.pbrt";
     for (const auto& [name, by_default, others] :
-         {std::tuple("form-factors", "contour", Words{"point", "chance"}),
-          std::tuple("solver", "southwell", Words{"gauss-seidel", "jacobi"}),
-          std::tuple("show", "smooth", Words{"constant", "gather"})})
+         {std::tuple("solver", "southwell", Words{"gauss-seidel", "jacobi"}),
+          std::tuple("show", "smooth", Words{"constant"})})
         all.push_back({"26_radiosity", room, name, by_default, others, few_patches});
     return all;
 }

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "common/explaining/path_drawing.h"
-#include "common/explaining/scene_outline.h"
+#include "common/explaining/preview.h"
 #include "common/picture/comparison.h"
 #include "common/picture/heat_map.h"
 #include "common/picture/plot.h"
@@ -67,6 +67,11 @@ std::string decode_base64(const std::string& text) {
         bytes += static_cast<char>(bits >> have & 255);
     }
     return bytes;
+}
+
+Image seen_by_camera(const Scene& scene, int side) {
+    CameraView view = camera_view(scene.camera, side, side);
+    return preview(scene, side, side, [&](Vec2 pixel) { return camera_ray(view, pixel); });
 }
 
 Image numbered(int width, int height) {
@@ -161,34 +166,6 @@ TEST_SUITE("drawing") {
         }
     }
 
-    TEST_CASE("truth: the panel from above holds the path, and of the scene what is not far away") {
-        Scene scene = room("Translate 500 0 0 Shape \"sphere\"\n");
-        std::vector<PathVertex> path = {{{-1, 0, 1}, -1}, {{1, 0, -1}, 0}};
-        std::string svg = drawn(scene, scene.camera.o, path);
-        // side / (1.1 times the larger side of the box).
-        auto points = circles_in(svg, "fill='#c03'");
-        float scale = (points[3][0] - points[2][0]) / 2;
-        CHECK(scale > 460 / (1.1f * 30));
-        for (const auto& p : points)
-            CHECK((p[0] >= 20 && p[0] <= 960 && p[1] >= 20 && p[1] <= 480));
-        // Without a path it is around the scene and the eye.
-        std::string alone = drawn(room(), {1, 3, -5}, {});
-        auto eyes = circles_in(alone, "fill='#000'");
-        REQUIRE(eyes.size() == 1);
-        CHECK(eyes[0][1] < 480);
-        CHECK(eyes[0][1] > 440);
-        // The square of side 2 around (0, 0, 0), seen from an eye 1 beside and 5 before it.
-        auto edges = numbers_in(alone, "M", "M%f %fL%f %f", "stroke='#bbb'");
-        REQUIRE(edges.size() == 4);
-        Vec2 middle, eye = {eyes[0][0], eyes[0][1]};
-        for (const auto& e : edges) middle.x += (e[0] + e[2]) / 8, middle.y += (e[1] + e[3]) / 8;
-        for (const auto& e : edges) {
-            float side = std::abs(e[0] - e[2]) + std::abs(e[1] - e[3]);
-            CHECK(near(side, 2 * (eye.x - middle.x)));
-            CHECK(near(2.5f * side, eye.y - middle.y, 0.3f));
-        }
-    }
-
     TEST_CASE("truth: rays have the marks of what became of them") {
         Scene scene = room();
         CameraView view = camera_view(scene.camera, 40, 20);
@@ -280,60 +257,26 @@ TEST_SUITE("drawing") {
             CHECK(svg.find(name) != std::string::npos);
     }
 
-    TEST_CASE("truth: the frame of a drawing: size, panels, words, and a legend of six lines") {
-        Scene scene = room();
-        std::string svg = draw_path(scene, scene.camera.o, {}, {});
-        CHECK(
-            svg.starts_with("<svg xmlns='http://www.w3.org/2000/svg' width='980' height='558'>\n"
-                            "<rect width='100%' height='100%' fill='white'/>\n"));
-        auto frames = numbers_in(svg, "<rect x=", "<rect x='%f' y='%f' width='%f' height='%f'",
-                                 "fill='none' stroke='#999'");
-        REQUIRE(frames.size() == 2);
-        CHECK(frames[0] == std::array<float, 4>{20, 20, 460, 230});
-        CHECK(frames[1] == std::array<float, 4>{500, 20, 460, 460});
-        size_t clips = 0;
-        for (size_t at = 0; (at = svg.find("<g clip-path='url(#clip", at)) != std::string::npos;
-             at++)
-            clips++;
-        CHECK(clips == 2);
-        CHECK(svg.find("<text x='20.0' y='268.0'") != std::string::npos);
-        CHECK(svg.find(">as the camera sees it</text>") < svg.find(">from above</text>"));
-        float x = 20, y = 522;
-        for (const char* words : {"path from the eye E", "path from a light", "shadow ray, open",
-                                  "blocked", "leaves the scene", "lamp"}) {
-            CAPTURE(words);
-            char begin[100];
-            std::snprintf(begin, sizeof begin, "<text x='%.1f' y='%.1f'", double{x} + 32,
-                          double{y});
-            size_t at = svg.find(begin);
-            REQUIRE(at != std::string::npos);
-            CHECK(svg.substr(at, svg.find('\n', at) - at).find(std::string(words) + "</text>") !=
-                  std::string::npos);
-            x += 210;
-            if (x > 500) x = 20, y += 22;
-        }
-    }
-
-    TEST_CASE("identity: the picture below the path is the preview, whatever its size") {
-        for (auto [columns, height] : {std::pair{40, 20}, {7, 20}, {400, 1}}) {
-            int width = columns;
-            CAPTURE(width);
-            Scene scene = room();
-            scene.width = width, scene.height = height;
-            std::string svg = draw_path(scene, scene.camera.o, {}, {});
-            const std::string begin = "href='data:image/png;base64,";
-            size_t at = svg.find(begin) + begin.size();
-            size_t end = svg.find('\'', at);
-            CHECK((end - at) % 4 == 0);
-            Image image = decode_png("a.png", decode_base64(svg.substr(at, end - at)));
-            float scale = 460.0f / static_cast<float>(std::max(width, height)) / 2;
-            int w = std::max(1, static_cast<int>(scale * static_cast<float>(width)));
-            int h = std::max(1, static_cast<int>(scale * static_cast<float>(height)));
-            REQUIRE(image.width == w);
-            REQUIRE(image.height == h);
-            Image expected = preview(scene, w, h);
-            for (size_t i = 0; i < image.pixels.size(); i++)
-                CHECK(to_srgb8(image.pixels[i].g) == to_srgb8(expected.pixels[i].g));
+    TEST_CASE("identity: both pictures below the path show what is there") {
+        // A lamp below a ceiling that is above the eye.
+        Scene scene = room("AttributeBegin Scale 9 1 9 Translate 0 9 0 " + square(0, false) +
+                           "AttributeEnd\n" +
+                           "AreaLightSource \"diffuse\" Translate 0.3 1 -0.1 "
+                           "Shape \"sphere\" \"float radius\" 0.3\n");
+        Vec3 lamp = scene.geometry.spheres[0].c;
+        std::string svg = draw_path(scene, scene.camera.o, {{lamp, -1}}, {});
+        auto points = circles_in(svg, "fill='#c03'");
+        REQUIRE(points.size() == 2);
+        const std::string begin = "href='data:image/png;base64,";
+        size_t at = 0;
+        for (float left : {20.0f, 500.0f}) {
+            at = svg.find(begin, at) + begin.size();
+            Image image =
+                decode_png("a.png", decode_base64(svg.substr(at, svg.find('\'', at) - at)));
+            int x = static_cast<int>((points[left > 20][0] - left) / 2);
+            int y = static_cast<int>((points[left > 20][1] - 20) / 2);
+            CHECK(to_srgb8(image.at(x, y).b) == to_srgb8(0.05f));
+            CHECK(to_srgb8(image.at(2, 2).b) != to_srgb8(0.05f));
         }
     }
 
@@ -341,7 +284,7 @@ TEST_SUITE("drawing") {
         // A ball seen from the front: its middle faces the camera, its rim looks away.
         auto middle = [](const std::string& world, float x = 50.5f) {
             Scene scene = world_of(world, 101);
-            Image image = preview(scene, 101, 101);
+            Image image = seen_by_camera(scene, 101);
             return image.at(static_cast<int>(x), 50);
         };
         const std::string point = "LightSource \"point\"\n",
@@ -363,71 +306,18 @@ TEST_SUITE("drawing") {
         CHECK(is_about(seen, {0.5f * 0.625f, 0.25f * 0.625f, 0}));
         // A small lamp where the camera, 4 away, has pixel (75, 40): of 101 pixels, 40 degrees.
         float pixel = 8 * std::tan(pi / 9) / 101;
-        Image image = preview(
+        Image image = seen_by_camera(
             world_of("Translate " + std::to_string(25 * pixel) + " " + std::to_string(10 * pixel) +
                          " 0 AreaLightSource \"diffuse\" Shape \"sphere\" "
                          "\"float radius\" 0.036",
                      101),
-            101, 101);
+            101);
         for (int y = 0; y < 101; y++) {
             for (int x = 0; x < 101; x++) {
                 bool is_lamp = image.at(x, y) == Rgb{1, 0.75f, 0.05f};
                 CHECK(is_lamp == (std::abs(x - 75) + std::abs(y - 40) <= 1));
             }
         }
-    }
-
-    TEST_CASE(
-        "truth: outlines of round shapes are circles, of lamps apart, of large meshes fewer") {
-        Scene scene = world_of(
-            "LightSource \"point\" Translate 1 2 3 Shape \"sphere\" \"float "
-            "radius\" 0.5\nTranslate 0 0 5 Rotate 90 0 1 0 Shape \"disk\" "
-            "\"float radius\" 2\n AreaLightSource \"diffuse\" Translate 0 0 3 "
-            "Shape \"sphere\" \"float radius\" 0.25");
-        Vec3 axis = {0, 1, 0}, ball = {1, 2, 3};
-        std::vector<Segment> lines = outline(scene, axis), lamps = lamp_outline(scene, axis);
-        REQUIRE(lines.size() == 2 * 48);
-        REQUIRE(lamps.size() == 48);
-        auto is_circle = [&](size_t first, const std::vector<Segment>& of, Vec3 c, Vec3 n,
-                             float r) {
-            double around = 0;
-            for (size_t i = first; i < first + 48; i++) {
-                CHECK(near(length(of[i].first - c), r, 1e-5f));
-                CHECK(near(dot(of[i].first - c, n), 0, 1e-5f));
-                CHECK(length(of[i].second - of[first + (i - first + 1) % 48].first) < 1e-5f);
-                around += double{length(of[i].second - of[i].first)};
-            }
-            double chord = 48 * 2 * double{r} * std::sin(std::numbers::pi / 48);
-            CHECK(around == doctest::Approx(chord).epsilon(1e-4).scale(0));
-        };
-        is_circle(0, lines, ball, axis, 0.5f);
-        const Disk& disk = scene.geometry.disks[0];
-        is_circle(48, lines, disk.c, disk.n, 2);
-        is_circle(0, lamps, scene.geometry.spheres[1].c, axis, 0.25f);
-        // What moves has its outline too.
-        CHECK(outline(world_of("LightSource \"point\" ActiveTransform EndTime Translate 1 0 0 "
-                               "ActiveTransform All Shape \"sphere\""),
-                      axis)
-                  .size() == 48);
-        // Two planes that meet at this angle: the edge between them counts from 25.8 degrees on.
-        for (float degrees : {20.0f, 30.0f}) {
-            float angle = degrees * pi / 180, c = std::cos(angle), s = std::sin(angle);
-            char mesh[300];
-            std::snprintf(mesh, sizeof mesh,
-                          "LightSource \"point\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 "
-                          "1 0 3] \"point3 P\" [0 0 0  0 1 0  %f 0 %f  1 0 0]",
-                          double{-c}, double{s});
-            CHECK(outline(world_of(mesh), {0, 0, 1}).size() == (degrees > 25 ? 5 : 4));
-        }
-        // 15,000 edges of triangles that touch nothing: one of four.
-        std::string many = "LightSource \"point\" Shape \"trianglemesh\" \"point3 P\" [", numbers;
-        for (int i = 0; i < 5000; i++) {
-            std::string x = std::to_string(2 * i) + " ";
-            many += x + "0 0 " + x + "1 0 " + x + "0 1 ";
-            for (int k = 0; k < 3; k++) numbers += std::to_string(3 * i + k) + " ";
-        }
-        CHECK(outline(world_of(many + "] \"integer indices\" [" + numbers + "]"), axis).size() ==
-              3750);
     }
 
     TEST_CASE("truth: the colours of a heat map, and of an error, in order and at their places") {

@@ -13,11 +13,8 @@
 #include "tests/traces/13.h"
 #include "tests/traces/21.h"
 #include "tests/traces/22.h"
-#include "common/explaining/labels.h"
 #include "common/explaining/path_drawing.h"
-#include "common/explaining/scene_outline.h"
 #include "common/picture/stats_file.h"
-#include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
 
@@ -93,25 +90,6 @@ bool tells(const Scene& scene, const AnyTrace& trace, Ray ray, const std::string
         if (story_of(scene, trace, i, ray).find(words) != std::string::npos) return true;
     }
     return false;
-}
-
-/// A ball around the y axis, of 48 x 24 faces in pairs of triangles, without its poles.
-void add_round_ball(Geometry& g) {
-    constexpr uint32_t around = 48, up = 24;
-    for (uint32_t j = 1; j < up; j++) {
-        for (uint32_t i = 0; i < around; i++) {
-            float theta = pi * static_cast<float>(j) / up;
-            Vec3 p = from_cylindrical(std::sin(theta), static_cast<float>(i) / around, 0);
-            g.positions.push_back({p.x, std::cos(theta), p.y});
-        }
-    }
-    for (uint32_t j = 0; j + 2 < up; j++) {
-        for (uint32_t i = 0; i < around; i++) {
-            uint32_t a = j * around + i, b = j * around + (i + 1) % around;
-            g.triangles.push_back({{a, b, b + around}, 0});
-            g.triangles.push_back({{a, b + around, a + around}, 0});
-        }
-    }
 }
 
 const char* black_floor = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
@@ -340,49 +318,6 @@ TEST_SUITE("explain") {
             CHECK((svg.find("stroke='#555'") != std::string::npos) == blocked);
             CHECK((svg.find("stroke='#080'") != std::string::npos) == !blocked);
             CHECK(svg.find("stroke='#e0a800'") != std::string::npos);
-        }
-    }
-
-    TEST_CASE("truth: outlines have the edges of a box, no diagonals, and of a ball its rim") {
-        Scene scene = world_of(
-            "LightSource \"point\" Shape \"sphere\"");  // whose material and shape the others take
-        scene.geometry = {};
-        add_parallelogram(scene.geometry, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-        prepare(scene, 1);
-        CHECK(outline(scene, {0, 0, 1}).size() == 4);
-        scene.geometry = {};
-        add_box(scene.geometry, {0, 0, 0}, {1, 2, 3});
-        prepare(scene, 1);
-        CHECK(outline(scene, {0, 1, 0}).size() == 12);
-        CHECK(lamp_outline(scene, {0, 1, 0}).empty());
-        scene.geometry = {};
-        add_round_ball(scene.geometry);
-        prepare(scene, 1);
-        CHECK(outline(scene, {0, 1, 0}).size() ==
-              3 * 48);  // the rims of both holes, and the equator
-    }
-
-    TEST_CASE("truth: labels of many points at one place lie apart") {
-        Svg svg;
-        Labels labels;
-        labels.keep_free({200, 200});
-        for (int i = 0; i < 40; i++) labels.put(svg, {200, 200}, std::to_string(i + 1));
-        std::string text = svg.finish({400, 400});
-        std::vector<Vec2> corners;
-        for (size_t at = 0; (at = text.find("<text x='", at)) != std::string::npos; at++) {
-            Vec2 p;
-            REQUIRE(std::sscanf(text.c_str() + at, "<text x='%f' y='%f'", &p.x, &p.y) == 2);
-            corners.push_back(p);
-        }
-        REQUIRE(corners.size() == 40);
-        for (size_t i = 0; i < 40; i++) {
-            for (size_t j = 0; j < i; j++) {
-                float letters = j < 9 ? 8.0f : 16.0f;
-                bool apart = corners[i].x - corners[j].x > letters - 0.2f ||
-                             corners[j].x - corners[i].x > (i < 9 ? 7.8f : 15.8f) ||
-                             std::abs(corners[i].y - corners[j].y) > 12.8f;
-                CHECK(apart);
-            }
         }
     }
 

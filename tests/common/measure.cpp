@@ -474,16 +474,4 @@ TEST_SUITE("charts") {
         CHECK(two_digits(18234) == "18000");
         CHECK(two_digits(NAN) == "nan");
     }
-
-    TEST_CASE("truth: labels in their order, apart, and as near as can be to where they belong") {
-        using Heights = std::vector<double>;
-        CHECK(spread_out({50, 10, 90}, 20, 0, 100) == Heights{50, 10, 90});
-        CHECK(spread_out({50, 50}, 20, 0, 100) == Heights{40, 60});
-        CHECK(spread_out({50, 48, 52, 90}, 20, 0, 100) == Heights{50, 30, 70, 90});
-        CHECK(spread_out({50, 50, 65}, 20, 0, 100) == Heights{35, 55, 75});
-        CHECK(spread_out({2, 1, 3}, 20, 0, 100) == Heights{20, 0, 40});
-        CHECK(spread_out({99, 98}, 20, 0, 100) == Heights{100, 80});
-        CHECK(spread_out({5, 5, 5}, 20, 0, 30) == Heights{0, 20, 40});  // no room: beyond the end
-        CHECK(spread_out({}, 20, 0, 100).empty());
-    }
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/base/report.h"
-#include "common/explaining/labels.h"
 #include "common/explaining/path_drawing.h"
 #include "common/options/loading.h"
 #include "common/options/loading_progress.h"
@@ -205,50 +204,6 @@ TEST_SUITE("surroundings") {
         FilmClock failing(scene, options);
         CHECK(captured([&] { return failing.save(r), 0; }).err ==
               "none/a.film: error: cannot write: No such file or directory\n");
-    }
-
-    TEST_CASE(
-        "truth: words stand above and right of their point, then around it, then further out") {
-        Svg svg;
-        Labels labels;
-        constexpr int count = 24;
-        // As wide as 3 letters, and so small in number that none covers another: far apart.
-        for (int i = 0; i < count; i++) {
-            Vec2 point = {100, 100.0f + 200 * static_cast<float>(i)};
-            // Keep all places before number i from being free.
-            for (int k = 0; k < i; k++) {
-                float angle = 2 * pi * (static_cast<float>(k % 16) / 16 - 0.125f);
-                float away = 14 + 10 * static_cast<float>(k / 16);
-                labels.keep_free(
-                    {point.x + away * std::cos(angle), point.y + away * std::sin(angle)});
-            }
-            labels.put(svg, point, "abc");
-        }
-        std::string text = svg.finish({400, 400});
-        std::vector<Vec2> at;
-        for (size_t i = 0; (i = text.find("<text x='", i)) != std::string::npos; i++) {
-            Vec2 p;
-            REQUIRE(std::sscanf(text.c_str() + i, "<text x='%f' y='%f'", &p.x, &p.y) == 2);
-            at.push_back(p);
-        }
-        REQUIRE(at.size() == count);
-        // The first: its middle is 14 px away at 45 degrees; 24 px wide, with 11 of 13 above the
-        // line.
-        float diagonal = 14 * std::sqrt(0.5f);
-        CHECK(std::abs(at[0].x - (100 + diagonal - 12)) < 0.06f);
-        CHECK(std::abs(at[0].y - (100 - diagonal - 6.5f + 11)) < 0.06f);
-        size_t lines = 0;
-        for (size_t i = 0; (i = text.find("<line", i)) != std::string::npos; i++) lines++;
-        size_t expected = 0;
-        for (size_t i = 0; i < count; i++) {
-            Vec2 middle = {at[i].x + 12, at[i].y - 4.5f};
-            float dx = middle.x - 100, dy = middle.y - (100 + 200 * static_cast<float>(i));
-            float away = std::sqrt(dx * dx + dy * dy);
-            CHECK(std::abs(away - 10 * std::round((away - 14) / 10) - 14) < 0.1f);
-            expected += away > 19;
-        }
-        CHECK(lines == expected);
-        CHECK(expected > 0);
     }
 
     TEST_CASE("truth: a ray that leaves is drawn as far as the scene is wide") {

@@ -3,7 +3,6 @@
 
 #include "common/base/error.h"
 #include "tests/measure/curves.h"
-#include "tests/measure/points.h"
 #include "tests/support/work.h"
 
 namespace {
@@ -21,17 +20,6 @@ std::vector<Curve> measure_scene(const std::string& path, const std::vector<Meth
         curves.push_back(measure_curve(method, scene, reference, o, seconds));
     }
     return curves;
-}
-
-void add_points(const std::string& scene, const std::vector<Curve>& curves, Table& points) {
-    for (const Curve& c : curves) {
-        for (const CurvePoint& p : c.points) {
-            auto [low, high] = std::minmax_element(p.rel_mse.begin(), p.rel_mse.end());
-            points.rows.push_back({scene, c.method->name, std::to_string(p.spp), digits(p.seconds),
-                                   digits(root_mean_square(p.rmse)), digits(mean_of(p.rel_mse)),
-                                   digits(*low), digits(*high)});
-        }
-    }
 }
 
 void add_summary(const std::string& scene, const std::vector<Curve>& curves, Table& summary) {
@@ -85,7 +73,6 @@ int main(int argc, char** argv) {
             {.spp = 0, .runs = 4, .width = 64, .height = 64, .seconds = 600});
         if (o.words.empty()) {
             o.words = own_scenes();
-            chart_points(o.out, 1 << 16, 64);
         }
         Work work("chart: error against time on " + std::to_string(o.words.size()) + " scenes",
                   static_cast<double>(steps_of(o)), o.seconds);
@@ -102,14 +89,10 @@ int main(int argc, char** argv) {
                 std::printf("left out: %s\n", e.what());
                 continue;
             }
-            Table points{{"scene", "method", "spp", "seconds", "RMSE", "relMSE", "least", "most"},
-                         {}};
-            add_points(name, curves, points);
             add_summary(name, curves, summary);
             std::string file = file_name(name);
-            write_table(o.out, "chart-" + file, points);
             std::printf("%s\n", finding(name, curves).c_str());
-            draw_curves(o.out + "/chart-" + file, name, curves);
+            draw_curves(o.out, name, curves);
             Scene scene = load_scene_for(path, o);
             draw_equal_time(
                 o.out + "/equal-time-" + file, name, curves, path,

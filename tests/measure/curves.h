@@ -43,9 +43,9 @@ double mean_of(const std::vector<double>& values);
 Curve measure_curve(const Method& method, Scene& scene, const Reference& reference,
                     const MeasureOptions& o, double seconds);
 
-/// Draws relMSE over seconds, with bands from the least to the largest of the runs; the title is
-/// what they say, and each line is named at its end.
-void draw_curves(const std::string& path, const std::string& scene,
+/// Writes chart-SCENE.tsv, relMSE over seconds, and draws it: how many times faster than the first
+/// each method is stands behind its name, and what they say together is the title.
+void draw_curves(const std::string& folder, const std::string& scene,
                  const std::vector<Curve>& curves);
 
 /// The pictures that all methods make in the same time, and their errors on one scale.

@@ -1,4 +1,4 @@
-// What a chart of error against time says: how many times faster, and where the names stand.
+// What a chart of error against time says: how many times faster.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -50,41 +50,4 @@ inline std::string two_digits(double x) {
     std::snprintf(text, sizeof text, unit > 0 ? "%.0f" : "%.2g",
                   unit > 0 ? std::round(x / unit) * unit : x);
     return text;
-}
-
-/// Where labels stand that want to be at these heights: in the same order, `gap` apart or more,
-/// the first not below `low`, and where there is room the last not above `high`. Those that crowd
-/// share the space around the middle of where they want to be; tested by "truth: labels ...".
-inline std::vector<double> spread_out(const std::vector<double>& wanted, double gap, double low,
-                                      double high) {
-    std::vector<size_t> order(wanted.size());
-    for (size_t i = 0; i < order.size(); i++) order[i] = i;
-    std::sort(order.begin(), order.end(),
-              [&](size_t a, size_t b) { return wanted[a] < wanted[b]; });
-    struct Crowd {
-        double sum;  // of where they would begin
-        size_t count;
-        double begin(double gap, double low, double high) const {
-            double n = static_cast<double>(count);
-            return std::max(low, std::min(sum / n, high - (n - 1) * gap));
-        }
-    };
-    std::vector<Crowd> crowds;
-    for (size_t i : order) {
-        crowds.push_back({wanted[i], 1});
-        while (crowds.size() > 1) {
-            Crowd last = crowds.back(), before = crowds[crowds.size() - 2];
-            double width = static_cast<double>(before.count) * gap;
-            if (before.begin(gap, low, high) + width <= last.begin(gap, low, high)) break;
-            crowds.pop_back();
-            crowds.back() = {before.sum + last.sum - static_cast<double>(last.count) * width,
-                             before.count + last.count};
-        }
-    }
-    std::vector<double> heights(wanted.size());
-    size_t next = 0;
-    for (const Crowd& crowd : crowds)
-        for (size_t i = 0; i < crowd.count; i++)
-            heights[order[next++]] = crowd.begin(gap, low, high) + static_cast<double>(i) * gap;
-    return heights;
 }

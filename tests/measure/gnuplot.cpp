@@ -1,5 +1,6 @@
 #include "tests/measure/gnuplot.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -49,4 +50,13 @@ std::string data_block(const std::string& name, const std::vector<std::vector<do
         block += "\n";
     }
     return block + "EOD\n";
+}
+
+void draw_table(const std::string& path, const std::string& title) {
+    need_gnuplot();
+    std::string words = title;
+    std::replace(words.begin(), words.end(), '\'', ' ');
+    std::string command = "gnuplot -c tests/measure/plot.gp '" + path + ".tsv' '" + words + "'";
+    if (std::system(command.c_str()) != 0) throw InputError(path + ".tsv: error: gnuplot failed");
+    say_wrote(path + ".svg and .png");
 }

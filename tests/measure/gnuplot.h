@@ -12,3 +12,6 @@ std::string quoted_for_gnuplot(const std::string& text);
 
 /// A block of data named $NAME for gnuplot, one row per line.
 std::string data_block(const std::string& name, const std::vector<std::vector<double>>& rows);
+
+/// Draws PATH.tsv, a table of lines (see plot.gp), to PATH.svg and PATH.png.
+void draw_table(const std::string& path, const std::string& title);

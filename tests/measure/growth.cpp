@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
@@ -10,14 +11,6 @@
 #include "tests/support/work.h"
 
 namespace {
-
-/// What the program measures: the methods, and how far it goes.
-struct Growth {
-    MeasureOptions o;
-    std::vector<Method> methods;
-    double largest;  // of what grows, as a share of the full size
-    Work& work;
-};
 
 double wall_clock() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -36,27 +29,6 @@ double seconds_of(const Method& method, const Scene& scene, const MeasureOptions
         seconds.push_back(by_wall ? wall_clock() - start : r.stats.seconds);
     }
     return by_wall ? *std::min_element(seconds.begin(), seconds.end()) : median(seconds);
-}
-
-/// One line for each method: seconds(method, x) over x = 1, factor, factor^2, ... times first.
-template <class Seconds>
-LinePanel panel_of(const Growth& growth, const std::string& title, const std::string& x_label,
-                   const std::string& theory, double first, double last, double factor,
-                   Seconds seconds) {
-    LinePanel panel{title, x_label, "seconds", {}};
-    for (const Method& m : growth.methods)
-        panel.lines.push_back({m.label, m.color, theory, {}, {}});
-    double sum = 0;
-    for (double x = first; x <= 1.001 * last; x *= factor) sum += x;
-    for (double x = first; x <= 1.001 * last; x *= factor) {
-        growth.work.next("seconds against " + x_label + ", " + short_number(x), x / sum);
-        auto seconds_at = seconds(x);
-        for (size_t i = 0; i < growth.methods.size(); i++) {
-            panel.lines[i].x.push_back(x);
-            panel.lines[i].y.push_back(seconds_at(growth.methods[i]));
-        }
-    }
-    return panel;
 }
 
 constexpr const char* world = R"(
@@ -114,67 +86,28 @@ Scene scene_of(const std::string& text, double triangles, const MeasureOptions& 
     return scene;
 }
 
-/// Triangles: the time of rendering, and that of building the hierarchy.
-LinePanel over_triangles(const Growth& growth) {
-    Line building{"building the hierarchy", "#000000", "1", {}, {}};
-    LinePanel panel = panel_of(
-        growth, "triangles", "triangles", "log", 100, 1e7 * growth.largest, 10, [&](double n) {
-            Stopwatch watch;
-            Scene scene = scene_of(world + ceiling_of_lights(1), n, growth.o);
-            building.x.push_back(n);
-            building.y.push_back(watch.seconds() / growth.o.threads);
-            return [&growth, scene](const Method& m) { return seconds_of(m, scene, growth.o, 16); };
-        });
-    panel.lines.push_back(building);
-    return panel;
-}
-
-LinePanel over_lights(const Growth& growth) {
-    return panel_of(growth, "lights", "lights", "0", 1, 1e5 * growth.largest, 10, [&](double n) {
-        int side = static_cast<int>(std::lround(std::sqrt(n)));
-        Scene scene = scene_of(world + ceiling_of_lights(side), 1000, growth.o);
-        return [&growth, scene](const Method& m) { return seconds_of(m, scene, growth.o, 16); };
-    });
-}
-
-std::vector<LinePanel> over_samples_pixels_threads(const Growth& growth) {
-    MeasureOptions o = growth.o;
-    Scene scene = load_scene_for("scenes/cornell.pbrt", o);
-    auto spp = [&](double x) {
-        return
-            [&, x](const Method& m) { return seconds_of(m, scene, growth.o, static_cast<int>(x)); };
-    };
-    auto pixels = [&](double x) {
-        Scene sized = scene;
-        sized.width = sized.height = static_cast<int>(std::lround(std::sqrt(x)));
-        return [&, sized](const Method& m) { return seconds_of(m, sized, growth.o, 4); };
-    };
-    auto threads = [&](double x) {
-        MeasureOptions with = o;
-        with.threads = static_cast<int>(x);
-        Scene sized = scene;
-        sized.width = sized.height = 256;  // tiles enough to share them out evenly
-        return [&, with, sized](const Method& m) { return seconds_of(m, sized, with, 8, true); };
-    };
-    std::vector<LinePanel> panels = {
-        panel_of(growth, "samples", "samples per pixel", "1", 1, 1024 * growth.largest, 4, spp),
-        panel_of(growth, "pixels", "pixels", "1", 1024, (1 << 20) * growth.largest, 4, pixels),
-        panel_of(growth, "threads (wall clock)", "threads", "-1", 1, o.threads, 2, threads)};
-
-    // What else the machine does comes and goes: let few and many threads take turns.
-    for (int turn = 1; turn < 5; turn++) {
-        LinePanel again = panel_of(growth, "", "threads", "", 1, o.threads, 2, threads);
-        for (size_t line = 0; line < again.lines.size(); line++) {
-            for (size_t i = 0; i < again.lines[line].y.size(); i++) {
-                double& least = panels[2].lines[line].y[i];
-                least = std::min(least, again.lines[line].y[i]);
-            }
+/// The seconds of each method at each x: a line for each method.
+using Render = std::function<double(const Method&)>;
+void add_lines(const std::vector<Method>& methods, const std::string& panel,
+               const std::string& theory, const std::vector<double>& xs,
+               const std::function<Render(double x)>& at, Work& work, std::vector<Line>& lines) {
+    size_t first = lines.size();
+    for (const Method& m : methods) lines.push_back({panel, m.label, m.color, theory});
+    for (double x : xs) {
+        work.next("seconds against " + panel + ", " + short_number(x));
+        Render seconds = at(x);
+        for (size_t i = 0; i < methods.size(); i++) {
+            lines[first + i].x.push_back(x);
+            lines[first + i].y.push_back(seconds(methods[i]));
         }
     }
-    panels[2].x_axis =
-        "set xtics (1,2,4,8,16,32,64)\nset xrange [0.9:" + digits(1.1 * std::max(2, o.threads)) +
-        "]\nset format x '%g'";
-    return panels;
+}
+
+/// first, first * factor, ... up to last.
+std::vector<double> steps(double first, double last, double factor) {
+    std::vector<double> xs;
+    for (double x = first; x <= 1.001 * last; x *= factor) xs.push_back(x);
+    return xs;
 }
 
 }  // namespace
@@ -189,19 +122,53 @@ int main(int argc, char** argv) {
             "Seconds against samples, pixels, threads, triangles and lights. Writes "
             "chart-growth.svg, .png and .tsv.",
             {.methods = {"07", "09", "11", "15"}, .width = 64, .height = 64}, {quick});
-        constexpr int panels_measured = 9;  // five, one of them five times
+        std::vector<Method> methods = methods_named(o.methods);
+        std::vector<double> spp = steps(1, 1024 * share, 4),
+                            pixels = steps(1024, (1 << 20) * share, 4),
+                            threads = steps(1, o.threads, 2),
+                            triangles = steps(100, 1e7 * share, 10),
+                            lights = steps(1, 1e5 * share, 10);
         Work work("growth: seconds against samples, pixels, threads, triangles and lights",
-                  panels_measured);
-        Growth growth{o, methods_named(o.methods), share, work};
-        std::vector<LinePanel> panels = over_samples_pixels_threads(growth);
-        panels.push_back(over_triangles(growth));
-        panels.push_back(over_lights(growth));
-        write_table(o.out, "chart-growth", points_table(panels));
-        draw_panels(
-            o.out + "/chart-growth",
-            "Time grows with samples and pixels in proportion, hardly with triangles and lights",
-            panels, 3);
-        std::printf("exponents of the time\n%s", markdown(slopes_table(panels)).c_str());
+                  static_cast<double>(spp.size() + pixels.size() + threads.size() +
+                                      triangles.size() + lights.size()));
+        std::vector<Line> lines;
+        Scene cornell = load_scene_for("scenes/cornell.pbrt", o);
+        auto add = [&](const char* panel, const char* theory, const std::vector<double>& xs,
+                       const auto& at) { add_lines(methods, panel, theory, xs, at, work, lines); };
+        add("samples per pixel", "1", spp, [&](double x) {
+            return
+                [&, x](const Method& m) { return seconds_of(m, cornell, o, static_cast<int>(x)); };
+        });
+        auto sized = [&](double x) {
+            Scene scene = cornell;
+            scene.width = scene.height = static_cast<int>(std::lround(std::sqrt(x)));
+            return scene;
+        };
+        add("pixels", "1", pixels, [&](double x) {
+            return [&, scene = sized(x)](const Method& m) { return seconds_of(m, scene, o, 4); };
+        });
+        add("threads (wall clock)", "-1", threads, [&](double x) {
+            return [&, x, scene = sized(256 * 256)](const Method& m) {
+                MeasureOptions with = o;
+                with.threads = static_cast<int>(x);
+                return seconds_of(m, scene, with, 8, true);
+            };
+        });
+        add("triangles", "log", triangles, [&](double n) {
+            return [&, scene = scene_of(world + ceiling_of_lights(1), n, o)](const Method& m) {
+                return seconds_of(m, scene, o, 16);
+            };
+        });
+        add("lights", "0", lights, [&](double n) {
+            int side = static_cast<int>(std::lround(std::sqrt(n)));
+            return [&, scene = scene_of(world + ceiling_of_lights(side), 1000, o)](
+                       const Method& m) { return seconds_of(m, scene, o, 16); };
+        });
+        write_lines(o.out, "chart-growth",
+                    "Time grows with samples and pixels in proportion, hardly with triangles and "
+                    "lights",
+                    "how many", "seconds", lines);
+        std::printf("exponents of the time\n%s", markdown(slopes_table(lines)).c_str());
         return 0;
     });
 }

@@ -1,32 +1,22 @@
-// Log-log charts of measured lines, with their slopes.
+// Tables of measured lines, with their slopes; plot.gp draws them.
 #pragma once
 #include <string>
 #include <vector>
 
 #include "common/results/table.h"
 
-/// One line: what was measured, and the slope that theory says.
+/// One line of a chart: what was measured, and the slope that theory says.
 struct Line {
-    std::string label, color;
+    std::string panel, label, color;
     std::string theory;  // such as "-0.50"; empty: none
-    std::vector<double> x, y;
+    std::vector<double> x = {}, y = {};
     double slope() const { return fitted_slope(x, y); }
 };
 
-struct LinePanel {
-    std::string title, x_label, y_label;
-    std::vector<Line> lines;
-    std::string x_axis =
-        "set xtics autofreq\nset xrange [*:*]\nset format x '1e%T'";  // for gnuplot
-};
+/// Writes FOLDER/NAME.tsv, and draws it as NAME.svg and NAME.png.
+void write_lines(const std::string& folder, const std::string& name, const std::string& title,
+                 const std::string& x_label, const std::string& y_label,
+                 const std::vector<Line>& lines);
 
-/// Draws panels side by side, `columns` in a row, to PATH.svg and PATH.png. Each says what its
-/// slopes are, and names its lines at their ends.
-void draw_panels(const std::string& path, const std::string& title,
-                 const std::vector<LinePanel>& panels, int columns);
-
-/// Rows: panel, line, x, y.
-Table points_table(const std::vector<LinePanel>& panels);
-
-/// Rows: lines; columns: the slope in each panel, and what theory says of it.
-Table slopes_table(const std::vector<LinePanel>& panels);
+/// Rows: lines, with their slopes, and what theory says of them.
+Table slopes_table(const std::vector<Line>& lines);

@@ -3,6 +3,7 @@
 
 #include "chapters/26_radiosity/run.h"
 #include "common/picture/comparison.h"
+#include "common/scene/diffuse_meshes.h"
 #include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
@@ -24,8 +25,9 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
     int threads = o.threads;
     auto patches = std::make_shared<ch26::Patches>(ch26::make_patches(scene, wanted, threads));
     const std::vector<ch26::Patch>& patch = patches->patch;
-    ch26::Rows rows = ch26::form_factors(scene, *patches, ch26::FormFactors::contour, 0, threads);
-    ch26::Matrix G = rows.take_all();
+    ch26::Matrix G(patch.size());
+    ch26::ExchangeOf exchange = ch26::form_factors(scene, *patches, 0);
+    for (size_t i = 0; i < G.size(); i++) ch26::row_of(G, i, threads, exchange);
     ch26::repair(G, patch, patches->closed);
     ch26::Solution s;
     ch26::solve(G, patch, ch26::Sweep::gauss_seidel, 1e-6, s);
@@ -44,9 +46,8 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
 void report(const std::vector<Solved>& solved, const std::vector<std::array<double, 3>>& paths,
             const MeasureOptions& o, const std::string& name) {
     Table table{{name, "seconds", "relMSE, constant", "relMSE, smooth"}, {}};
-    Line constant{"26, constant", "#8c564b", "", {}, {}},
-        smooth{"26, smooth", "#17becf", "", {}, {}};
-    Line traced{"15", "#d62728", "-1", {}, {}};
+    Line constant{name, "26, constant", "#8c564b", ""}, smooth{name, "26, smooth", "#17becf", ""},
+        traced{name, "15", "#d62728", "-1"};
     for (const Solved& s : solved) {
         table.rows.push_back({"26, " + std::to_string(s.patches) + " patches",
                               short_number(s.seconds), short_number(s.constant),
@@ -60,9 +61,8 @@ void report(const std::vector<Solved>& solved, const std::vector<std::array<doub
         traced.x.push_back(seconds), traced.y.push_back(error);
     }
     std::printf("%s", markdown(table).c_str());
-    write_table(o.out, "chart-radiosity", table);
-    draw_panels(o.out + "/chart-radiosity", "Radiosity beside path tracing: " + name,
-                {{name, "seconds", "relMSE", {constant, smooth, traced}}}, 1);
+    write_lines(o.out, "chart-radiosity", "Radiosity beside path tracing: " + name, "seconds",
+                "relMSE", {constant, smooth, traced});
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
         std::string name = scene_name(path);
         Scene scene = load_scene_for(path, o);
         refuse(scene);
-        ch26::tessellate(scene, o.threads);
+        tessellate(scene, o.threads);
         Method fifteen = methods_named({"15"})[0];
         Work work("radiosity: patches of chapter 26 beside paths of 15, " + name, 10);
         work.next("reference");

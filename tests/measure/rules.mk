@@ -40,8 +40,8 @@ radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
 #: maintaining: make references   render what the charts compare with (40 minutes)
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
-#: measuring: make bench        rays per second of each step of chapter 06, beside Embree (2 minutes)
-bench: $(BUILD)/bench $(BUILD)/gnuplot
+#: measuring: make bench        rays per second of the hierarchy of common/geometry, beside Embree (2 minutes)
+bench: $(BUILD)/bench
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency passes radiosity stability gnuplot))
 # What a test program consists of beside the test itself.

@@ -39,9 +39,7 @@ def all_runs():
     for chapter in ("23_photon_mapping", "24_progressive_photons"):
         for words in ("--gather direct", "--gather final --radius 20"):
             add(f"$B/{chapter} $S/cornell-spheres.pbrt --size 16x12 --spp 2 --photons 2000 {words} --out a.pfm")
-    for words in ("", "--form-factors point --solver jacobi --show constant",
-                  "--form-factors chance --solver gauss-seidel --show gather --spp 2",
-                  "--shots 40 --every 20 --mesh a.ply"):
+    for words in ("", "--solver jacobi --show constant", "--solver gauss-seidel", "--shots 40"):
         add(f"$B/26_radiosity $S/cornell.pbrt --patches 200 --size 24x24 --threads 1 --out a.pfm"
             f" --stats a.json {words}")
     add("$B/26_radiosity $S/near-light.pbrt --patches 150 --size 24x24 --threads 1 --out a.png")

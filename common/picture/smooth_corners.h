@@ -18,7 +18,6 @@ using GoesOn = std::function<bool(uint32_t i, uint32_t j)>;
 /// own colour is spread among them. None is negative.
 ///
 /// size, m: corners that are nearer to each other are one
-/// tested by  "failure: no light under a wall: patches are cut where it stands",
-///            "truth: corners follow radiosity that rises evenly, and stop at an edge"
+/// tested by  "truth: corners follow radiosity that rises evenly, and stop at an edge"
 CornerColours smooth_corners(const Triangles& triangles, const std::vector<Rgb>& colours,
                              float size, const GoesOn& goes_on, int threads);

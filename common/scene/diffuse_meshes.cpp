@@ -1,16 +1,16 @@
-// Spheres and disks made meshes, since patches are triangles.
-#pragma once
+#include "common/scene/diffuse_meshes.h"
+
+#include <array>
 #include <cstdio>
 #include <limits>
 
-#include "chapters/26_radiosity/contacts.h"
 #include "common/base/position.h"
 #include "common/scene/prepare.h"
 
-namespace ch26 {
+namespace {
 
 /// Adds the triangle a b c to the scene's geometry, but for one without area.
-inline void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
+void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
     if (!(length_squared(cross(b - a, c - a)) >= std::numeric_limits<float>::min())) return;
     uint32_t first = static_cast<uint32_t>(g.positions.size());
     for (Vec3 p : {a, b, c}) {
@@ -21,8 +21,7 @@ inline void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
 }
 
 /// Cuts a triangle of the unit sphere in four, `depth` times.
-inline void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth,
-                             std::vector<std::array<Vec3, 3>>& parts) {
+void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth, std::vector<std::array<Vec3, 3>>& parts) {
     if (depth == 0) return parts.push_back({a, b, c});
     Vec3 d = normalize(b + c), e = normalize(c + a), f = normalize(a + b);
     divide_on_sphere(a, f, e, depth - 1, parts);
@@ -32,7 +31,7 @@ inline void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth,
 }
 
 /// 512 triangles with the area of the sphere: an octahedron, divided.
-inline void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
+void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
     constexpr int depth = 3;
     std::vector<std::array<Vec3, 3>> parts;
     for (int octant = 0; octant < 8; octant++) {
@@ -51,7 +50,7 @@ inline void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
 }
 
 /// 32 triangles with the area of the disk.
-inline void add_disk(Geometry& g, const Disk& disk) {
+void add_disk(Geometry& g, const Disk& disk) {
     constexpr int sides = 32;
     constexpr double turn = 2 * std::numbers::pi / sides;
     float r = disk.r * static_cast<float>(std::sqrt(turn / std::sin(turn)));
@@ -66,20 +65,19 @@ inline void add_disk(Geometry& g, const Disk& disk) {
 
 /// Throws InputError when the area of the triangles from `first` on is off by more than 1 %, which
 /// the rounding of their corners to floats does to a small shape.
-inline void check_area(const Scene& scene, uint32_t first, double wanted, uint32_t shape) {
+void check_area(const Scene& scene, uint32_t first, double wanted, uint32_t shape) {
     double area = 0;
     for (uint32_t prim = first; prim < scene.geometry.triangles.size(); prim++) {
-        auto t = corners(scene, prim);
-        area += double{length(cross(t[1] - t[0], t[2] - t[0]))} / 2;
+        const Triangle& t = scene.geometry.triangles[prim];
+        Vec3 a = scene.geometry.positions[t.v[0]];
+        area += double{length(cross(scene.geometry.positions[t.v[1]] - a,
+                                    scene.geometry.positions[t.v[2]] - a))} /
+                2;
     }
     if (std::abs(area / wanted - 1) < 0.01) return;
-    const Material& m = scene.materials[scene.shapes[shape].material];
     int light = scene.shapes[shape].light;
-    Position at = scene.place(m.at);
-    if (light >= 0) {
-        const Light& l = scene.lights[static_cast<size_t>(light)];
-        at = scene.place(l.at);
-    }
+    Position at = light >= 0 ? scene.place(scene.lights[static_cast<size_t>(light)].at)
+                             : scene.place(scene.materials[scene.shapes[shape].material].at);
     char text[150];
     std::snprintf(text, sizeof text,
                   "a sphere or disk of %.3g m^2 is too small to be cut into triangles; chapters "
@@ -88,12 +86,9 @@ inline void check_area(const Scene& scene, uint32_t first, double wanted, uint32
     fail(at, text);
 }
 
-/// Puts meshes in place of all spheres and disks, and makes the scene ready again: 512 triangles
-/// with the area of the sphere, 32 with that of the disk. Returns how many triangles that makes.
-/// Throws InputError for a shape so small that the rounding of corners changes its area.
-/// tested by  "identity: spheres and disks made meshes keep area, power and the side that shines",
-///            "input: a sphere or disk too small to be cut into triangles is refused"
-inline size_t tessellate(Scene& scene, int threads) {
+}  // namespace
+
+size_t tessellate(Scene& scene, int threads) {
     Geometry& g = scene.geometry;
     uint32_t before = static_cast<uint32_t>(g.triangles.size());
     if (before == g.size()) return 0;
@@ -121,4 +116,42 @@ inline size_t tessellate(Scene& scene, int threads) {
     return g.triangles.size() - before;
 }
 
-}  // namespace ch26
+void refuse(const Scene& scene) {
+    for (const Light& light : scene.lights) {
+        if (light.type == LightType::area) continue;
+        const char* name = light.type == LightType::point     ? "a point light"
+                           : light.type == LightType::distant ? "a distant light"
+                                                              : "a sky";
+        fail(scene.place(light.at), std::string("radiosity knows lamps with a surface alone: ") +
+                                        name + " has no patches; chapters from 09 on render it");
+    }
+    auto refuse_material = [&](uint32_t shape) {
+        const Material& m = scene.materials[scene.shapes[shape].material];
+        if (m.texture != 0) {
+            fail(
+                scene.place(m.at),
+                "radiosity gives a patch one reflectance, and a texture has many; chapters from 05 "
+                "to 25 render it");
+        }
+        if (m.type == MaterialType::diffuse) return;
+        fail(scene.place(m.at), std::string("radiosity knows diffuse surfaces alone (LD*E): ") +
+                                    (m.type == MaterialType::dielectric ? "glass"
+                                     : m.alpha > 0                      ? "rough metal"
+                                                                        : "a mirror") +
+                                    " sends light on by direction");
+    };
+    const Geometry& g = scene.geometry;
+    Rgb least = {1, 1, 1};
+    auto check = [&](uint32_t shape) {
+        refuse_material(shape);
+        Rgb rho = scene.materials[scene.shapes[shape].material].reflectance;
+        least = {std::min(least.r, rho.r), std::min(least.g, rho.g), std::min(least.b, rho.b)};
+    };
+    for (const Triangle& t : g.triangles) check(t.shape);
+    for (const Sphere& s : g.spheres) check(s.shape);
+    for (const Disk& d : g.disks) check(d.shape);
+    if (max_component(least) < 1) return;
+    fail({scene.file},
+         "radiosity needs a surface that absorbs: in a closed room whose surfaces reflect all "
+         "light, it grows with each bounce");
+}

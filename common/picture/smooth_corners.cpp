@@ -1,4 +1,4 @@
-#include "common/radiosity/display.h"
+#include "common/picture/smooth_corners.h"
 
 #include <map>
 

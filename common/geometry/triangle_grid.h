@@ -1,0 +1,56 @@
+// A triangle cut into k x k small ones, row by row: rows of 2 (k - j) - 1, for j = 0 .. k - 1.
+#pragma once
+#include <array>
+
+#include "common/base/vec.h"
+
+using Corners = std::array<Vec3, 3>;
+
+/// The square of a triangle's longest edge, m^2.
+inline float longest_edge2(const Corners& t) {
+    return std::max(
+        {length_squared(t[1] - t[0]), length_squared(t[2] - t[1]), length_squared(t[0] - t[2])});
+}
+
+/// Calls use(corners) for each small triangle, in their order; all turn as the whole one does.
+template <class Use>
+void for_each_in_grid(const Corners& t, uint32_t k, const Use& use) {
+    float cells = static_cast<float>(k);
+    auto at = [&](uint32_t i, uint32_t j) {
+        return t[0] + static_cast<float>(i) / cells * (t[1] - t[0]) +
+               static_cast<float>(j) / cells * (t[2] - t[0]);
+    };
+    for (uint32_t j = 0; j < k; j++) {
+        for (uint32_t i = 0; i + j < k; i++) {
+            use(Corners{at(i, j), at(i + 1, j), at(i, j + 1)});
+            if (i + j + 1 < k) use(Corners{at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)});
+        }
+    }
+}
+
+/// Where a point of the triangle lies: the number of its small triangle, and its weights there.
+struct PlaceInGrid {
+    uint32_t number;
+    std::array<float, 3> b;
+};
+inline PlaceInGrid place_in_grid(const Corners& t, uint32_t cells, Vec3 x) {
+    // The weights of the triangle's second and third corner.
+    Vec3 e1 = t[1] - t[0], e2 = t[2] - t[0], n = cross(e1, e2), at = x - t[0];
+    float b1 = dot(cross(at, e2), n) / dot(n, n), b2 = dot(cross(e1, at), n) / dot(n, n);
+
+    float k = static_cast<float>(cells);
+    float j = std::clamp(std::floor(k * b2), 0.0f, k - 1);
+    float i = std::clamp(std::floor(k * b1), 0.0f, k - 1 - j);
+    float u = std::clamp(k * b1 - i, 0.0f, 1.0f), v = std::clamp(k * b2 - j, 0.0f, 1.0f);
+    bool upper = u + v > 1 && i + j + 1 < k;
+    if (!upper && u + v > 1) u /= u + v, v = 1 - u;
+    uint32_t row = static_cast<uint32_t>(j), column = static_cast<uint32_t>(i);
+    return {row * (2 * cells - row) + 2 * column + upper,
+            upper ? std::array{u + v - 1, 1 - u, 1 - v} : std::array{1 - u - v, u, v}};
+}
+
+/// Parts of a triangle, each half as long as the whole.
+inline std::array<Corners, 4> quarters(const Corners& t) {
+    Vec3 a = (t[1] + t[2]) / 2, b = (t[2] + t[0]) / 2, c = (t[0] + t[1]) / 2;
+    return {{{t[0], c, b}, {c, t[1], a}, {b, a, t[2]}, {a, b, c}}};
+}
