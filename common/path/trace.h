@@ -23,12 +23,14 @@ struct PassTrace {
     /// pass does not start.
     std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     Trace trace;
+    float first_radius = 0;  // m, in which photons of the first pass count; 0: there are none
 };
 
 /// The estimator of a chapter that prepares something for each pass, and also adds splats.
 struct SplatPassTrace {
     std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     SplatTrace trace;
+    float first_radius = 0;
 };
 
 template <class AnyTrace>
