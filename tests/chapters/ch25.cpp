@@ -161,7 +161,7 @@ TEST_SUITE("ch25 weights") {
             ch25::trace_light_paths(
                 scene, settings, pass, 1, [] { return false; }, merging);
             double r{merging.map.radius()};
-            CHECK(r == doctest::Approx(double{radius_of(scene, settings, pass)}).scale(0));
+            CHECK(r == doctest::Approx(double{radius_of(settings.radius, pass)}).scale(0));
             CHECK(double{merging.area} ==
                   doctest::Approx(1000 * pi_exact * r * r).epsilon(1e-5).scale(0));
             CHECK(merging.map.size() > 100);

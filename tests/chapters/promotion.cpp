@@ -82,7 +82,10 @@ const std::vector<Promoted> promoted = {
      "common/path/photon_map.h",
      {"Photon", "PhotonMap", "LightVertex", "is_diffuse", "PhotonMaps", "build_maps"},
      "photon_map.h"},
-    {"23", "common/path/photons.h", {"PhotonSettings", "trace_light_path", "trace_light_paths"}},
+    {"23", "common/path/first_radius.h", {"pixel_width", "first_radius"}, "first_radius.h"},
+    {"23",
+     "common/path/photons.h",
+     {"PhotonSettings", "trace_light_path", "trace_light_paths", "choose_radius"}},
     {"24", "common/path/shrinking_radius.h", {"radius_of"}},
 };
 
