@@ -250,7 +250,7 @@ inline SplatPassTrace merging_passes(const Scene& scene, PhotonSettings settings
     };
     auto trace_pass = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
                           Recorder& recorder) __attribute__((flatten)) {
-        return trace(s, *merging, copy_of(ray), splats, sampler, recorder);
+        return trace(s, *merging, ray, splats, sampler, recorder);
     };
     return {begin, trace_pass, settings.radius};
 }

@@ -64,7 +64,7 @@ SplatTrace splat_trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Splats& splats,
                                       Sampler& sampler, Recorder& recorder)
         __attribute__((flatten)) {
-        return trace(scene, own..., copy_of(ray), splats, sampler, recorder);
+        return trace(scene, own..., ray, splats, sampler, recorder);
     };
 }
 
