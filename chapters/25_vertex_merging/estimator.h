@@ -183,23 +183,6 @@ inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& sp
     return direct ? sum + direct_light(scene, merging.lights, eye.path, sampler, recorder) : sum;
 }
 
-/// Adds the vertices of one of N light paths to those of the pass, and photons where it may merge.
-inline void add_light_path(const Scene& scene, const Subpath& walk, float area, int N,
-                           LightPaths& paths) {
-    for (size_t j = 1; j < walk.path.size() && walk.path[j].x.material; j++) {
-        const Vertex& v = walk.path[j];
-        const Kept &kept = walk.kept[j], &before = walk.kept[j - 1];
-        paths.vertices.push_back({v.x.material, kept.back});
-        float cos_g = dot(kept.back, v.x.ng);
-        if (!can_merge(v, walk.path[j - 1]) || !(cos_g > 0)) continue;
-        double per_w = static_cast<double>(kept.to_area / before.pdf) * kept.sum;
-        paths.vertices.back().others = per_w / static_cast<double>(area * kept.pdf);
-        float cos_n = std::max(0.0f, dot(kept.back, smooth_normal(scene, v.x)));
-        float scale = cos_n / (cos_g * static_cast<float>(N));
-        paths.add_photon(v.x.p, v.x.ng, scale * v.beta, j);
-    }
-}
-
 /// Before each pass: traces the light paths that may merge, and sorts their photons into a map.
 inline void trace_light_paths(const Scene& scene, const PhotonSettings& settings, uint32_t pass,
                               int threads, const Stopped& stopped, Merging& merging) {
