@@ -131,7 +131,7 @@ TEST_SUITE("programs") {
         }
     }
 
-    TEST_CASE("photons: --radius has bounds, and --stats has radius and rays of light paths") {
+    TEST_CASE("input: --radius has bounds, and --stats counts the rays of light paths") {
         TemporaryFolder folder;
         for (const char* chapter :
              {"23_photon_mapping", "24_progressive_photons", "25_vertex_merging"}) {
