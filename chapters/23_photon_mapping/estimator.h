@@ -6,7 +6,7 @@
 #pragma once
 #include <memory>
 
-#include "chapters/23_photon_mapping/photon_map.h"
+#include "chapters/23_photon_mapping/first_radius.h"
 #include "common/base/parallel.h"
 #include "common/light/pdf_one_light.h"
 #include "common/path/camera_sample.h"
@@ -26,7 +26,7 @@ struct PhotonSettings {
     uint32_t seed = 0;
     int light_paths = 100000;  // in each pass
     bool final_gathering = true;
-    float radius = 0;  // m, of the disk in which photons count; 0: by the scene's size
+    float radius = 0;  // m, of the disk in which photons count; 0: by the photons
 };
 
 /// Traces one of `paths` light paths, and stores its vertices with the flux that arrives there.
@@ -86,6 +86,18 @@ inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endp
     std::vector<LightVertex> vertices;
     for (const auto& some : of_part) vertices.insert(vertices.end(), some.begin(), some.end());
     return vertices;
+}
+
+/// The first radius: what the user asks for, or one that suits the map with denser photons.
+inline float choose_radius(const Scene& scene, const Endpoints& endpoints,
+                           const PhotonSettings& settings) {
+    if (settings.radius > 0) return settings.radius;
+    PhotonSettings few = settings;
+    few.light_paths = std::min(settings.light_paths, 1 << 14);
+    auto vertices = trace_light_paths(scene, endpoints, few, 0, 1, [] { return false; });
+    PhotonMaps maps = build_maps(std::move(vertices), 4 * pixel_width(scene), false);
+    double share = static_cast<double>(few.light_paths) / settings.light_paths;
+    return std::min(first_radius(maps.global, share), first_radius(maps.caustic, share));
 }
 
 /// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.
@@ -211,25 +223,20 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
     }
 }
 
-/// The radius for the whole picture: what the user asks for, or a share of the scene's radius.
-inline float radius_of(const Scene& scene, const PhotonSettings& settings) {
-    return settings.radius > 0 ? settings.radius : scene.radius / 120;
-}
-
 /// The chapter's passes: new photons for each sample of all pixels.
-inline PassTrace photon_passes(const Scene& scene, const PhotonSettings& settings) {
+inline PassTrace photon_passes(const Scene& scene, PhotonSettings settings) {
     auto endpoints = std::make_shared<Endpoints>(endpoints_of(scene));
     auto maps = std::make_shared<PhotonMaps>();
+    settings.radius = choose_radius(scene, *endpoints, settings);
     auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         auto vertices = trace_light_paths(scene, *endpoints, settings, pass, threads, stopped);
-        float radius = radius_of(scene, settings);
-        *maps = build_maps(std::move(vertices), radius, settings.final_gathering);
+        *maps = build_maps(std::move(vertices), settings.radius, settings.final_gathering);
     };
     auto trace_pass = [=](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder)
         __attribute__((flatten)) {
         return trace(s, *endpoints, *maps, ray, sampler, recorder);
     };
-    return {begin, trace_pass};
+    return {begin, trace_pass, settings.radius};
 }
 
 }  // namespace ch23

@@ -40,6 +40,7 @@ public:
 
     size_t size() const { return photons_.size(); }
     float radius() const { return radius_; }
+    std::span<const Photon> photons() const { return photons_; }
 
     /// Calls work(photon, v) for each photon nearer to p than the radius; v: from p to the photon.
     template <class Work>

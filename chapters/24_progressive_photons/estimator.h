@@ -139,36 +139,35 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, const PhotonMap
     }
 }
 
-/// The radius of a pass, the same for all points. The first is what the user asks for, or a share
-/// of the scene's radius.
+/// The radius of a pass, the same for all points.
 ///
 ///   (r_i+1 / r_i)^2 = (i + alpha) / (i + 1),    alpha = 2/3:    r_i ~ i^(-1/6)
 ///
 /// After N passes bias^2 ~ r^4 ~ N^(-2/3), and variance ~ 1 / (N r^2) ~ N^(-2/3).
 /// source  Hachisuka et al. 2008; Knaus, Zwicker 2011
 /// tested by  "truth: radii shrink", to 1e-5
-inline float radius_of(const Scene& scene, const PhotonSettings& settings, uint32_t pass) {
+inline float radius_of(float first, uint32_t pass) {
     constexpr double alpha = 2.0 / 3;
     double r2 = 1;  // divided by the square of the first radius
     for (double i = 1; i <= pass; i++) r2 *= (i + alpha) / (i + 1);
-    float first = settings.radius > 0 ? settings.radius : scene.radius / 80;
     return first * static_cast<float>(std::sqrt(r2));
 }
 
 /// The chapter's passes: new photons and a smaller radius for each sample of all pixels.
-inline PassTrace photon_passes(const Scene& scene, const PhotonSettings& settings) {
+inline PassTrace photon_passes(const Scene& scene, PhotonSettings settings) {
     auto endpoints = std::make_shared<Endpoints>(endpoints_of(scene));
     auto maps = std::make_shared<PhotonMaps>();
+    settings.radius = choose_radius(scene, *endpoints, settings);
     auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         auto vertices = trace_light_paths(scene, *endpoints, settings, pass, threads, stopped);
-        float radius = radius_of(scene, settings, pass);
+        float radius = radius_of(settings.radius, pass);
         *maps = build_maps(std::move(vertices), radius, settings.final_gathering);
     };
     auto trace_pass = [=](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder)
         __attribute__((flatten)) {
         return trace(s, *endpoints, *maps, ray, sampler, recorder);
     };
-    return {begin, trace_pass};
+    return {begin, trace_pass, settings.radius};
 }
 
 }  // namespace ch24

@@ -5,6 +5,7 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         PhotonSettings s;
+        double radius = 0;
         std::vector<Option> extra = {
             {"photons", "N", "light paths in each pass (default 100000)",
              [&](const std::string& text) {
@@ -18,16 +19,17 @@ int main(int argc, char** argv) {
              },
              "final"},
             {"radius", "METRES",
-             "radius of the disk in which photons count, in the first pass (default 0: by the "
-             "scene's size)",
+             "radius of the disk in which photons count, in the first pass (default 0: by "
+             "photons)",
              [&](const std::string& text) {
-                 s.radius = text == "0" ? 0 : static_cast<float>(parse_positive("radius", text));
+                 radius = text == "0" ? 0 : parse_positive("radius", text);
              },
              "0"}};
         RenderOptions options = parse_render_options(argc, argv, "24_progressive_photons",
                                                      "scenes/pool.pbrt", std::move(extra));
         options.search = LightSearch::photons;
         Scene scene = load(options, features_of(24));
+        s.radius = radius_within(scene, radius);
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch24::photon_passes(scene, s));
     });

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "chapters/25_vertex_merging/light_map.h"
+#include "common/path/photons.h"
 #include "common/path/shrinking_radius.h"
 #include "common/path/stored_subpaths.h"
 #include "common/path/trace.h"
@@ -182,26 +183,10 @@ inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& sp
     return direct ? sum + direct_light(scene, merging.lights, eye.path, sampler, recorder) : sum;
 }
 
-/// Adds the vertices of one of N light paths to those of the pass, and photons where it may merge.
-inline void add_light_path(const Scene& scene, const Subpath& walk, float area, int N,
-                           LightPaths& paths) {
-    for (size_t j = 1; j < walk.path.size() && walk.path[j].x.material; j++) {
-        const Vertex& v = walk.path[j];
-        const Kept &kept = walk.kept[j], &before = walk.kept[j - 1];
-        paths.vertices.push_back({v.x.material, kept.back});
-        if (!can_merge(v, walk.path[j - 1])) continue;
-        double per_w = static_cast<double>(kept.to_area / before.pdf) * kept.sum;
-        paths.vertices.back().others = per_w / static_cast<double>(area * kept.pdf);
-        float cos_n = std::max(0.0f, dot(kept.back, smooth_normal(scene, v.x)));
-        float scale = cos_n / (dot(kept.back, v.x.ng) * static_cast<float>(N));
-        paths.add_photon(v.x.p, v.x.ng, scale * v.beta, j);
-    }
-}
-
 /// Before each pass: traces the light paths that may merge, and sorts their photons into a map.
 inline void trace_light_paths(const Scene& scene, const PhotonSettings& settings, uint32_t pass,
                               int threads, const Stopped& stopped, Merging& merging) {
-    float r = radius_of(scene, settings, pass);
+    float r = radius_of(settings.radius, pass);
     int N = settings.light_paths, at_once = 256, parts = (N + at_once - 1) / at_once;
     merging.area = static_cast<float>(N) * pi * r * r;
     std::vector<LightPaths> of_part(static_cast<size_t>(parts));
@@ -221,29 +206,36 @@ inline void trace_light_paths(const Scene& scene, const PhotonSettings& settings
 }
 
 /// The settings, where the user leaves them open: two light paths for each pixel, at most a
-/// million, and a radius by the scene's size. No light paths where nothing is a mirror or glass.
-inline PhotonSettings settings_for(const Scene& scene, PhotonSettings settings) {
+/// million, and a first radius as in chapter 23. No light paths where nothing is a mirror or glass.
+inline PhotonSettings settings_for(const Scene& scene, PhotonSettings settings, Merging& merging) {
+    auto any = std::find_if(scene.materials.begin(), scene.materials.end(), is_specular);
+    if (any == scene.materials.end()) return {.light_paths = 0};
     double most = 2.0 * scene.width * scene.height;
     if (settings.light_paths == 0) settings.light_paths = static_cast<int>(std::min(most, 1e6));
-    if (settings.radius == 0) settings.radius = scene.radius / 60;
-    auto any = std::find_if(scene.materials.begin(), scene.materials.end(), is_specular);
-    if (any == scene.materials.end()) settings.light_paths = 0;
+    if (settings.radius > 0) return settings;
+    PhotonSettings few = settings;
+    few.light_paths = std::min(settings.light_paths, 1 << 14);
+    few.radius = 4 * pixel_width(scene);
+    trace_light_paths(
+        scene, few, 0, 1, [] { return false; }, merging);
+    double share = static_cast<double>(few.light_paths) / settings.light_paths;
+    settings.radius = first_radius(merging.map, share);
     return settings;
 }
 
 /// The chapter's passes: new light paths and a smaller radius for each sample of all pixels.
 inline SplatPassTrace merging_passes(const Scene& scene, PhotonSettings settings) {
-    settings = settings_for(scene, settings);
     auto merging =
         std::make_shared<Merging>(Merging{endpoints_of(scene), many_lights::prepare(scene)});
+    settings = settings_for(scene, settings, *merging);
     auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         trace_light_paths(scene, settings, pass, threads, stopped, *merging);
     };
     auto trace_pass = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
                           Recorder& recorder) __attribute__((flatten)) {
-        return trace(s, *merging, copy_of(ray), splats, sampler, recorder);
+        return trace(s, *merging, ray, splats, sampler, recorder);
     };
-    return {begin, trace_pass};
+    return {begin, trace_pass, settings.radius};
 }
 
 }  // namespace ch25

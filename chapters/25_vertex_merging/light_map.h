@@ -1,7 +1,7 @@
 // Chapter 25: the light paths of a pass, and the photons where they may merge.
 #pragma once
 #include "common/path/photon_map.h"
-#include "common/path/subpaths.h"
+#include "common/path/stored_subpaths.h"
 
 namespace ch25 {
 
@@ -42,6 +42,23 @@ struct LightPaths {
 inline bool can_merge(const Vertex& v, const Vertex& before) {
     const Material *m = v.x.material, *of_before = before.x.material;
     return m && of_before && is_diffuse(*m) && is_specular(*of_before) && before.x.light < 0;
+}
+
+/// Adds the vertices of one of N light paths to those of the pass, and photons where it may merge.
+inline void add_light_path(const Scene& scene, const Subpath& walk, float area, int N,
+                           LightPaths& paths) {
+    for (size_t j = 1; j < walk.path.size() && walk.path[j].x.material; j++) {
+        const Vertex& v = walk.path[j];
+        const Kept &kept = walk.kept[j], &before = walk.kept[j - 1];
+        paths.vertices.push_back({v.x.material, kept.back});
+        float cos_g = dot(kept.back, v.x.ng);
+        if (!can_merge(v, walk.path[j - 1]) || !(cos_g > 0)) continue;
+        double per_w = static_cast<double>(kept.to_area / before.pdf) * kept.sum;
+        paths.vertices.back().others = per_w / static_cast<double>(area * kept.pdf);
+        float cos_n = std::max(0.0f, dot(kept.back, smooth_normal(scene, v.x)));
+        float scale = cos_n / (cos_g * static_cast<float>(N));
+        paths.add_photon(v.x.p, v.x.ng, scale * v.beta, j);
+    }
 }
 
 }  // namespace ch25

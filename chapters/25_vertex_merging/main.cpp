@@ -5,6 +5,7 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         PhotonSettings s;
+        double radius = 0;
         s.light_paths = 0;
         std::vector<Option> extra = {
             {"photons", "N",
@@ -14,16 +15,17 @@ int main(int argc, char** argv) {
              },
              "0"},
             {"radius", "METRES",
-             "radius of the disk in which paths merge, in the first pass (default 0: by the "
-             "scene's size)",
+             "radius of the disk in which paths merge, in the first pass (default 0: by "
+             "photons)",
              [&](const std::string& text) {
-                 s.radius = text == "0" ? 0 : static_cast<float>(parse_positive("radius", text));
+                 radius = text == "0" ? 0 : parse_positive("radius", text);
              },
              "0"}};
         RenderOptions options = parse_render_options(argc, argv, "25_vertex_merging",
                                                      "scenes/sds.pbrt", std::move(extra));
         options.search = LightSearch::merging;
         Scene scene = load(options, features_of(25));
+        s.radius = radius_within(scene, radius);
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch25::merging_passes(scene, s));
     });

@@ -142,6 +142,18 @@ void stand_in_for_features(Scene& scene, Features features) {
     }
 }
 
+float radius_within(const Scene& scene, double radius) {
+    double low = 1e-6 * double{scene.radius}, high = 2 * double{scene.radius};
+    if (radius > 0 && high > 0 && (radius < low || radius > high)) {
+        char wanted[64], given[32];
+        std::snprintf(wanted, sizeof wanted, "a length from %.3g to %.3g m in this scene", low,
+                      high);
+        std::snprintf(given, sizeof given, "%g", radius);
+        fail_value("radius", given, wanted);
+    }
+    return static_cast<float>(radius);
+}
+
 void refuse_delta_lights(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point && light.type != LightType::distant) continue;

@@ -2,9 +2,7 @@
 // The first step of photon mapping: light paths, and the flux that arrives at each vertex.
 #pragma once
 #include "common/base/parallel.h"
-#include "common/path/camera_sample.h"
-#include "common/path/light_paths.h"
-#include "common/path/photon_map.h"
+#include "common/path/first_radius.h"
 #include "common/path/roulette.h"
 
 /// What the user asks for.
@@ -13,7 +11,7 @@ struct PhotonSettings {
     uint32_t seed = 0;
     int light_paths = 100000;  // in each pass
     bool final_gathering = true;
-    float radius = 0;  // m, of the disk in which photons count; 0: by the scene's size
+    float radius = 0;  // m, of the disk in which photons count; 0: by the photons
 };
 
 /// Traces one of `paths` light paths, and stores its vertices with the flux that arrives there.
@@ -73,4 +71,16 @@ inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endp
     std::vector<LightVertex> vertices;
     for (const auto& some : of_part) vertices.insert(vertices.end(), some.begin(), some.end());
     return vertices;
+}
+
+/// The first radius: what the user asks for, or one that suits the map with denser photons.
+inline float choose_radius(const Scene& scene, const Endpoints& endpoints,
+                           const PhotonSettings& settings) {
+    if (settings.radius > 0) return settings.radius;
+    PhotonSettings few = settings;
+    few.light_paths = std::min(settings.light_paths, 1 << 14);
+    auto vertices = trace_light_paths(scene, endpoints, few, 0, 1, [] { return false; });
+    PhotonMaps maps = build_maps(std::move(vertices), 4 * pixel_width(scene), false);
+    double share = static_cast<double>(few.light_paths) / settings.light_paths;
+    return std::min(first_radius(maps.global, share), first_radius(maps.caustic, share));
 }

@@ -23,12 +23,14 @@ struct PassTrace {
     /// pass does not start.
     std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     Trace trace;
+    float first_radius = 0;  // m, in which photons of the first pass count; 0: there are none
 };
 
 /// The estimator of a chapter that prepares something for each pass, and also adds splats.
 struct SplatPassTrace {
     std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare;
     SplatTrace trace;
+    float first_radius = 0;
 };
 
 template <class AnyTrace>
@@ -62,7 +64,7 @@ SplatTrace splat_trace_with(Own... own) {
     return [... own = std::move(own)](const Scene& scene, const Ray& ray, Splats& splats,
                                       Sampler& sampler, Recorder& recorder)
         __attribute__((flatten)) {
-        return trace(scene, own..., copy_of(ray), splats, sampler, recorder);
+        return trace(scene, own..., ray, splats, sampler, recorder);
     };
 }
 

@@ -46,6 +46,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
         bool in_pilot = wanted.first == 0 && done < allocation.pilot;
         if (in_pilot) next = std::min(next, allocation.pilot);
+        uint64_t rays_before = rays_traced, rays_of_preparing = 0;
         if constexpr (renderer.has_passes) {
             next = done + 1;
             try {
@@ -54,6 +55,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
             } catch (const TracingEnds&) {
             }
             if (limit.reached()) break;
+            rays_of_preparing = rays_traced - rays_before;
         }
         result.begun = std::max(result.begun, next);
         renderer.set_goal(wanted.first + next);
@@ -70,6 +72,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
             continue;
         }
         done = next;
+        result.stats.rays += rays_of_preparing;
         bool decides = in_pilot && done == allocation.pilot && !limit.reached();
         if (decides && allocation.choose_densities) {
             allocation.choose_densities(renderer.take_pilot(), options.threads);
@@ -92,7 +95,10 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
         }
         result.film.start_audit();
     }
-    if (has_passes<AnyTrace>) result.film.start_batches();
+    if constexpr (has_passes<AnyTrace>) {
+        result.film.start_batches();
+        result.stats.first_radius = double{trace.first_radius};
+    }
     continue_film(scene, options, result);
     SampleRange wanted = wanted_samples(scene, options);
 

@@ -15,6 +15,7 @@
 /// Statistics of rendering a picture.
 struct RenderStats : SampleCounts {
     double seconds = 0;                            // without loading
+    double first_radius = 0;                       // m, of photons; 0: there are none
     uint64_t samples_before = 0, rays_before = 0;  // of the film that it continued
     bool interrupted = false;                      // by a signal, before all samples were taken
     int largest_x = 0, largest_y = 0, largest_sample = 0;  // where the largest sample is

@@ -66,6 +66,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("effective_samples", r.film.effective_samples());
     json.add("empty_pixels_share", static_cast<double>(r.film.empty_pixels()) / pixels);
     json.add("warnings", warnings_of(scene, options, r));
+    if (s.first_radius > 0) json.add("first_radius", s.first_radius);
     json.add("interrupted", s.interrupted);
     return json.text();
 }
@@ -83,6 +84,7 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     for (const std::string& line : warnings_of(scene, options, r)) {
         std::printf("warning: %s\n", line.c_str());
     }
+    if (s.first_radius > 0) std::printf("first radius %.3g m\n", s.first_radius);
     std::printf("%.2f s, %.2f M samples/s, %.2f M rays/s, %d threads\n", s.seconds,
                 per_second(r.film.samples(), s.samples_before, s) / 1e6,
                 per_second(s.rays, s.rays_before, s) / 1e6, options.threads);

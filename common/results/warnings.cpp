@@ -209,16 +209,18 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
         }
         return;
     }
-    const std::string blurred =
-        "photons blur light within their radius: the reported error does not include this bias";
-    if (options.search == LightSearch::photons) {
-        lines.push_back(blurred);
-        return;
-    }
     auto any_material = [&](auto is) {
         return std::any_of(scene.shapes.begin(), scene.shapes.end(),
                            [&](const Shape& s) { return is(scene.materials[s.material]); });
     };
+    auto is_diffuse = [](const Material& m) { return m.type == MaterialType::diffuse; };
+    auto gathers_photons = [&](const Material& m) { return is_diffuse(m) && is_receiver(m); };
+    const std::string blurred =
+        "photons blur light within their radius: the reported error does not include this bias";
+    if (options.search == LightSearch::photons) {
+        if (any_material(gathers_photons)) lines.push_back(blurred);
+        return;
+    }
     auto any_light = [&](auto is) {
         return std::any_of(scene.lights.begin(), scene.lights.end(),
                            [&](const Light& light) { return is(light.type); });
@@ -248,7 +250,6 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     auto is_delta = [](LightType type) {
         return type == LightType::point || type == LightType::distant;
     };
-    auto is_diffuse = [](const Material& m) { return m.type == MaterialType::diffuse; };
     auto is_rough_metal = [&](const Material& m) { return is_receiver(m) && !is_diffuse(m); };
     bool merges = options.search == LightSearch::merging;
     if ((options.search == LightSearch::both_ends || merges) &&
@@ -257,7 +258,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
             "hardly any path from a point or distant light hits a mirror or glass: the light that "
             "these cast on surfaces may be missing");
     }
-    if (merges && any_material(is_diffuse)) lines.push_back(blurred);
+    if (merges && any_material(gathers_photons)) lines.push_back(blurred);
     if (merges && !any_material(is_rough_metal)) return;
     if (options.search == LightSearch::both_ends || merges) {
         const std::string both =

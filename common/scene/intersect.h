@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/material/hit.h"
-#include "common/scene/ray_count.h"
+#include "common/base/ray_count.h"
 #include "common/scene/scene.h"
 
 /// A ray that was traced: in search of the nearest surface, or as a shadow ray, of anything.

@@ -139,6 +139,48 @@ TEST_SUITE("ch23 photon map") {
     }
 }
 
+TEST_SUITE("ch23 first radius") {
+    TEST_CASE("truth: the first radius of even photons, and at most four pixels") {
+        // n photons on 1 m^2: n pi r^2 = 36, and a little more, since disks at its edge are empty.
+        Sampler random(SamplerType::independent, 1, 1);
+        for (int n : {10000, 40000}) {
+            PhotonMap map(on_a_square(n, random, 1), 0.2f);
+            for (double share : {1.0, 0.25}) {
+                double r = std::sqrt(36 * share / (pi_exact * n));
+                CHECK(double{ch23::first_radius(map, share)} ==
+                      doctest::Approx(r).epsilon(0.06).scale(0));
+            }
+        }
+        CHECK(ch23::first_radius(PhotonMap(on_a_square(30, random, 1), 0.2f), 1) == 0.2f);
+        CHECK(ch23::first_radius(PhotonMap({}, 0.2f), 1) == 0.2f);
+        // A floor 1.9 m below a camera of 60 degrees and 32 pixels. The median ray is 1.1 times as
+        // long as the one in the middle.
+        double width = 1.1 * 1.9 * 2 * std::tan(pi_exact / 6) / 32;
+        CHECK(double{ch23::pixel_width(SpotByMirror().scene)} ==
+              doctest::Approx(width).epsilon(0.03).scale(0));
+    }
+
+    TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {
+        auto radius = [](const Scene& scene) {
+            return double{passes_of<ch23::photon_passes>(scene, PhotonSettings{}).first_radius};
+        };
+        const std::string glass =
+            "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
+            "\"float radius\" 0.4 AttributeEnd LightSource \"point\" \"point3 from\" [1 2 0] "
+            "Translate 0 -1 0 Scale ";
+        double small = radius(world_of(glass + "3 1 3 " + square(0, true)));
+        double large = radius(world_of(glass + "3000 1 3000 " + square(0, true)));
+        CHECK(small > 0.01);
+        CHECK(large == doctest::Approx(small).epsilon(0.1).scale(0));
+        const std::string path = "scenes/cornell-spheres.pbrt";
+        double whole = radius(in_units(path, 1, 32, 5));
+        for (float unit : {0.001f, 1000.0f}) {
+            CHECK(radius(in_units(path, unit, 32, 5)) / double{unit} ==
+                  doctest::Approx(whole).epsilon(0.01).scale(0));
+        }
+    }
+}
+
 TEST_SUITE("ch23 density of photons") {
     TEST_CASE("truth: the kernel is 1 on average over the disk, and its square 4/3") {
         double mean = 0, squares = 0;

@@ -26,11 +26,7 @@ Film film_by(const Scene& scene, PhotonSettings settings, int spp, uint32_t seed
 
 TEST_SUITE("ch24 radius") {
     TEST_CASE("truth: radii shrink as (i + alpha) / (i + 1)") {
-        Scene scene;
-        PhotonSettings settings{.radius = 3};
-        auto radius = [&](uint32_t pass) {
-            return double{ch24::radius_of(scene, settings, pass)} / 3;
-        };
+        auto radius = [](uint32_t pass) { return double{ch24::radius_of(3, pass)} / 3; };
         CHECK(radius(0) == 1);
         for (uint32_t pass = 1; pass < 1000; pass++) {
             double ratio = radius(pass) / radius(pass - 1);
@@ -39,17 +35,6 @@ TEST_SUITE("ch24 radius") {
         }
         double slope = std::log10(radius(100000) / radius(10000));
         CHECK(slope == doctest::Approx(-1.0 / 6).epsilon(1e-3).scale(0));
-    }
-
-    TEST_CASE("identity: without --radius it goes by the size of the scene") {
-        Scene small, large;
-        small.radius = 1, large.radius = 1000;
-        for (uint32_t pass : {0u, 7u}) {
-            float r = ch24::radius_of(small, {}, pass);
-            CHECK(r > 0);
-            CHECK(ch24::radius_of(large, {}, pass) ==
-                  doctest::Approx(1000 * r).epsilon(1e-6).scale(0));
-        }
     }
 }
 
@@ -72,10 +57,11 @@ TEST_SUITE("ch24 progressive photons") {
             CameraView view = camera_view(scene.camera, scene.width, scene.height);
             for (bool final_gathering : {false, true}) {
                 PhotonSettings of_24{.light_paths = 20000, .final_gathering = final_gathering};
+                float first = passes_of<ch24::photon_passes>(scene, of_24).first_radius;
                 for (uint32_t pass : {0u, 1u, 20u}) {
                     ch23::PhotonSettings of_23{.light_paths = 20000,
                                                .final_gathering = final_gathering,
-                                               .radius = ch24::radius_of(scene, of_24, pass)};
+                                               .radius = ch24::radius_of(first, pass)};
                     PassTrace a = passes_of<ch23::photon_passes>(scene, of_23);
                     PassTrace b = passes_of<ch24::photon_passes>(scene, of_24);
                     a.prepare(pass, 2, [] { return false; });

@@ -153,6 +153,22 @@ TEST_SUITE("ch25 weights") {
         }
     }
 
+    TEST_CASE("failure: light that comes along a surface, from glass that touches it") {
+        Material glass, wall;
+        glass.type = MaterialType::dielectric;
+        Subpath walk{true, Path(3)};
+        walk.path[1].x.material = &glass, walk.path[2].x.material = &wall;
+        walk.path[1].x.light = -1;
+        walk.path[2].x.p = {1, 0, 0}, walk.path[2].x.n = walk.path[2].x.ng = {0, 0, -1};
+        for (float towards : {0.0f, 0.1f}) {
+            walk.kept.assign(3, {.pdf = 1, .back = normalize(Vec3{-1, 0, -towards})});
+            ch25::LightPaths paths;
+            ch25::add_light_path(Scene{}, walk, 1, 1, paths);
+            CHECK(paths.vertices.size() == 2);
+            CHECK(paths.photons.size() == (towards > 0 ? 1 : 0));
+        }
+    }
+
     TEST_CASE("identity: the weights of a pass are made for the radius of its map") {
         Scene scene = scene_from("scenes/sds.pbrt", 8, 4);
         PhotonSettings settings{.light_paths = 1000, .radius = 0.3f};
@@ -161,7 +177,7 @@ TEST_SUITE("ch25 weights") {
             ch25::trace_light_paths(
                 scene, settings, pass, 1, [] { return false; }, merging);
             double r{merging.map.radius()};
-            CHECK(r == doctest::Approx(double{radius_of(scene, settings, pass)}).scale(0));
+            CHECK(r == doctest::Approx(double{radius_of(settings.radius, pass)}).scale(0));
             CHECK(double{merging.area} ==
                   doctest::Approx(1000 * pi_exact * r * r).epsilon(1e-5).scale(0));
             CHECK(merging.map.size() > 100);

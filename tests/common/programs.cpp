@@ -131,6 +131,34 @@ TEST_SUITE("programs") {
         }
     }
 
+    TEST_CASE("input: --radius has bounds, and --stats counts the rays of light paths") {
+        TemporaryFolder folder;
+        for (const char* chapter :
+             {"23_photon_mapping", "24_progressive_photons", "25_vertex_merging"}) {
+            CAPTURE(chapter);
+            Words words = {spheres, "--size", "8x8", "--spp", "1", "--out", folder / "a.ppm"};
+            for (const char* radius : {"1e-30", "1e-300", "1e30", "nan", "inf", "-1"}) {
+                Words wrong = words;
+                wrong.insert(wrong.end(), {"--radius", radius});
+                Finished end = run(chapter, wrong);
+                CHECK(end.code == 2);
+                CHECK(is_one_line(end.err));
+            }
+            double rays[2];
+            for (int i : {0, 1}) {
+                Words more = words;
+                more.insert(more.end(), {"--photons", i == 0 ? "1" : "9000", "--stats",
+                                         folder / "s.json", "--threads", "3"});
+                Finished end = run(chapter, more);
+                CHECK(end.out.find("\nfirst radius ") != std::string::npos);
+                auto stats = json_values(read_file(folder / "s.json"));
+                CHECK(std::stod(stats.at("first_radius")) > 1);
+                rays[i] = std::stod(stats.at("rays"));
+            }
+            CHECK(rays[1] > rays[0] + 9000);
+        }
+    }
+
     TEST_CASE("files: an output without a place is exit code 1 before any work") {
         for (bool render : {false, true}) {
             for (const std::string& program : programs(render)) {

@@ -21,7 +21,7 @@ static auto by_photons(ch23::PhotonSettings settings) {
                 .label = "23 with few photons",
                 .color = "#66dfc0",
                 .finds_light = "by photons",
-                .render = by_photons({.light_paths = 200}),
+                .render = by_photons({.light_paths = 200, .radius = 0.01f}),
                 .biased = true,
                 .search = LightSearch::photons});
     return add_method({.name = "23",

@@ -14,7 +14,7 @@ static auto by_photons(PhotonSettings settings) {
                 .label = "24 with few photons",
                 .color = "#c8df66",
                 .finds_light = "by photons",
-                .render = by_photons({.light_paths = 200}),
+                .render = by_photons({.light_paths = 200, .radius = 0.015f}),
                 .biased = true,
                 .search = LightSearch::photons});
     return add_method({.name = "24",

@@ -15,7 +15,7 @@ static auto by_merging(PhotonSettings settings) {
                 .label = "25 with few photons",
                 .color = "#e0c878",
                 .finds_light = "by photons from both ends",
-                .render = by_merging({.light_paths = 200}),
+                .render = by_merging({.light_paths = 200, .radius = 0.02f}),
                 .biased = true,
                 .search = LightSearch::merging});
     add_method({.name = "25-sobol",

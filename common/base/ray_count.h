@@ -32,6 +32,7 @@ public:
         if (--left_ == 0) [[unlikely]]
             look();
     }
+    void add(uint64_t rays) { counted_ += rays; }
     operator uint64_t() const { return counted_ - left_; }
 
 private:

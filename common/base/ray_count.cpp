@@ -1,4 +1,4 @@
-#include "common/scene/ray_count.h"
+#include "common/base/ray_count.h"
 
 #include <mutex>
 
