@@ -162,7 +162,8 @@ RenderOptions explain_brightest(const RenderOptions& options, const Rendering& r
         options.paths.empty() ? "paths of class L.*D.*E, without lamps that are merely seen"
                               : "that of --paths");
     std::string again = options.command, brightest = " --explain-brightest";
-    again.replace(again.find(brightest), brightest.size(), " --explain " + place);
+    for (size_t at; (at = again.find(brightest)) != std::string::npos;)
+        again.replace(at, brightest.size(), " --explain " + place);
     std::printf("To see it again: %s\n\n", again.c_str());
     return found;
 }

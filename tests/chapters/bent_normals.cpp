@@ -6,6 +6,7 @@
 #include "tests/support/ggx_truth.h"
 #include "tests/support/light_paths.h"
 // After the chapters below it: its names must not be found by theirs.
+#include "tests/traces/16.h"
 #include "tests/traces/20.h"
 
 namespace {

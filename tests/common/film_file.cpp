@@ -159,7 +159,7 @@ TEST_SUITE("film") {
             CHECK(first.r() == 1001);
             CHECK(std::isnan(first.g()));
             CHECK(std::isnan(first.m2()));
-            PixelSum added = sum_of({{4, 4, 4}}), other = added;
+            PixelSum added = sum_of(std::vector<Rgb>{{4, 4, 4}}), other = added;
             added.add(first), first.add(other);
             CHECK(same_bits(added, first));
             CHECK(std::isnan(added.g()));
