@@ -233,18 +233,6 @@ TEST_SUITE("ch11 light importance") {
         CHECK(blue.variance() == doctest::Approx(1).epsilon(1e-4).scale(0));
     }
 
-    TEST_CASE("failure: without lights the picture is black") {
-        Scene none = floor_under(shining + unit_square(1));
-        none.lights.clear();
-        CHECK(irradiance(none, trace_11(none), 100).mean() == 0);
-    }
-
-    TEST_CASE("truth: thousand-lights.pbrt shows no light from its front") {
-        Scene scene = scene_from("scenes/thousand-lights.pbrt", 64, 0);
-        CHECK(scene.lights.size() == 1000);
-        CHECK(film_of(scene, trace_11(scene), 4).film.mean() == 0);
-    }
-
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 10") {
         for (const auto& [name_here, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},

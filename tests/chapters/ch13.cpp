@@ -174,24 +174,6 @@ TEST_SUITE("ch13 rough metal") {
             }
     }
 
-    TEST_CASE("jacobian: the area of the normals of a small square of u is its area over the pdf") {
-        Sampler random = random_numbers(1);
-        for (int i = 0; i < 300; i++) {
-            float alpha = 0.1f + 0.9f * random.u1();
-            Vec3 wo = at(80 * double{random.u1()});
-            Vec2 u = {0.05f + 0.9f * random.u1(), 0.05f + 0.9f * random.u1()};
-            constexpr float h = 0x1p-9f;
-            auto normal = [&](float x, float y) {
-                return ch13::sample_ggx_normal(wo, alpha, {x, y});
-            };
-            Vec3 du = normal(u.x + h, u.y) - normal(u.x - h, u.y);
-            Vec3 dv = normal(u.x, u.y + h) - normal(u.x, u.y - h);
-            float pdf = ch13::pdf_ggx_normal(wo, alpha, normal(u.x, u.y));
-            CHECK(length(cross(du, dv)) / (4 * h * h) ==
-                  doctest::Approx(1 / pdf).epsilon(0.02).scale(0));
-        }
-    }
-
     TEST_CASE("consistency: invert_ggx_normal finds the numbers of a sample") {
         Sampler random = random_numbers(1);
         for (int i = 0; i < 1000; i++) {
@@ -322,60 +304,9 @@ TEST_SUITE("ch13 rough metal") {
             }
         }
     }
-
-    TEST_CASE("furnace: a ball of nearly smooth metal shows what a smooth one reflects") {
-        auto ball = [](const std::string& roughness) {
-            Scene scene = world_of(
-                "LightSource \"infinite\" Material \"conductor\" \"rgb reflectance\" [.9 .8 .5]"
-                " \"float roughness\" " +
-                roughness +
-                " \"bool remaproughness\" false"
-                " Shape \"sphere\"");
-            // By the BSDF alone there is no noise: each sample is F G2 / G1.
-            return film_of(scene, by(Strategy::bsdf, scene), 64).film;
-        };
-        Film smooth = ball("0"), rough = ball("0.002");
-        for (int y = 10; y < 22; y++)
-            for (int x = 10; x < 22; x++) {
-                size_t i = static_cast<size_t>(32 * y + x);
-                CHECK(rough.pixels()[i].mean() ==
-                      doctest::Approx(smooth.pixels()[i].mean()).epsilon(0.005).scale(0));
-            }
-    }
 }
 
 TEST_SUITE("ch13 glossy") {
-    TEST_CASE("truth: irradiance of all lights, both ways") {
-        for (const auto& [light_here, E] : lights_of_known_irradiance) {
-            const auto& light = light_here;
-            CAPTURE(light);
-            Scene scene = floor_under(light);
-            check_bounded(irradiance(scene, by(Strategy::bsdf, scene), 60000), E, 0.025);
-            check_bounded(irradiance(scene, by(Strategy::light, scene), 20000), E, 0.025);
-        }
-    }
-
-    TEST_CASE("truth: point and distant lights, which only light sampling finds") {
-        for (const auto& [light, E] : lights_without_size) {
-            Scene scene = floor_under(light);
-            RunningStats s = irradiance(scene, by(Strategy::light, scene), 100);
-            CHECK(s.mean() == doctest::Approx(E).epsilon(1e-5).scale(0));
-            CHECK(s.variance() < 1e-10);
-            CHECK_THROWS_AS(refuse_delta_lights(scene), InputError);
-        }
-    }
-
-    TEST_CASE("truth: a light in a mirror and straight on, both ways, without noise") {
-        Scene mirror = light_before_mirror();
-        for (Strategy strategy : both_ways) check_light_before_mirror(mirror, by(strategy, mirror));
-    }
-
-    TEST_CASE("failure: without lights the picture is black") {
-        Scene none = floor_without_lights();
-        for (Strategy strategy : both_ways)
-            CHECK(irradiance(none, by(strategy, none), 100).mean() == 0);
-    }
-
     TEST_CASE("identity: without rough metal, light sampling is chapter 11, path by path") {
         for (std::string name : {"cornell-spheres", "two-lights", "thousand-lights"}) {
             CAPTURE(name);
@@ -387,54 +318,10 @@ TEST_SUITE("ch13 glossy") {
         }
     }
 
-    TEST_CASE("agreement: both ways on rough, smooth and matt surfaces") {
-        for (std::string name : {"veach-mis", "cornell-spheres"}) {
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
-            Film bsdf = film_of(scene, by(Strategy::bsdf, scene), 512).film;
-            Film light = film_of(scene, by(Strategy::light, scene), 512, 2).film;
-            check_agreement(hold_against(bsdf, light, 16), 0.15);
-        }
-    }
-
     TEST_CASE("agreement: both ways find each class of path on Veach's plates alike") {
         Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
         CHECK(check_classes(scene, by(Strategy::bsdf, scene), scene, by(Strategy::light, scene),
                             100000) >= 4);
-    }
-
-    TEST_CASE(
-        "failure: by light sampling alone large lights in smooth plates: variance above 100 "
-        "squared "
-        "means") {
-        // The plates from smooth to rough.
-        constexpr double least[] = {100, 10, 1, 0.15};
-        for (size_t plate = 0; plate < 4; plate++) {
-            CAPTURE(plate);
-            PlateAndLamp large(plate, 0);
-            RunningStats aimed = large.sample(by(Strategy::light, large.scene), 40000);
-            CHECK(relative_variance(aimed) > least[plate]);
-            if (plate == 3) continue;  // where the lobe is as wide as the lamp
-            RunningStats followed = large.sample(by(Strategy::bsdf, large.scene), 40000);
-            CHECK(relative_variance(followed) < 0.25);
-            CHECK(relative_variance(aimed) > 8 * relative_variance(followed));
-        }
-    }
-
-    TEST_CASE(
-        "failure: by the BSDF alone small lights in rough plates: variance above 500 squared "
-        "means") {
-        constexpr double least[] = {0.3, 10, 90, 500};
-        for (size_t plate = 0; plate < 4; plate++) {
-            CAPTURE(plate);
-            PlateAndLamp small(plate, 3);
-            RunningStats followed = small.sample(by(Strategy::bsdf, small.scene), 200000);
-            CHECK(relative_variance(followed) > least[plate]);
-            if (plate == 0) continue;  // where the lobe is as narrow as the lamp
-            RunningStats aimed = small.sample(by(Strategy::light, small.scene), 40000);
-            CHECK(relative_variance(aimed) < 0.005);
-            CHECK(relative_variance(followed) > 1000 * relative_variance(aimed));
-        }
     }
 
     TEST_CASE(

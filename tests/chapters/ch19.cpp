@@ -379,18 +379,6 @@ TEST_SUITE("ch19 adaptive") {
         }
     }
 
-    TEST_CASE("identity: the classes of --split sum to the picture") {
-        Scene scene = scene_from("scenes/high-contrast.pbrt", 16, 4);
-        scene.spp = 24;
-        RenderOptions options = quiet_options();
-        options.split = "unused";
-        Rendering r = render_film(scene, options, by_nineteen(scene), ch19::allocation({}));
-        double sum = 0;
-        for (const auto& [name, film] : r.classes) sum += film.mean();
-        CHECK(r.classes.size() > 2);
-        CHECK(sum == doctest::Approx(r.film.mean()).epsilon(1e-6).scale(0));
-    }
-
     TEST_CASE("truth: a sample that is not finite is named by the number that replays it") {
         Scene scene = empty_scene(8, 8, 24);
         auto bad = [](const Scene&, Ray, Sampler& sampler, Recorder&) {

@@ -244,19 +244,6 @@ TEST_SUITE("ch25 vertex merging") {
         CHECK(own < other / 4);
     }
 
-    TEST_CASE("identity: the same picture for any number of threads") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 24, 5);
-        scene.spp = 3;
-        auto by = [&](int threads) {
-            RenderOptions options = options_of(1);
-            options.threads = threads;
-            return render_film(scene, options, passes_of<ch25::merging_passes>(scene, as_usual))
-                .film.image();
-        };
-        CHECK(by(1).pixels == by(2).pixels);
-        CHECK(by(1).pixels == by(7).pixels);
-    }
-
     TEST_CASE("identity: parts add up to the whole, error included") {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
         scene.spp = 7;
@@ -277,14 +264,6 @@ TEST_SUITE("ch25 vertex merging") {
         CHECK(whole.standard_error() > 0);
     }
 
-    TEST_CASE("identity: classes of path add up to the picture") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 6);
-        double whole = film_by(scene, as_usual, 4).mean(), sum = 0;
-        for (const char* classes : {"LE", "LDE", "LDD+E", "L.*S.*E"})
-            sum += film_by(scene, as_usual, 4, 1, classes).mean();
-        CHECK(sum == doctest::Approx(whole).epsilon(1e-5).scale(0));
-    }
-
     TEST_CASE("failure: no light, nothing diffuse, nothing but one light path") {
         CHECK(film_by(floor_without_lights(), as_usual, 2).mean() == 0);
         Scene mirror = light_before_mirror();
@@ -297,25 +276,6 @@ TEST_SUITE("ch25 vertex merging") {
 }
 
 TEST_SUITE("ch25 vertex merging slow") {
-    TEST_CASE("agreement: blocks and classes of the picture with chapter 22, radii near 0") {
-        for (std::string name : {"cornell-spheres", "light-in-glass", "caustic"}) {
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
-            auto by_22 = splat_trace_with<ch22::trace>(ch22::prepare(scene));
-            PhotonSettings settings{.light_paths = 4000, .radius = 0.01f * scene.radius};
-            for (const char* paths : {"", "LS+DE", "LS+DD+E", "LS+D+S+E", "LD(S|D)*E"}) {
-                CAPTURE(name);
-                CAPTURE(std::string(paths));
-                BlockMeans own = blocks_by(scene, settings, 16, 24, paths);
-                BlockMeans other = blocks_of(scene, by_22, 32, 24, 8, paths);
-                Agreement agreement = hold_against(own, other);
-                CAPTURE(agreement.worst_z);
-                CHECK(agreement.agrees());
-                double se = std::hypot(own.whole.standard_error(), other.whole.standard_error());
-                CHECK(std::abs(own.whole.mean() - other.whole.mean()) <= 5 * se);
-            }
-        }
-    }
-
     TEST_CASE("truth: the error falls as N^(-2/3), and with one radius it stops at the bias") {
         FloorInMirror floor;
         auto errors = [&](int passes, bool shrinks, uint32_t seeds) {

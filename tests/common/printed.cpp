@@ -153,21 +153,6 @@ TEST_SUITE("printed") {
         CHECK(read_image(folder / "m.png").at(3, 3) == Rgb{1, 1, 1});  // 4, as far as it goes
     }
 
-    TEST_CASE("truth: mean and error in words, known and unknown") {
-        CHECK(mean_and_error(rendering_of().film) == "mean 1.000000 +- 0.005774");
-        Film one(2, 1), uneven(2, 1);
-        for (size_t i : {0u, 1u}) one.add(i, {3, 3, 3}), uneven.add(i, {3, 3, 3});
-        CHECK(mean_and_error(one) == "mean 3.000000, standard error unknown (1 sample)");
-        uneven.add(0, {3, 3, 3});
-        CHECK(mean_and_error(uneven) == "mean 3.000000, standard error unknown");
-        one.add(0, {inf, 0, 0});
-        CHECK(mean_and_error(one) ==
-              "mean 3.000000, standard error unknown without the 50 % of the pixels that have "
-              "samples that are not finite");
-        one.add(1, {inf, 0, 0});
-        CHECK(mean_and_error(one) == "mean unknown: every pixel has samples that are not finite");
-    }
-
     TEST_CASE("truth: the command to see a sample that is not finite is without film and part") {
         TemporaryFolder folder;
         RenderOptions options = options_of(folder.path());
@@ -303,66 +288,6 @@ TEST_SUITE("printed") {
         CHECK(explained(true).code == 1);
         options.paths = "LDE";
         CHECK(explained(true).code == 0);
-    }
-
-    TEST_CASE("truth: only samples of the picture are explained, with --time any") {
-        TemporaryFolder folder;
-        Scene scene = empty_scene(4, 3, 8);
-        RenderOptions options = options_of(folder.path());
-        SplatTrace trace = [](const Scene&, Ray, Splats&, Sampler&, Recorder&) { return Rgb{}; };
-        auto error = [&](int x, int y, int sample, double time, bool halves) {
-            options.explain_x = x, options.explain_y = y, options.explain_sample = sample;
-            options.time = time;
-            std::string text;
-            Finished end = captured([&] {
-                text = error_of([&] { explain(scene, options, trace, halves); });
-                std::fprintf(stderr, "%s", text.c_str());
-                return 0;
-            });
-            return end.err;
-        };
-        const std::string late =
-            "error: sample 8 is not one of the 8 of a pixel; they count from 0";
-        CHECK(error(3, 2, 7, 0, false) == "");
-        CHECK(error(3, 2, 8, 0, false) == late);
-        CHECK(error(3, 2, 8, 1, false) == "");
-        CHECK(error(3, 2, 8, 0, true) == "");
-        CHECK(error(4, 2, 7, 0, false) == "error: pixel 4,2 lies outside the picture of 4x3");
-        CHECK(error(3, 3, 7, 0, false) == "error: pixel 3,3 lies outside the picture of 4x3");
-    }
-
-    TEST_CASE("truth: the brightest sample is named with its share, and the command to see it") {
-        RenderOptions options = options_of("d");
-        options.explain_brightest = true;
-        options.command = "build/07_x --explain-brightest --spp 4 a.pbrt --explain-brightest";
-        Rendering r = rendering_of();
-        r.stats.largest_x = 3, r.stats.largest_y = 4, r.stats.largest_sample = 2;
-        r.stats.largest = 40;
-        auto printed = [&] {
-            Finished end = captured([&] {
-                RenderOptions found = explain_brightest(options, r);
-                std::printf("%d %d %d %d %d", found.explain, found.explain_brightest,
-                            found.explain_x, found.explain_y, found.explain_sample);
-                return 0;
-            });
-            return end.out;
-        };
-        const std::string again =
-            "To see it again: build/07_x --explain 3,4,2 --spp 4 a.pbrt --explain 3,4,2\n\n"
-            "1 0 3 4 2";
-        CHECK(printed() ==
-              "Of 400 samples the brightest brings 40, 10 % of all light that counts here: paths "
-              "of class L.*D.*E, without lamps that are merely seen.\n" +
-                  again);
-        options.paths = "LDE";
-        CHECK(printed() ==
-              "Of 400 samples the brightest brings 40, 10 % of all light that counts here: that of "
-              "--paths.\n" +
-                  again);
-        r.stats.largest = 0;
-        CHECK(error_of([&] { explain_brightest(options, r); }) ==
-              "error: --explain-brightest: no path of class LDE brings light; --paths names "
-              "others");
     }
 
     TEST_CASE("truth: which samples are wanted, of all and of parts") {

@@ -438,90 +438,6 @@ TEST_SUITE("programs") {
         CHECK(share < 0.9);
     }
 
-    TEST_CASE("truth: compare knows from the pictures alone that they show different scenes") {
-        TemporaryFolder folder;
-        auto render = [&](const std::string& program, const std::string& name, Words words) {
-            words.insert(words.end(), {"--quiet", "--out", folder / name + ".ppm", "--out",
-                                       folder / name + ".png", "--out", folder / name + ".pfm"});
-            REQUIRE(run(program, words).code == 0);
-        };
-        const Words size = {"--size", "32x24", "--spp", "4", "--max-depth", "5"};
-        render("09_light_sampling", "a", size);  // each of its chapter's own scene
-        render("20_light_tracing", "b", size);
-        for (const char* a : {"a.ppm", "a.png"}) {
-            for (const char* b : {"b.ppm", "b.png"}) {
-                Finished end = run("compare", {folder / a, folder / b});
-                CHECK(end.code == 0);
-                CHECK(
-                    end.out.starts_with("warning: A shows \"cornell.pbrt\", B \"caustic.pbrt\"\n"));
-                CHECK(end.out.find("noise does not") == std::string::npos);
-                CHECK(
-                    end.out.ends_with("verdict: the pictures show different scenes, so their "
-                                      "difference is no noise\n"));
-            }
-        }
-        // A .pfm cannot tell, and compare says so.
-        std::string out = run("compare", {folder / "a.pfm", folder / "b.pfm"}).out;
-        CHECK(out.starts_with("note: whether both show the same scene is not known"));
-        // Pictures of other sizes are not compared, but it is told that the scene is another too.
-        render("20_light_tracing", "c", {"--size", "24x32", "--spp", "4"});
-        Finished end = run("compare", {folder / "a.png", folder / "c.ppm"});
-        CHECK(end.code == 1);
-        CHECK(end.err == folder / "c.ppm" + ": error: has 24x32 pixels, but " + folder / "a.png" +
-                             " has 32x24\n");
-        CHECK(end.out.starts_with("warning: A shows"));
-        // The same scene by two chapters is what compare is for.
-        render("10_cosine_sampling", "d", size);
-        out = run("compare", {folder / "a.ppm", folder / "d.png"}).out;
-        CHECK(out.find("A shows") == std::string::npos);
-        CHECK(out.find("verdict: the same mean within the noise") != std::string::npos);
-    }
-
-    TEST_CASE("truth: --stats is JSON with what was measured, and null for what is unknown") {
-        TemporaryFolder folder;
-        Words words = {"scenes/furnace.pbrt",
-                       "--size",
-                       "20x10",
-                       "--seed",
-                       "3",
-                       "--threads",
-                       "2",
-                       "--stats",
-                       folder / "s.json",
-                       "--quiet",
-                       "--out",
-                       folder / "a.pfm"};
-        words.insert(words.end(), {"--spp", "4"});
-        REQUIRE(run(path_tracer, words).code == 0);
-        auto stats = json_values(read_file(folder / "s.json"));
-        CHECK(stats.at("scene") == "scenes/furnace.pbrt");
-        CHECK(stats.at("chapter") == path_tracer);
-        CHECK(stats.at("width") == "20");
-        CHECK(stats.at("height") == "10");
-        CHECK(stats.at("spp") == "4");
-        CHECK(stats.at("seed") == "3");
-        CHECK(stats.at("threads") == "2");
-        CHECK(stats.at("samples_not_finite") == "0");
-        CHECK(stats.at("interrupted") == "false");
-        double seconds = std::stod(stats.at("seconds")), rays = std::stod(stats.at("rays"));
-        CHECK(seconds > 0);
-        CHECK(rays >= 20 * 10 * 4);
-        CHECK(std::stod(stats.at("rays_per_second")) ==
-              doctest::Approx(rays / seconds).epsilon(1e-6).scale(0));
-        double mean = 0;
-        for (Rgb p : read_image(folder / "a.pfm").pixels) {
-            mean += static_cast<double>(p.r + p.g + p.b) / 3 / 200;
-        }
-        CHECK(std::stod(stats.at("mean")) == doctest::Approx(mean).epsilon(1e-6).scale(0));
-        CHECK(std::stod(stats.at("standard_error")) > 0);
-
-        words.back() = "1";
-        REQUIRE(run(path_tracer, words).code == 0);
-        stats = json_values(read_file(folder / "s.json"));
-        CHECK(stats.at("standard_error") == "null");
-        CHECK(stats.at("mean") != "null");
-    }
-
     TEST_CASE("files: Ctrl-C and its like leave a whole picture, with a note and exit code 3") {
         for (int signal : stop_signals) {
             TemporaryFolder folder;
@@ -671,17 +587,6 @@ TEST_SUITE("programs") {
             CHECK(run(path_tracer, small({"--film", folder / "b.film", other})).code == 2);
         }
         CHECK(folder.names() == std::set<std::string>{"a.film", "a.ppm"});
-    }
-
-    TEST_CASE("files: an output that fails does not lose the others") {
-        if (!exists_here("/dev/full")) return;
-        TemporaryFolder folder;
-        fs::create_symlink("/dev/full", folder / "full.ppm");
-        Finished end = run(path_tracer, small({"--quiet", "--out", folder / "full.ppm", "--out",
-                                               folder / "a.pfm", "--stats", folder / "s.json"}));
-        CHECK(end.code == 1);
-        CHECK(end.err == folder / "full.ppm" + ": error: cannot write: No space left on device\n");
-        CHECK(folder.names() == std::set<std::string>{"full.ppm", "a.pfm", "s.json"});
     }
 
     TEST_CASE("truth: --time ends the render after so many seconds") {
