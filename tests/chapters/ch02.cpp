@@ -38,11 +38,6 @@ Points grid(uint32_t n) {  // the centres of n x n cells
     return points;
 }
 
-int darts_inside(const Points& points) {
-    double mean = ch02::estimate(points, ch02::quarter_circle);
-    return static_cast<int>(std::lround(mean / 4 * static_cast<double>(points.size())));
-}
-
 }  // namespace
 
 TEST_SUITE("ch02 strata") {

@@ -19,7 +19,6 @@ constexpr double dart_variance = pi_exact * (4 - pi_exact);
 constexpr PointSet all_sets[] = {PointSet::uniform,  PointSet::jittered, PointSet::poisson,
                                  PointSet::repelled, PointSet::halton,   PointSet::sobol};
 
-double column(Vec2 p) { return double{p.x} * double{p.x}; }  // x^2, varies along x only
 double exponential(Vec2 p) { return std::exp(double{p.x} + double{p.y}); }
 
 /// Estimates of f from `runs` sets of points.
@@ -47,11 +46,6 @@ Points plain_sobol(uint32_t n) {
     for (uint32_t i = 0; i < n; i++)
         points.push_back({to_unit_float(reverse_bits(i)), to_unit_float(ch03::sobol_second(i))});
     return points;
-}
-
-int darts_inside(const Points& points) {
-    double mean = estimate(points, quarter_circle);
-    return static_cast<int>(std::lround(mean / 4 * static_cast<double>(points.size())));
 }
 
 double correlation(const Points& points) {

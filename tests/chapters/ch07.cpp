@@ -83,29 +83,6 @@ Scene cornell_in_units(double unit) {
     return scene;
 }
 
-/// Chapter 07's trace() with a mistake planted.
-enum class Flaw { none, no_cosine, no_pi, light_ends_path, no_background, half_depth };
-
-template <Flaw flaw>
-Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder&) {
-    Rgb L, beta = {1, 1, 1};
-    for (int depth = 0;; depth++) {
-        std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return flaw == Flaw::no_background ? L : L + beta * scene.sky;
-        L += beta * emission(scene, *x);
-        if (flaw == Flaw::light_ends_path && x->light >= 0) return L;
-        if (depth == (flaw == Flaw::half_depth ? scene.max_depth / 2 : scene.max_depth)) return L;
-        float u1 = sampler.u1();
-        auto drawn = ch07::sample_bsdf(*x, -ray.d, u1, sampler.u2());
-        if (drawn.pdf_w == 0) return L;
-        float cos =
-            flaw == Flaw::no_cosine && !drawn.specular ? 0.5f : std::abs(dot(drawn.wi, x->n));
-        if (flaw == Flaw::no_pi && !drawn.specular) cos *= pi;
-        beta *= drawn.f * (cos / drawn.pdf_w);
-        ray = spawn_ray(*x, drawn.wi);
-    }
-}
-
 }  // namespace
 
 TEST_SUITE("ch07 bsdf") {

@@ -94,28 +94,6 @@ Moments red_moments() {
     return central(X);
 }
 
-/// Chapter 08's trace() with a mistake planted in its roulette.
-enum class Flaw { none, no_division, before_emission, inverse };
-
-template <Flaw flaw>
-Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder&) {
-    Rgb L, beta = {1, 1, 1};
-    for (int depth = 0;; depth++) {
-        std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return L + beta * scene.sky;
-        L += beta * emission(scene, *x);
-        if (depth == scene.max_depth) return L;
-        float u1 = sampler.u1();
-        BsdfSample s = ch08::sample_bsdf(*x, -ray.d, u1, sampler.u2());
-        if (s.pdf_w == 0) return L;
-        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
-        float q = ch08::survival_probability(beta, depth);
-        if (sampler.u1() >= q) return flaw == Flaw::before_emission ? Rgb{} : L;
-        if (flaw != Flaw::no_division) beta /= flaw == Flaw::inverse ? 1 / q : q;
-        ray = spawn_ray(*x, s.wi);
-    }
-}
-
 Scene closed_sphere(double a, int max_depth) {
     std::string albedo = std::to_string(a) + " ";
     Scene scene = world_of(

@@ -28,19 +28,6 @@ SquareMoments square_moments(double h) {  // X = h^2 / d^4
         return h * h / (d2 * d2);
     });
 }
-/// The same for a point of a wall, z below the edge of a square light that starts at the wall.
-SquareMoments edge_moments(double z) {  // X = cos_x cos_y / d^2 = u z / d^4
-    return moments_of([=](double u, double v) {
-        double d2 = z * z + u * u + (v - 0.5) * (v - 0.5);
-        return u * z / (d2 * d2);
-    });
-}
-
-/// The wall is the floor, turned: a unit square light on edge, z away from the origin.
-std::string light_on_edge(double z) {
-    return "Translate 0 0.5 " + std::to_string(z) + " Rotate -90 1 0 0 Scale 0.5 1 0.5 " +
-           square(0, true);
-}
 
 }  // namespace
 

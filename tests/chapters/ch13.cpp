@@ -20,7 +20,6 @@ namespace {
 Trace by(Strategy strategy, const Scene& scene) {
     return trace_with<ch13::trace>(ch13::prepare(scene), strategy);
 }
-constexpr Strategy both_ways[] = {Strategy::bsdf, Strategy::light};
 
 /// A point of rough metal of this roughness that reflects (nearly) all; z is its normal.
 Hit metal(const Material& material) {

@@ -86,37 +86,6 @@ const Line half_line = {[](double x) { return x * x; }, [](double) { return 1.0;
                         [](double x) { return x < 0.5 ? 2.0 : 0.0; }, [](double u) { return u; },
                         [](double u) { return u / 2; }};
 
-/// One point of the disk overhead by area, one direction by the cosine: irradiance by MIS.
-RunningStats disk_by_both(Heuristic heuristic, double h, int samples) {
-    RunningStats stats;
-    Sampler random = random_numbers(1);
-    for (int i = 0; i < samples; i++) {
-        double r2 = static_cast<double>(random.u1()), d2 = h * h + r2;
-        double pdf_l = d2 * std::sqrt(d2) / (pi_exact * h), cos = h / std::sqrt(d2);
-        double X = cos / pdf_l * weight(heuristic, pdf_l, cos / pi_exact);
-        Vec3 w = sample_cosine_hemisphere(random.u2());
-        cos = static_cast<double>(w.z);
-        if (h * std::sqrt(1 - cos * cos) < cos) {  // meets the disk, at d = h / cos
-            pdf_l = h * h / (cos * cos * cos * pi_exact);
-            X += pi_exact * weight(heuristic, cos / pi_exact, pdf_l);
-        }
-        stats.add(X);
-    }
-    return stats;
-}
-
-/// relMSE of one sample for each pixel, over a part of the film.
-double rel_mse_of(const Film& film, int x0, int y0, int x1, int y1) {
-    double sum = 0, mean = 0, n = film.spp();
-    for (int y = y0; y < y1; y++)
-        for (int x = x0; x < x1; x++) {
-            const PixelSum& p = film.pixels()[static_cast<size_t>(y * film.width + x)];
-            sum += p.m2() / (n - 1), mean += p.mean();
-        }
-    double pixels = static_cast<double>((x1 - x0) * (y1 - y0));
-    return sum / pixels / (std::pow(mean / pixels, 2) + 0.01);
-}
-
 }  // namespace
 
 TEST_SUITE("ch14 weights") {

@@ -74,50 +74,6 @@ std::ptrdiff_t left_open(const std::string& svg) {
     return open;
 }
 
-/// What is told of one path of a chapter.
-template <class AnyTrace>
-std::string story_of(const Scene& scene, const AnyTrace& trace, uint32_t number, Ray ray) {
-    Sampler sampler(SamplerType::independent, 1, 1);
-    sampler.start(0, number);
-    PathStory story(scene.max_depth, false);
-    Recorder recorder(true, &story);
-    trace(scene, ray, sampler, recorder);
-    story.ends();
-    return story.text();
-}
-
-/// Whether one of 2000 paths is told with these words.
-template <class AnyTrace>
-bool tells(const Scene& scene, const AnyTrace& trace, Ray ray, const std::string& words) {
-    for (uint32_t i = 0; i < 2000; i++) {
-        if (story_of(scene, trace, i, ray).find(words) != std::string::npos) return true;
-    }
-    return false;
-}
-
-/// A ball around the y axis, of 48 x 24 faces in pairs of triangles, without its poles.
-void add_round_ball(Geometry& g) {
-    constexpr uint32_t around = 48, up = 24;
-    for (uint32_t j = 1; j < up; j++) {
-        for (uint32_t i = 0; i < around; i++) {
-            float theta = pi * static_cast<float>(j) / up;
-            Vec3 p = from_cylindrical(std::sin(theta), static_cast<float>(i) / around, 0);
-            g.positions.push_back({p.x, std::cos(theta), p.y});
-        }
-    }
-    for (uint32_t j = 0; j + 2 < up; j++) {
-        for (uint32_t i = 0; i < around; i++) {
-            uint32_t a = j * around + i, b = j * around + (i + 1) % around;
-            g.triangles.push_back({{a, b, b + around}, 0});
-            g.triangles.push_back({{a, b + around, a + around}, 0});
-        }
-    }
-}
-
-const char* black_floor = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
-const char* lamp_above =
-    "AttributeBegin AreaLightSource \"diffuse\" Translate 0 2 0 Scale 0.2 1 0.2\n";
-
 }  // namespace
 
 TEST_SUITE("explain") {

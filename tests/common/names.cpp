@@ -24,12 +24,6 @@ std::string with_cr(const std::string& text) {
     return changed;
 }
 
-/// With the backslashes of Windows.
-std::string backslashed(std::string path) {
-    std::replace(path.begin(), path.end(), '/', '\\');
-    return path;
-}
-
 }  // namespace
 
 TEST_SUITE("names") {

@@ -17,26 +17,6 @@ double reflected(double degrees, double eta) {
     return static_cast<double>(fresnel_dielectric(cos, static_cast<float>(eta)));
 }
 
-/// Two panes of a slab of glass, 0.1 thick; what is behind it (+z) shines with 1, the rest is
-/// black.
-Scene slab() {
-    return world_of(
-        "Material \"dielectric\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
-        " \"point3 P\" [-50 -50 0  -50 50 0  50 50 0  50 -50 0]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 3 2]"
-        " \"point3 P\" [-50 -50 0.1  -50 50 0.1  50 50 0.1  50 -50 0.1]\n"
-        "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
-        " \"point3 P\" [-900 -900 9  -900 900 9  900 900 9  900 -900 9]");
-}
-
-/// The ray that meets the slab at this angle.
-Ray ray_at(double degrees) {
-    float a = static_cast<float>(degrees * std::numbers::pi / 180);
-    Vec3 d = {std::sin(a), 0, std::cos(a)};
-    return {-5 * d, d};
-}
-
 /// Chapter 07 along one ray, over and over.
 RunningStats repeat(const Scene& scene, const Ray& ray, int paths) {
     RunningStats stats;
@@ -47,23 +27,6 @@ RunningStats repeat(const Scene& scene, const Ray& ray, int paths) {
         stats.add(static_cast<double>(ch07::trace(scene, ray, sampler, recorder).g));
     }
     return stats;
-}
-
-/// Whether every path is worth 1 or nothing, which is what makes Bernoulli's variance hold.
-bool is_zero_or_one(const Scene& scene, const Ray& ray) {
-    Sampler random = random_numbers(5);
-    Recorder recorder;
-    for (int i = 0; i < 1000; i++) {
-        float L = ch07::trace(scene, ray, random, recorder).g;
-        if (L != 0 && std::abs(L - 1) > 1e-5f) return false;
-    }
-    return true;
-}
-
-double metal(double degrees, float r) {
-    float k = 2 * std::sqrt(r) / std::sqrt(1 - r);
-    float cos = static_cast<float>(std::cos(degrees * std::numbers::pi / 180));
-    return static_cast<double>(fresnel_conductor(cos, 1.0f, k));
 }
 
 }  // namespace

@@ -103,69 +103,6 @@ bool are_equal_tiles(const std::vector<Rectangle>& boxes) {
     return true;
 }
 
-/// The mistake: a k x k grid for any n, so that the first n - k^2 strata are used twice.
-Vec2 jitter_in_square_grid(uint32_t i, uint32_t n, Vec2 u) {
-    uint32_t k = static_cast<uint32_t>(std::sqrt(static_cast<double>(n))), cell = i % (k * k);
-    return {(static_cast<float>(cell % k) + u.x) / static_cast<float>(k),
-            (static_cast<float>(cell / k) + u.y) / static_cast<float>(k)};
-}
-
-/// The first eight numbers of a pixel's third sample, 8 bits of each.
-uint64_t start_of_stream(SamplerType type, uint32_t seed, uint32_t pixel) {
-    Sampler sampler(type, seed, 16);
-    sampler.start(pixel, 3);
-    uint64_t bits = 0;
-    for (int i = 0; i < 8; i++) bits = bits << 8 | static_cast<uint64_t>(sampler.u1() * 256);
-    return bits;
-}
-
-/// How many pairs of these are equal.
-double equal_pairs(std::vector<uint64_t> values) {
-    std::sort(values.begin(), values.end());
-    double pairs = 0, run = 0;  // run: how many before it are equal
-    for (size_t i = 1; i < values.size(); i++) {
-        run = values[i] == values[i - 1] ? run + 1 : 0;
-        pairs += run;
-    }
-    return pairs;
-}
-
-/// The smallest tail of chi^2, in 8 x 8 cells, of all pairs of a path's first 64 numbers: each
-/// path is a pixel of its own. `change` may plant a mistake in the 64 numbers.
-template <class Change>
-std::pair<double, double> chi_square_of_all_pairs(SamplerType type, uint32_t paths, Change change) {
-    constexpr size_t scalars = 64, cells = 8;
-    std::vector<double> counts(scalars * scalars * cells * cells);
-    std::array<size_t, scalars> cell;
-    std::array<float, scalars> u;
-    for (uint32_t p = 0; p < paths; p++) {
-        Sampler sampler(type, 1, 16);
-        sampler.start(p, p % 16);
-        for (size_t i = 0; i < scalars; i += 2) {  // as trace() asks: now one, now two
-            if (i % 6 == 0) {
-                u[i] = sampler.u1(), u[i + 1] = sampler.u1();
-            } else {
-                Vec2 pair = sampler.u2();
-                u[i] = pair.x, u[i + 1] = pair.y;
-            }
-        }
-        change(u);
-        for (size_t i = 0; i < scalars; i++) cell[i] = static_cast<size_t>(u[i] * cells);
-        for (size_t i = 0; i < scalars; i++)
-            for (size_t j = i + 1; j < scalars; j++)
-                counts[((i * scalars + j) * cells + cell[i]) * cells + cell[j]]++;
-    }
-    double least = 1, all = 0;
-    for (size_t i = 0; i < scalars; i++)
-        for (size_t j = i + 1; j < scalars; j++) {
-            std::span pair(&counts[(i * scalars + j) * cells * cells], cells * cells);
-            double chi2 = chi_square(pair);
-            all += chi2;
-            least = std::min(least, chi_square_tail(chi2, cells * cells - 1));
-        }
-    return {least, all};
-}
-
 }  // namespace
 
 TEST_SUITE("sampler: bits") {

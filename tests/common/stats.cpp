@@ -24,19 +24,6 @@ RunningStats alternate(double base, int n) {
     return s;
 }
 
-/// E[x^2] - E[x]^2, the formula that cancels.
-template <class Float>
-Float textbook_variance(Float base, int n) {
-    Float sum = 0, squares = 0;
-    for (int i = 0; i < n; i++) {
-        Float x = base + static_cast<Float>(i % 2);
-        sum += x;
-        squares += x * x;
-    }
-    Float mean = sum / static_cast<Float>(n);
-    return squares / static_cast<Float>(n) - mean * mean;
-}
-
 }  // namespace
 
 TEST_SUITE("stats") {
