@@ -253,6 +253,13 @@ TEST_SUITE("ch04 integrals") {
         }
     }
 
+    TEST_CASE("truth: for a signed f the least variance is not 0 but (int |f|)^2 - (int f)^2") {
+        Experiment e = find(ch04::integrals(), "x - 1/4", "(16/5)|x-1/4|");
+        CHECK(e.variance == 5.0 / 16 * 5.0 / 16 - 1.0 / 16);
+        for (double u : {0.05, 0.09}) CHECK(relative(e.X(u), -5.0 / 16) < 1e-12);
+        for (double u : {0.11, 0.9}) CHECK(relative(e.X(u), 5.0 / 16) < 1e-12);
+    }
+
     TEST_CASE("variance: e^x by antithetic pairs, u and 1 - u, 0.0039") {
         auto f = [](double x) { return std::exp(x); };
         RunningStats s;

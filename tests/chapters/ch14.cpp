@@ -215,6 +215,12 @@ TEST_SUITE("ch14 mis") {
         }
     }
 
+    TEST_CASE("truth: a light in a mirror and straight on, by every strategy, without noise") {
+        Scene mirror = light_before_mirror();
+        for (Strategy strategy : all_strategies)
+            check_light_before_mirror(mirror, by({strategy}, mirror));
+    }
+
     TEST_CASE("variance: a sky at the horizon: less relMSE than in chapter 10") {
         Scene scene = scene_from("scenes/horizon-sky.pbrt", 32, 8);
         Film ten = film_of(scene, ch10::trace, 512).film;

@@ -355,6 +355,23 @@ TEST_SUITE("measuring") {
         CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);     // nothing to compare it with
         CHECK(!judge({{1, 1, 0}, {1, 1, 0, 2}}, 0).known);  // they missed more than their error
     }
+
+    TEST_CASE("teeth: a bias of ten standard errors is seen, and in the right method") {
+        std::vector<Estimate> e;
+        for (uint32_t method = 0; method < 6; method++) {
+            std::vector<double> values;
+            Sampler sampler(SamplerType::independent, method, 1);
+            for (uint32_t batch = 0; batch < 64; batch++) {
+                sampler.start(0, batch);
+                values.push_back(static_cast<double>(sampler.u1()) + (method == 3 ? 0.36 : 0));
+            }
+            e.push_back(estimate_of(values));  // of standard error 0.036
+        }
+        for (size_t i = 0; i < e.size(); i++) {
+            CHECK(judge(e, i).known);
+            CHECK((std::abs(judge(e, i).z) > 5) == (i == 3));
+        }
+    }
 }
 
 TEST_SUITE("charts") {
@@ -388,5 +405,17 @@ TEST_SUITE("charts") {
         CHECK(two_digits(127) == "130");
         CHECK(two_digits(18234) == "18000");
         CHECK(two_digits(NAN) == "nan");
+    }
+
+    TEST_CASE("truth: labels in their order, apart, and as near as can be to where they belong") {
+        using Heights = std::vector<double>;
+        CHECK(spread_out({50, 10, 90}, 20, 0, 100) == Heights{50, 10, 90});
+        CHECK(spread_out({50, 50}, 20, 0, 100) == Heights{40, 60});
+        CHECK(spread_out({50, 48, 52, 90}, 20, 0, 100) == Heights{50, 30, 70, 90});
+        CHECK(spread_out({50, 50, 65}, 20, 0, 100) == Heights{35, 55, 75});
+        CHECK(spread_out({2, 1, 3}, 20, 0, 100) == Heights{20, 0, 40});
+        CHECK(spread_out({99, 98}, 20, 0, 100) == Heights{100, 80});
+        CHECK(spread_out({5, 5, 5}, 20, 0, 30) == Heights{0, 20, 40});  // no room: beyond the end
+        CHECK(spread_out({}, 20, 0, 100).empty());
     }
 }
