@@ -82,26 +82,6 @@ TEST_SUITE("ch02 strata") {
         CHECK(std::abs(uniform.variance() / jittered.variance() / 4.6183457178 - 1) < 0.07);
     }
 
-    TEST_CASE("variance: k x k strata have their exact variance for pi, from 2 x 2 to 64 x 64") {
-        struct Row {
-            uint32_t n, runs;
-            double variance;
-        };
-        for (Row row : {Row{2, 20000, 0.374322852562},
-                        {3, 20000, 0.1230721035567},
-                        {4, 20000, 0.05189796919549},
-                        {8, 20000, 0.007122966493269},
-                        {10, 10000, 0.003731274404397},
-                        {16, 5000, 0.0009134520428503},
-                        {32, 2000, 0.0001194113488951},
-                        {64, 1000, 1.514519037369e-5}}) {
-            CAPTURE(row.n);
-            RunningStats s =
-                estimates(PointSet::jittered, row.n * row.n, row.runs, ch02::quarter_circle);
-            check_variance(s, row.variance, 3);
-        }
-    }
-
     TEST_CASE("variance: for xy that of k x k strata falls as k^-4, N-rooks keep the interaction") {
         for (uint32_t n : {2u, 4u, 8u, 16u}) {
             double n2 = n * n, truth = 1 / (18 * n2 * n2) - 1 / (144 * n2 * n2 * n2);

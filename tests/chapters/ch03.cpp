@@ -41,48 +41,11 @@ Points plain_halton(uint32_t base_x, uint32_t base_y, uint32_t n, uint32_t seed 
     return points;
 }
 
-Points plain_sobol(uint32_t n) {
-    Points points;
-    for (uint32_t i = 0; i < n; i++)
-        points.push_back({to_unit_float(reverse_bits(i)), to_unit_float(ch03::sobol_second(i))});
-    return points;
-}
-
 double correlation(const Points& points) {
     RunningStats x, y, xy;
     for (Vec2 p : points) x.add(double{p.x}), y.add(double{p.y});
     for (Vec2 p : points) xy.add((double{p.x} - x.mean()) * (double{p.y} - y.mean()));
     return xy.mean() / std::sqrt(x.variance() * y.variance());
-}
-
-/// The largest | share of the points in [0,a) x [0,b) - ab |, over all a and b.
-double star_discrepancy(Points points) {
-    std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
-    std::vector<double> ys = {1};
-    for (Vec2 p : points) ys.push_back(double{p.y});
-    std::sort(ys.begin(), ys.end());
-    double n = static_cast<double>(points.size()), worst = 0;
-    std::vector<double> below;  // sorted y of the points left of a, then also of those at a
-    auto scan = [&](double a, bool closed) {
-        size_t count = 0;
-        for (double b : ys) {
-            while (count < below.size() && (closed ? below[count] <= b : below[count] < b)) count++;
-            double share = static_cast<double>(count) / n;
-            worst = std::max(worst, closed ? share - a * b : a * b - share);
-        }
-    };
-    for (size_t i = 0; i <= points.size(); i++) {
-        double a = i < points.size() ? double{points[i].x} : 1;
-        scan(a, false);
-        for (; i < points.size() && double{points[i].x} == a; i++) {
-            double y = double{points[i].y};
-            below.insert(std::upper_bound(below.begin(), below.end(), y), y);
-        }
-        i--;
-        scan(a, true);
-        if (a == 1) break;
-    }
-    return worst;
 }
 
 /// The distance from each point to its nearest neighbour on the torus.
@@ -180,19 +143,6 @@ TEST_SUITE("ch03 low discrepancy") {
                 }
                 CHECK(filled.size() == base * base);
             }
-    }
-
-    TEST_CASE("truth: star discrepancy of Halton and Sobol points") {
-        for (auto [n, truth] : {std::pair{16u, 0.2013888888889},
-                                {64u, 0.05208333333333},
-                                {256u, 0.01875964506173},
-                                {1024u, 0.0068359375}})
-            CHECK(std::abs(star_discrepancy(plain_halton(2, 3, n)) - truth) < 1e-6);
-        for (auto [n, truth] : {std::pair{16u, 0.171875},
-                                {64u, 0.0537109375},
-                                {256u, 0.01458740234375},
-                                {1024u, 0.004299163818359}})
-            CHECK(std::abs(star_discrepancy(plain_sobol(n)) - truth) < 1e-6);
     }
 
     TEST_CASE("failure: Halton in bases 17 and 19 starts on a line") {

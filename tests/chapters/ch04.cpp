@@ -117,17 +117,6 @@ TEST_SUITE("ch04 sums") {
         Experiment e = find(ch04::sums(), "dice 6a+b", "~ 6a+b, the best");
         for (double u = 0; u < 1; u += 0.001) CHECK(relative(e.X(u), 24.5) < 1e-14);
     }
-
-    TEST_CASE("failure: a density of 0 where f is not converges, to the wrong sum") {
-        for (auto [what, density] :
-             {std::pair{"dice 6a+b", "0 for a = 1: biased"}, {"lights 1, 999", "0, 1: biased"}}) {
-            Experiment e = find(ch04::sums(), what, density);
-            RunningStats s = ch04::run(e, 100000, 1).stats;
-            CHECK(std::abs(s.mean() - e.truth) > 20 * s.standard_error());
-            CHECK(std::abs(s.mean() - e.truth) > 0.9);
-            CHECK(std::isfinite(s.mean()));
-        }
-    }
 }
 
 TEST_SUITE("ch04 densities") {
@@ -282,21 +271,6 @@ TEST_SUITE("ch04 integrals") {
         CHECK(e.mean == 0.5);
         RunningStats s = ch04::run(e, 100000, 1).stats;
         CHECK(std::abs(s.mean() - 1.0 / 3) > 100 * s.standard_error());
-    }
-
-    TEST_CASE("failure: infinite variance shows in the largest sample, not in the standard error") {
-        for (const char* what : {"x^-1/2", "x^2"}) {
-            bool root = std::string(what) == "x^-1/2";
-            Experiment bad = find(ch04::integrals(), what, root ? "1" : "2(1-x)");
-            Experiment good = find(ch04::integrals(), "x^2", "1/(2 sqrt x)");
-            RunningStats bad_share, good_share;
-            for (uint32_t seed = 0; seed < 50; seed++) {
-                bad_share.add(ch04::run(bad, 10000, seed).largest_share);
-                good_share.add(ch04::run(good, 10000, seed).largest_share);
-            }
-            CHECK(bad_share.mean() > 0.08);
-            CHECK(good_share.mean() < 0.002);
-        }
     }
 
     TEST_CASE("identity: of N equal samples each has the share 1/N of the squares") {

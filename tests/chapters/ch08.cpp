@@ -40,17 +40,6 @@ Moments central(const double* m) {
     return {m[1], variance, fourth / (variance * variance)};
 }
 
-/// From X = 1 + B X' a/q:  m_n = 1 + sum (n choose k) q (a/q)^k m_k
-Moments furnace_moments(double a, double q) {
-    double m[5] = {1, 0, 0, 0, 0};
-    for (int n = 1; n <= 4; n++) {
-        double known = 1;
-        for (int k = 1; k < n; k++) known += choose[n][k] * q * std::pow(a / q, k) * m[k];
-        m[n] = known / (1 - q * std::pow(a / q, n));
-    }
-    return central(m);
-}
-
 /// The red channel of such a path where red, green and blue are reflected by (0.9, 0.1, 0.1), and
 /// `survival` is asked as chapter 08 asks it.
 template <class Survival>
@@ -129,39 +118,6 @@ int check_classes(const Scene& scene, int paths) {
 }  // namespace
 
 TEST_SUITE("ch08 roulette") {
-    TEST_CASE("truth: any q has the same mean in the furnace, and the variance of the formula") {
-        struct Row {
-            double a, q, variance;
-        };
-        for (auto [a, q, variance] : {Row{0.5, 0.5, 2},
-                                      {0.5, 0.9, 0.1538461538462},
-                                      {0.8, 0.8, 20},
-                                      {0.8, 0.95, 2.58064516129},
-                                      {0.9, 0.9, 90}}) {
-            // (1 + a) / (1 - a) q / (q - a^2) - 1 / (1 - a)^2
-            double formula = (1 + a) / (1 - a) * q / (q - a * a) - 1 / ((1 - a) * (1 - a));
-            Moments exact = furnace_moments(a, q);
-            CHECK(formula == doctest::Approx(variance).epsilon(1e-9).scale(0));
-            CHECK(exact.mean == doctest::Approx(1 / (1 - a)).epsilon(1e-9).scale(0));
-            CHECK(exact.variance == doctest::Approx(variance).epsilon(1e-9).scale(0));
-            RunningStats s = furnace(a, q, 200000);
-            check_mean(s, 1 / (1 - a), variance, 0.02 / (1 - a));
-            check_variance(s, variance, exact.kurtosis);
-        }
-    }
-
-    TEST_CASE("truth: one decision adds E^2 (1 - q) / q") {
-        for (auto [q, variance] : {std::pair{0.2, 4.0}, {0.1, 9.0}, {0.01, 99.0}}) {
-            RunningStats s;
-            Sampler random = random_numbers(1);
-            for (int i = 0; i < 1000000; i++) {
-                s.add(static_cast<double>(random.u1()) < q ? 1 / q : 0);
-            }
-            check_mean(s, 1, variance, 0.1);
-            check_variance(s, variance, (1 - 3 * q * (1 - q)) / (q * (1 - q)));
-        }
-    }
-
     TEST_CASE("failure: without the division by q the furnace shows 1 / (1 - a q)") {
         // 2.78 instead of 5: a smooth, converged, wrong picture.
         double p = 0.64, truth = 1 / (1 - p);

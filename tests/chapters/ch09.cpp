@@ -212,19 +212,6 @@ TEST_SUITE("ch09 light sampling") {
         half.max_depth = 1;
         check_bounded(irradiance(half, trace_by_angle, 40000), 0.7522746884541 / 2, 0.006);
     }
-
-    TEST_CASE("truth: a sky that shows only at the horizon: relative variance 4/(3e) - 1") {
-        // Under a black roof at height 1 of radius sqrt(1/e^2 - 1), the sky shows below sin = e.
-        for (double e : {0.1, 0.2}) {
-            Scene scene = floor_under(
-                "LightSource \"infinite\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" +
-                disk(std::sqrt(1 / (e * e) - 1), 1));
-            RunningStats s = irradiance(scene, trace_by_angle, 200000);
-            double E = pi_exact * e * e, relative = 4 / (3 * e) - 1;
-            check_mean(s, E, relative * E * E, 0.1 * E);
-            check_variance(s, relative * E * E, 9 / (5 * e));  // E X^4 / var^2, for small e
-        }
-    }
 }
 
 TEST_SUITE("ch09 near lights") {
@@ -266,20 +253,6 @@ TEST_SUITE("ch09 near lights") {
             check_mean(s, E, relative * E * E, 0.02 * E);
             check_variance(s, relative * E * E, 4);
         }
-    }
-
-    TEST_CASE("failure: by area, most runs near a light are too dark, and sure of it") {
-        // h = 0.01, 1000 samples: 65 % of the runs below half the truth; the interval of two
-        // standard errors holds it in 38 % of the runs.
-        Scene scene = floor_under(shining + disk(1, 0.01));
-        int runs = 500, dark = 0, covered = 0;
-        for (int i = 0; i < runs; i++) {
-            RunningStats s = irradiance(scene, trace_by_area, 1000, static_cast<uint32_t>(i + 1));
-            dark += s.mean() < 3.141278525737 / 2;
-            covered += std::abs(s.mean() - 3.141278525737) < 1.96 * s.standard_error();
-        }
-        CHECK(std::abs(dark / 500.0 - 0.649) < 5 * 0.024);
-        CHECK(std::abs(covered / 500.0 - 0.382) < 5 * 0.024);
     }
 
     TEST_CASE("failure: in the light's plane, at a point light, without lights: 0, and finite") {

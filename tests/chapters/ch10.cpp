@@ -24,31 +24,6 @@ Hit facing(Vec3 n) {
     return x;
 }
 
-/// One sample of the irradiance under a sky of radiance L(cos), drawn by the cosine or uniformly.
-template <class Sky>
-RunningStats irradiance_of(Sky L, bool by_cosine) {
-    RunningStats stats;
-    Sampler random = random_numbers(1);
-    for (int i = 0; i < 200000; i++) {
-        Vec2 u = random.u2();
-        Vec3 w = by_cosine ? ch10::sample_cosine_hemisphere(u) : sample_uniform_hemisphere(u);
-        float pdf_w = by_cosine ? ch10::pdf_cosine_hemisphere(w.z) : pdf_uniform_hemisphere();
-        stats.add(L(static_cast<double>(w.z)) * static_cast<double>(w.z / pdf_w));
-    }
-    return stats;
-}
-
-/// The same number by 1 - z^2 = u: mean, variance and kurtosis of E (or of the cosine's) samples.
-template <class Sky>
-SquareMoments exact_of(Sky L, bool by_cosine) {
-    return moments_of(
-        [&](double u, double) {
-            double z = by_cosine ? std::sqrt(1 - u) : 1 - u;
-            return by_cosine ? pi_exact * L(z) : 2 * pi_exact * z * L(z);
-        },
-        2000);
-}
-
 }  // namespace
 
 TEST_SUITE("ch10 cosine sampling") {
@@ -121,57 +96,6 @@ TEST_SUITE("ch10 cosine sampling") {
                 s.add(weight(double{ch10::sample_cosine_hemisphere(random.u2()).z}));
             CHECK(s.mean() == doctest::Approx(factor).epsilon(1e-9).scale(0));
             CHECK(s.variance() < 1e-20);
-        }
-    }
-
-    TEST_CASE("furnace: in a closed sphere every path of k bounces is worth the partial sum") {
-        // Light drawn by area from inside a sphere: cos cos / d^2 is constant.
-        for (double a : {0.5, 0.8}) {
-            std::string albedo = std::to_string(a) + " ";
-            Scene scene = world_of(
-                "ReverseOrientation AreaLightSource \"diffuse\" Material \"diffuse\""
-                " \"rgb reflectance\" [" +
-                albedo + albedo + albedo + "] Shape \"sphere\"");
-            for (int k = 0; k <= 4; k++) {
-                scene.max_depth = k;
-                RunningStats s = repeat(scene, {{0.2f, 0.1f, 0}, {0, 0, 1}}, ch10::trace, 500);
-                double sum = (1 - std::pow(a, k + 1)) / (1 - a);
-                CHECK(s.mean() == doctest::Approx(sum).epsilon(1e-4).scale(0));
-                CHECK(std::sqrt(s.variance()) < 1e-3);
-            }
-        }
-    }
-
-    TEST_CASE("truth: skies, drawn uniformly and by the cosine: mean and variance") {
-        struct Row {
-            std::string sky;
-            double (*L)(double);
-            double E, uniform, cosine;
-        };
-        for (auto [sky_here, L, E, uniform, cosine] :
-             {Row{"constant", [](double) { return 1.0; }, 3.14159265359, 3.289868133696, 0},
-              {"zenith", [](double c) { return c; }, 2.094395102393, 3.509192675943,
-               0.5483113556161},
-              {"horizon", [](double c) { return 1 - c; }, 1.047197551197, 0.2193245422464,
-               0.5483113556161},  // the cosine is worse
-              {"half", [](double c) { return (1 + c) / 2; }, 2.617993877991, 3.344699269258,
-               0.137077838904},
-              {"overcast", [](double c) { return (1 + 2 * c) / 3; }, 2.443460952792, 3.387345708028,
-               0.2436939358294}}) {
-            const auto& sky = sky_here;
-            CAPTURE(sky);
-            for (bool by_cosine : {false, true}) {
-                double variance = by_cosine ? cosine : uniform;
-                RunningStats s = irradiance_of(L, by_cosine);
-                check_mean(s, E, variance + 1e-8, 0.05 * E);
-                if (variance == 0) {
-                    CHECK(s.variance() < 1e-10);
-                    continue;
-                }
-                SquareMoments exact = exact_of(L, by_cosine);
-                CHECK(exact.variance == doctest::Approx(variance).epsilon(1e-4).scale(0));
-                check_variance(s, variance, exact.kurtosis);
-            }
         }
     }
 

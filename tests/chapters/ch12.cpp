@@ -105,24 +105,6 @@ double mean_of(size_t M, const Choice& choice, const Weight& weight) {
 
 auto is(double x) { return doctest::Approx(x).epsilon(1e-5).scale(0); }
 
-/// x^2 from M even candidates, resampled in proportion to x.
-RunningStats resampled_square(int M, int samples) {
-    RunningStats stats;
-    Sampler random = random_numbers(1);
-    std::vector<float> x(static_cast<size_t>(M));
-    for (int i = 0; i < samples; i++) {
-        ch12::Reservoir kept;
-        float u = random.u1();
-        for (size_t k = 0; k < x.size(); k++) {
-            x[k] = random.u1();
-            kept.offer(k, x[k], x[k], u);
-        }
-        double y = static_cast<double>(x[kept.light]);
-        stats.add(y * y * static_cast<double>(kept.W(M)));
-    }
-    return stats;
-}
-
 /// Chapters 11 and 12 in this scene; M as in the program without options.
 Trace trace_11(const Scene& scene) { return trace_with<ch11::trace>(ch11::prepare(scene)); }
 Trace trace_12(const Scene& scene, int M = 16) {
@@ -236,16 +218,6 @@ TEST_SUITE("ch12 reservoir") {
         MeanVariance result = resampled(2, p, last);
         CHECK(result.mean == is(8));  // f of the last light
         CHECK(result.mean / (1 - 0.81) == is(42.10526315789));
-    }
-
-    TEST_CASE("variance: x^2 from M even candidates, resampled by x: 1/72 + 3/(40 M)") {
-        for (int M : {1, 2, 4, 16, 64}) {
-            CAPTURE(M);
-            RunningStats s = resampled_square(M, M == 64 ? 100000 : 400000);
-            double variance = 1.0 / 72 + 3 / (40.0 * M);
-            check_mean(s, 1.0 / 3, variance, 0.01);
-            check_variance(s, variance, 5);
-        }
     }
 }
 

@@ -254,22 +254,6 @@ TEST_SUITE("ch13 rough metal") {
         }
     }
 
-    TEST_CASE("furnace: metal of alpha 1 gives back 1 - ln 2 of what falls straight on it") {
-        // What leaves a facet for another one is lost. With c = cos^2 of the facet's angle,
-        // E[X^n] = integral from 1/2 to 1 of (2 - 1/c)^n dc.
-        Material material = rough(1);
-        Hit x = metal(material);
-        RunningStats s;
-        Sampler random = random_numbers(1);
-        for (int i = 0; i < 200000; i++) {
-            BsdfSample b = ch13::sample_bsdf(x, {0, 0, 1}, random.u1(), random.u2());
-            s.add(b.pdf_w == 0 ? 0 : static_cast<double>(b.f.g * dot(b.wi, x.n) / b.pdf_w));
-        }
-        double mean = 1 - std::log(2), variance = 3 - 4 * std::log(2) - mean * mean;
-        check_mean(s, mean, variance, 0.01);
-        check_variance(s, variance, 3);
-    }
-
     TEST_CASE(
         "truth: the share of a white sky that rough metal reflects, by quadrature in double") {
         CHECK(RoughMetal{0.5, 0.2, 3.9}.albedo(pi_exact / 3) ==

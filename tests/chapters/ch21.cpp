@@ -189,33 +189,6 @@ TEST_SUITE("ch21 weights") {
         path[3].x.p = endpoints.camera.view.o;
         for (size_t s = 0; s < 4; s++) CHECK(ch21::mis_weight(scene, endpoints, path, s) == 0);
     }
-
-    TEST_CASE("truth: densities and weights of a path of two edges") {
-        // The pinhole at (0, -1, 0.5) looks at the origin, with a film of area 1 at distance 1;
-        // x = (0.2, 0.1, 0) on the floor, y = (0.1, -0.2, 1) on a unit light that faces it.
-        Scene scene;
-        Material floor;
-        Endpoints endpoints{};
-        ch21::Path path(3);
-        path[0].x.p = {0.1f, -0.2f, 1}, path[0].x.ng = {0, 0, -1}, path[0].pdf = 1;
-        path[1].x.p = {0.2f, 0.1f, 0}, path[1].x.n = path[1].x.ng = {0, 0, 1};
-        path[1].x.material = &floor;
-        path[2].x.p = {0, -1, 0.5f};
-        endpoints.camera.axis = normalize(-1 * path[2].x.p), endpoints.camera.area = 1;
-        // By hand: the light 0.2630660216395 m^-2 from x, which the eye meets with 0.28401 m^-2.
-        ch21::Path reversed(path.rbegin(), path.rend());
-        std::vector<double> eye = ch21::densities(scene, endpoints, false, reversed);
-        CHECK(eye[1] == doctest::Approx(0.2840100565843).epsilon(1e-5).scale(0));
-        CHECK(eye[2] == doctest::Approx(0.2630660216395).epsilon(1e-5).scale(0));
-        // s = 0 has p = eye[1] eye[2], s = 1 has eye[1]; s = 2 is left out.
-        double s0 = 0.2630660216395 / 1.2630660216395;
-        for (auto [edges, mis] : {std::pair<size_t, double>{0, s0}, {1, 1 - s0}}) {
-            size_t s = edges;
-            CAPTURE(s);
-            CHECK(static_cast<double>(ch21::mis_weight(scene, endpoints, path, s)) ==
-                  doctest::Approx(mis).epsilon(1e-5).scale(0));
-        }
-    }
 }
 
 TEST_SUITE("ch21 bidirectional") {

@@ -131,9 +131,6 @@ struct Effort {
     double relative_se = 4e-3;
     std::vector<double> heights = {1e-1, 1e-3, 1e-5, 1e-7};
 };
-Effort thorough(double relative_se) {
-    return {all_chapters, 600, 128, relative_se, {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}};
-}
 
 void check_chapters(const Scene& scene, const Ray& ray, double truth, const Effort& effort) {
     for (const Chapter& chapter : effort.chapters(scene)) {
@@ -313,11 +310,4 @@ TEST_SUITE("light limits") {
                 }
         }
     }
-}
-
-TEST_SUITE("light limits slow") {
-    TEST_CASE("truth: squares from near by every chapter") { check_squares(thorough(4e-4)); }
-    TEST_CASE("truth: triangles from near by every chapter") { check_triangles(thorough(4e-4)); }
-    TEST_CASE("truth: disks from near by every chapter") { check_disks(thorough(1e-3)); }
-    TEST_CASE("truth: balls from near by every chapter") { check_balls(thorough(1e-3)); }
 }

@@ -468,17 +468,6 @@ TEST_SUITE("programs") {
         }
     }
 
-    TEST_CASE("files: a killed program leaves the picture of before") {
-        TemporaryFolder folder;
-        write_file_atomically(folder / "a.ppm", "the old one");
-        Process process = start(path_tracer, {"--spp", "1000000000", "--out", folder / "a.ppm"});
-        ::usleep(300000);
-        process.kill(SIGKILL);
-        CHECK(process.wait().signal == SIGKILL);
-        CHECK(read_file(folder / "a.ppm") == "the old one");
-        CHECK(folder.names() == std::set<std::string>{"a.ppm"});
-    }
-
     TEST_CASE("identity: a render that is stopped and goes on from its film has the same bytes") {
         TemporaryFolder folder;
         auto words = [&](const std::string& name, const char* sampler) {
