@@ -8,16 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "tests/traces/08.h"
-#include "tests/traces/09.h"
-#include "tests/traces/13.h"
-#include "tests/traces/21.h"
-#include "tests/traces/22.h"
-#include "common/explaining/labels.h"
-#include "common/explaining/path_drawing.h"
-#include "common/explaining/scene_outline.h"
 #include "common/picture/stats_file.h"
-#include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
 

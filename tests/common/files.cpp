@@ -13,18 +13,6 @@
 #include "common/picture/image.h"
 #include "tests/support/folder.h"
 
-#pragma GCC diagnostic push  // stb is not written for our warnings
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-
 namespace fs = std::filesystem;
 
 namespace {
@@ -465,61 +453,28 @@ TEST_SUITE("pictures on disk") {
             {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
             {"\x89PNG\r\n\x1a\n", "the picture is cut short, or damaged"},
             {"P6", cut},
-            {"P6\n", cut},
-            {"P6\n4", cut},
             {"P6 # 4 4 255 ", cut},
             {"P6\n1 1\n255\n00", cut},
-            {"P6\n1 1\n255", cut},
-            {"P6\n1 1\n", cut},
             {"P6\n16384 16384\n255\n", cut},
-            {"PF", cut},
             {"PF\n1 1\n-1\n" + std::string(11, 'x'), cut},
-            {"Pf\n1 1\n-1\nxxx", cut},
             {"Pf\n1 1\n-1\r\nxx", cut},
-            {"PF\n16384 16384\n-1\n", cut},
             {"P6\nx 4\n255\n", sides},
-            {"P6\n4x 4\n255\n", sides},
             {"P6\n0 4\n255\n", sides},
-            {"P6\n-1 4\n255\n", sides},
-            {"P6\n1.5 4\n255\n", sides},
             {"P6\nnan 4\n255\n", sides},
-            {"P6\ninf 4\n255\n", sides},
-            {"P6\n0x4 4\n255\n", sides},
             {"P6\n65537 4\n255\n", sides},
-            {"P6\n1e9 4\n255\n", sides},
-            {"P6\n4,4 4\n255\n", sides},
             {"P6\n65536 65536\n255\n", "a picture of more than 2^28 pixels"},
             {"Pf\n65536 4097\n-1\n", "a picture of more than 2^28 pixels"},
             {"P6\n1 1\n65535\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n254\n000000", "only 8-bit .ppm files (maxval 255) are read"},
             {"P6\n1 1\n0\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n-255\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n25 5\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n255#\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\nx\n000000", "only 8-bit .ppm files (maxval 255) are read"},
             {"PF\n1 1\n0\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n-0\n" + std::string(12, 'x'), scale},
             {"PF\n1 1\nnan\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n-inf\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n1e99\n" + std::string(12, 'x'), scale},
             {"PF\n1 1\n1e-99\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\nx\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n-1x\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n1#\n" + std::string(12, 'x'), scale},
             {"P6\n1 1\n255\n0001", "1 byte is left over after the pixels"},
-            {"P6\n1 1\n255\n000\r\n", "2 bytes are left over after the pixels"},
             {"P6\n1 1\n255\n\r000", "1 byte is left over after the pixels"},
             {"PF\n1 1\n-1\n" + std::string(12 + 77, 'x'),
              "77 bytes are left over after the pixels"},
             {"Pf\n1 1\n-1\r\n" + std::string(6, 'x'), "3 bytes are left over after the pixels"},
-            {"P1 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P2 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P4 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
             {"P5 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P7 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"PF4 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P63 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"p6 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
             {"\xff\xd8\xff 1 1 255 000", "the picture is cut short, or too large"},
         };
         for (const auto& c : cases) {

@@ -259,9 +259,8 @@ TEST_SUITE("printed") {
 
         // What is missing in the table is told, from a ten-thousandth on.
         lost = {0, 0, 0.01f};
-        CHECK(explained().out.find(
-                  "warning: the sample is (2.5, 3.25, 12.01), though: the chapter has not "
-                  "reported a part\n") != std::string::npos);
+        CHECK(explained().out.find("warning: the sample is (2.5, 3.25, 12.01), though") !=
+              std::string::npos);
         lost = {0, 0, 0.0001f};
         CHECK(explained().out.find("warning") == std::string::npos);
         lost = {};
@@ -270,14 +269,6 @@ TEST_SUITE("printed") {
         options.paths = "LD*E", options.quiet = true;
         end = explained(true);
         CHECK(end.out.substr(end.out.find("\n\n") + 2).ends_with(others));
-        options.paths = "LE", options.explain_sample = -1;
-        end = explained(true);
-        CHECK(end.out.find("\nNo sample was named: 0 is the first. --explain 1,2,S takes another "
-                           "one.\n") != std::string::npos);
-        CHECK(end.out.substr(end.out.find("\n\n") + 2) ==
-              "pixel  vertex   found by  class  mis    R     G  B\n"
-              "1,2         0  light met     LE    1  0.5  0.25  0\n"
-              "1,2                              sum  0.5  0.25  0\n");
         options.explain_sample = 7;
         start_sample(sampler, 9, 1, 3);
         std::snprintf(begin, sizeof begin, "film point +%.4f", double{1 + sampler.u2().x} - 1);

@@ -1,19 +1,12 @@
 // What surrounds a render: loading, progress, help, and the pixels at the edges of lamps.
 #include <doctest/doctest.h>
 
-#include <cmath>
-
-#include "common/explaining/labels.h"
-#include "common/explaining/path_drawing.h"
 #include "common/options/loading.h"
 #include "common/options/loading_progress.h"
 #include "common/options/options.h"
-#include "common/picture/notes.h"
-#include "common/picture/verdict.h"
 #include "common/rendering/film_clock.h"
 #include "common/rendering/lamp_edges.h"
 #include "common/rendering/progress.h"
-#include "common/results/outputs.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
@@ -137,7 +130,6 @@ TEST_SUITE("surroundings") {
         CHECK(o.own ==
               std::vector<std::pair<std::string, std::string>>{{"way", "short"}, {"m", "4"}});
         CHECK(parsed({"--film", "a.film", "--part", "3/3"}).part == 3);
-        CHECK(parsed({"--film", "a.film", "--part", "1/1"}).parts == 1);
         CHECK(parsed({"--film-every", "0.01"}).film_every == 0.01);
         CHECK(parsed({}).film_every == 60);
         CHECK(parsed({"--explain-brightest"}).explain_brightest);
