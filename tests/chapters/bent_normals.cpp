@@ -228,9 +228,7 @@ TEST_SUITE("bent normals") {
     }
 
     TEST_CASE("truth: a lamp whose normals lean lights as a flat one does, near and far") {
-        for (auto [h_here, E] : {std::pair{1.0f, 0.7522746884541}, {1.5f, 0.3874136329362}}) {
-            const auto& h = h_here;
-            CAPTURE(h);
+        for (auto [h, E] : {std::pair{1.0f, 0.7522746884541}, {1.5f, 0.3874136329362}}) {
             Scene scene = floor_under(bent_lamp(h));
             for (const Chapter& chapter : every_chapter(scene)) {
                 CAPTURE(chapter.name);

@@ -47,7 +47,6 @@ TEST_SUITE("ch02 strata") {
         double exponential_variance = std::pow((e * e - 1) / 2, 2) - std::pow(e - 1, 4);
         for (PointSet set : all_sets)
             for (uint32_t n : {7u, 16u}) {
-                CAPTURE(static_cast<int>(set));
                 RunningStats pi_estimate, product, sum;
                 for (uint32_t run = 0; run < 2000; run++) {
                     Points points = ch02::make_points(set, n, hash32(run, 2));
@@ -157,7 +156,6 @@ TEST_SUITE("ch02 pictures and slopes") {
         constexpr double gate = 0.06;
         auto check = [&](PointSet set, double edge, double smooth) {
             auto [measured_edge, measured_smooth] = slopes(set);
-            CAPTURE(static_cast<int>(set));
             CHECK(std::abs(measured_edge - edge) < gate);
             CHECK(std::abs(measured_smooth - smooth) < gate);
         };

@@ -91,7 +91,6 @@ TEST_SUITE("ch03 points") {
         double exponential_variance = std::pow((e * e - 1) / 2, 2) - std::pow(e - 1, 4);
         for (PointSet set : all_sets)
             for (uint32_t n : {7u, 16u}) {
-                CAPTURE(static_cast<int>(set));
                 RunningStats pi_estimate, xy, sum;
                 for (uint32_t run = 0; run < 2000; run++) {
                     Points points = ch03::make_points(set, n, hash32(run, 2));
@@ -159,7 +158,6 @@ TEST_SUITE("ch03 low discrepancy") {
                         {16, 4.805e-2, 4.785e-5, 7.391e-4},
                         {64, 5.499e-3, 1.013e-6, 1.431e-5},
                         {256, 7.015e-4, 1.952e-8, 2.630e-7}}) {
-            CAPTURE(row.n);
             auto ratio = [&](auto f, double truth) {
                 return estimates(PointSet::sobol, row.n, 3000, f).variance() / truth;
             };
@@ -178,7 +176,6 @@ TEST_SUITE("ch03 low discrepancy") {
                         {64, 8.701e-3, 6.166e-5},
                         {256, 8.550e-4, 4.912e-6},
                         {1024, 1.147e-4, 5.552e-7}}) {
-            CAPTURE(row.n);
             auto ratio = [&](auto f, double truth) {
                 return estimates(PointSet::halton, row.n, 1500, f).variance() / truth;
             };
@@ -274,7 +271,6 @@ TEST_SUITE("ch03 pairs of dimensions") {
         auto xw = [](Vec2 p, Vec2 q) { return double{p.x} * double{q.y}; };
         for (PointSet set : all_sets)
             for (uint32_t n : {7u, 16u}) {
-                CAPTURE(static_cast<int>(set));
                 RunningStats smooth, ball, crossed;
                 for (uint32_t run = 0; run < 2000; run++) {
                     uint32_t seed = hash32(run, 2);
@@ -380,7 +376,6 @@ TEST_SUITE("ch03 slopes") {
                 for (size_t k = 0; k < 6; k++) errors[k].push_back(m.errors[k]);
             }
             for (size_t k = 0; k < 6; k++) {
-                CAPTURE(static_cast<int>(set));
                 CAPTURE(ch03::integrands[k].name);
                 CHECK(std::abs(fitted_slope(n, errors[k]) - theory[k]) < gate);
             }

@@ -180,8 +180,6 @@ TEST_SUITE("ch04 densities") {
 TEST_SUITE("ch04 integrals") {
     TEST_CASE("truth: mean and variance of each integrand and density, against quadrature") {
         for (const Experiment& e : ch04::integrals()) {
-            CAPTURE(e.what);
-            CAPTURE(e.density);
             if (std::isinf(e.variance)) continue;
             Moments m = moments(e, 1000000);
             // Midpoints see a step to 1e-6; x^-1/2, the square of x^-1/4, only to 1/sqrt(n).
@@ -219,8 +217,6 @@ TEST_SUITE("ch04 integrals") {
 
     TEST_CASE("variance: a million samples have the exact mean and variance") {
         for (const Experiment& e : ch04::integrals()) {
-            CAPTURE(e.what);
-            CAPTURE(e.density);
             RunningStats s = ch04::run(e, 1000000, 1).stats;
             CHECK(std::isfinite(s.mean()));
             if (std::isinf(e.variance)) continue;  // no gate knows such a mean

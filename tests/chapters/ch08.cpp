@@ -105,7 +105,6 @@ int check_classes(const Scene& scene, int paths) {
         for (const auto& part : parts_a) {
             const PathSum &of_a = part.second, &of_b = parts_b[part.first];
             if (of_a.not_zero < 100 || of_b.not_zero < 100) continue;
-            CAPTURE(part.first);
             CHECK(z_between(of_a.measured(a.paths), of_b.measured(b.paths)) < 5);
             compared++;
         }

@@ -80,7 +80,7 @@ TEST_SUITE("ch10 cosine sampling") {
             double factor;
             double (*weight)(double);
         };
-        for (auto [variant_here, factor, weight] :
+        for (auto [variant, factor, weight] :
              {Row{"as printed", 12.56637061436,
                   [](double dot) { return 2 * dot / (dot / (2 * pi_exact)); }},
               {"pdf repaired", 6.28318530718,
@@ -88,8 +88,6 @@ TEST_SUITE("ch10 cosine sampling") {
               {"BRDF repaired", 2,
                [](double dot) { return dot / pi_exact / (dot / (2 * pi_exact)); }},
               {"right", 1, [](double dot) { return dot / pi_exact / (dot / pi_exact); }}}) {
-            const auto& variant = variant_here;
-            CAPTURE(variant);
             RunningStats s;
             Sampler random = random_numbers(1);
             for (int i = 0; i < 1000; i++)
@@ -108,7 +106,7 @@ TEST_SUITE("ch10 cosine sampling") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 09") {
-        for (const auto& [name_here, least] :
+        for (const auto& [name, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
                                                       {"color-bleeding", 6},
@@ -117,8 +115,6 @@ TEST_SUITE("ch10 cosine sampling") {
                                                       {"light-in-glass", 4},
                                                       {"horizon-sky", 2},
                                                       {"hidden-light", 6}}) {
-            const auto& name = name_here;
-            CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, trace_09, scene, ch10::trace, 40000) >= least);
         }

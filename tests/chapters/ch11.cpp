@@ -220,7 +220,7 @@ TEST_SUITE("ch11 light importance") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 10") {
-        for (const auto& [name_here, least] :
+        for (const auto& [name, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"two-lights", 4},
                                                       {"far-and-near", 2},
@@ -228,8 +228,6 @@ TEST_SUITE("ch11 light importance") {
                                                       {"thousand-lights", 4},
                                                       {"near-light", 2},
                                                       {"horizon-sky", 2}}) {
-            const auto& name = name_here;
-            CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, ch10::trace, scene, trace_11(scene), 40000) >= least);
         }

@@ -268,7 +268,7 @@ TEST_SUITE("ch12 ris") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 11") {
-        for (const auto& [name_here, least] :
+        for (const auto& [name, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
                                                       {"two-lights", 4},
@@ -276,8 +276,6 @@ TEST_SUITE("ch12 ris") {
                                                       {"thousand-lights", 4},
                                                       {"near-light", 2},
                                                       {"horizon-sky", 2}}) {
-            const auto& name = name_here;
-            CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, trace_11(scene), scene, trace_12(scene), 20000) >= least);
         }

@@ -258,10 +258,7 @@ TEST_SUITE("ch13 rough metal") {
         "truth: the share of a white sky that rough metal reflects, by quadrature in double") {
         CHECK(RoughMetal{0.5, 0.2, 3.9}.albedo(pi_exact / 3) ==
               doctest::Approx(0.66274).epsilon(1e-5).scale(0));
-        for (auto [alpha_here, eta, k] :
-             {std::tuple{0.1, 0.2, 3.9}, {0.5, 0.2, 3.9}, {1.0, 1.5, 2.0}}) {
-            const auto& alpha = alpha_here;
-            CAPTURE(alpha);
+        for (auto [alpha, eta, k] : {std::tuple{0.1, 0.2, 3.9}, {0.5, 0.2, 3.9}, {1.0, 1.5, 2.0}}) {
             Material material = rough(static_cast<float>(alpha));
             material.eta.g = static_cast<float>(eta), material.k.g = static_cast<float>(k);
             Hit x = metal(material);

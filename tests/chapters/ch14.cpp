@@ -166,10 +166,8 @@ TEST_SUITE("ch14 weights") {
 
     TEST_CASE("failure: a density per area beside one per solid angle: 0.881, 1.105, 1.318") {
         // The light's samples weigh with the right density, the BSDF's with 1 / area.
-        for (auto [h_here, wrong] :
+        for (auto [h, wrong] :
              {std::pair{0.5, 0.8809532795696}, {1.0, 1.105316968821}, {2.0, 1.317990844865}}) {
-            const auto& h = h_here;
-            CAPTURE(h);
             // Irradiance of the disk, over z = cos: 2 pi z dz from h / sqrt(1 + h^2) to 1.
             double low = h / std::sqrt(1 + h * h), right = 0, mixed = 0, both_wrong = 0;
             for (int i = 0; i < 10000; i++) {
@@ -190,13 +188,10 @@ TEST_SUITE("ch14 weights") {
 
 TEST_SUITE("ch14 mis") {
     TEST_CASE("truth: irradiance of all lights, by every strategy") {
-        for (const auto& [light_here, E] : lights_of_known_irradiance) {
-            const auto& light = light_here;
-            CAPTURE(light);
+        for (const auto& [light, E] : lights_of_known_irradiance) {
             Scene scene = floor_under(light);
             for (Strategy strategy : all_strategies)
                 for (Heuristic heuristic : both_heuristics) {
-                    CAPTURE(static_cast<int>(strategy));
                     bool rare = strategy == Strategy::bsdf;
                     Trace trace = by({strategy, heuristic}, scene);
                     check_bounded(irradiance(scene, trace, rare ? 60000 : 20000), E, 0.025);
@@ -230,7 +225,7 @@ TEST_SUITE("ch14 mis") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 13") {
-        for (const auto& [name_here, least] :
+        for (const auto& [name, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
                                                       {"two-lights", 4},
@@ -241,8 +236,6 @@ TEST_SUITE("ch14 mis") {
                                                       {"light-in-glass", 4},
                                                       {"horizon-sky", 2},
                                                       {"veach-mis", 6}}) {
-            const auto& name = name_here;
-            CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             Trace aimed = trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
             CHECK(check_classes(scene, aimed, scene, by({}, scene), 20000) >= least);
@@ -250,9 +243,7 @@ TEST_SUITE("ch14 mis") {
     }
 
     TEST_CASE("agreement: each weight belongs to the last vertex, also after several") {
-        for (const std::string& board_here : boards) {
-            const auto& board = board_here;
-            CAPTURE(board);
+        for (const std::string& board : boards) {
             Scene scene = board_beside_lamp(board);
             Trace light = by({Strategy::light}, scene);
             CHECK(check_classes(scene, light, scene, by({}, scene), 200000) >= 6);
@@ -265,10 +256,8 @@ TEST_SUITE("ch14 mis") {
         for (Strategy strategy : {Strategy::bsdf, Strategy::light}) {
             PathCensus census = census_of(scene, by({strategy}, scene), 100000, 2);
             CHECK(census.worst_sum < 1e-5);
-            for (auto& [name_here, part] : mis.by_class) {
-                const auto& name = name_here;
+            for (auto& [name, part] : mis.by_class) {
                 if (part.not_zero < 200 || census.by_class[name].not_zero < 200) continue;
-                CAPTURE(name);
                 CHECK(z_between(part.measured(mis.paths),
                                 census.by_class[name].measured(census.paths)) < 5);
             }

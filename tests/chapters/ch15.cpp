@@ -224,9 +224,7 @@ TEST_SUITE("ch15 two lights") {
 
 TEST_SUITE("ch15 mis ris") {
     TEST_CASE("truth: irradiance of all lights") {
-        for (const auto& [light_here, E] : lights_of_known_irradiance) {
-            const auto& light = light_here;
-            CAPTURE(light);
+        for (const auto& [light, E] : lights_of_known_irradiance) {
             Scene scene = floor_under(light);
             for (int M : {1, 2, 64})
                 check_bounded(irradiance(scene, by_fifteen(scene, M), 20000), E, 0.025);
@@ -254,7 +252,7 @@ TEST_SUITE("ch15 mis ris") {
     }
 
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 12") {
-        for (const auto& [name_here, least] :
+        for (const auto& [name, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},
                                                       {"two-lights", 4},
@@ -264,8 +262,6 @@ TEST_SUITE("ch15 mis ris") {
                                                       {"near-light", 2},
                                                       {"light-in-glass", 4},
                                                       {"horizon-sky", 2}}) {
-            const auto& name = name_here;
-            CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, by_twelve(scene), scene, by_fifteen(scene), 20000) >= least);
         }

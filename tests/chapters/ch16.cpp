@@ -151,7 +151,6 @@ TEST_SUITE("ch16 lens") {
         Sampler random = random_numbers(1);
         for (auto [depth, radius] : cases) {
             float z = depth;  // clang 14 cannot capture the names in [ ]
-            CAPTURE(z);
             float widest = 0;
             for (int i = 0; i < 1000; i++) {
                 // A pinhole ray through the point's disk; its lens ray at the rim of the lens.
@@ -235,8 +234,6 @@ TEST_SUITE("ch16 shutter") {
                      {edge, {0.5f, 0, 0}, 0.5},   {edge, {0.35f, 0, 0}, 0.75},
                      {edge, {0.1f, 0, 0}, 1},     {edge, {0.9f, 0, 0}, 0}};
         for (const auto& c : cases) {
-            CAPTURE(c.p.x);
-            CAPTURE(c.p.y);
             Scene scene = before_white(c.mover);
             RunningStats s =
                 repeat(scene, {c.p - Vec3{0, 0, 3}, {0, 0, 1}}, by_sixteen(scene), 100000);

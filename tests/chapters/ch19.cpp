@@ -255,8 +255,6 @@ TEST_SUITE("ch19 adaptive") {
                 means.add(adaptive(scene, rare, 24, seed, {8, judge, {}}).film.mean());
             }
             double z = (means.mean() - 0.05) / means.standard_error();
-            CAPTURE(means.mean());
-            CAPTURE(z);
             CHECK(means.standard_error() < 0.0001);
             if (judge == ch19::Judge::other) CHECK(std::abs(z) < 5);
             if (judge == ch19::Judge::own) CHECK(z < -8);
@@ -274,7 +272,6 @@ TEST_SUITE("ch19 adaptive") {
                 difference.add(mean -
                                film_of(scene, by_eighteen(scene), 12, seed + 1000).film.mean());
             }
-            CAPTURE(difference.mean());
             CHECK(std::abs(difference.mean()) < 5 * difference.standard_error());
             CHECK(difference.standard_error() < 0.01);
         }
@@ -290,7 +287,6 @@ TEST_SUITE("ch19 adaptive") {
                 squares.add(film.standard_error() * film.standard_error());
             }
             double ratio = std::sqrt(squares.mean() / means.variance());
-            CAPTURE(static_cast<int>(sampler));
             CHECK(ratio > 1 / 1.25);  // the spread of 200 has a standard error of 5 %
             CHECK(ratio < 1.25);
         }

@@ -37,7 +37,6 @@ PathSum totals(const Scene& scene, int paths, uint32_t seed = 1, const std::stri
 }
 void check_picture_mean(const Scene& scene, double truth, int paths, double relative_se) {
     Measured m = totals(scene, paths).measured(paths);
-    CAPTURE(m.mean);
     CAPTURE(truth);
     CHECK(std::abs(m.mean - truth) < 5 * m.se + 1e-5 * truth);
     CHECK(m.se < relative_se * truth);
@@ -183,10 +182,8 @@ TEST_SUITE("ch20 light tracing") {
         // The picture shows a square of 10 cm around the origin.
         auto all = lights_of_known_irradiance;
         all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
-        for (const auto& [light_here, E] : all) {
-            const auto& light = light_here;
+        for (const auto& [light, E] : all) {
             if (E < 0.1) continue;  // too few of its paths come here
-            CAPTURE(light);
             Scene scene = floor_below(light, 0.1);
             scene.camera.o = {0, 0.05f, 0};
             constexpr int paths = 3000000;
@@ -290,7 +287,6 @@ TEST_SUITE("ch20 slow") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 4);
         for (SamplerType type :
              {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-            CAPTURE(static_cast<int>(type));
             RunningStats means, squares;
             for (uint32_t seed = 0; seed < 200; seed++) {
                 Film film = film_of(scene, by_twenty(scene), 8, seed, type).film;

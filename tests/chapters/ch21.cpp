@@ -141,7 +141,6 @@ TEST_SUITE("ch21 weights") {
                      {"cornell", "leaning normals"}};
         for (const auto& c : cases) {
             CAPTURE(c.name);
-            CAPTURE(c.how);
             Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 7);
             change(scene, c.how);
             bool leans = c.how == "leaning normals";
@@ -219,9 +218,7 @@ TEST_SUITE("ch21 bidirectional") {
     TEST_CASE("truth: irradiance of all lights by both ends") {
         auto all = lights_of_known_irradiance;
         all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
-        for (const auto& [light_here, E] : all) {
-            const auto& light = light_here;
-            CAPTURE(light);
+        for (const auto& [light, E] : all) {
             Scene scene = floor_under(light);
             scene.camera.o = {0, 0.01f, 0};
             scene.camera.right = {1, 0, 0}, scene.camera.up = {0, 0, 1};

@@ -53,7 +53,6 @@ TEST_SUITE("ch22 fast bidirectional") {
             {"cornell", "metal"}, {"two-lights", "two-sided"}, {"cornell", "leaning normals"}};
         for (const auto& c : cases) {
             CAPTURE(c.name);
-            CAPTURE(c.how);
             Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
             change(scene, c.how);
             SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));

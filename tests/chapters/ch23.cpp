@@ -216,9 +216,7 @@ TEST_SUITE("ch23 photon mapping") {
     TEST_CASE("truth: irradiance of all lights, by photons alone") {
         auto all = lights_of_known_irradiance;
         all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
-        for (const auto& [light_here, E] : all) {
-            const auto& light = light_here;
-            CAPTURE(light);
+        for (const auto& [light, E] : all) {
             if (E < 0.1) continue;  // too few photons come here
             Scene scene = scene_of(
                 "LookAt 0 0.05 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 90\n"
@@ -247,7 +245,6 @@ TEST_SUITE("ch23 photon mapping") {
                                         .final_gathering = final_gathering,
                                         .radius = radius};
                 Measured m = mean_over_seeds(scene, settings, 4, 8, "LSDE");
-                CAPTURE(m.mean / truth);
                 CHECK(std::abs(m.mean - truth) < 5 * m.se);
                 CHECK(m.se < 0.004 * truth);
             }
@@ -266,7 +263,6 @@ TEST_SUITE("ch23 photon mapping") {
             return mse.mean();
         };
         double few = error(128), many = error(1024);
-        CAPTURE(few);
         CHECK(many == doctest::Approx(few).epsilon(0.1).scale(0));
         CHECK(many > 0.005);
     }
@@ -284,7 +280,6 @@ TEST_SUITE("ch23 photon mapping") {
                 .light_paths = 4000, .final_gathering = final_gathering, .radius = 0.2f};
             Measured m = mean_over_seeds(scene, settings, 8, 10);
             CAPTURE(final_gathering);
-            CAPTURE(m.mean);
             CHECK(std::abs(m.mean - 2) < 5 * m.se);
             CHECK(m.se < 0.005);
         }
@@ -299,8 +294,6 @@ TEST_SUITE("ch23 photon mapping") {
             Measured m = mean_over_seeds(scene, settings, 16, 8, classes);
             Measured truth = mean_over_seeds_of(
                 scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 32, 8, classes);
-            CAPTURE(m.mean);
-            CAPTURE(truth.mean);
             CHECK(std::abs(m.mean - truth.mean) <
                   5 * std::hypot(m.se, truth.se) + 0.01 * truth.mean);
             CHECK(std::hypot(m.se, truth.se) < 0.015 * truth.mean);
@@ -316,8 +309,6 @@ TEST_SUITE("ch23 photon mapping") {
             "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + square(1, false));
         Measured m = mean_over_seeds(scene, {.light_paths = 500}, 64, 10, "LDE");
         Measured truth = mean_over_seeds_of(scene, by_fifteen(scene), 64, 10, "LDE");
-        CAPTURE(m.mean);
-        CAPTURE(truth.mean);
         CHECK(std::abs(m.mean - truth.mean) < 5 * std::hypot(m.se, truth.se));
         CHECK(std::hypot(m.se, truth.se) < 0.02 * truth.mean);
     }
@@ -330,8 +321,6 @@ TEST_SUITE("ch23 photon mapping") {
         Measured m = mean_over_seeds(
             scene, {.light_paths = 40000, .final_gathering = false, .radius = 0.05f}, 4, 8);
         Film film = film_of(scene, by_fifteen(scene), 256).film;
-        CAPTURE(m.mean);
-        CAPTURE(film.mean());
         CHECK(std::abs(m.mean - film.mean()) <
               5 * std::hypot(m.se, film.standard_error()) + 0.01 * film.mean());
         CHECK(m.se < 0.01 * film.mean());
@@ -408,7 +397,6 @@ TEST_SUITE("ch23 photon mapping slow") {
                 reported += film.standard_error() / runs;
             }
             double spread = std::sqrt(means.variance());
-            CAPTURE(static_cast<int>(sampler));
             CAPTURE(reported / spread);
             CHECK(reported / spread > 0.65);  // 40 runs: spread to 11 %, 32 passes: each to 13 %
             CHECK(reported / spread < 1.5);

@@ -105,8 +105,6 @@ TEST_SUITE("ch25 weights") {
                      {"light-in-glass", "two-sided", 1}};
         for (const auto& c : cases) {
             CAPTURE(c.name);
-            CAPTURE(c.how);
-            CAPTURE(c.area);
             Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
             change(scene, c.how);
             ch25::Merging merging{endpoints_of(scene), many_lights::prepare(scene)};
@@ -172,7 +170,6 @@ TEST_SUITE("ch25 weights") {
 TEST_SUITE("ch25 vertex merging") {
     TEST_CASE("identity: where nothing is a mirror or glass, the path of chapter 22") {
         for (const char* name : {"cornell", "two-lights", "lamp", "horizon-sky", "veach-mis"}) {
-            CAPTURE(std::string(name));
             Scene scene = scene_from(std::string("scenes/") + name + ".pbrt", 16, 6);
             scene.spp = 4;
             Film own = film_by(scene, as_usual, 4);
@@ -203,7 +200,6 @@ TEST_SUITE("ch25 vertex merging") {
                 CAPTURE(light_paths);
                 PhotonSettings settings{.light_paths = light_paths, .radius = radius};
                 Measured m = blocks_by(scene, settings, 64, 8, "LSDE").block(0, 0, 32);
-                CAPTURE(m.mean / truth);
                 CHECK(std::abs(m.mean - truth) < 5 * m.se);
                 CHECK(m.se < 0.04 * truth);
             }
@@ -287,7 +283,6 @@ TEST_SUITE("ch25 vertex merging slow") {
         double bias2 = FloorInMirror::bias2();
         RunningStats one_pass = errors(1, false, 400), many = errors(512, false, 12);
         double expected = bias2 + (one_pass.mean() - bias2) / 512;
-        CAPTURE(many.mean() / expected);
         CHECK(many.mean() > 0.9 * bias2);
         CHECK(std::abs(many.mean() - expected) < 5 * many.standard_error());
         CHECK(many.standard_error() < 0.05 * expected);

@@ -81,7 +81,6 @@ BlockMeans blocks_of_passes(Scene scene, const MakePasses& passes, Settings sett
 void check_same(const BlockMeans& a, const BlockMeans& b, double bias, double relative_se) {
     double mean = b.whole.mean();
     double se = std::hypot(a.whole.standard_error(), b.whole.standard_error());
-    CAPTURE(a.whole.mean());
     CAPTURE(mean);
     CAPTURE(se);
     CHECK(std::abs(a.whole.mean() - mean) <= 5 * se + bias * mean);

@@ -150,8 +150,6 @@ void check_squares(const Effort& effort) {
                         Vec2{0.0078125f, -0.4f},  // beside an edge
                         Vec2{0.125f, 0.125f}})    // beside a corner
         for (double h : effort.heights) {
-            CAPTURE(corner.x);
-            CAPTURE(corner.y);
             CAPTURE(h);
             Scene scene = patch_under(unit_square_at(h, corner));
             REQUIRE(scene.light_shapes[0].parallelogram);
@@ -169,7 +167,6 @@ void check_triangles(const Effort& effort) {
     for (const auto& [indices, points] : shapes)
         for (double h : effort.heights) {
             const auto& corners = points;
-            CAPTURE(corners[0].y);
             CAPTURE(h);
             Scene scene = patch_under(triangles(indices, h, corners));
             check_chapters(scene, onto_patch(scene, h), irradiance_of_triangles(scene, {}), effort);

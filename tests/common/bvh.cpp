@@ -202,7 +202,6 @@ void check_same_hits(const Geometry& g, double least_share, uint32_t rays_of_eac
             all.compare("ends behind it", kind, i, ray);
         }
     }
-    CAPTURE(all.wrong);
     CHECK(all.first_wrong == "");
     CHECK(all.hits >= least_share * all.rays);
 }

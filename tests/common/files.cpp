@@ -294,8 +294,6 @@ TEST_SUITE("pictures on disk") {
         for (const char* line : {"\n", "\r\n", "\r", " ", "\t", "\n\n", "\n# a comment\n",
                                  "\r\n# a comment\r\n", "\r# a comment\r"}) {
             for (const char* end : {"\n", "\r\n", "\r", " ", "\t"}) {
-                CAPTURE(line);
-                CAPTURE(end);
                 std::string lines = line;
                 std::string header = "P6" + lines + "2" + lines + "1" + lines + "255" + end;
                 Image image = decode_image("a.ppm", header + codes);
@@ -478,7 +476,6 @@ TEST_SUITE("pictures on disk") {
             {"\xff\xd8\xff 1 1 255 000", "the picture is cut short, or too large"},
         };
         for (const auto& c : cases) {
-            CAPTURE(c.bytes);
             write_file_atomically(folder / "a", c.bytes);
             CHECK(error_of([&] { read_image(folder / "a"); }) ==
                   folder / "a" + ": error: " + c.error);

@@ -209,7 +209,6 @@ TEST_SUITE("light shapes") {
         std::vector<double> areas = {1, 4, pi_exact, pi_exact / 4};
         for (size_t i = 0; i < areas.size(); i++) {
             Scene scene = light_of(shapes[i].second);
-            CAPTURE(shapes[i].first);
             CHECK(relative_error(static_cast<double>(scene.light_shapes[0].area), areas[i]) < 1e-6);
             CHECK(pdf_area(scene, 0) * scene.light_shapes[0].area ==
                   doctest::Approx(1).epsilon(1e-6).scale(0));
@@ -291,7 +290,6 @@ TEST_SUITE("light shapes") {
                     CHECK(std::abs(std::abs(dot(hit->ng, y.n)) - 1) < 1e-3f);
                 }
                 CAPTURE(name);
-                CAPTURE(x.y);
                 CHECK(wrong <=
                       10);  // on the edge of two triangles it may be the other one that is hit
                 CHECK(met > 900);
@@ -321,7 +319,6 @@ TEST_SUITE("light shapes") {
                     met.add(z.pdf > 0 && at && off(at->p, z.p) < 1e-3 ? 1 : 0);
                 }
                 CAPTURE(name);
-                CAPTURE(x.y);
                 double se = std::hypot(integral.standard_error(), met.standard_error());
                 CHECK(std::abs(integral.mean() - met.mean()) <= 5 * se + 1e-3);
                 CHECK(se < 0.05);

@@ -156,7 +156,6 @@ TEST_SUITE("render loop") {
                 double truth = 3.5 / 3 * (1.0 / 3 + 0.5 + 0.045);
                 covered += std::abs(film.mean() - truth) < 1.96 * se;
             }
-            CAPTURE(static_cast<int>(type));
             double ratio = std::sqrt(squares.mean() / means.variance());
             CHECK(ratio > 1 / 1.25);  // the spread of 200 has a standard error of 5 %
             CHECK(ratio < 1.25);

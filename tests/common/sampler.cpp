@@ -225,7 +225,6 @@ TEST_SUITE("sampler: uniform and independent") {
         for (SamplerType type : all_types)
             for (uint32_t spp : {1u, 7u, 16u})
                 for (int pair : {0, 1, 7}) {
-                    CAPTURE(static_cast<int>(type));
                     CAPTURE(spp);
                     CAPTURE(pair);
                     std::vector<Vec2> points;
@@ -248,7 +247,6 @@ TEST_SUITE("sampler: uniform and independent") {
         // 12 (u - 1/2)(v - 1/2) has mean 0 and variance 1 when u and v are independent.
         constexpr uint32_t n = 1 << 18;
         for (SamplerType type : all_types) {
-            CAPTURE(static_cast<int>(type));
             auto number = [&](uint32_t seed, uint32_t pixel, uint32_t sample, uint32_t dimension) {
                 Sampler s(type, seed, 16);
                 s.start(pixel, sample);
@@ -275,7 +273,6 @@ TEST_SUITE("sampler: uniform and independent") {
 
     TEST_CASE("density: the numbers of one long path are uniform, and each pair independent") {
         for (SamplerType type : all_types) {
-            CAPTURE(static_cast<int>(type));
             Sampler sampler(type, 3, 16);
             sampler.start(5, 7);
             std::vector<Vec2> points;
@@ -412,7 +409,6 @@ TEST_SUITE("sampler: Sobol") {
                         {64, 5.499e-3, 1.013e-6, 1.431e-5},
                         {256, 7.015e-4, 1.952e-8, 2.630e-7},
                         {1024, 1.032e-4, 3.759e-10, 4.720e-9}}) {
-            CAPTURE(row.n);
             auto variance = [&](double (*f)(Vec2)) {
                 return pixel_estimates(SamplerType::sobol, row.n, 3000, f).variance();
             };
