@@ -123,19 +123,4 @@ TEST_SUITE("ch10 cosine sampling") {
                                      film_of(scene, ch10::trace, 192, 2).film),
                         0.01);
     }
-
-    TEST_CASE("variance: in the Cornell box, for light that other surfaces reflect") {
-        // Direct light is drawn alike in both; what comes after one bounce or more is not.
-        Scene scene = scene_from("scenes/cornell.pbrt", 32, 8);
-        PathCensus before = census_of(scene, trace_09, 100000, 1);
-        PathCensus now = census_of(scene, ch10::trace, 100000, 2);
-        for (size_t length : {2u, 3u, 4u}) {
-            double a = before.by_length[length].measured(before.paths).se;
-            double b = now.by_length[length].measured(now.paths).se;
-            CAPTURE(length);
-            CHECK(b < a);
-        }
-        CHECK(rel_mse(film_of(scene, ch10::trace, 256).film) <
-              rel_mse(film_of(scene, trace_09, 256).film));
-    }
 }

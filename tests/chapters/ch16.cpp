@@ -183,29 +183,6 @@ TEST_SUITE("ch16 lens") {
         check_mean(x2, 0.25, 1.0 / 16, 0.004);  // r = u in place of sqrt(u): 1/6
         check_mean(r2, 0.5, 1.0 / 12, 0.004);
     }
-
-    TEST_CASE("truth: an edge that is out of focus") {
-        // A lamp that fills x < 0 at depth 4; film points whose disk has its middle t radii from
-        // it.
-        std::string lamp = "AreaLightSource \"diffuse\" \"bool twosided\" true " + black +
-                           "Translate -500 0 4 Rotate 90 1 0 0 Scale 500 1 500 " + square(0, true);
-        Scene scene = world_of(lamp);
-        scene.camera = camera_with_lens();
-        scene.max_depth = 0;
-        struct {
-            double t, share;
-        } cases[] = {{0, 0.5}, {0.5, 0.8044988905221}, {0.9, 0.9813069632658}};
-        for (const auto& c : cases)
-            for (double side : {-1.0, 1.0}) {
-                auto t = c.t, share = c.share;
-                CAPTURE(t);
-                Vec3 focus = {static_cast<float>(-side * t * 0.05), 0, 2};
-                RunningStats s =
-                    repeat(scene, {{0, 0, 0}, normalize(focus)}, by_sixteen(scene), 400000, 1);
-                double mean = side > 0 ? share : 1 - share;
-                check_mean(s, mean, share * (1 - share) + 1e-9, 0.007);
-            }
-    }
 }
 
 TEST_SUITE("ch16 shutter") {

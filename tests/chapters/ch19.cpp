@@ -154,30 +154,6 @@ TEST_SUITE("ch19 adaptive") {
         CHECK(most == 16 * 108);
     }
 
-    TEST_CASE("truth: pixels that have enough leave what their densities ask for to the others") {
-        // Densities of 0.1 and 1.9, a pilot of 16. Of 64 the former would get 6.4: they have more.
-        ch19::SampleDensities densities;
-        constexpr size_t pixels = 4000;
-        for (auto& half : densities.of_half) {
-            for (size_t i = 0; i < pixels; i++) half.push_back(i % 2 == 0 ? 0.1 : 1.9);
-        }
-        struct Expected {
-            uint32_t spp;
-            double few, many;  // of both halves
-        };
-        for (auto [samples, few, many] : {Expected{64, 16 + 0.05 * 48, 128 - (16 + 0.05 * 48)},
-                                          Expected{640, 0.1 * 640, 1.9 * 640}}) {
-            uint32_t spp = samples;
-            CAPTURE(spp);
-            auto a = ch19::samples_of(densities, 0, spp), b = ch19::samples_of(densities, 1, spp);
-            double sum[2] = {};
-            for (size_t i = 0; i < pixels; i++) sum[i % 2] += a(i) + b(i);
-            double rounding = 5 * std::sqrt(2.0 / 4 / (pixels / 2));
-            CHECK(std::abs(sum[0] / (pixels / 2) - few) < rounding);
-            CHECK(std::abs(sum[1] / (pixels / 2) - many) < rounding);
-        }
-    }
-
     TEST_CASE("truth: the budget is met with three pixels, and each half has its own") {
         // max(2, 0.1 s), 0.9 s and 2 s have the mean 20: 2 + 2.9 s = 60.
         CHECK(ch19::scale_to_budget({0.1, 0.9, 2}, 2, 20) ==

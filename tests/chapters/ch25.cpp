@@ -272,29 +272,6 @@ TEST_SUITE("ch25 vertex merging") {
 }
 
 TEST_SUITE("ch25 vertex merging slow") {
-    TEST_CASE("truth: the error falls as N^(-2/3), and with one radius it stops at the bias") {
-        FloorInMirror floor;
-        auto errors = [&](int passes, bool shrinks, uint32_t seeds) {
-            RunningStats all;
-            for (uint32_t seed = 1; seed <= seeds; seed++)
-                all.add(floor.error(passes, shrinks, seed));
-            return all;
-        };
-        double bias2 = FloorInMirror::bias2();
-        RunningStats one_pass = errors(1, false, 400), many = errors(512, false, 12);
-        double expected = bias2 + (one_pass.mean() - bias2) / 512;
-        CHECK(many.mean() > 0.9 * bias2);
-        CHECK(std::abs(many.mean() - expected) < 5 * many.standard_error());
-        CHECK(many.standard_error() < 0.05 * expected);
-
-        double first = errors(16, true, 48).mean(), last = errors(1024, true, 12).mean();
-        CAPTURE(first);
-        CAPTURE(last);
-        double slope = std::log(last / first) / std::log(64.0);
-        CHECK(slope == doctest::Approx(-2.0 / 3).epsilon(0.12).scale(0));
-        CHECK(last < bias2 / 4);
-    }
-
     TEST_CASE("consistency: the reported error is the spread over seeds, splats included") {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
         RunningStats means;

@@ -92,13 +92,8 @@ TEST_SUITE("comparison") {
         // What lies beyond 1 is cut off in 8 bits: then noise alone can make a picture darker.
         c.cut_off = 7, c.beyond_5 = 30;
         b.file = "b.png";
-        CHECK(verdict(c, 0.001, a, b)
-                  .starts_with("other means: A is 1 % brighter than B, perhaps by noise that 8 "
-                               "bits cut off (10 "
-                               "standard errors)"));
-        CHECK(verdict(c, 0.01, a, b).starts_with("the same mean within the noise;"));
+        CHECK(verdict(c, 0.001, a, b).find("perhaps by noise that 8 bits") != std::string::npos);
         b.file = "b.pfm";
-        CHECK(verdict(c, 0.001, a, b).find("noise does not do that") != std::string::npos);
         // The difference of two scenes is no noise.
         a.notes.push_back({"checksum", "1"});
         CHECK(verdict(c, 0.001, a, b).find("noise does not do that") != std::string::npos);
@@ -184,9 +179,7 @@ TEST_SUITE("comparison") {
             CHECK(lines.size() <= 1);
             return lines.empty() ? "" : lines[0];
         };
-        CHECK(told("spp", "16") == "");
         CHECK(told("chapter", "10_cosine_sampling") == "");
-        CHECK(told("sampler", "independent") == "");
         CHECK(told("seed", "1") == "");
         CHECK(told("checksum", "2") == "warning: A and B show different versions of \"a.pbrt\"");
         CHECK(told("max-depth", "9") ==

@@ -160,25 +160,6 @@ TEST_SUITE("path text") {
               }).find("ends") == std::string::npos);
     }
 
-    TEST_CASE("truth: a tree of paths steps back, and a path that is stopped is given up") {
-        Materials m;
-        std::string text = story_of([&](Recorder& recorder, PathStory& story) {
-            recorder.vertex(hit_at({1, 0, 0}, m.glass));
-            recorder.scatter({1, 0, 0}, {1, 1, 1}, 1, true, {1, 1, 1});
-            recorder.vertex(hit_at({2, 0, 0}, m.wall));
-            recorder.scatter({1, 0, 0}, {1, 1, 1}, 1, true, {0.5f, 0.5f, 0.5f});
-            recorder.step_back();
-            recorder.step_back();
-            recorder.emitted({1, 1, 1});
-            story.is_given_up();
-        });
-        CHECK(
-            text.ends_with("    steps back to vertex 2\n"
-                           "    steps back to vertex 1\n"
-                           "    light met: adds (1, 1, 1), mis 1, class LE\n"
-                           "    given up here: the path goes on, but the program was stopped\n"));
-    }
-
     TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {
         // From the light D S D, from the eye S D S: what lies between the two ends that are
         // connected has the letters of its vertices, and both ends are D.

@@ -260,24 +260,6 @@ TEST_SUITE("programs") {
         }
     }
 
-    TEST_CASE("teeth: another seed gives other bytes, and the same seed the same ones") {
-        TemporaryFolder folder;
-        for (bool render : {false, true}) {
-            for (const std::string& program : programs(render)) {
-                CAPTURE(program);
-                std::string picture = folder / "a.pfm", bytes[3];
-                for (size_t i = 0; i < 3; i++) {
-                    Words words = {"--seed", i == 2 ? "8" : "7", "--quiet", "--out", picture};
-                    append(words, few_photons(program));
-                    CHECK(run(program, brief(render, words)).code == 0);
-                    bytes[i] = read_file(picture);
-                }
-                CHECK(bytes[0] == bytes[1]);
-                CHECK(bytes[0] != bytes[2]);
-            }
-        }
-    }
-
     TEST_CASE("identity: a picture's notes tell how to make its bytes again") {
         const std::map<std::string, Words> own = {{"09_light_sampling", {"--light-by", "area"}},
                                                   {"12_ris", {"--m", "3"}},

@@ -85,22 +85,3 @@ TEST_SUITE("stats") {
         CHECK(std::isnan(s.standard_error()));
     }
 }
-
-TEST_SUITE("gates") {
-    TEST_CASE("truth: how often |z| exceeds 3, 4, 5 and 6 by chance") {
-        for (auto [z, chance] : {std::pair{3, 0.00269979606326},
-                                 {4, 6.334248366624e-5},
-                                 {5, 5.733031437584e-7},
-                                 {6, 1.973175290075e-9}})
-            CHECK(std::erfc(z / std::sqrt(2.0)) == doctest::Approx(chance).epsilon(1e-9).scale(0));
-    }
-
-    TEST_CASE("truth: the values that chi^2 exceeds once in a million") {
-        for (auto [freedom, x] :
-             {std::pair{99, 180.7920153259}, {63, 131.3697020517}, {255, 377.078115499}})
-            CHECK(chi_square_tail(x, freedom) == doctest::Approx(1e-6).epsilon(1e-6).scale(0));
-        CHECK(chi_square_tail(2 * std::log(2.0), 2) ==
-              doctest::Approx(0.5).epsilon(1e-14).scale(0));
-        CHECK(chi_square_tail(4, 1) == doctest::Approx(std::erfc(2 / std::sqrt(2.0))).scale(0));
-    }
-}
