@@ -167,6 +167,23 @@ TEST_SUITE("ch15 two lights") {
         }
     }
 
+    TEST_CASE("identity: one or two lights are always included, whatever their targets") {
+        const std::string far =
+            shining + "Translate 9 9 9 Shape \"sphere\" \"float radius\" 1e-3\n";
+        for (const std::string& light : {far, "LightSource \"infinite\"\n" + far}) {
+            Scene scene = world_of(light);
+            ch15::Lights lights = ch15::prepare(scene);
+            Sampler random = random_numbers(1);
+            for (int k = 0; k < 1000; k++) {
+                ch15::Candidates c;
+                Hit x = somewhere(scene, random);
+                ch15::choose_candidates(scene, lights, x, x.n, 0, c);
+                REQUIRE(c.size == static_cast<int>(scene.lights.size()));
+                for (int i = 0; i < c.size; i++) REQUIRE(c.inclusion[i] == 1);
+            }
+        }
+    }
+
     TEST_CASE("teeth: a wrong number of candidates moves the mean, a wrong target does not") {
         Scene scene = three_lights(paint);
         ch15::Lights honest = ch15::prepare(scene, 2), wrong = honest, silly = honest;

@@ -267,4 +267,38 @@ TEST_SUITE("ch17 sky image") {
                         {chance.mean(), chance.standard_error()}) < 5);
         CHECK(aimed.variance() < chance.variance() / 50);
     }
+
+    TEST_CASE("agreement: classes of paths under a sky, with the sky found by chance") {
+        // Chance alone: the same trace without light sampling, by a sky that is not told.
+        Scene scene = under_sky(
+            SkyImage::Map::wide, 16, 8,
+            [](Vec3 d) {
+                float L = 1 + d.x + (d.y > 0.8f ? 5.0f : 0.0f);
+                return Rgb{L, L, L};
+            },
+            "AttributeBegin " + white_floor +
+                " AttributeEnd Translate 0 1 0 Material \"conductor\" "
+                "\"float roughness\" 0.3 Shape \"sphere\"");
+        scene.max_depth = 4;
+        auto by_chance = [](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
+            Rgb beta = {1, 1, 1};
+            for (int depth = 0;; depth++) {
+                std::optional<Hit> x = intersect(s, ray);
+                if (!x) {
+                    Rgb Le = s.sky_image->at(point_of(*s.sky_image, ray.d));
+                    recorder.emitted(Le);
+                    return beta * Le;
+                }
+                recorder.vertex(*x);
+                if (depth == s.max_depth) return Rgb{};
+                Vec2 u = sampler.u2();
+                BsdfSample b = glossy_bsdf::sample_bsdf(*x, -ray.d, sampler.u1(), u);
+                if (b.pdf_w == 0) return Rgb{};
+                beta *= b.f * (std::abs(dot(b.wi, x->n)) / b.pdf_w);
+                recorder.scatter(b.wi, b.f, b.pdf_w, b.specular, beta);
+                ray = spawn_ray(*x, b.wi);
+            }
+        };
+        CHECK(check_classes(scene, Trace(by_chance), scene, by_seventeen(scene), 100000) >= 6);
+    }
 }
