@@ -274,6 +274,19 @@ TEST_SUITE("ch21 bidirectional") {
         }
     }
 
+    TEST_CASE("agreement: samplers, by both ends") {
+        Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
+        Film a = film_of(scene, by_22(scene), 128).film;
+        for (SamplerType type : {SamplerType::stratified, SamplerType::sobol}) {
+            for (const Form& form : forms) {
+                CAPTURE(form.name);
+                Film b = film_of(scene, form(scene), 64, 2, type).film;
+                CHECK(z_between({a.mean(), a.standard_error()}, {b.mean(), b.standard_error()}) <
+                      5);
+            }
+        }
+    }
+
     TEST_CASE("variance: a lamp in a shade: a tenth of the error of chapter 15") {
         Scene scene = scene_from("scenes/lamp.pbrt", 32, 8);
         auto error_of = [&](const auto& trace) {
