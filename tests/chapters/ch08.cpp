@@ -3,7 +3,7 @@
 
 #include "tests/traces/07.h"
 #include "tests/traces/08.h"
-#include "tests/support/gates.h"
+#include "tests/support/estimators.h"
 #include "tests/support/scenes.h"
 
 template Trace trace_with<ch08::trace>();
@@ -94,26 +94,6 @@ Scene closed_sphere(double a, int max_depth) {
     return scene;
 }
 
-/// 08 brings what 07 brings: in all, by length of path, and by class (those seen 100 times).
-int check_classes(const Scene& scene, int paths) {
-    PathCensus a = census_of(scene, ch07::trace, paths, 1);
-    PathCensus b = census_of(scene, ch08::trace, paths, 2);
-    CHECK(b.worst_sum < 1e-5);
-    CHECK(z_between(a.all.measured(a.paths), b.all.measured(b.paths)) < 5);
-    int compared = 0;
-    auto compare = [&](const auto& parts_a, auto& parts_b) {
-        for (const auto& part : parts_a) {
-            const PathSum &of_a = part.second, &of_b = parts_b[part.first];
-            if (of_a.not_zero < 100 || of_b.not_zero < 100) continue;
-            CHECK(z_between(of_a.measured(a.paths), of_b.measured(b.paths)) < 5);
-            compared++;
-        }
-    };
-    compare(a.by_length, b.by_length);
-    compare(a.by_class, b.by_class);
-    return compared;
-}
-
 }  // namespace
 
 TEST_SUITE("ch08 roulette") {
@@ -184,7 +164,7 @@ TEST_SUITE("ch08 russian roulette") {
         for (std::string name : {"cornell", "cornell-spheres", "color-bleeding"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 12);
-            CHECK(check_classes(scene, 60000) >= 6);
+            CHECK(check_classes(scene, ch07::trace, scene, ch08::trace, 60000) >= 6);
         }
         Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 12);
         Film a = film_of(scene, ch07::trace, 128).film,

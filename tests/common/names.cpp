@@ -52,29 +52,6 @@ TEST_SUITE("names") {
               words[0] + ": error: cannot read: No such file or directory\n");
     }
 
-    TEST_CASE(
-        "files: a file that is open is replaced, or the result is kept beside it on Windows") {
-        TemporaryFolder folder;
-        write_file_atomically(folder / "f", "old");
-        int reader = open_file(folder / "f");
-        REQUIRE(reader >= 0);
-        std::string error = error_of([&] { write_file_atomically(folder / "f", "new"); });
-        char bytes[4] = {};
-        CHECK(read_bytes(reader, bytes, 3) == 3);
-        CHECK(std::string(bytes) == "old");
-        close_file(reader);
-        if (error.empty()) {
-            CHECK(read_file(folder / "f") == "new");
-        } else {
-            size_t at = error.find("; what was to be written is ");
-            REQUIRE(at != std::string::npos);
-            CHECK(read_file(error.substr(error.rfind(' ') + 1)) == "new");
-            CHECK(read_file(folder / "f") == "old");
-        }
-        write_file_atomically(folder / "f", "newer");
-        CHECK(read_file(folder / "f") == "newer");
-    }
-
     TEST_CASE("files: what is being written is not removed, what was left over is") {
         TemporaryFolder folder;
         write_file_atomically(folder / "f.part-abcdefghijkl", "of a run that was killed");
