@@ -251,14 +251,6 @@ TEST_SUITE("ch05 classes of paths") {
         }
     }
 
-    TEST_CASE("identity: there is no chance in it") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 100);
-        Seen a = look(scene, {278, 273, -800}, {200, 100, 200}, 1);
-        Seen b = look(scene, {278, 273, -800}, {200, 100, 200}, 2);
-        CHECK(a.L == b.L);
-        CHECK_FALSE(is_black(a.L));
-    }
-
     TEST_CASE("truth: an empty scene is black, or all sky") {
         Scene scene;
         prepare(scene, 1);

@@ -55,16 +55,6 @@ TEST_SUITE("frame") {
         }
         CHECK(worst < 1e-6f);
     }
-
-    TEST_CASE("identity: to the local frame and back") {
-        Sampler random = random_numbers(2);
-        for (int i = 0; i < 1000; i++) {
-            Frame f(uniform_direction(random.u2()));
-            Vec3 v = uniform_direction(random.u2());
-            CHECK(length(f.to_world(f.to_local(v)) - v) < 1e-6f);
-            CHECK(std::abs(f.to_local(f.n).z - 1) < 1e-6f);
-        }
-    }
 }
 
 TEST_SUITE("intersect shapes") {
