@@ -159,4 +159,61 @@ TEST_SUITE("path text") {
                   story.ends();
               }).find("ends") == std::string::npos);
     }
+
+    TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {
+        // From the light D S D, from the eye S D S: what lies between the two ends that are
+        // connected has the letters of its vertices, and both ends are D.
+        Materials m;
+        const Material* kinds[] = {&m.wall, &m.mirror};
+        auto is_mirror = [&](char letter) { return letter == 'S'; };
+        const std::string light = "DSD", eye = "SDS";
+        Recorder recorder(true);
+        recorder.start();
+        recorder.start_at_light({});
+        for (char letter : light) {
+            recorder.vertex(hit_at({}, *kinds[is_mirror(letter)]));
+            recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, is_mirror(letter), {1, 1, 1});
+        }
+        recorder.start_at_eye();
+        for (char letter : eye) {
+            recorder.vertex(hit_at({}, *kinds[is_mirror(letter)]));
+            recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, is_mirror(letter), {1, 1, 1});
+        }
+        recorder.vertex(hit_at({}, m.wall));
+        CHECK(recorder.contributions().empty());
+        for (int s = 0; s <= 4; s++) {
+            for (int t = 1; t <= 5; t++) {
+                if (s + t < 2) continue;
+                CAPTURE(s);
+                CAPTURE(t);
+                // Vertices of the eye's path: t = 1 is the eye itself, 2 the first that it met.
+                std::string expected = "L";
+                for (int i = 1; i < s; i++)
+                    expected += i == s - 1 ? 'D' : light[static_cast<size_t>(i - 1)];
+                std::string from_eye;
+                for (int i = 2; i <= t - (s == 0); i++)
+                    from_eye += i == t ? 'D' : eye[static_cast<size_t>(i - 2)];
+                std::reverse(from_eye.begin(), from_eye.end());
+                expected += from_eye + "E";
+                size_t pixel = t == 1 ? 17 : Contribution::own_pixel;
+                recorder.connected({1, 2, 3}, s, t, 0.5f, pixel);
+                const Contribution& last = recorder.contributions().back();
+                CHECK(last.path_class == expected);
+                CHECK(last.way == "s " + std::to_string(s) + ", t " + std::to_string(t));
+                CHECK(last.pixel == pixel);
+                CHECK(last.mis == 0.5f);
+                CHECK(last.L == Rgb{1, 2, 3});
+                // Vertices count from 1: four of the light's path, then those from the eye.
+                CHECK(last.vertex == (t == 1 ? s : 4 + t - 1));
+            }
+        }
+        // The light's path begins anew; so does all.
+        recorder.start_at_light({});
+        recorder.vertex(hit_at({}, m.wall));
+        recorder.connected({1, 1, 1}, 2, 1, 1, 3);
+        CHECK(recorder.contributions().back().path_class == "LDE");
+        recorder.start();
+        CHECK(recorder.contributions().empty());
+        CHECK(recorder.vertices().empty());
+    }
 }
