@@ -288,6 +288,17 @@ TEST_SUITE("pictures on disk") {
         }
     }
 
+    TEST_CASE("truth: one blank ends a header, or CR LF; pixels may begin with such bytes") {
+        std::string pixel = bytes_of({1.5f});
+        pixel[0] = '\n', pixel[1] = '\r';  // in the last digits
+        for (const char* end : {"\n", "\r\n", "\r", " "}) {
+            CAPTURE(end);
+            std::string header = "Pf" + std::string(end) + "1 1" + end + "-1" + end;
+            CHECK(decode_image("a.pfm", header + pixel).at(0, 0).r ==
+                  doctest::Approx(1.5).epsilon(1e-3).scale(0));
+        }
+    }
+
     TEST_CASE("truth: codes of sRGB, and what lies outside them") {
         // From IEC 61966-2-1: linear below 0.0031308, then 1.055 x^(1/2.4) - 0.055.
         CHECK(to_srgb8(0) == 0);

@@ -89,6 +89,11 @@ TEST_SUITE("comparison") {
                         "fewer") != std::string::npos);
         b = facts(0.001, "1024");
         CHECK(verdict(c, 0.01, a, b).find("sample by sample 1.9 times more") != std::string::npos);
+        CHECK(verdict(c, 0.01, a, facts(1.04 * a.standard_error, "16"))
+                  .ends_with("; both have the same error"));
+        CHECK(
+            verdict(c, 0.01, a, facts(1.05 * a.standard_error, "16")).find("; A has 9.3 % less") !=
+            std::string::npos);
         // What lies beyond 1 is cut off in 8 bits: then noise alone can make a picture darker.
         c.cut_off = 7, c.beyond_5 = 30;
         b.file = "b.png";
