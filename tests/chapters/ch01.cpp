@@ -73,30 +73,6 @@ TEST_SUITE("ch01 monte carlo pi") {
         CHECK(s.standard_error() == doctest::Approx(0.00164218).epsilon(0.01).scale(0));
     }
 
-    TEST_CASE("truth: the fourth moment of a dart, on which the gate of its variance rests") {
-        // X is 4 with probability p = pi/4: kurtosis (1 - 3p(1-p)) / (p(1-p)).
-        double p = pi_exact / 4, q = 1 - p;
-        CHECK((1 - 3 * p * q) / (p * q) == doctest::Approx(dart_kurtosis).epsilon(1e-12).scale(0));
-        RunningStats fourth;
-        Sampler sampler(SamplerType::independent, 1, 1);
-        for (uint32_t i = 0; i < 100000; i++) {
-            sampler.start(0, i);
-            fourth.add(std::pow(ch01::score_dart(sampler.u2()) - pi_exact, 4));
-        }
-        double high = std::pow(4 - pi_exact, 4), low = std::pow(pi_exact, 4);
-        double truth = dart_kurtosis * dart_variance * dart_variance;
-        check_mean(fourth, truth, p * q * (high - low) * (high - low), 1.5);
-    }
-
-    TEST_CASE("teeth: darts that miss the corner by a hundredth fail the gate of the mean") {
-        RunningStats s = throw_darts(
-            [](Vec2 u) {
-                return ch01::score_dart({0.99f * u.x, 0.99f * u.y});
-            },
-            1000000, 1);
-        CHECK(std::abs(s.mean() - pi_exact) > 5 * std::sqrt(dart_variance / 1e6));
-    }
-
     TEST_CASE("variance: four times the darts, half the standard error") {
         double last = 0;
         for (uint64_t n : {64u, 256u, 1024u}) {
@@ -145,14 +121,6 @@ TEST_SUITE("ch01 dart board") {
         CHECK(chi_square_tail(chi_square_of_hits(ch01::sample_hit), 64) > 1e-6);
     }
 
-    TEST_CASE("teeth: hits without the square root are rejected") {
-        double chi2 = chi_square_of_hits([](Vec2 u) {
-            float r = 0.5f * u.x * 2.5f, angle = 2 * pi * u.y;
-            return Vec2{r * std::cos(angle), r * std::sin(angle)};
-        });
-        CHECK(chi_square_tail(chi2, 64) < 1e-6);
-    }
-
     TEST_CASE("consistency: invert_hit finds the numbers that sample_hit used") {
         Sampler sampler(SamplerType::independent, 1, 1);
         for (uint32_t i = 0; i < 1000; i++) {
@@ -161,16 +129,6 @@ TEST_SUITE("ch01 dart board") {
             CHECK(std::abs(again.x - u.x) < 1e-6f);
             CHECK(std::abs(again.y - u.y) < 1e-6f);
         }
-    }
-
-    TEST_CASE("identity: the extreme random numbers give finite hits") {
-        for (float u : {0.0f, 0x1.fffffep-1f})
-            for (float v : {0.0f, 0x1.fffffep-1f}) {
-                Vec2 x = ch01::sample_hit({u, v});
-                CHECK(std::isfinite(x.x));
-                CHECK(std::isfinite(x.y));
-                CHECK(std::hypot(x.x, x.y) < 3.0f);
-            }
     }
 
     TEST_CASE("truth: the average score of the board") {
@@ -190,13 +148,6 @@ TEST_SUITE("ch01 dart board") {
         RunningStats s = throw_darts(score_hit, 1000000, 1);
         check_mean(s, ch01::expected_score(), square - integral * integral, 0.02);
     }
-
-    TEST_CASE("failure: the average of the places is 0, whatever the rings pay") {
-        RunningStats s = throw_darts(
-            [](Vec2 u) { return static_cast<double>(ch01::sample_hit(u).x); }, 1000000, 1);
-        check_mean(s, 0, ch01::sigma * ch01::sigma, 0.01);
-        CHECK(ch01::expected_score() > 1.9);
-    }
 }
 
 TEST_SUITE("ch01 sums in float") {
@@ -204,26 +155,5 @@ TEST_SUITE("ch01 sums in float") {
         CHECK(ch01::sum_in_float(1, (1 << 24) - 1) == 16777215);
         CHECK(ch01::sum_in_float(1, 1 << 24) == 16777216);
         CHECK(ch01::sum_in_float(1, 20000000) == 16777216);
-    }
-
-    TEST_CASE("failure: sums of equal floats stop at a power of two") {
-        for (auto [x, stop, adds] : {std::tuple{0.1f, 2097152.0f, 18073720u},
-                                     {0.5f, 8388608.0f, 16777216u},
-                                     {0.3f, 8388608.0f, 24368414u},
-                                     {0.159154937f, 4194304.0f, 22920523u}}) {
-            CHECK(ch01::sum_in_float(x, adds - 1) < stop);
-            CHECK(ch01::sum_in_float(x, adds + 1000) == stop);
-        }
-    }
-
-    TEST_CASE("failure: the mean of 0.1 is 0.101 after a million, and 0.109 after ten million") {
-        CHECK(ch01::sum_in_float(0.1f, 1000000) / 1e6f == 0.100958347f);
-        CHECK(ch01::sum_in_float(0.1f, 10000000) / 1e7f == 0.108793698f);
-    }
-
-    TEST_CASE("truth: running statistics in double keep the mean of 0.1 and of ten million darts") {
-        ch01::RunningStats s;
-        for (int i = 0; i < 20000000; i++) s.add(0.1f);
-        CHECK(std::abs(s.mean() - 0.1) < 1e-6);
     }
 }

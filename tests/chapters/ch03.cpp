@@ -19,7 +19,6 @@ constexpr double dart_variance = pi_exact * (4 - pi_exact);
 constexpr PointSet all_sets[] = {PointSet::uniform,  PointSet::jittered, PointSet::poisson,
                                  PointSet::repelled, PointSet::halton,   PointSet::sobol};
 
-double column(Vec2 p) { return double{p.x} * double{p.x}; }  // x^2, varies along x only
 double exponential(Vec2 p) { return std::exp(double{p.x} + double{p.y}); }
 
 /// Estimates of f from `runs` sets of points.
@@ -42,53 +41,11 @@ Points plain_halton(uint32_t base_x, uint32_t base_y, uint32_t n, uint32_t seed 
     return points;
 }
 
-Points plain_sobol(uint32_t n) {
-    Points points;
-    for (uint32_t i = 0; i < n; i++)
-        points.push_back({to_unit_float(reverse_bits(i)), to_unit_float(ch03::sobol_second(i))});
-    return points;
-}
-
-int darts_inside(const Points& points) {
-    double mean = estimate(points, quarter_circle);
-    return static_cast<int>(std::lround(mean / 4 * static_cast<double>(points.size())));
-}
-
 double correlation(const Points& points) {
     RunningStats x, y, xy;
     for (Vec2 p : points) x.add(double{p.x}), y.add(double{p.y});
     for (Vec2 p : points) xy.add((double{p.x} - x.mean()) * (double{p.y} - y.mean()));
     return xy.mean() / std::sqrt(x.variance() * y.variance());
-}
-
-/// The largest | share of the points in [0,a) x [0,b) - ab |, over all a and b.
-double star_discrepancy(Points points) {
-    std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
-    std::vector<double> ys = {1};
-    for (Vec2 p : points) ys.push_back(double{p.y});
-    std::sort(ys.begin(), ys.end());
-    double n = static_cast<double>(points.size()), worst = 0;
-    std::vector<double> below;  // sorted y of the points left of a, then also of those at a
-    auto scan = [&](double a, bool closed) {
-        size_t count = 0;
-        for (double b : ys) {
-            while (count < below.size() && (closed ? below[count] <= b : below[count] < b)) count++;
-            double share = static_cast<double>(count) / n;
-            worst = std::max(worst, closed ? share - a * b : a * b - share);
-        }
-    };
-    for (size_t i = 0; i <= points.size(); i++) {
-        double a = i < points.size() ? double{points[i].x} : 1;
-        scan(a, false);
-        for (; i < points.size() && double{points[i].x} == a; i++) {
-            double y = double{points[i].y};
-            below.insert(std::upper_bound(below.begin(), below.end(), y), y);
-        }
-        i--;
-        scan(a, true);
-        if (a == 1) break;
-    }
-    return worst;
 }
 
 /// The distance from each point to its nearest neighbour on the torus.
@@ -134,7 +91,6 @@ TEST_SUITE("ch03 points") {
         double exponential_variance = std::pow((e * e - 1) / 2, 2) - std::pow(e - 1, 4);
         for (PointSet set : all_sets)
             for (uint32_t n : {7u, 16u}) {
-                CAPTURE(static_cast<int>(set));
                 RunningStats pi_estimate, xy, sum;
                 for (uint32_t run = 0; run < 2000; run++) {
                     Points points = ch03::make_points(set, n, hash32(run, 2));
@@ -188,75 +144,6 @@ TEST_SUITE("ch03 low discrepancy") {
             }
     }
 
-    TEST_CASE("truth: scrambled radical inverses are uniform") {
-        RunningStats x, x2;
-        for (uint32_t seed = 1; seed <= 20000; seed++) {
-            double u = double{ch03::radical_inverse(3, 5, hash32(seed))};
-            x.add(u);
-            x2.add(u * u);
-        }
-        check_mean(x, 0.5, 1.0 / 12, 0.02);
-        check_mean(x2, 1.0 / 3, 4.0 / 45, 0.02);
-    }
-
-    TEST_CASE("truth: darts inside, of the first N Halton points") {
-        for (auto [n, inside] : {std::pair{16u, 14},
-                                 {64u, 51},
-                                 {256u, 204},
-                                 {1024u, 806},
-                                 {4096u, 3224},
-                                 {16384u, 12889},
-                                 {65536u, 51473}})
-            CHECK(darts_inside(plain_halton(2, 3, n)) == inside);
-    }
-
-    TEST_CASE("truth: star discrepancy of Halton and Sobol points") {
-        for (auto [n, truth] : {std::pair{16u, 0.2013888888889},
-                                {64u, 0.05208333333333},
-                                {256u, 0.01875964506173},
-                                {1024u, 0.0068359375}})
-            CHECK(std::abs(star_discrepancy(plain_halton(2, 3, n)) - truth) < 1e-6);
-        for (auto [n, truth] : {std::pair{16u, 0.171875},
-                                {64u, 0.0537109375},
-                                {256u, 0.01458740234375},
-                                {1024u, 0.004299163818359}})
-            CHECK(std::abs(star_discrepancy(plain_sobol(n)) - truth) < 1e-6);
-    }
-
-    TEST_CASE("truth: star discrepancy on a line, van der Corput 1/N, centres 1/(2N)") {
-        auto discrepancy = [](std::vector<double> x) {
-            std::sort(x.begin(), x.end());
-            double n = static_cast<double>(x.size()), worst = 0;
-            for (size_t i = 0; i < x.size(); i++) {
-                double below = static_cast<double>(i) / n;
-                worst = std::max({worst, x[i] - below, below + 1 / n - x[i]});
-            }
-            return worst;
-        };
-        for (uint32_t n : {1u, 2u, 8u, 64u, 256u}) {
-            std::vector<double> corput, centres;
-            for (uint32_t i = 0; i < n; i++) {
-                corput.push_back(double{ch03::radical_inverse(2, i)});
-                centres.push_back((i + 0.5) / n);
-            }
-            CHECK(discrepancy(corput) == 1.0 / n);
-            CHECK(discrepancy(centres) == 0.5 / n);
-        }
-    }
-
-    TEST_CASE("variance: independent points have a far larger discrepancy, about 1.25 / sqrt N") {
-        struct Row {
-            uint32_t n;
-            double mean, error;
-        };
-        for (Row row : {Row{16, 0.2807, 0.0081}, {64, 0.1503, 0.0047}, {256, 0.0779, 0.0024}}) {
-            RunningStats s;
-            for (uint32_t run = 0; run < 100; run++)
-                s.add(star_discrepancy(ch03::make_points(PointSet::uniform, row.n, run)));
-            CHECK(std::abs(s.mean() - row.mean) < 5 * std::hypot(row.error, s.standard_error()));
-        }
-    }
-
     TEST_CASE("failure: Halton in bases 17 and 19 starts on a line") {
         CHECK(correlation(plain_halton(17, 19, 17)) > 0.94);  // 1 but for the divisors n and n-1
         CHECK(std::abs(correlation(plain_halton(17, 19, 289, 1))) < 0.3);  // scrambled: the cure
@@ -271,7 +158,6 @@ TEST_SUITE("ch03 low discrepancy") {
                         {16, 4.805e-2, 4.785e-5, 7.391e-4},
                         {64, 5.499e-3, 1.013e-6, 1.431e-5},
                         {256, 7.015e-4, 1.952e-8, 2.630e-7}}) {
-            CAPTURE(row.n);
             auto ratio = [&](auto f, double truth) {
                 return estimates(PointSet::sobol, row.n, 3000, f).variance() / truth;
             };
@@ -290,7 +176,6 @@ TEST_SUITE("ch03 low discrepancy") {
                         {64, 8.701e-3, 6.166e-5},
                         {256, 8.550e-4, 4.912e-6},
                         {1024, 1.147e-4, 5.552e-7}}) {
-            CAPTURE(row.n);
             auto ratio = [&](auto f, double truth) {
                 return estimates(PointSet::halton, row.n, 1500, f).variance() / truth;
             };
@@ -298,12 +183,6 @@ TEST_SUITE("ch03 low discrepancy") {
             CHECK(std::abs(ratio(quarter_circle, row.pi) - 1) < 0.20);
             CHECK(std::abs(ratio(product, row.xy) - 1) < 0.20);
         }
-    }
-
-    TEST_CASE("variance: in one dimension Owen's scrambling jitters, one common shift does not") {
-        // x^2, N = 16: 2.71e-5 like 16 intervals; 3.26e-4 for a grid moved as a whole.
-        check_variance(estimates(PointSet::sobol, 16, 20000, column), 2.710554334852e-5, 3);
-        check_variance(estimates(PointSet::halton, 16, 20000, column), 0.0003256056043837, 2);
     }
 }
 
@@ -358,25 +237,6 @@ TEST_SUITE("ch03 Poisson disc") {
         CHECK(open_pi.mean() < pi_exact - 5 * open_pi.standard_error());
     }
 
-    TEST_CASE("variance: 65 Poisson discs have a quarter of the free variance, 248 a sixth") {
-        auto ratio = [](float r, uint32_t runs) {
-            RunningStats count, s;
-            for (uint32_t seed = 0; seed < runs; seed++) {
-                Points points = ch03::poisson_disc_points(r, 1000, seed);
-                count.add(static_cast<double>(points.size()));
-                s.add(estimate(points, quarter_circle));
-            }
-            return s.variance() * count.mean() / dart_variance;
-        };
-        // Known from 60 sets, to 18 %; it keeps falling for a while, but not as N^-1/2 for ever.
-        double small = ratio(0.1f, 500), large = ratio(0.05f, 300);
-        CHECK(small > 0.15);
-        CHECK(small < 0.40);
-        CHECK(large > 0.08);
-        CHECK(large < 0.24);
-        CHECK(large < small);
-    }
-
     TEST_CASE("failure: points that repel each other become a lattice") {
         // Mean distance to the nearest neighbour, in units of the hexagonal lattice (1.0).
         auto regularity = [](PointSet set) {
@@ -411,7 +271,6 @@ TEST_SUITE("ch03 pairs of dimensions") {
         auto xw = [](Vec2 p, Vec2 q) { return double{p.x} * double{q.y}; };
         for (PointSet set : all_sets)
             for (uint32_t n : {7u, 16u}) {
-                CAPTURE(static_cast<int>(set));
                 RunningStats smooth, ball, crossed;
                 for (uint32_t run = 0; run < 2000; run++) {
                     uint32_t seed = hash32(run, 2);
@@ -488,19 +347,6 @@ TEST_SUITE("ch03 pairs of dimensions") {
             CHECK(all.standard_error() < 1e-3);
         }
     }
-
-    TEST_CASE("variance: of xyzw, shuffled pairs leave Var xy Var zw / (N - 1)") {
-        // 7/144 = Var xy = Var zw. Independent points: 3.6 times as much, (1/81 - 1/256) / N.
-        for (PointSet set : {PointSet::jittered, PointSet::sobol}) {
-            RunningStats s;
-            for (uint32_t run = 0; run < 4000; run++) {
-                uint32_t seed = hash32(run, 2);
-                s.add(ch03::estimate_4d(ch03::make_points(set, 256, seed),
-                                        ch03::second_pair(set, 256, seed), ch03::integrands[5].f));
-            }
-            check_variance(s, 7.0 / 144 * 7 / 144 / 255, 3);
-        }
-    }
 }
 
 TEST_SUITE("ch03 slopes") {
@@ -530,7 +376,6 @@ TEST_SUITE("ch03 slopes") {
                 for (size_t k = 0; k < 6; k++) errors[k].push_back(m.errors[k]);
             }
             for (size_t k = 0; k < 6; k++) {
-                CAPTURE(static_cast<int>(set));
                 CAPTURE(ch03::integrands[k].name);
                 CHECK(std::abs(fitted_slope(n, errors[k]) - theory[k]) < gate);
             }

@@ -72,14 +72,6 @@ TEST_SUITE("ch05 lamps") {
         CHECK(irradiance(scene, 0.3f) == 0);
     }
 
-    TEST_CASE("truth: a ball of light gives pi (R / D)^2 cos, as if it were a point") {
-        Scene scene = floor_under(shining + "Translate 0 2 0 Shape \"sphere\"");
-        CHECK(is_close(irradiance(scene, 0), 0.7853981633974));
-        double D2 = 4 + 4.0 / 3;  // 30 degrees from the normal
-        CHECK(is_close(irradiance(scene, 2 / std::sqrt(3.0f)),
-                       pi_exact / D2 * std::cos(pi_exact / 6)));
-    }
-
     TEST_CASE("truth: a square is two lamps, each in the middle of its triangle") {
         for (float h : {10.0f, 1.0f}) {
             Scene scene = floor_under(shining + "Scale 0.5 1 0.5 " + square(h, false));
@@ -97,13 +89,6 @@ TEST_SUITE("ch05 lamps") {
             CHECK(error < wrong);
             CHECK(error > wrong / 2);
         }
-    }
-
-    TEST_CASE("truth: two lamps give the sum of what each gives") {
-        std::string one = "LightSource \"point\" \"point3 from\" [0 2 0] \"rgb I\" [1 1 1]\n";
-        std::string two = "LightSource \"point\" \"point3 from\" [1 3 0] \"rgb I\" [4 4 4]\n";
-        double both = irradiance(floor_under(one + two), 1);
-        CHECK(is_close(both, 0.1788854382 + 4.0 / 9));
     }
 
     TEST_CASE("identity: nothing from the back of a lamp, from below, or through a wall") {
@@ -141,19 +126,6 @@ TEST_SUITE("ch05 lamps") {
             CHECK((irradiance(scene, 0) == 0) == (gap > 0));
         }
     }
-
-    TEST_CASE("teeth: a lamp without one of its factors is rejected") {
-        Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
-        Hit x = *intersect(scene, {{1, 1, 0}, {0, -1, 0}});
-        double E = 0.1788854382, r2 = 5, cos = 2 / std::sqrt(5.0);
-        ch05::Lamp lamp{scene.lights[0].p, {}, {1, 1, 1}, 0, true};
-        double right = static_cast<double>(ch05::shade(scene, x, lamp).g) * pi_exact;
-        CHECK(is_close(right, E));
-        CHECK_FALSE(is_close(right / cos, E));
-        CHECK_FALSE(is_close(right * r2, E));
-        CHECK_FALSE(is_close(right * std::sqrt(r2), E));
-        CHECK_FALSE(is_close(right * pi_exact, E));
-    }
 }
 
 TEST_SUITE("ch05 shapes") {
@@ -177,39 +149,6 @@ TEST_SUITE("ch05 shapes") {
             met += hit.has_value() + t.has_value();
         }
         CHECK(met > 10000);
-    }
-
-    TEST_CASE(
-        "failure: the plain formulas lose rays between triangles: many in float, few in double") {
-        Geometry g = closed_mesh(2);
-        Sampler random = random_numbers(1);
-        auto met_in_float = [&](const Ray& ray) {
-            for (const Triangle& t : g.triangles) {
-                Vec3 p0 = g.positions[t.v[0]], from = ray.o - p0;
-                Vec3 side1 = g.positions[t.v[1]] - p0, side2 = g.positions[t.v[2]] - p0;
-                Vec3 across = cross(ray.d, side2), up = cross(from, side1);
-                float inverse = 1 / dot(side1, across);
-                float b1 = dot(from, across) * inverse, b2 = dot(ray.d, up) * inverse;
-                if (b1 >= 0 && b2 >= 0 && b1 + b2 <= 1 && dot(side2, up) * inverse > 0) return true;
-            }
-            return false;
-        };
-        int lost_in_float = 0, lost = 0;
-        for (size_t i = 0; i < 40000; i++) {
-            // Aim at a point of an edge, or at a corner, from around the middle.
-            const Triangle& t = g.triangles[i % g.triangles.size()];
-            Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]];
-            Vec3 from = 0.2f * uniform_direction(random.u2());
-            Vec3 at = i % 4 == 0 ? a : a + random.u1() * (b - a);
-            Ray ray = {from, at - from};
-            lost_in_float += !met_in_float(ray);
-            lost += ch05::linear_scan(g, ray).prim == PrimHit::none;
-        }
-        MESSAGE("of 40000 rays at edges and corners, lost in float: " << lost_in_float
-                                                                      << ", in double: " << lost);
-        CHECK(lost_in_float > 1000);
-        CHECK(lost > 0);
-        CHECK(lost_in_float > 100 * lost);
     }
 }
 
@@ -240,14 +179,6 @@ TEST_SUITE("ch05 mirrors and glass") {
         CHECK(std::abs(through.classes["LSSSE"] - 0.036864) < 1e-6);
         CHECK(through.classes.size() == 3);
         CHECK(through.L.g > 0.998f);
-    }
-
-    TEST_CASE("furnace: a glass ball is invisible, up to the branches that are too faint") {
-        Scene scene = world_of("LightSource \"infinite\" Material \"dielectric\" Shape \"sphere\"");
-        Rendering r = film_of(scene, ch05::trace, 4);
-        CHECK(r.film.mean() < 1.000001);
-        CHECK(r.film.mean() > 0.998);
-        for (const PixelSum& p : r.film.pixels()) CHECK(p.mean() > 0.99);
     }
 
     TEST_CASE("failure: a ray that glass reflects for ever ends at the depth limit, and says so") {
@@ -300,22 +231,6 @@ TEST_SUITE("ch05 classes of paths") {
         }
     }
 
-    TEST_CASE("failure: no colour bleeds: the floor between coloured walls stays grey") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 100);
-        Vec3 eye = scene.camera.o, near_red = {1.8f, 0, 1};
-        Seen seen = look(scene, eye, near_red);
-        CHECK(seen.L.r > 0);
-        CHECK(seen.L.r == seen.L.b);
-        Sampler sampler = random_numbers(1);
-        Recorder recorder;
-        double red = 0, blue = 0;
-        for (int i = 0; i < 20000; i++) {
-            Rgb L = ch07::trace(scene, {eye, normalize(near_red - eye)}, sampler, recorder);
-            red += static_cast<double>(L.r), blue += static_cast<double>(L.b);
-        }
-        CHECK(red > 1.1 * blue);
-    }
-
     TEST_CASE("failure: no caustic: glass casts the shadow of a stone") {
         Scene scene = floor_under(
             "LightSource \"point\" \"point3 from\" [0 4 0]\n"
@@ -334,14 +249,6 @@ TEST_SUITE("ch05 classes of paths") {
             census = census_of(scene, ch05::trace, 4000, 1);
             CHECK(census.by_length.rbegin()->first == static_cast<size_t>(depth));
         }
-    }
-
-    TEST_CASE("identity: there is no chance in it") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 100);
-        Seen a = look(scene, {278, 273, -800}, {200, 100, 200}, 1);
-        Seen b = look(scene, {278, 273, -800}, {200, 100, 200}, 2);
-        CHECK(a.L == b.L);
-        CHECK_FALSE(is_black(a.L));
     }
 
     TEST_CASE("truth: an empty scene is black, or all sky") {

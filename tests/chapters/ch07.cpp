@@ -39,18 +39,6 @@ Scene closed_sphere(double a, int max_depth) {
 }
 const Ray from_inside = {{0, 0, 0}, {0, 0, 1}};
 
-/// A white floor under this light, seen at the origin.
-Scene floor_under(const std::string& light) {
-    Scene scene = world_of(
-        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 500 1 500 " +
-        square(0, true) + "AttributeEnd\n" + light);
-    scene.max_depth = 1;
-    return scene;
-}
-const Ray onto_floor = {{-3, 0.01f, 0}, {3, -0.01f, 0}};
-const std::string shining =
-    "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
-
 /// |mean - truth| in known standard errors; the largest over the pixels that the ball covers.
 double worst_pixel(const Film& film, const std::array<double, 3>& albedo, double radius) {
     double worst = 0, n = film.spp();
@@ -81,29 +69,6 @@ Scene cornell_in_units(double unit) {
     Scene scene = scene_of(text);
     scene.width = scene.height = 32;
     return scene;
-}
-
-/// Chapter 07's trace() with a mistake planted.
-enum class Flaw { none, no_cosine, no_pi, light_ends_path, no_background, half_depth };
-
-template <Flaw flaw>
-Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder&) {
-    Rgb L, beta = {1, 1, 1};
-    for (int depth = 0;; depth++) {
-        std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return flaw == Flaw::no_background ? L : L + beta * scene.sky;
-        L += beta * emission(scene, *x);
-        if (flaw == Flaw::light_ends_path && x->light >= 0) return L;
-        if (depth == (flaw == Flaw::half_depth ? scene.max_depth / 2 : scene.max_depth)) return L;
-        float u1 = sampler.u1();
-        auto drawn = ch07::sample_bsdf(*x, -ray.d, u1, sampler.u2());
-        if (drawn.pdf_w == 0) return L;
-        float cos =
-            flaw == Flaw::no_cosine && !drawn.specular ? 0.5f : std::abs(dot(drawn.wi, x->n));
-        if (flaw == Flaw::no_pi && !drawn.specular) cos *= pi;
-        beta *= drawn.f * (cos / drawn.pdf_w);
-        ray = spawn_ray(*x, drawn.wi);
-    }
 }
 
 }  // namespace
@@ -183,18 +148,6 @@ TEST_SUITE("ch07 bsdf") {
             }
         }
     }
-
-    TEST_CASE("identity: below the surface itself, a bent normal reflects nothing") {
-        Hit x{};
-        Material material;
-        x.material = &material;
-        x.ng = {0, 0, 1};
-        x.n = normalize({0.8f, 0, 1});
-        Vec3 wi = normalize({1, 0, -0.1f});  // above n's horizon, below the surface
-        CHECK(dot(wi, x.n) > 0);
-        CHECK(is_black(ch07::eval_bsdf(x, {0, 0, 1}, wi)));
-        CHECK(ch07::pdf_bsdf(x, {0, 0, 1}, wi) == 0);
-    }
 }
 
 TEST_SUITE("ch07 path tracing") {
@@ -215,30 +168,6 @@ TEST_SUITE("ch07 path tracing") {
             const PixelSum& p = r.film.pixels()[static_cast<size_t>(corner)];
             CHECK(p.mean() == 1);  // beside it there is sky
         }
-    }
-
-    TEST_CASE("furnace: also far from the origin, and in any unit: no path meets the ball twice") {
-        for (auto [x, size] :
-             {std::pair{1e4f, 1.0f}, {0.0f, 1e-3f}, {0.0f, 556.0f}, {1e3f, 10.0f}}) {
-            Scene scene = world_of(
-                "LightSource \"infinite\" Material \"diffuse\" \"rgb reflectance\" [0.8 0.8 0.8]\n"
-                "Shape \"sphere\"");
-            scene.geometry.spheres[0] = {{x, 0, 0}, size, 0};
-            scene.camera.o = {x, 0, -4 * size};
-            prepare(scene, 1);
-            PathCensus census = census_of(scene, ch07::trace, 40000, 1);
-            CHECK(census.by_class.size() == 2);
-            CHECK(census.by_class.count("LE") == 1);
-            CHECK(census.by_class.count("LDE") == 1);
-            CHECK(worst_pixel(film_of(scene, ch07::trace, 64).film, {0.8, 0.8, 0.8}, 10.5) < 5);
-        }
-    }
-
-    TEST_CASE("truth: inside a closed sphere that emits 1 and reflects half: 2, variance 1/2") {
-        // X = 1 + 2 a cos X': second moment (1 + 2 a E[X]) / (1 - 4 a^2 / 3); kurtosis 4
-        RunningStats s = repeat(closed_sphere(0.5, 25), from_inside, 100000);
-        check_mean(s, 2, 0.5, 0.02);
-        check_variance(s, 0.5, 4);
     }
 
     TEST_CASE("truth: closed sphere, cut off: every length of path brings a^k, no more, no less") {
@@ -282,78 +211,6 @@ TEST_SUITE("ch07 path tracing") {
         }
     }
 
-    TEST_CASE("furnace: a ball of glass under a white sky shows 1, and 2.25 from inside") {
-        Scene scene = world_of("LightSource \"infinite\" Material \"dielectric\" Shape \"sphere\"");
-        scene.max_depth = 1000;
-        for (float offset : {0.0f, 0.5f, 0.95f}) {
-            CAPTURE(offset);
-            RunningStats outside = repeat(scene, {{offset, 0, -4}, {0, 0, 1}}, 1000);
-            CHECK(outside.mean() == doctest::Approx(1).epsilon(1e-5).scale(0));
-            CHECK(outside.variance() < 1e-9);
-        }
-        RunningStats inside = repeat(scene, {{0, 0, 0}, {0, 0, 1}}, 1000);
-        CHECK(inside.mean() == doctest::Approx(2.25).epsilon(1e-5).scale(0));
-        CHECK(inside.variance() < 1e-9);
-    }
-
-    TEST_CASE("truth: two endless planes, one of which emits: 5/3 and 4/3") {
-        Scene scene = world_of(
-            "Scale 1e5 1 1e5\n"
-            "AttributeBegin AreaLightSource \"diffuse\" " +
-            square(0, true) +
-            "AttributeEnd\n"
-            "Material \"diffuse\" \"rgb reflectance\" [0.8 0.8 0.8] " +
-            square(1, false));
-        scene.max_depth = 25;
-        for (auto [d, L] : {std::pair{Vec3{0, -1, 0}, 5.0 / 3}, {Vec3{0, 1, 0}, 4.0 / 3}}) {
-            RunningStats s = repeat(scene, {{0, 0.5f, 0}, d}, 50000);
-            CHECK(std::abs(s.mean() - L) < 5 * s.standard_error());
-            CHECK(s.standard_error() < 0.01 * L);
-        }
-    }
-
-    TEST_CASE("truth: the floor beside a black ball") {
-        // E = pi (1 - (R / D)^2 cos): the ball rests on the floor, 2 aside, and touches the
-        // horizon.
-        Scene scene = floor_under(
-            "LightSource \"infinite\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n"
-            "Translate 2 1 0 Shape \"sphere\"");
-        RunningStats s = repeat(scene, {{-3, 3, 0}, {1, -1, 0}}, 400000);
-        CHECK(std::abs(s.mean() * pi_exact - 2.860600064348) < 5 * pi_exact * s.standard_error());
-        CHECK(s.standard_error() < 0.002);
-    }
-
-    TEST_CASE("truth: a disk found by chance: irradiance pi/2, relative variance 2.4477") {
-        Scene scene = floor_under(shining + "Translate 0 1 0 Rotate 90 1 0 0 Shape \"disk\"");
-        RunningStats s = repeat(scene, onto_floor, 400000);
-        double L = 0.5, variance = 2.447715250169 * L * L;  // L = E / pi
-        check_mean(s, L, variance, 0.02 * L);
-        CHECK(std::abs(s.variance() / variance - 1) < 0.02);
-    }
-
-    TEST_CASE("truth: a square, aside and overhead") {
-        for (auto [x, E] : {std::pair{0.0f, 0.7522746884541}, {1.5f, 0.1046370751909}}) {
-            Scene scene = floor_under(shining + "Translate " + std::to_string(x) +
-                                      " 0 0 Scale 0.5 1 0.5 " + square(1, false));
-            RunningStats s = repeat(scene, onto_floor, 400000);
-            CHECK(std::abs(s.mean() * pi_exact - E) < 5 * pi_exact * s.standard_error());
-            CHECK(s.standard_error() * pi_exact < 0.02 * E);
-        }
-    }
-
-    TEST_CASE("failure: a small light is missed by all, and 0 +- 0 is reported") {
-        Scene scene = floor_under(
-            shining + "Translate 0 1 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" 0.01");
-        RunningStats s = repeat(scene, onto_floor, 1000, 3);  // each hits with probability 5e-5
-        CHECK(s.mean() == 0);
-        CHECK(s.standard_error() == 0);
-        RunningStats many = repeat(scene, onto_floor, 2000000, 2);
-        double L = 1e-4 / (1 + 1e-4);
-        CHECK(std::abs(many.mean() - L) < 5 * many.standard_error());
-        CHECK(many.standard_error() < 0.15 * L);
-        CHECK(many.variance() / (L * L) > 1e4);
-    }
-
     TEST_CASE("identity: emission is one-sided unless the file says otherwise") {
         for (bool two_sided : {false, true}) {
             Scene scene = world_of("AreaLightSource \"diffuse\" \"bool twosided\" " +
@@ -362,32 +219,6 @@ TEST_SUITE("ch07 path tracing") {
             CHECK(repeat(scene, {{0, 1, 0}, {0, -1, 0}}, 1).mean() == 1);
             CHECK(repeat(scene, {{0, -1, 0}, {0, 1, 0}}, 1).mean() == (two_sided ? 1 : 0));
         }
-    }
-
-    TEST_CASE("identity: parts and whole of a path agree, and --paths keeps only its classes") {
-        for (const char* file : {"cornell", "cornell-spheres", "color-bleeding", "caustic"}) {
-            Scene scene = scene_from("scenes/" + std::string(file) + ".pbrt", 32, 8);
-            PathCensus census = census_of(scene, ch07::trace, 20000, 1);
-            CHECK(census.worst_sum < 1e-5);
-            CHECK(census.all.sum > 0);
-        }
-        Scene scene = scene_from("scenes/cornell.pbrt", 32, 8);
-        scene.spp = 4;
-        RenderOptions options;
-        options.quiet = true;
-        Image all = render_film(scene, options, ch07::trace).film.image();
-        options.paths = "LD?E";
-        Image direct = render_film(scene, options, ch07::trace).film.image();
-        options.paths = "L(S.*|D.+)E";
-        Image others = render_film(scene, options, ch07::trace).film.image();
-        double kept = 0;
-        for (size_t i = 0; i < all.pixels.size(); i++) {
-            kept += static_cast<double>(average(direct.pixels[i]));
-            Rgb sum = direct.pixels[i] + others.pixels[i];
-            float whole = average(all.pixels[i]);
-            CHECK(std::abs(average(sum) - whole) <= 1e-6f * whole);
-        }
-        CHECK(kept > 1);
     }
 
     TEST_CASE("truth: a scene without light is black, one without things is sky: exactly") {
@@ -416,26 +247,6 @@ TEST_SUITE("ch07 path tracing") {
         CHECK(r.film.mean() > 0);
         CHECK(lost < 3e-5);
     }
-
-    TEST_CASE("failure: point and distant lights are refused, with their place in the file") {
-        auto message = [](const std::string& light) -> std::string {
-            try {
-                refuse_delta_lights(world_of("\n  LightSource " + light + " Shape \"sphere\""));
-            } catch (const InputError& error) {
-                return error.what();
-            }
-            return "";
-        };
-        CHECK(message("\"point\"") ==
-              "test.pbrt:6:3: error: a point light has no size, so no path finds it by chance; "
-              "chapters from 09 on sample it");
-        CHECK(message("\"distant\"") ==
-              "test.pbrt:6:3: error: a distant light has no size, so no path finds it by chance; "
-              "chapters from 09 on sample it");
-        CHECK(message("\"infinite\"") == "");
-        Scene scene = world_of("LightSource \"point\" Shape \"disk\"");
-        CHECK(film_of(scene, ch07::trace, 4).film.mean() == 0);
-    }
 }
 
 TEST_SUITE("ch07 pictures") {
@@ -449,73 +260,5 @@ TEST_SUITE("ch07 pictures") {
             CHECK(a.agrees());
             CHECK(a.relative < 0.002);
         }
-    }
-
-    TEST_CASE("agreement: 1, 2, 3, 5, 7 or 16 samples have the same mean, with every sampler") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 16, 4);
-        Film reference = film_of(scene, ch07::trace, 500, 99).film;
-        for (SamplerType type :
-             {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-            for (int spp : {1, 2, 3, 5, 7, 16}) {
-                RunningStats means;
-                for (uint32_t seed = 0; seed < 200 / static_cast<uint32_t>(spp); seed++) {
-                    means.add(film_of(scene, ch07::trace, spp, seed, type).film.mean());
-                }
-                CAPTURE(spp);
-                CAPTURE(static_cast<int>(type));
-                double se = std::hypot(means.standard_error(), reference.standard_error());
-                CHECK(std::abs(means.mean() - reference.mean()) < 5 * se);
-                CHECK(se < 0.03 * reference.mean());
-            }
-        }
-    }
-
-    TEST_CASE("variance: even sampling helps the first bounce") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 16, 1);
-        auto variance = [&](SamplerType type) {
-            RunningStats means;
-            for (uint32_t seed = 0; seed < 50; seed++) {
-                means.add(film_of(scene, ch07::trace, 16, seed, type).film.mean());
-            }
-            return means.variance();
-        };
-        double independent = variance(SamplerType::independent);
-        CHECK(variance(SamplerType::stratified) < 0.6 * independent);
-        CHECK(variance(SamplerType::sobol) < 0.6 * independent);
-    }
-
-    TEST_CASE("teeth: mistakes that the pictures show are rejected") {
-        Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 6);
-        Film film = film_of(scene, ch07::trace, 64).film;
-        int spp = 64;
-        auto agrees = [&](const Trace& trace) {
-            return hold_against(film_of(scene, trace, spp, 2).film, film).agrees();
-        };
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::no_cosine>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::no_pi>));
-        scene = scene_from("scenes/furnace.pbrt", 32, 6);
-        film = film_of(scene, ch07::trace, 64).film;
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::no_background>));
-        spp = 16;
-        scene = closed_sphere(0.5, 20);
-        film = film_of(scene, ch07::trace, spp).film;
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::light_ends_path>));
-        scene = closed_sphere(0.9, 20);
-        film = film_of(scene, ch07::trace, spp).film;
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::half_depth>));
-    }
-}
-
-TEST_SUITE("ch07 slow") {
-    TEST_CASE("agreement: the picture does not depend on the unit of length, from other seeds") {
-        Film film = film_of(cornell_in_units(1), ch07::trace, 2048).film;
-        Film small = film_of(cornell_in_units(0.001), ch07::trace, 2048, 2).film;
-        Film large = film_of(cornell_in_units(1000), ch07::trace, 2048, 3).film;
-        check_agreement(hold_against(small, film), 0.007);
-        check_agreement(hold_against(large, film), 0.007);
     }
 }

@@ -3,7 +3,7 @@
 
 #include "tests/traces/07.h"
 #include "tests/traces/08.h"
-#include "tests/support/gates.h"
+#include "tests/support/estimators.h"
 #include "tests/support/scenes.h"
 
 template Trace trace_with<ch08::trace>();
@@ -38,17 +38,6 @@ Moments central(const double* m) {
     double variance = m[2] - m[1] * m[1];
     double fourth = m[4] - 4 * m[1] * m[3] + 6 * m[1] * m[1] * m[2] - 3 * std::pow(m[1], 4);
     return {m[1], variance, fourth / (variance * variance)};
-}
-
-/// From X = 1 + B X' a/q:  m_n = 1 + sum (n choose k) q (a/q)^k m_k
-Moments furnace_moments(double a, double q) {
-    double m[5] = {1, 0, 0, 0, 0};
-    for (int n = 1; n <= 4; n++) {
-        double known = 1;
-        for (int k = 1; k < n; k++) known += choose[n][k] * q * std::pow(a / q, k) * m[k];
-        m[n] = known / (1 - q * std::pow(a / q, n));
-    }
-    return central(m);
 }
 
 /// The red channel of such a path where red, green and blue are reflected by (0.9, 0.1, 0.1), and
@@ -94,28 +83,6 @@ Moments red_moments() {
     return central(X);
 }
 
-/// Chapter 08's trace() with a mistake planted in its roulette.
-enum class Flaw { none, no_division, before_emission, inverse };
-
-template <Flaw flaw>
-Rgb flawed_trace(const Scene& scene, Ray ray, Sampler& sampler, Recorder&) {
-    Rgb L, beta = {1, 1, 1};
-    for (int depth = 0;; depth++) {
-        std::optional<Hit> x = intersect(scene, ray);
-        if (!x) return L + beta * scene.sky;
-        L += beta * emission(scene, *x);
-        if (depth == scene.max_depth) return L;
-        float u1 = sampler.u1();
-        BsdfSample s = ch08::sample_bsdf(*x, -ray.d, u1, sampler.u2());
-        if (s.pdf_w == 0) return L;
-        beta *= s.f * (std::abs(dot(s.wi, x->n)) / s.pdf_w);
-        float q = ch08::survival_probability(beta, depth);
-        if (sampler.u1() >= q) return flaw == Flaw::before_emission ? Rgb{} : L;
-        if (flaw != Flaw::no_division) beta /= flaw == Flaw::inverse ? 1 / q : q;
-        ray = spawn_ray(*x, s.wi);
-    }
-}
-
 Scene closed_sphere(double a, int max_depth) {
     std::string albedo = std::to_string(a) + " ";
     Scene scene = world_of(
@@ -127,76 +94,9 @@ Scene closed_sphere(double a, int max_depth) {
     return scene;
 }
 
-/// 08 brings what 07 brings: in all, by length of path, and by class (those seen 100 times).
-int check_classes(const Scene& scene, int paths) {
-    PathCensus a = census_of(scene, ch07::trace, paths, 1);
-    PathCensus b = census_of(scene, ch08::trace, paths, 2);
-    CHECK(b.worst_sum < 1e-5);
-    CHECK(z_between(a.all.measured(a.paths), b.all.measured(b.paths)) < 5);
-    int compared = 0;
-    auto compare = [&](const auto& parts_a, auto& parts_b) {
-        for (const auto& part : parts_a) {
-            const PathSum &of_a = part.second, &of_b = parts_b[part.first];
-            if (of_a.not_zero < 100 || of_b.not_zero < 100) continue;
-            CAPTURE(part.first);
-            CHECK(z_between(of_a.measured(a.paths), of_b.measured(b.paths)) < 5);
-            compared++;
-        }
-    };
-    compare(a.by_length, b.by_length);
-    compare(a.by_class, b.by_class);
-    return compared;
-}
-
 }  // namespace
 
 TEST_SUITE("ch08 roulette") {
-    TEST_CASE("truth: any q has the same mean in the furnace, and the variance of the formula") {
-        struct Row {
-            double a, q, variance;
-        };
-        for (auto [a, q, variance] : {Row{0.5, 0.5, 2},
-                                      {0.5, 0.9, 0.1538461538462},
-                                      {0.8, 0.8, 20},
-                                      {0.8, 0.95, 2.58064516129},
-                                      {0.9, 0.9, 90}}) {
-            // (1 + a) / (1 - a) q / (q - a^2) - 1 / (1 - a)^2
-            double formula = (1 + a) / (1 - a) * q / (q - a * a) - 1 / ((1 - a) * (1 - a));
-            Moments exact = furnace_moments(a, q);
-            CHECK(formula == doctest::Approx(variance).epsilon(1e-9).scale(0));
-            CHECK(exact.mean == doctest::Approx(1 / (1 - a)).epsilon(1e-9).scale(0));
-            CHECK(exact.variance == doctest::Approx(variance).epsilon(1e-9).scale(0));
-            RunningStats s = furnace(a, q, 200000);
-            check_mean(s, 1 / (1 - a), variance, 0.02 / (1 - a));
-            check_variance(s, variance, exact.kurtosis);
-        }
-    }
-
-    TEST_CASE("truth: the variance explodes as q goes to a^2") {
-        for (auto [a, q, variance] : {std::tuple{0.5, 0.3, 14.0},
-                                      {0.5, 0.26, 74.0},
-                                      {0.8, 0.65, 560.0},
-                                      {0.9, 0.82, 1458.0}}) {
-            CHECK(furnace_moments(a, q).variance ==
-                  doctest::Approx(variance).epsilon(1e-9).scale(0));
-        }
-        // The mean is still right, with the known variance; the sample's own would claim less.
-        RunningStats s = furnace(0.8, 0.65, 1000000);
-        check_mean(s, 5, 560, 0.2);
-    }
-
-    TEST_CASE("truth: one decision adds E^2 (1 - q) / q") {
-        for (auto [q, variance] : {std::pair{0.2, 4.0}, {0.1, 9.0}, {0.01, 99.0}}) {
-            RunningStats s;
-            Sampler random = random_numbers(1);
-            for (int i = 0; i < 1000000; i++) {
-                s.add(static_cast<double>(random.u1()) < q ? 1 / q : 0);
-            }
-            check_mean(s, 1, variance, 0.1);
-            check_variance(s, variance, (1 - 3 * q * (1 - q)) / (q * (1 - q)));
-        }
-    }
-
     TEST_CASE("failure: without the division by q the furnace shows 1 / (1 - a q)") {
         // 2.78 instead of 5: a smooth, converged, wrong picture.
         double p = 0.64, truth = 1 / (1 - p);
@@ -205,18 +105,6 @@ TEST_SUITE("ch08 roulette") {
         CHECK(s.standard_error() < 0.01);
         CHECK(truth == doctest::Approx(2.777777777778).epsilon(1e-9).scale(0));
         CHECK(std::abs(s.mean() - 5) > 100 * s.standard_error());
-    }
-
-    TEST_CASE("failure: a survival of 0.001 leaves a thousand paths dark one time in three") {
-        Sampler random = random_numbers(1);
-        RunningStats dark;
-        for (int run = 0; run < 10000; run++) {
-            bool any = false;
-            for (int i = 0; i < 1000; i++) any |= random.u1() < 0.001f;
-            dark.add(any ? 0 : 1);
-        }
-        double p = 0.367695424771;
-        check_mean(dark, p, p * (1 - p), 0.05);
     }
 
     TEST_CASE("identity: q is a probability, at least 0.05, and 1 for short paths") {
@@ -271,24 +159,11 @@ TEST_SUITE("ch08 russian roulette") {
         }
     }
 
-    TEST_CASE("furnace: every pixel of a convex diffuse ball is its albedo, glass is invisible") {
-        Film film = film_of(scene_from("scenes/furnace.pbrt", 32, 100), ch08::trace, 256).film;
-        for (int y = 9; y < 23; y++)
-            for (int x = 9; x < 23; x++) {
-                double mean = film.pixels()[static_cast<size_t>(32 * y + x)].mean();
-                CHECK(std::abs(mean - 0.8) < 5 * 0.8 / std::sqrt(3.0 * 256));
-            }
-        Film glass =
-            film_of(scene_from("scenes/furnace-glass.pbrt", 32, 1000), ch08::trace, 64).film;
-        CHECK(std::abs(glass.mean() - 1) <= 5 * glass.standard_error() + 1e-5);
-        CHECK(glass.standard_error() < 0.01);
-    }
-
     TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 07") {
         for (std::string name : {"cornell", "cornell-spheres", "color-bleeding"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 12);
-            CHECK(check_classes(scene, 60000) >= 6);
+            CHECK(check_classes(scene, ch07::trace, scene, ch08::trace, 60000) >= 6);
         }
         Scene scene = scene_from("scenes/color-bleeding.pbrt", 32, 12);
         Film a = film_of(scene, ch07::trace, 128).film,
@@ -324,20 +199,6 @@ TEST_SUITE("ch08 russian roulette") {
         CHECK(std::abs(share - trapped) < 5 * std::sqrt(trapped * (1 - trapped) / paths));
     }
 
-    TEST_CASE("truth: a scene without light is black, one without things is sky: exactly") {
-        Sampler random = random_numbers(1);
-        Recorder recorder;
-        Scene scene;
-        prepare(scene, 1);
-        CHECK(is_black(ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, recorder)));
-        scene.sky = {0.5f, 1, 2};
-        CHECK(ch08::trace(scene, {{0, 0, 0}, {0, 0, 1}}, random, recorder) == Rgb{0.5f, 1, 2});
-        Scene dark = closed_sphere(0, 100);
-        for (int i = 0; i < 100; i++) {
-            CHECK(ch08::trace(dark, {{0, 0, 0}, {0, 0, 1}}, random, recorder) == Rgb{1, 1, 1});
-        }
-    }
-
     TEST_CASE("identity: what roulette keeps, it hands on: --explain sees q and beta") {
         Scene scene = closed_sphere(0.5, 100);
         PathStory story(100, false);
@@ -351,32 +212,5 @@ TEST_SUITE("ch08 russian roulette") {
             seen = story.text().find("survives roulette, q 0.") != std::string::npos;
         }
         CHECK(seen);
-    }
-
-    TEST_CASE("teeth: a roulette that does not divide, forgets, or multiplies is rejected") {
-        Scene scene = closed_sphere(0.8, 1000);
-        Film film = film_of(scene, ch08::trace, 64).film;
-        auto agrees = [&](const Trace& trace) {
-            return hold_against(film_of(scene, trace, 64, 2).film, film).agrees();
-        };
-        CHECK(agrees(flawed_trace<Flaw::none>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::no_division>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::before_emission>));
-        CHECK_FALSE(agrees(flawed_trace<Flaw::inverse>));
-    }
-}
-
-TEST_SUITE("ch08 slow") {
-    TEST_CASE("agreement: lengths and classes of paths with chapter 07, from many paths") {
-        for (auto [file, classes] :
-             {std::pair{std::string("cornell"), 12},
-              {"cornell-spheres", 20},
-              {"color-bleeding", 20},
-              {"caustic", 4}}) {  // light meets the camera's paths in one of 20,000
-            std::string name = file;
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 64, 20);
-            CHECK(check_classes(scene, 1000000) >= classes);
-        }
     }
 }

@@ -20,7 +20,6 @@ namespace {
 Trace by(Strategy strategy, const Scene& scene) {
     return trace_with<ch13::trace>(ch13::prepare(scene), strategy);
 }
-constexpr Strategy both_ways[] = {Strategy::bsdf, Strategy::light};
 
 /// A point of rough metal of this roughness that reflects (nearly) all; z is its normal.
 Hit metal(const Material& material) {
@@ -100,24 +99,6 @@ double chi_square_chance(const std::vector<double>& counts, const std::vector<do
 }  // namespace
 
 TEST_SUITE("ch13 rough metal") {
-    TEST_CASE("identity: the normals of the facets make up the surface, and what is seen of it") {
-        for (double alpha : {0.01, 0.1, 0.5, 1.0}) {
-            CAPTURE(alpha);
-            NormalCells cells{alpha};
-            float a = static_cast<float>(alpha);
-            double surface = sum_of(cells.integrate(
-                [&](Vec3 h) { return static_cast<double>(ch13::ggx_D(h, a) * h.z); }));
-            CHECK(surface == doctest::Approx(1).epsilon(0.002).scale(0));
-            for (double degrees : {0.0, 45.0, 80.0}) {
-                CAPTURE(degrees);
-                Vec3 wo = at(degrees);
-                double seen = sum_of(cells.integrate(
-                    [&](Vec3 h) { return static_cast<double>(ch13::pdf_ggx_normal(wo, a, h)); }));
-                CHECK(seen == doctest::Approx(1).epsilon(0.002).scale(0));
-            }
-        }
-    }
-
     TEST_CASE("density: GGX normals") {
         for (float alpha : {0.02f, 0.2f, 1.0f})
             for (double degrees : {0.0, 30.0, 85.0}) {
@@ -172,24 +153,6 @@ TEST_SUITE("ch13 rough metal") {
                 CHECK(chi_square_chance(counts, expected) > 1e-6);
                 CHECK(std::abs(sum_of(counts) - sum_of(expected)) < 5 * std::sqrt(50000 * 0.25));
             }
-    }
-
-    TEST_CASE("jacobian: the area of the normals of a small square of u is its area over the pdf") {
-        Sampler random = random_numbers(1);
-        for (int i = 0; i < 300; i++) {
-            float alpha = 0.1f + 0.9f * random.u1();
-            Vec3 wo = at(80 * double{random.u1()});
-            Vec2 u = {0.05f + 0.9f * random.u1(), 0.05f + 0.9f * random.u1()};
-            constexpr float h = 0x1p-9f;
-            auto normal = [&](float x, float y) {
-                return ch13::sample_ggx_normal(wo, alpha, {x, y});
-            };
-            Vec3 du = normal(u.x + h, u.y) - normal(u.x - h, u.y);
-            Vec3 dv = normal(u.x, u.y + h) - normal(u.x, u.y - h);
-            float pdf = ch13::pdf_ggx_normal(wo, alpha, normal(u.x, u.y));
-            CHECK(length(cross(du, dv)) / (4 * h * h) ==
-                  doctest::Approx(1 / pdf).epsilon(0.02).scale(0));
-        }
     }
 
     TEST_CASE("consistency: invert_ggx_normal finds the numbers of a sample") {
@@ -273,30 +236,11 @@ TEST_SUITE("ch13 rough metal") {
         }
     }
 
-    TEST_CASE("furnace: metal of alpha 1 gives back 1 - ln 2 of what falls straight on it") {
-        // What leaves a facet for another one is lost. With c = cos^2 of the facet's angle,
-        // E[X^n] = integral from 1/2 to 1 of (2 - 1/c)^n dc.
-        Material material = rough(1);
-        Hit x = metal(material);
-        RunningStats s;
-        Sampler random = random_numbers(1);
-        for (int i = 0; i < 200000; i++) {
-            BsdfSample b = ch13::sample_bsdf(x, {0, 0, 1}, random.u1(), random.u2());
-            s.add(b.pdf_w == 0 ? 0 : static_cast<double>(b.f.g * dot(b.wi, x.n) / b.pdf_w));
-        }
-        double mean = 1 - std::log(2), variance = 3 - 4 * std::log(2) - mean * mean;
-        check_mean(s, mean, variance, 0.01);
-        check_variance(s, variance, 3);
-    }
-
     TEST_CASE(
         "truth: the share of a white sky that rough metal reflects, by quadrature in double") {
         CHECK(RoughMetal{0.5, 0.2, 3.9}.albedo(pi_exact / 3) ==
               doctest::Approx(0.66274).epsilon(1e-5).scale(0));
-        for (auto [alpha_here, eta, k] :
-             {std::tuple{0.1, 0.2, 3.9}, {0.5, 0.2, 3.9}, {1.0, 1.5, 2.0}}) {
-            const auto& alpha = alpha_here;
-            CAPTURE(alpha);
+        for (auto [alpha, eta, k] : {std::tuple{0.1, 0.2, 3.9}, {0.5, 0.2, 3.9}, {1.0, 1.5, 2.0}}) {
             Material material = rough(static_cast<float>(alpha));
             material.eta.g = static_cast<float>(eta), material.k.g = static_cast<float>(k);
             Hit x = metal(material);
@@ -322,60 +266,9 @@ TEST_SUITE("ch13 rough metal") {
             }
         }
     }
-
-    TEST_CASE("furnace: a ball of nearly smooth metal shows what a smooth one reflects") {
-        auto ball = [](const std::string& roughness) {
-            Scene scene = world_of(
-                "LightSource \"infinite\" Material \"conductor\" \"rgb reflectance\" [.9 .8 .5]"
-                " \"float roughness\" " +
-                roughness +
-                " \"bool remaproughness\" false"
-                " Shape \"sphere\"");
-            // By the BSDF alone there is no noise: each sample is F G2 / G1.
-            return film_of(scene, by(Strategy::bsdf, scene), 64).film;
-        };
-        Film smooth = ball("0"), rough = ball("0.002");
-        for (int y = 10; y < 22; y++)
-            for (int x = 10; x < 22; x++) {
-                size_t i = static_cast<size_t>(32 * y + x);
-                CHECK(rough.pixels()[i].mean() ==
-                      doctest::Approx(smooth.pixels()[i].mean()).epsilon(0.005).scale(0));
-            }
-    }
 }
 
 TEST_SUITE("ch13 glossy") {
-    TEST_CASE("truth: irradiance of all lights, both ways") {
-        for (const auto& [light_here, E] : lights_of_known_irradiance) {
-            const auto& light = light_here;
-            CAPTURE(light);
-            Scene scene = floor_under(light);
-            check_bounded(irradiance(scene, by(Strategy::bsdf, scene), 60000), E, 0.025);
-            check_bounded(irradiance(scene, by(Strategy::light, scene), 20000), E, 0.025);
-        }
-    }
-
-    TEST_CASE("truth: point and distant lights, which only light sampling finds") {
-        for (const auto& [light, E] : lights_without_size) {
-            Scene scene = floor_under(light);
-            RunningStats s = irradiance(scene, by(Strategy::light, scene), 100);
-            CHECK(s.mean() == doctest::Approx(E).epsilon(1e-5).scale(0));
-            CHECK(s.variance() < 1e-10);
-            CHECK_THROWS_AS(refuse_delta_lights(scene), InputError);
-        }
-    }
-
-    TEST_CASE("truth: a light in a mirror and straight on, both ways, without noise") {
-        Scene mirror = light_before_mirror();
-        for (Strategy strategy : both_ways) check_light_before_mirror(mirror, by(strategy, mirror));
-    }
-
-    TEST_CASE("failure: without lights the picture is black") {
-        Scene none = floor_without_lights();
-        for (Strategy strategy : both_ways)
-            CHECK(irradiance(none, by(strategy, none), 100).mean() == 0);
-    }
-
     TEST_CASE("identity: without rough metal, light sampling is chapter 11, path by path") {
         for (std::string name : {"cornell-spheres", "two-lights", "thousand-lights"}) {
             CAPTURE(name);
@@ -387,54 +280,10 @@ TEST_SUITE("ch13 glossy") {
         }
     }
 
-    TEST_CASE("agreement: both ways on rough, smooth and matt surfaces") {
-        for (std::string name : {"veach-mis", "cornell-spheres"}) {
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 6);
-            Film bsdf = film_of(scene, by(Strategy::bsdf, scene), 512).film;
-            Film light = film_of(scene, by(Strategy::light, scene), 512, 2).film;
-            check_agreement(hold_against(bsdf, light, 16), 0.15);
-        }
-    }
-
     TEST_CASE("agreement: both ways find each class of path on Veach's plates alike") {
         Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
         CHECK(check_classes(scene, by(Strategy::bsdf, scene), scene, by(Strategy::light, scene),
                             100000) >= 4);
-    }
-
-    TEST_CASE(
-        "failure: by light sampling alone large lights in smooth plates: variance above 100 "
-        "squared "
-        "means") {
-        // The plates from smooth to rough.
-        constexpr double least[] = {100, 10, 1, 0.15};
-        for (size_t plate = 0; plate < 4; plate++) {
-            CAPTURE(plate);
-            PlateAndLamp large(plate, 0);
-            RunningStats aimed = large.sample(by(Strategy::light, large.scene), 40000);
-            CHECK(relative_variance(aimed) > least[plate]);
-            if (plate == 3) continue;  // where the lobe is as wide as the lamp
-            RunningStats followed = large.sample(by(Strategy::bsdf, large.scene), 40000);
-            CHECK(relative_variance(followed) < 0.25);
-            CHECK(relative_variance(aimed) > 8 * relative_variance(followed));
-        }
-    }
-
-    TEST_CASE(
-        "failure: by the BSDF alone small lights in rough plates: variance above 500 squared "
-        "means") {
-        constexpr double least[] = {0.3, 10, 90, 500};
-        for (size_t plate = 0; plate < 4; plate++) {
-            CAPTURE(plate);
-            PlateAndLamp small(plate, 3);
-            RunningStats followed = small.sample(by(Strategy::bsdf, small.scene), 200000);
-            CHECK(relative_variance(followed) > least[plate]);
-            if (plate == 0) continue;  // where the lobe is as narrow as the lamp
-            RunningStats aimed = small.sample(by(Strategy::light, small.scene), 40000);
-            CHECK(relative_variance(aimed) < 0.005);
-            CHECK(relative_variance(followed) > 1000 * relative_variance(aimed));
-        }
     }
 
     TEST_CASE(

@@ -84,42 +84,6 @@ TEST_SUITE("ch21 parts") {
         }
     }
 
-    TEST_CASE("furnace: walks from the eye in a closed sphere add up to 1 / (1 - albedo)") {
-        Scene scene = scene_from("scenes/closed-sphere.pbrt", 16, 60);
-        Endpoints endpoints = endpoints_of(scene);
-        Sampler sampler(SamplerType::independent, 1, 1);
-        RunningStats sums;
-        for (uint32_t i = 0; i < 20000; i++) {
-            sampler.start(0, i);
-            Recorder recorder;
-            double sum = 0;
-            Ray ray = {{0, 0, 0}, uniform_direction(sampler.u2())};
-            ch21::Path path = ch21::random_walk(scene, endpoints, false, ray, sampler, recorder);
-            for (size_t k = 1; k < path.size(); k++) sum += double{(path[k].beta * path[k].Le).g};
-            sums.add(sum);
-        }
-        CHECK(std::abs(sums.mean() - 2) <= 5 * sums.standard_error() + 1e-6);
-        CHECK(sums.standard_error() <= 0.02);
-        CHECK(sums.variance() > 0);
-    }
-
-    TEST_CASE("truth: the flux of light paths is the power of the lamp, pi A Le") {
-        Scene scene = lamp_and_floor();
-        Endpoints endpoints = endpoints_of(scene);
-        Sampler sampler(SamplerType::independent, 2, 1);
-        RunningStats flux;
-        for (uint32_t i = 0; i < 1000; i++) {
-            sampler.start(0, i);
-            Recorder recorder;
-            ch21::Path path = ch21::light_subpath(scene, endpoints, sampler, recorder);
-            REQUIRE(path.size() >= 2);
-            CHECK(path[0].pdf == doctest::Approx(0.25).scale(0));
-            CHECK(path[0].beta.r == doctest::Approx(12).scale(0));
-            flux.add(double{path[1].beta.r});
-        }
-        CHECK(std::abs(flux.mean() / (4 * pi_exact * 3) - 1) <= 1e-5);
-    }
-
     TEST_CASE("identity: a whole path begins at the light and ends at the eye") {
         Scene scene = lamp_and_floor();
         ch21::Path light(3), eye(3);
@@ -177,7 +141,6 @@ TEST_SUITE("ch21 weights") {
                      {"cornell", "leaning normals"}};
         for (const auto& c : cases) {
             CAPTURE(c.name);
-            CAPTURE(c.how);
             Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 7);
             change(scene, c.how);
             bool leans = c.how == "leaning normals";
@@ -225,33 +188,6 @@ TEST_SUITE("ch21 weights") {
         path[3].x.p = endpoints.camera.view.o;
         for (size_t s = 0; s < 4; s++) CHECK(ch21::mis_weight(scene, endpoints, path, s) == 0);
     }
-
-    TEST_CASE("truth: densities and weights of a path of two edges") {
-        // The pinhole at (0, -1, 0.5) looks at the origin, with a film of area 1 at distance 1;
-        // x = (0.2, 0.1, 0) on the floor, y = (0.1, -0.2, 1) on a unit light that faces it.
-        Scene scene;
-        Material floor;
-        Endpoints endpoints{};
-        ch21::Path path(3);
-        path[0].x.p = {0.1f, -0.2f, 1}, path[0].x.ng = {0, 0, -1}, path[0].pdf = 1;
-        path[1].x.p = {0.2f, 0.1f, 0}, path[1].x.n = path[1].x.ng = {0, 0, 1};
-        path[1].x.material = &floor;
-        path[2].x.p = {0, -1, 0.5f};
-        endpoints.camera.axis = normalize(-1 * path[2].x.p), endpoints.camera.area = 1;
-        // By hand: the light 0.2630660216395 m^-2 from x, which the eye meets with 0.28401 m^-2.
-        ch21::Path reversed(path.rbegin(), path.rend());
-        std::vector<double> eye = ch21::densities(scene, endpoints, false, reversed);
-        CHECK(eye[1] == doctest::Approx(0.2840100565843).epsilon(1e-5).scale(0));
-        CHECK(eye[2] == doctest::Approx(0.2630660216395).epsilon(1e-5).scale(0));
-        // s = 0 has p = eye[1] eye[2], s = 1 has eye[1]; s = 2 is left out.
-        double s0 = 0.2630660216395 / 1.2630660216395;
-        for (auto [edges, mis] : {std::pair<size_t, double>{0, s0}, {1, 1 - s0}}) {
-            size_t s = edges;
-            CAPTURE(s);
-            CHECK(static_cast<double>(ch21::mis_weight(scene, endpoints, path, s)) ==
-                  doctest::Approx(mis).epsilon(1e-5).scale(0));
-        }
-    }
 }
 
 TEST_SUITE("ch21 bidirectional") {
@@ -282,9 +218,7 @@ TEST_SUITE("ch21 bidirectional") {
     TEST_CASE("truth: irradiance of all lights by both ends") {
         auto all = lights_of_known_irradiance;
         all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
-        for (const auto& [light_here, E] : all) {
-            const auto& light = light_here;
-            CAPTURE(light);
+        for (const auto& [light, E] : all) {
             Scene scene = floor_under(light);
             scene.camera.o = {0, 0.01f, 0};
             scene.camera.right = {1, 0, 0}, scene.camera.up = {0, 0, 1};
@@ -312,52 +246,6 @@ TEST_SUITE("ch21 bidirectional") {
             Measured m = census_of(scene, form(scene), paths, 1).all.measured(paths);
             CHECK(std::abs(m.mean - 2) < 5 * m.se);
             CHECK(m.se < 0.01);
-        }
-    }
-
-    TEST_CASE("truth: a disk fills its share of the picture at any field of view and in any unit") {
-        // A disk of half the picture's width: pi / 16 of the film. The camera's unit is no length.
-        for (double fov : {0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 170.0})
-            for (const char* unit : {"1e-5", "1", "1e5"}) {
-                CAPTURE(fov);
-                CAPTURE(unit);
-                double radius = 10 * std::tan(fov * pi_exact / 360) / 2;
-                std::string u = std::string(unit) + " ";
-                Scene scene = scene_of(
-                    "Scale " + u + u + u + "Rotate 30 1 0 0 Rotate 50 0 1 0\n" +
-                    "Camera \"perspective\" \"float fov\" " + json_number(fov) + " WorldBegin\n" +
-                    shining +
-                    "Rotate -50 0 1 0 Rotate -30 1 0 0 Translate 0 0 10 Rotate 180 1 0 0 Shape "
-                    "\"disk\" \"float radius\" " +
-                    json_number(radius) + "\n");
-                scene.width = scene.height = 24, scene.max_depth = 1;
-                auto check = [&](const Film& film) {
-                    double truth = pi_exact / 16;
-                    CAPTURE(film.mean());
-                    CAPTURE(film.standard_error());
-                    CHECK(std::abs(film.mean() - truth) <=
-                          5 * film.standard_error() + 1e-3 * truth);
-                    CHECK(film.standard_error() < 0.01 * truth);
-                };
-                check(film_of(scene, by_fifteen(scene), 16).film);
-                SplatTrace by_light =
-                    trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
-                check(film_of(scene, by_light, 16).film);
-                for (const Form& form : forms) check(film_of(scene, form(scene), 16).film);
-            }
-    }
-
-    TEST_CASE("truth: a light in a mirror and straight on, without noise, by both ends") {
-        Scene mirror = light_before_mirror(), none = floor_without_lights();
-        for (const Form& form : forms) {
-            CAPTURE(form.name);
-            SplatTrace trace = form(mirror);
-            check_light_before_mirror(
-                mirror, [&](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
-                    Splats splats;
-                    return trace(s, ray, splats, sampler, recorder);
-                });
-            CHECK(film_of(none, form(none), 4).film.mean() == 0);
         }
     }
 
@@ -395,30 +283,6 @@ TEST_SUITE("ch21 bidirectional") {
                 Film b = film_of(scene, form(scene), 64, 2, type).film;
                 CHECK(z_between({a.mean(), a.standard_error()}, {b.mean(), b.standard_error()}) <
                       5);
-            }
-        }
-    }
-
-    TEST_CASE("agreement: neither sample count nor unit of length changes the mean of both ends") {
-        auto over_seeds = [](const Scene& scene, const Form& form, int spp, uint32_t first) {
-            RunningStats means;
-            for (uint32_t seed = first; seed < first + 32; seed++)
-                means.add(film_of(scene, form(scene), spp, seed).film.mean());
-            return Measured{means.mean(), means.standard_error()};
-        };
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 5);
-        Measured a = over_seeds(scene, forms[0], 16, 1);
-        CHECK(a.se < 0.005 * a.mean);
-        for (const Form& form : forms) {
-            CAPTURE(form.name);
-            for (int spp : {1, 2, 3, 7}) {
-                CAPTURE(spp);
-                CHECK(z_between(a, over_seeds(scene, form, spp, 100)) < 5);
-            }
-            for (float unit : {0.001f, 1000.0f}) {
-                CAPTURE(unit);
-                Scene other = in_units("scenes/cornell-spheres.pbrt", unit, 32, 5);
-                CHECK(z_between(a, over_seeds(other, form, 4, 200)) < 5);
             }
         }
     }

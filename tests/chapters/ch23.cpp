@@ -236,24 +236,6 @@ TEST_SUITE("ch23 density of photons") {
         check_bounded(stats, 1 + 32 / 12.0 * 0.16, 0.01);
     }
 
-    TEST_CASE("truth: empty disks are black, as often as chance has it") {
-        constexpr int n = 1000, repeats = 20000;
-        Floor floor;
-        Sampler random = random_numbers(1);
-        float r = static_cast<float>(std::sqrt(1 / (pi_exact * n)));  // lambda = 1
-        double empty = 0;
-        for (int i = 0; i < repeats / 100; i++) {
-            auto photons = on_a_square(n, random, 1.0f / n);
-            for (int j = 0; j < 100; j++) {
-                Vec2 u = random.u2();
-                Hit x = floor.at(0.1f + 0.8f * u.x, 0.1f + 0.8f * u.y);
-                empty += irradiance_at(x, photons, r) == 0;
-            }
-        }
-        CHECK(std::abs(empty / repeats - 0.3678794411714) < 5 * 0.48 / std::sqrt(repeats / 2.0));
-        CHECK(irradiance_at(floor.at(0.5f, 0.5f), {}, 0.1f) == 0);
-    }
-
     TEST_CASE("failure: no light leaks through a thin wall, round a corner, or between sheets") {
         Floor floor;
         Sampler random = random_numbers(1);
@@ -270,34 +252,13 @@ TEST_SUITE("ch23 density of photons") {
         below.p.y = -0.05f;
         CHECK(irradiance_at(below, photons, 0.1f) == 0);
     }
-
-    TEST_CASE("truth: a curved surface is no darker") {
-        // On a sphere the points within a chord r have the area pi r^2 (G16), whatever its radius.
-        Material white = white_material();
-        RunningStats stats;
-        Sampler random = random_numbers(1);
-        for (int repeat = 0; repeat < 300; repeat++) {
-            std::vector<Photon> photons;
-            for (int i = 0; i < 4000; i++) {
-                Vec3 n = uniform_direction(random.u2());
-                float flux = 4 * pi / 4000;
-                photons.push_back({n, n, {flux, flux, flux}, 1});
-            }
-            Hit x;
-            x.p = x.n = x.ng = uniform_direction(random.u2()), x.material = &white;
-            stats.add(irradiance_at(x, photons, 0.25f));
-        }
-        check_bounded(stats, 1, 0.01);
-    }
 }
 
 TEST_SUITE("ch23 photon mapping") {
     TEST_CASE("truth: irradiance of all lights, by photons alone") {
         auto all = lights_of_known_irradiance;
         all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
-        for (const auto& [light_here, E] : all) {
-            const auto& light = light_here;
-            CAPTURE(light);
+        for (const auto& [light, E] : all) {
             if (E < 0.1) continue;  // too few photons come here
             Scene scene = scene_of(
                 "LookAt 0 0.05 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 90\n"
@@ -326,7 +287,6 @@ TEST_SUITE("ch23 photon mapping") {
                                         .final_gathering = final_gathering,
                                         .radius = radius};
                 Measured m = mean_over_seeds(scene, settings, 4, 8, "LSDE");
-                CAPTURE(m.mean / truth);
                 CHECK(std::abs(m.mean - truth) < 5 * m.se);
                 CHECK(m.se < 0.004 * truth);
             }
@@ -345,7 +305,6 @@ TEST_SUITE("ch23 photon mapping") {
             return mse.mean();
         };
         double few = error(128), many = error(1024);
-        CAPTURE(few);
         CHECK(many == doctest::Approx(few).epsilon(0.1).scale(0));
         CHECK(many > 0.005);
     }
@@ -363,7 +322,6 @@ TEST_SUITE("ch23 photon mapping") {
                 .light_paths = 4000, .final_gathering = final_gathering, .radius = 0.2f};
             Measured m = mean_over_seeds(scene, settings, 8, 10);
             CAPTURE(final_gathering);
-            CAPTURE(m.mean);
             CHECK(std::abs(m.mean - 2) < 5 * m.se);
             CHECK(m.se < 0.005);
         }
@@ -378,28 +336,10 @@ TEST_SUITE("ch23 photon mapping") {
             Measured m = mean_over_seeds(scene, settings, 16, 8, classes);
             Measured truth = mean_over_seeds_of(
                 scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 32, 8, classes);
-            CAPTURE(m.mean);
-            CAPTURE(truth.mean);
             CHECK(std::abs(m.mean - truth.mean) <
                   5 * std::hypot(m.se, truth.se) + 0.01 * truth.mean);
             CHECK(std::hypot(m.se, truth.se) < 0.015 * truth.mean);
         }
-    }
-
-    TEST_CASE("agreement: metal shows a wall: behind the wall no emission counts") {
-        Scene scene = scene_of(
-            "LookAt -1 0.5 0  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 5\n"
-            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
-            "LightSource \"infinite\"\nAttributeBegin " +
-            boards[2] + " Scale 20 1 20 " + square(0, true) + "AttributeEnd\n" + boards[0] +
-            " Translate 1 0 0 Rotate 90 0 0 1 Scale 3 3 3 " + square(0, true));
-        scene.max_depth = 2;
-        Measured m = mean_over_seeds(scene, {.light_paths = 500}, 64, 10, "LDDE");
-        Measured truth = mean_over_seeds_of(scene, by_fifteen(scene), 64, 10, "LDDE");
-        CAPTURE(m.mean);
-        CAPTURE(truth.mean);
-        CHECK(std::abs(m.mean - truth.mean) < 5 * std::hypot(m.se, truth.se));
-        CHECK(std::hypot(m.se, truth.se) < 0.01 * truth.mean);
     }
 
     TEST_CASE("agreement: a lamp over a wide land, whose sky has a million times its power") {
@@ -411,8 +351,6 @@ TEST_SUITE("ch23 photon mapping") {
             "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + square(1, false));
         Measured m = mean_over_seeds(scene, {.light_paths = 500}, 64, 10, "LDE");
         Measured truth = mean_over_seeds_of(scene, by_fifteen(scene), 64, 10, "LDE");
-        CAPTURE(m.mean);
-        CAPTURE(truth.mean);
         CHECK(std::abs(m.mean - truth.mean) < 5 * std::hypot(m.se, truth.se));
         CHECK(std::hypot(m.se, truth.se) < 0.02 * truth.mean);
     }
@@ -425,8 +363,6 @@ TEST_SUITE("ch23 photon mapping") {
         Measured m = mean_over_seeds(
             scene, {.light_paths = 40000, .final_gathering = false, .radius = 0.05f}, 4, 8);
         Film film = film_of(scene, by_fifteen(scene), 256).film;
-        CAPTURE(m.mean);
-        CAPTURE(film.mean());
         CHECK(std::abs(m.mean - film.mean()) <
               5 * std::hypot(m.se, film.standard_error()) + 0.01 * film.mean());
         CHECK(m.se < 0.01 * film.mean());
@@ -453,35 +389,6 @@ TEST_SUITE("ch23 photon mapping") {
         }
     }
 
-    TEST_CASE("identity: the same picture for any number of threads") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 24, 5);
-        for (SamplerType sampler :
-             {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-            PhotonSettings settings{.sampler = sampler, .light_paths = 3000};
-            Image one = film_by(scene, settings, 3, 1, 1).image();
-            for (int threads : {2, 7}) {
-                CHECK(film_by(scene, settings, 3, 1, threads).image().pixels == one.pixels);
-            }
-        }
-    }
-
-    TEST_CASE("agreement: the mean depends on neither sample count nor unit of length") {
-        const std::string path = "scenes/cornell-spheres.pbrt";
-        PhotonSettings settings{.light_paths = 4000};
-        Scene scene = scene_from(path, 32, 5);
-        Measured a = mean_over_seeds(scene, settings, 12, 32);
-        CHECK(a.se < 0.005 * a.mean);
-        for (float unit : {0.001f, 1000.0f}) {
-            CAPTURE(unit);
-            Scene other = in_units(path, unit, 32, 5);
-            CHECK(z_between(a, mean_over_seeds(other, settings, 4, 32)) < 5);
-        }
-        for (int spp : {1, 2, 3, 7}) {
-            CAPTURE(spp);
-            CHECK(z_between(a, mean_over_seeds(scene, settings, spp, 16)) < 5);
-        }
-    }
-
     TEST_CASE("identity: parts add up to the whole, error included") {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
         scene.spp = 7;
@@ -502,19 +409,6 @@ TEST_SUITE("ch23 photon mapping") {
         CHECK(whole.standard_error() > 0);
     }
 
-    TEST_CASE("identity: classes of path add up to the picture") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 6);
-        PhotonSettings settings{.light_paths = 3000};
-        for (bool final_gathering : {false, true}) {
-            settings.final_gathering = final_gathering;
-            double whole = film_by(scene, settings, 4).mean(), sum = 0;
-            for (const char* classes : {"LE", "LDE", "LDD+E", "L.*S.*E"}) {
-                sum += film_by(scene, settings, 4, 1, 2, classes).mean();
-            }
-            CHECK(sum == doctest::Approx(whole).epsilon(1e-5).scale(0));
-        }
-    }
-
     TEST_CASE("failure: nothing to count, no light, no diffuse surface") {
         Scene none = floor_without_lights();
         CHECK(film_by(none, {.light_paths = 100}, 2).mean() == 0);
@@ -530,70 +424,6 @@ TEST_SUITE("ch23 photon mapping") {
 }
 
 TEST_SUITE("ch23 photon mapping slow") {
-    TEST_CASE("agreement: what glass gathers and glass shows, with chapter 15") {
-        // The scenes' lamps made larger at the same power, so that chance finds them.
-        auto with_large_lamp = [](const std::string& name, const std::string& lamp,
-                                  const std::string& larger) {
-            std::string text = read_file("scenes/" + name + ".pbrt");
-            size_t at = text.find(lamp), mesh = text.find("pool.ply\"");
-            REQUIRE(at != std::string::npos);
-            text.replace(at, lamp.size(), larger);
-            if (mesh != std::string::npos) text.insert(mesh, "scenes/");
-            size_t radius = text.rfind("\"float radius\" [0.0");
-            if (name == "sds") radius = text.find("\"float radius\" [0.02]");
-            REQUIRE(radius != std::string::npos);
-            text.replace(radius, 21, "\"float radius\" [0.2]");
-            Scene scene = scene_of(text);
-            scene.width = scene.height = 48;
-            scene.max_depth = 8;
-            return scene;
-        };
-        Scene scenes[] = {with_large_lamp("pool", "62000 56000 48000", "155 140 120"),
-                          with_large_lamp("sds", "3200 3000 2600", "32 30 26")};
-        for (const Scene& scene : scenes) {
-            for (const char* classes : {"LS+DS+E", "LS+D+DS*E"}) {
-                CAPTURE(scene.spp);
-                CAPTURE(std::string(classes));
-                Measured m = mean_over_seeds(scene, {.light_paths = 50000}, 16, 8, classes);
-                Measured truth = mean_over_seeds_of(scene, by_fifteen(scene), 512, 8, classes);
-                CAPTURE(m.mean);
-                CAPTURE(truth.mean);
-                CAPTURE(truth.se);
-                CHECK(std::abs(m.mean - truth.mean) <
-                      5 * std::hypot(m.se, truth.se) + 0.01 * truth.mean);
-                CHECK(std::hypot(m.se, truth.se) < 0.02 * truth.mean);
-            }
-        }
-    }
-
-    TEST_CASE("agreement: classes of paths with chapter 15, where little light is at edges") {
-        // Radii of 2 cm in a room of 2 m. What is biased is said in each row: the share that edges
-        // and corners lose of what is counted there.
-        Scene scene = scene_from("scenes/cornell.pbrt", 32, 4);
-        struct {
-            bool final_gathering;
-            const char* classes;
-            double edges;
-        } cases[] = {{true, "LDE", 0},
-                     {true, "LDDE", 0.01},
-                     {true, "LDDDD?E", 0.01},
-                     {false, "LDE", 0.01},
-                     {false, "LDD+E", 0.01}};
-        for (const auto& c : cases) {
-            CAPTURE(std::string(c.classes));
-            PhotonSettings settings{.light_paths = 10000,
-                                    .final_gathering = c.final_gathering,
-                                    .radius = 0.01f * scene.radius};
-            Measured m = mean_over_seeds(scene, settings, 48, 8, c.classes);
-            Measured truth = mean_over_seeds_of(scene, by_fifteen(scene), 64, 8, c.classes);
-            CAPTURE(m.mean);
-            CAPTURE(truth.mean);
-            CHECK(std::abs(m.mean - truth.mean) <
-                  5 * std::hypot(m.se, truth.se) + c.edges * truth.mean);
-            CHECK(std::hypot(m.se, truth.se) < 0.01 * truth.mean);
-        }
-    }
-
     TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler") {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
         for (SamplerType sampler :
@@ -609,7 +439,6 @@ TEST_SUITE("ch23 photon mapping slow") {
                 reported += film.standard_error() / runs;
             }
             double spread = std::sqrt(means.variance());
-            CAPTURE(static_cast<int>(sampler));
             CAPTURE(reported / spread);
             CHECK(reported / spread > 0.65);  // 40 runs: spread to 11 %, 32 passes: each to 13 %
             CHECK(reported / spread < 1.5);

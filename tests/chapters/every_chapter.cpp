@@ -2,6 +2,7 @@
 // off, skies that are one light among others, things close to a lamp, glass at a grazing angle,
 // and the sum over a thousand lights.
 #include "tests/support/chapters.h"
+#include "tests/support/known_lights.h"
 
 namespace {
 
@@ -134,6 +135,14 @@ TEST_SUITE("every chapter") {
                 CAPTURE(chapter.name);
                 check_bounded(repeat(scene, ray, chapter.trace, 40000), truth, 0.02);
             }
+        }
+    }
+
+    TEST_CASE("failure: without lights a picture is black, by every chapter") {
+        Scene none = floor_without_lights();
+        for (const Chapter& chapter : every_chapter(none)) {
+            CAPTURE(chapter.name);
+            CHECK(irradiance(none, chapter.trace, 100).mean() == 0);
         }
     }
 

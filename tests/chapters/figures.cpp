@@ -38,33 +38,4 @@ TEST_SUITE("figures") {
         CHECK(pixels_off(ch03::sets_picture(0), "03_point_sets") < 20);
         CHECK(pixels_off(ch04::densities_picture(0), "04_importance") < 20);
     }
-
-    TEST_CASE("picture: the pyramid has a row for each number of edges, and a place for each s") {
-        Scene scene = scene_from("scenes/cornell.pbrt", 16, 1);
-        scene.spp = 1;
-        RenderOptions options;
-        options.threads = 2;
-        for (int edges : {2, 3}) {
-            scene.max_depth = edges - 1;
-            Image all = ch21::pyramid(scene, options);
-            Tile tile = {Image(96, 96), {"s 0, t 3", "alone"}};
-            Image empty = sheet(std::vector<Tile>(static_cast<size_t>(12 * (edges - 1)), tile), 12);
-            CHECK(all.width == empty.width);
-            CHECK(all.height == empty.height);
-            // s = 0 finds the lamp by chance, s = 1 by light sampling: more light is found.
-            int step = all.width / 12;
-            auto light = [&](int column) {
-                double sum = 0;
-                for (int y = 8; y < 90; y++)
-                    for (int x = 8; x < 90; x++)
-                        sum += static_cast<double>(average(all.at(column * step + x, y)));
-                return sum / 82 / 82;
-            };
-            CHECK(light(1) > 0.02);
-            CHECK(light(7) < light(1));  // the same, weighted
-            CHECK(light(5) ==
-                  doctest::Approx(light(11)).scale(0));  // no such strategy: empty places
-            CHECK(light(7) + light(6) > 0.5 * light(1));
-        }
-    }
 }

@@ -208,10 +208,8 @@ TEST_SUITE("generated rooms") {
         for (uint32_t seed = 1; seed <= 8; seed++) {
             Scene scene = generated_room(seed).scene;
             if (seed % 2 == 0) scene.max_depth = 20;
-            for (const auto& [name_here, trace] : all_traces(scene)) {
-                const std::string& name = name_here;
+            for (const auto& [name, trace] : all_traces(scene)) {
                 CAPTURE(seed);
-                CAPTURE(name);
                 Recorder none, all(true);
                 int others = 0;
                 double worst = 0;

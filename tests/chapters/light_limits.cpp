@@ -131,9 +131,6 @@ struct Effort {
     double relative_se = 4e-3;
     std::vector<double> heights = {1e-1, 1e-3, 1e-5, 1e-7};
 };
-Effort thorough(double relative_se) {
-    return {all_chapters, 600, 128, relative_se, {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}};
-}
 
 void check_chapters(const Scene& scene, const Ray& ray, double truth, const Effort& effort) {
     for (const Chapter& chapter : effort.chapters(scene)) {
@@ -153,8 +150,6 @@ void check_squares(const Effort& effort) {
                         Vec2{0.0078125f, -0.4f},  // beside an edge
                         Vec2{0.125f, 0.125f}})    // beside a corner
         for (double h : effort.heights) {
-            CAPTURE(corner.x);
-            CAPTURE(corner.y);
             CAPTURE(h);
             Scene scene = patch_under(unit_square_at(h, corner));
             REQUIRE(scene.light_shapes[0].parallelogram);
@@ -172,7 +167,6 @@ void check_triangles(const Effort& effort) {
     for (const auto& [indices, points] : shapes)
         for (double h : effort.heights) {
             const auto& corners = points;
-            CAPTURE(corners[0].y);
             CAPTURE(h);
             Scene scene = patch_under(triangles(indices, h, corners));
             check_chapters(scene, onto_patch(scene, h), irradiance_of_triangles(scene, {}), effort);
@@ -268,19 +262,6 @@ TEST_SUITE("light limits") {
         }
     }
 
-    TEST_CASE("truth: a tilted light far from the origin, as near as floats can tell") {
-        // All numbers are about 1 and so known to 6e-8; a light 2e-5 above the patch, to 1 %.
-        for (double h : {1e-1, 1e-2, 1e-3, 1e-4, 2e-5}) {
-            CAPTURE(h);
-            Scene scene = patch_under(unit_square_at(h, {-0.3f, -0.45f}),
-                                      "Translate 0.3 0.4 0.7 Rotate 35 1 2 3 ");
-            Ray ray = onto_patch(scene, h);
-            std::optional<Hit> x = intersect(scene, ray);
-            REQUIRE(x);
-            check_chapters(scene, ray, irradiance_of_triangles(scene, x->p), {});
-        }
-    }
-
     TEST_CASE(
         "failure: on a light, but for rounding, it gives nothing by light sampling, and no NaN") {
         Sampler sampler(SamplerType::independent, 1, 1);
@@ -306,20 +287,6 @@ TEST_SUITE("light limits") {
         }
     }
 
-    TEST_CASE("failure: the smallest lights have densities that are numbers, near and far") {
-        for (std::string shape : {std::string("Shape \"sphere\" \"float radius\" 1.1e-18"),
-                                  std::string("Shape \"disk\" \"float radius\" 1.1e-18"),
-                                  "Scale 1e-9 1 1e-9 " + unit_square_at(0, {}),
-                                  "Scale 1e-13 1 1e-4 " + unit_square_at(0, {}),
-                                  triangles("0 1 2", 0, {{0, 0}, {1e-6f, 0}, {0, 1e-11f}})}) {
-            CAPTURE(shape);
-            Scene scene = patch_under(shape);
-            for (float d : {1e-19f, 2e-18f, 1e-15f, 1e-9f, 1e-3f, 1.0f, 1e3f, 1e9f})
-                for (Vec3 towards : {Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0.48f, 0.6f, 0.64f}})
-                    check_densities(scene, d * towards);
-        }
-    }
-
     TEST_CASE("failure: the brightest and smallest lights, by every chapter: no NaN") {
         Sampler sampler(SamplerType::independent, 1, 1);
         Recorder recorder;
@@ -340,11 +307,4 @@ TEST_SUITE("light limits") {
                 }
         }
     }
-}
-
-TEST_SUITE("light limits slow") {
-    TEST_CASE("truth: squares from near by every chapter") { check_squares(thorough(4e-4)); }
-    TEST_CASE("truth: triangles from near by every chapter") { check_triangles(thorough(4e-4)); }
-    TEST_CASE("truth: disks from near by every chapter") { check_disks(thorough(1e-3)); }
-    TEST_CASE("truth: balls from near by every chapter") { check_balls(thorough(1e-3)); }
 }

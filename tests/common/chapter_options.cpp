@@ -52,7 +52,6 @@ TEST_SUITE("chapter options") {
         "truth: options of chapters have the default that help says, and change the picture") {
         TemporaryFolder folder;
         for (const OwnOption& option : own_options()) {
-            CAPTURE(option.program);
             CAPTURE(option.name);
             auto picture = [&](const Words& words) {
                 Words all = {option.scene, "--size", "16x12", "--threads", "2", "--quiet"};
@@ -76,7 +75,6 @@ TEST_SUITE("chapter options") {
             size_t at = help.find("\n  --" + option.name + " ");
             REQUIRE(at != std::string::npos);
             std::string line = help.substr(at + 1, help.find("\n  --", at + 1) - at - 1);
-            CAPTURE(line);
             CHECK(line.find("default") != std::string::npos);
             if (std::isdigit(option.by_default[0]))
                 CHECK(line.find(option.by_default) != std::string::npos);

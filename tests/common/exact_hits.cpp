@@ -175,48 +175,6 @@ TEST_SUITE("ch06 exact hits") {
         }
     }
 
-    TEST_CASE("truth: a ball of a billionth of its distance is met where it is") {
-        MeshRandom random(9);
-        for (float r : {1e-1f, 1e-3f, 1e-5f, 1e-6f, 1e-7f, 1e-9f}) {
-            CAPTURE(r);
-            int wrong = 0;
-            for (int i = 0; i < 2000; i++) {
-                // Past its middle, at a distance known in long double; the way there in float.
-                Vec3 d = normalize(random.in_cube()), side = normalize(random.in_cube());
-                Vec3 c = d + random.between(0, 3) * r * side;
-                V centre = to_v(c), along = to_v(d);
-                Real from_middle = length(cross(centre, along)) / length(along) / Real{r};
-                if (std::abs(from_middle - 1) < 1e-3L) continue;
-                auto t = intersect_sphere({{}, d}, c, r);
-                wrong += t.has_value() != (from_middle < 1);
-                Real there = dot(centre, along) / dot(along, along);
-                if (t) wrong += std::abs(Real{*t} - there) > Real{1.01f * r} + 1e-7L;
-            }
-            CHECK(wrong == 0);
-        }
-    }
-
-    TEST_CASE("variance: far from the origin, a ray visits few boxes more") {
-        double near = 0;
-        for (float far : {0.0f, 1e3f, 1e4f, 1e5f}) {
-            CAPTURE(far);
-            Geometry g = scan(4);
-            Vec3 away = {far, -0.7f * far, 0.4f * far};
-            for (Vec3& p : g.positions) p = p + away;
-            Bvh bvh = build_bvh(g, 1);
-            MeshRandom random(10);
-            BvhCount count;
-            for (int i = 0; i < 4000; i++) {
-                Vec3 o = away + 3 * normalize(random.in_cube());
-                Vec3 to = away + random.in_cube();
-                closest_hit(bvh, g, {o, to - o}, count);
-            }
-            auto work = static_cast<double>(count.nodes + count.blocks);
-            if (far == 0) near = work;
-            CHECK(work < 1.2 * near);
-        }
-    }
-
     TEST_CASE("variance: cables across a room cost other rays less than half a test") {
         // Each cable is twelve triangles whose boxes are the room.
         auto blocks_per_ray = [](int cables) {
@@ -237,8 +195,6 @@ TEST_SUITE("ch06 exact hits") {
             return static_cast<double>(count.blocks) / 10000;
         };
         double without = blocks_per_ray(0), with = blocks_per_ray(8);
-        CAPTURE(without);
-        CAPTURE(with);
         CHECK(with > without);
         CHECK(with < without + 0.5);  // 4.6 where none is cut
     }

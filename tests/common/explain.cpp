@@ -8,12 +8,6 @@
 #include <numbers>
 #include <sstream>
 
-#include "tests/traces/08.h"
-#include "tests/traces/09.h"
-#include "tests/traces/13.h"
-#include "tests/traces/21.h"
-#include "tests/traces/22.h"
-#include "common/explaining/path_drawing.h"
 #include "common/picture/stats_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
@@ -71,31 +65,6 @@ std::ptrdiff_t left_open(const std::string& svg) {
     return open;
 }
 
-/// What is told of one path of a chapter.
-template <class AnyTrace>
-std::string story_of(const Scene& scene, const AnyTrace& trace, uint32_t number, Ray ray) {
-    Sampler sampler(SamplerType::independent, 1, 1);
-    sampler.start(0, number);
-    PathStory story(scene.max_depth, false);
-    Recorder recorder(true, &story);
-    trace(scene, ray, sampler, recorder);
-    story.ends();
-    return story.text();
-}
-
-/// Whether one of 2000 paths is told with these words.
-template <class AnyTrace>
-bool tells(const Scene& scene, const AnyTrace& trace, Ray ray, const std::string& words) {
-    for (uint32_t i = 0; i < 2000; i++) {
-        if (story_of(scene, trace, i, ray).find(words) != std::string::npos) return true;
-    }
-    return false;
-}
-
-const char* black_floor = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
-const char* lamp_above =
-    "AttributeBegin AreaLightSource \"diffuse\" Translate 0 2 0 Scale 0.2 1 0.2\n";
-
 }  // namespace
 
 TEST_SUITE("explain") {
@@ -152,77 +121,6 @@ TEST_SUITE("explain") {
             }
             CHECK(seen > 2);
             CHECK_FALSE(folder.names().contains("b.ppm"));
-        }
-    }
-
-    TEST_CASE("teeth: a chapter that does not report all that it adds is told so") {
-        for (bool forgets : {false, true}) {
-            TemporaryFolder folder;
-            Finished end = captured([&] {
-                Scene scene = world_of("LightSource \"point\" Shape \"sphere\"", 4);
-                RenderOptions options;
-                options.out = {folder / "a.ppm"};
-                SplatTrace trace = [&](const Scene&, Ray, Splats& splats, Sampler&,
-                                       Recorder& recorder) {
-                    splats.push_back({5, {1, 1, 2}});
-                    recorder.connected({1, 1, 2}, 2, 1, 1, 5);
-                    recorder.emitted({1, 1, 1});
-                    Rgb lost = forgets ? Rgb{0.5f, 0, 0} : Rgb{};
-                    return Rgb{1, 1, 1} + lost;
-                };
-                return explain(scene, options, trace, false);
-            });
-            CHECK(end.code == 0);
-            CHECK((end.out.find("warning: the sample is (2.5, 2, 3), though") !=
-                   std::string::npos) == forgets);
-            std::map<std::string, Told> pixels = read_table(end.out);
-            CHECK(pixels.at("0,0").printed.b == 1);
-            CHECK(pixels.at("1,1").printed.b == 2);
-        }
-    }
-
-    TEST_CASE("truth: a path's story says why it ends") {
-        Ray ahead = {{0, 0, -4}, {0, 0, 1}};
-        const std::string white_sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
-        Scene sky = world_of(white_sky + "Translate 50 0 0 Shape \"sphere\"");
-        std::string left = story_of(sky, ch08::trace, 0, ahead);
-        CHECK(left.find("    sky met: adds (1, 1, 1), mis 1, class LE\n") != std::string::npos);
-        CHECK(left.ends_with("    ends: it has left the scene\n"));
-
-        Scene ball =
-            world_of(white_sky + "Shape \"sphere\" \"float radius\" 9");  // around the camera
-        CHECK(tells(ball, ch08::trace, ahead, "    ends: roulette stops it\n"));
-        ball.max_depth = 2;
-        CHECK(story_of(ball, ch08::trace, 0, ahead)
-                  .ends_with("    ends: the depth limit, 2 scattering events\n"));
-
-        Scene black = world_of(white_sky + black_floor + "Shape \"sphere\"");
-        CHECK(story_of(black, ch08::trace, 0, ahead)
-                  .ends_with("    ends: vertex 1 is black: it absorbs all\n"));
-
-        Scene metal =
-            world_of("Material \"conductor\" \"float roughness\" 0.8\nShape \"sphere\"\n" +
-                     std::string(lamp_above) + square(0, false) + "AttributeEnd");
-        Trace rough = trace_with<ch13::trace>(ch13::prepare(metal), ch13::Strategy::light);
-        CHECK(tells(metal, rough, {{0, 0.98f, -4}, {0, 0, 1}}, "drawn lies below the surface\n"));
-    }
-
-    TEST_CASE("truth: light paths of chapters 21 and 22 end at the depth limit, and say so") {
-        Scene scene = scene_from("scenes/cornell.pbrt", 8, 1);
-        SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
-        SplatTrace fast = splat_trace_with<ch22::trace>(ch22::prepare(scene));
-        for (const SplatTrace& trace : {lesson, fast}) {
-            Trace own = [&](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
-                Splats splats;
-                return trace(s, ray, splats, sampler, recorder);
-            };
-            CameraView view = camera_view(scene.camera, 8, 8);
-            std::string text = story_of(scene, own, 3, camera_ray(view, {4, 4}));
-            size_t first = text.find("    ends: "), eye = text.find("from the eye:\n");
-            REQUIRE(eye != std::string::npos);
-            CHECK(first < eye);
-            CHECK(text.find("    ends: the depth limit, 1 scattering events\nfrom the eye:\n") !=
-                  std::string::npos);
         }
     }
 
@@ -296,28 +194,6 @@ TEST_SUITE("explain") {
             paths.push_back(path);
         }
         CHECK(paths[0] == paths[1]);
-    }
-
-    TEST_CASE("truth: of a lamp behind a board the shadow rays are told as blocked, and drawn so") {
-        std::string board = "AttributeBegin Translate 0 1 0\n" + square(0, true) + "AttributeEnd\n";
-        std::string lamp = lamp_above + square(0, false) + "AttributeEnd\n";
-        Ray down = {{0, 0.5f, -2}, normalize(Vec3{0, -0.5f, 2})};
-        for (bool blocked : {false, true}) {
-            Scene scene = world_of(square(0, true) + lamp + (blocked ? board : ""));
-            PathStory story(1, false);
-            Recorder recorder(true, &story);
-            scene.max_depth = 1;
-            Sampler sampler = random_numbers(3);
-            Trace trace = trace_with<ch09::trace>(ch09::LightMeasure::solid_angle);
-            Rgb L = trace(scene, down, sampler, recorder);
-            story.ends();
-            CHECK(is_black(L) == blocked);
-            CHECK((story.text().find(": blocked\n") != std::string::npos) == blocked);
-            std::string svg = draw_path(scene, down.o, recorder.vertices(), story.rays());
-            svg = svg.substr(0, svg.find("path from the eye"));  // without the legend
-            CHECK((svg.find("stroke='#555'") != std::string::npos) == blocked);
-            CHECK((svg.find("stroke='#080'") != std::string::npos) == !blocked);
-        }
     }
 
     TEST_CASE("identity: --explain-brightest explains the largest sample of the picture") {

@@ -13,18 +13,6 @@
 #include "common/picture/image.h"
 #include "tests/support/folder.h"
 
-#pragma GCC diagnostic push  // stb is not written for our warnings
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-
 namespace fs = std::filesystem;
 
 namespace {
@@ -141,16 +129,6 @@ TEST_SUITE("files") {
         CHECK(folder.names() == std::set<std::string>{"a"});
     }
 
-    TEST_CASE("files: a full device is an error") {
-        if (!exists_here("/dev/full")) return;
-        TemporaryFolder folder;
-        CHECK(error_of([] { write_file_atomically("/dev/full", "x"); }) ==
-              "/dev/full: error: cannot write: No space left on device");
-        fs::create_symlink("/dev/full", folder / "a.ppm");
-        CHECK(error_of([&] { write_image(folder / "a.ppm", Image(2, 2), ""); }) ==
-              folder / "a.ppm" + ": error: cannot write: No space left on device");
-    }
-
     TEST_CASE("files: a write-protected file is not replaced, not even for root") {
         TemporaryFolder folder;
         std::string file = folder / "f", link = folder / "link", expected;
@@ -238,20 +216,6 @@ TEST_SUITE("files") {
         CHECK(folder.names() == std::set<std::string>{"f"});
     }
 
-    TEST_CASE("files: the same file is known under other names") {
-        TemporaryFolder folder;
-        write_file_atomically(folder / "f", "x");
-        fs::create_directory(folder / "d");
-        CHECK(same_file(folder / "f", folder / "d/../f"));
-        if (make_link("../f", folder / "d/link")) CHECK(same_file(folder / "f", folder / "d/link"));
-        CHECK(same_file(folder / "new", folder / "d/../new"));
-        CHECK(same_file("Makefile", "./Makefile"));
-        CHECK_FALSE(same_file(folder / "f", folder / "new"));
-        CHECK_FALSE(same_file(folder / "f", folder / "d/f"));
-        CHECK_FALSE(same_file(folder / "f", ""));
-        CHECK_FALSE(same_file("none/f", "none/g"));
-    }
-
     TEST_CASE("files: what cannot be read is an error") {
         TemporaryFolder folder;
         CHECK(error_of([&] { read_file(folder / "none"); }) ==
@@ -289,21 +253,6 @@ TEST_SUITE("pictures on disk") {
         CHECK(read_file(folder / "a.pfm").substr(12, 4) == std::string("\0\0\xe0\x40", 4));  // 7
     }
 
-    TEST_CASE("truth: big-endian and grey .pfm files are read") {
-        TemporaryFolder folder;
-        std::vector<float> big;
-        for (float v : {7.f, 8.f, 9.f, 1.f, 2.f, 3.f}) big.push_back(big_endian_float(v));
-        write_file_atomically(folder / "big.pfm", "PF 1 2 1.0\n" + bytes_of(big));
-        Image image = read_image(folder / "big.pfm");
-        CHECK(image.at(0, 1) == Rgb{7, 8, 9});
-        CHECK(image.at(0, 0) == Rgb{1, 2, 3});
-
-        write_file_atomically(folder / "grey.pfm", "Pf\n2 1\n-1\n" + bytes_of({0.5f, 2}));
-        image = read_image(folder / "grey.pfm");
-        CHECK(image.at(0, 0) == Rgb{0.5f, 0.5f, 0.5f});
-        CHECK(image.at(1, 0) == Rgb{2, 2, 2});
-    }
-
     TEST_CASE(
         "truth: the scale of a .pfm file multiplies its values, and its sign is their order") {
         // As pbrt-v4 reads it: |scale| times the value; below 0: little endian.
@@ -339,35 +288,14 @@ TEST_SUITE("pictures on disk") {
         }
     }
 
-    TEST_CASE("truth: one blank ends a header, and CR LF does where the size of the file says so") {
-        const std::string codes = {'\n', '\r', '#',
-                                   ' ',  '0',  '\n'};  // each like an end, or a comment
-        for (const char* line : {"\n", "\r\n", "\r", " ", "\t", "\n\n", "\n# a comment\n",
-                                 "\r\n# a comment\r\n", "\r# a comment\r"}) {
-            for (const char* end : {"\n", "\r\n", "\r", " ", "\t"}) {
-                CAPTURE(line);
-                CAPTURE(end);
-                std::string lines = line;
-                std::string header = "P6" + lines + "2" + lines + "1" + lines + "255" + end;
-                Image image = decode_image("a.ppm", header + codes);
-                CHECK(image.width == 2);
-                for (size_t i = 0; i < 2; i++) {
-                    auto linear = [&](size_t c) {
-                        return from_srgb(static_cast<float>(codes[3 * i + c]) / 255);
-                    };
-                    CHECK(image.pixels[i] == Rgb{linear(0), linear(1), linear(2)});
-                }
-                header = "Pf" + lines + "1" + lines + "2" + lines + "-1.0" + end;
-                std::string bytes = bytes_of({1.5f, 2.5f});
-                bytes[0] = '\n', bytes[1] = '\r';  // in the last digits
-                image = decode_image("a.pfm", header + bytes);
-                CHECK(image.at(0, 1).r == doctest::Approx(1.5).epsilon(1e-3).scale(0));
-                CHECK(image.at(0, 0).r == 2.5f);
-                CHECK_THROWS_AS(decode_image("a.pfm", header + bytes + "xx"), InputError);
-                CHECK_THROWS_AS(
-                    decode_image("a.pfm", (header + bytes).substr(0, header.size() + 6)),
-                    InputError);
-            }
+    TEST_CASE("truth: one blank ends a header, or CR LF; pixels may begin with such bytes") {
+        std::string pixel = bytes_of({1.5f});
+        pixel[0] = '\n', pixel[1] = '\r';  // in the last digits
+        for (const char* end : {"\n", "\r\n", "\r", " "}) {
+            CAPTURE(end);
+            std::string header = "Pf" + std::string(end) + "1 1" + end + "-1" + end;
+            CHECK(decode_image("a.pfm", header + pixel).at(0, 0).r ==
+                  doctest::Approx(1.5).epsilon(1e-3).scale(0));
         }
     }
 
@@ -434,35 +362,6 @@ TEST_SUITE("pictures on disk") {
         CHECK(chunks.back().type == "IEND");
     }
 
-    TEST_CASE("identity: a .png file has the pixels of the .ppm file") {
-        TemporaryFolder folder;
-        Image image(97, 31);
-        for (size_t i = 0; i < image.pixels.size(); i++) {
-            float v = static_cast<float>(i) / 3007;
-            image.pixels[i] = {v, std::sqrt(v), static_cast<float>(i % 97) / 96};
-        }
-        write_image(folder / "a.png", image, "a comment");
-        write_image(folder / "a.ppm", image, "");
-        int width, height, channels;
-        unsigned char* pixels =
-            stbi_load((folder / "a.png").c_str(), &width, &height, &channels, 0);
-        REQUIRE(pixels != nullptr);
-        CHECK(width == 97);
-        CHECK(height == 31);
-        REQUIRE(channels == 3);
-        std::string ppm = read_file(folder / "a.ppm"), header = "P6\n97 31\n255\n";
-        CHECK(header + std::string(reinterpret_cast<char*>(pixels), 3 * 97 * 31) == ppm);
-        stbi_image_free(pixels);
-    }
-
-    TEST_CASE("teeth: one wrong bit in a chunk spoils its checksum") {
-        std::string chunk = "tEXtComment";
-        uint32_t right = png_crc(chunk);
-        CHECK(png_crc("IEND") == 0xae426082);  // as in every PNG file
-        chunk[5] ^= 1;
-        CHECK(png_crc(chunk) != right);
-    }
-
     TEST_CASE("identity: a PNG that was written is read again, and no byte may be missing") {
         TemporaryFolder folder;
         Image image(5, 3);
@@ -521,23 +420,6 @@ TEST_SUITE("pictures on disk") {
               std::vector<Rgb>{Rgb{1, 1, 1} * sample(16, 255)});
     }
 
-    TEST_CASE(
-        "input: a .png file that unpacks to a gigabyte is an error, and takes little memory") {
-        // Zeros as one match of 258 bytes after the other, 13 bits each, in fixed Huffman codes.
-        std::string bits = "11000110000", packed = "\x78\x01";  // last block, fixed; the byte 0
-        while (bits.size() < 8 << 20) bits += "1100010100000";
-        for (size_t i = 0; i + 8 <= bits.size(); i += 8) {
-            int byte = 0;
-            for (size_t k = 0; k < 8; k++) byte |= (bits[i + k] - '0') << k;
-            packed += static_cast<char>(byte);
-        }
-        packed.append(8, '\0');  // the end of the block, and a checksum
-        CHECK(error_of([&] { decode_image("a.png", png_of(1, 8, 2, packed)); }) ==
-              "a.png: error: a damaged .png picture");
-        CHECK(error_of([&] { decode_image("a.png", png_of(1 << 20, 8, 2, "x")); }) ==
-              "a.png: error: a damaged .png picture, or one of more than 2^28 pixels");
-    }
-
     TEST_CASE("input: damaged pictures are errors") {
         TemporaryFolder folder;
         constexpr const char* cut = "the picture is cut short";
@@ -550,65 +432,31 @@ TEST_SUITE("pictures on disk") {
             {"P3\n1 1\n255\n0 0 0\n", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
             {"\x89PNG\r\n\x1a\n", "the picture is cut short, or damaged"},
             {"P6", cut},
-            {"P6\n", cut},
-            {"P6\n4", cut},
             {"P6 # 4 4 255 ", cut},
             {"P6\n1 1\n255\n00", cut},
-            {"P6\n1 1\n255", cut},
-            {"P6\n1 1\n", cut},
             {"P6\n16384 16384\n255\n", cut},
-            {"PF", cut},
             {"PF\n1 1\n-1\n" + std::string(11, 'x'), cut},
-            {"Pf\n1 1\n-1\nxxx", cut},
             {"Pf\n1 1\n-1\r\nxx", cut},
-            {"PF\n16384 16384\n-1\n", cut},
             {"P6\nx 4\n255\n", sides},
-            {"P6\n4x 4\n255\n", sides},
             {"P6\n0 4\n255\n", sides},
-            {"P6\n-1 4\n255\n", sides},
-            {"P6\n1.5 4\n255\n", sides},
             {"P6\nnan 4\n255\n", sides},
-            {"P6\ninf 4\n255\n", sides},
-            {"P6\n0x4 4\n255\n", sides},
             {"P6\n65537 4\n255\n", sides},
-            {"P6\n1e9 4\n255\n", sides},
-            {"P6\n4,4 4\n255\n", sides},
             {"P6\n65536 65536\n255\n", "a picture of more than 2^28 pixels"},
             {"Pf\n65536 4097\n-1\n", "a picture of more than 2^28 pixels"},
             {"P6\n1 1\n65535\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n254\n000000", "only 8-bit .ppm files (maxval 255) are read"},
             {"P6\n1 1\n0\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n-255\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n25 5\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\n255#\n000000", "only 8-bit .ppm files (maxval 255) are read"},
-            {"P6\n1 1\nx\n000000", "only 8-bit .ppm files (maxval 255) are read"},
             {"PF\n1 1\n0\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n-0\n" + std::string(12, 'x'), scale},
             {"PF\n1 1\nnan\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n-inf\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n1e99\n" + std::string(12, 'x'), scale},
             {"PF\n1 1\n1e-99\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\nx\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n-1x\n" + std::string(12, 'x'), scale},
-            {"PF\n1 1\n1#\n" + std::string(12, 'x'), scale},
             {"P6\n1 1\n255\n0001", "1 byte is left over after the pixels"},
-            {"P6\n1 1\n255\n000\r\n", "2 bytes are left over after the pixels"},
             {"P6\n1 1\n255\n\r000", "1 byte is left over after the pixels"},
             {"PF\n1 1\n-1\n" + std::string(12 + 77, 'x'),
              "77 bytes are left over after the pixels"},
             {"Pf\n1 1\n-1\r\n" + std::string(6, 'x'), "3 bytes are left over after the pixels"},
-            {"P1 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P2 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P4 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
             {"P5 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P7 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"PF4 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"P63 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
-            {"p6 1 1 255 000", "not a .ppm (P6), .pfm, .png, .jpg or .tga picture"},
             {"\xff\xd8\xff 1 1 255 000", "the picture is cut short, or too large"},
         };
         for (const auto& c : cases) {
-            CAPTURE(c.bytes);
             write_file_atomically(folder / "a", c.bytes);
             CHECK(error_of([&] { read_image(folder / "a"); }) ==
                   folder / "a" + ": error: " + c.error);

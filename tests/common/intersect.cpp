@@ -55,16 +55,6 @@ TEST_SUITE("frame") {
         }
         CHECK(worst < 1e-6f);
     }
-
-    TEST_CASE("identity: to the local frame and back") {
-        Sampler random = random_numbers(2);
-        for (int i = 0; i < 1000; i++) {
-            Frame f(uniform_direction(random.u2()));
-            Vec3 v = uniform_direction(random.u2());
-            CHECK(length(f.to_world(f.to_local(v)) - v) < 1e-6f);
-            CHECK(std::abs(f.to_local(f.n).z - 1) < 1e-6f);
-        }
-    }
 }
 
 TEST_SUITE("intersect shapes") {
@@ -295,31 +285,6 @@ TEST_SUITE("intersect hits") {
             }
             CHECK(worst <= 1);
             CHECK(hits > 1900);
-        }
-    }
-
-    TEST_CASE("failure: a ray that leaves a ball far from the origin does not meet it again") {
-        for (auto [x, r] : {std::pair{1e4f, 1.0f}, {0.0f, 1.0f}, {556.0f, 90.0f}, {1e-3f, 1e-4f}}) {
-            Scene scene = world_of("LightSource \"infinite\" Shape \"sphere\"");
-            scene.geometry.spheres[0].c = {x, 0, 0};
-            scene.geometry.spheres[0].r = r;
-            prepare(scene, 1);
-            Sampler random = random_numbers(1);
-            int met_again = 0, lost = 0;
-            for (int i = 0; i < 20000; i++) {
-                Vec3 n = uniform_direction(random.u2());
-                Ray ray = {Vec3{x, 0, 0} + 4 * r * n, -(4 * r * n)};
-                auto hit = intersect(scene, ray);
-                REQUIRE(hit);
-                Vec3 wi = uniform_direction(random.u2());
-                float cos = dot(wi, hit->ng);
-                auto next = intersect(scene, spawn_ray(*hit, wi));
-                if (cos > 0 && next) met_again++;
-                // Into the ball: the chord is 2 r cos long.
-                if (cos < -0.1f && !(next && std::abs(next->t + 2 * r * cos) < 0.05f * r)) lost++;
-            }
-            CHECK(met_again == 0);
-            CHECK(lost == 0);
         }
     }
 

@@ -144,11 +144,6 @@ TEST_SUITE("solid angle") {
         }
     }
 
-    TEST_CASE("failure: 1 - sqrt(1 - s^2) in float makes a far sphere vanish") {
-        CHECK(one_minus_cos(1e-8f) > 0.499e-8f);
-        CHECK(1 - std::sqrt(1 - 1e-8f) == 0);
-    }
-
     TEST_CASE("density: cone") {
         for (float sin2 : {1e-8f, 0.25f, 0.9999f}) {
             std::array<double, 100> counts{};
@@ -180,15 +175,6 @@ TEST_SUITE("solid angle") {
         }
     }
 
-    TEST_CASE("teeth: points drawn by area fail the test of the spherical triangle") {
-        Vec3 a = {-1, -1, 0.5f}, b = {1, -1, 0.5f}, c = {0, 1, 0.5f};
-        double chi2 = chi_square_of_triangle(a, b, c, [&](Vec2 u) {
-            float s = std::sqrt(u.x);
-            return normalize((1 - s) * a + s * (1 - u.y) * b + s * u.y * c);
-        });
-        CHECK(chi_square_tail(chi2, 63) < 1e-6);
-    }
-
     TEST_CASE("consistency: the warps run backwards") {
         Sampler random = random_numbers(1);
         Vec3d a = unit({-1, -1, 2}), b = unit({1, -1, 1}), c = unit({0, 1, 2});
@@ -204,17 +190,6 @@ TEST_SUITE("solid angle") {
             CHECK(std::abs(v.x - u.x) < 1e-6f);
             CHECK(std::abs(v.y - u.y) < 1e-6f);
         }
-    }
-
-    TEST_CASE("identity: the extreme random numbers give unit directions inside the shape") {
-        Vec3d a = {1, 0, 0}, b = {0, 1, 0}, c = {0, 0, 1};
-        for (float u : {0.0f, below_one})
-            for (float v : {0.0f, below_one}) {
-                Vec3 w = to_vec3(sample_spherical_triangle(a, b, c, pi_exact / 2, {u, v}));
-                CHECK(std::abs(length(w) - 1) < 1e-6f);
-                CHECK(std::min({w.x, w.y, w.z}) > -1e-6f);
-                CHECK(std::abs(length(sample_cone(0.5f, {u, v})) - 1) < 1e-6f);
-            }
     }
 }
 
@@ -234,7 +209,6 @@ TEST_SUITE("light shapes") {
         std::vector<double> areas = {1, 4, pi_exact, pi_exact / 4};
         for (size_t i = 0; i < areas.size(); i++) {
             Scene scene = light_of(shapes[i].second);
-            CAPTURE(shapes[i].first);
             CHECK(relative_error(static_cast<double>(scene.light_shapes[0].area), areas[i]) < 1e-6);
             CHECK(pdf_area(scene, 0) * scene.light_shapes[0].area ==
                   doctest::Approx(1).epsilon(1e-6).scale(0));
@@ -316,7 +290,6 @@ TEST_SUITE("light shapes") {
                     CHECK(std::abs(std::abs(dot(hit->ng, y.n)) - 1) < 1e-3f);
                 }
                 CAPTURE(name);
-                CAPTURE(x.y);
                 CHECK(wrong <=
                       10);  // on the edge of two triangles it may be the other one that is hit
                 CHECK(met > 900);
@@ -346,7 +319,6 @@ TEST_SUITE("light shapes") {
                     met.add(z.pdf > 0 && at && off(at->p, z.p) < 1e-3 ? 1 : 0);
                 }
                 CAPTURE(name);
-                CAPTURE(x.y);
                 double se = std::hypot(integral.standard_error(), met.standard_error());
                 CHECK(std::abs(integral.mean() - met.mean()) <= 5 * se + 1e-3);
                 CHECK(se < 0.05);
@@ -372,82 +344,6 @@ TEST_SUITE("light shapes") {
 }
 
 TEST_SUITE("light shapes irradiance") {
-    TEST_CASE("truth: a square overhead, by area and by solid angle, with their variances") {
-        struct Row {
-            float h;
-            double E, by_area, by_angle;  // irradiance, relative variances
-        };
-        for (auto [h, E, by_area, by_angle] :
-             {Row{1, 0.7522746884541, 0.03035451318485, 0.001873136382573},
-              {0.5f, 1.740839502734, 0.2552916875306, 0.01448844117047},
-              {0.1f, 3.04212843837, 10.31510018729, 0.1633910861555}}) {
-            Scene scene = light_of(quad);
-            Vec3 x = {0, 1 - h, 0}, up = {0, 1, 0};
-            check_mean(irradiance(scene, x, up, true, 100000), E, by_area * E * E, 0.1 * E);
-            RunningStats s = irradiance(scene, x, up, false, 100000);
-            check_mean(s, E, by_angle * E * E, 0.02 * E);
-            CHECK(relative_error(s.variance(), by_angle * E * E) < 0.05);
-        }
-    }
-
-    TEST_CASE("truth: a disk overhead and aside, by solid angle of its square") {
-        // R = 1: relative variance Omega_square / Omega_disk (1 + that of the disk alone) - 1.
-        for (auto [h, E] : {std::pair{1.0, pi_exact / 2}, {0.1, 3.110487775831}}) {
-            Scene scene = light_of("Scale 2 1 2 " + disk);
-            double c = h / std::sqrt(1 + h * h);
-            double square = 4 * std::atan(1 / (h * std::sqrt(2 + h * h)));
-            double alone = 4.0 / 3 * (1 + c + c * c) / ((1 + c) * (1 + c));
-            double variance = (square / (2 * pi_exact * (1 - c)) * alone - 1) * E * E;
-            Vec3 x = {0, static_cast<float>(1 - h), 0};
-            check_mean(irradiance(scene, x, {0, 1, 0}, false, 100000), E, variance, 0.05);
-        }
-        Scene scene = light_of("Scale 2 1 2 " + disk);
-        for (auto [x, E] : {std::pair{1.0f, 0.8683148536908}, {2.0f, 0.1658333805868}}) {
-            RunningStats s = irradiance(scene, {x, 0, 0}, {0, 1, 0}, false, 100000);
-            CHECK(std::abs(s.mean() - E) < 5 * s.standard_error());
-            CHECK(s.standard_error() < 0.005 * E);
-        }
-    }
-
-    TEST_CASE("truth: a ball above, across and below the horizon") {
-        Scene scene = light_of("Shape \"sphere\"");  // R = 1 around the origin
-        struct Row {
-            float distance, degrees;  // of the centre from the normal
-            double E;
-        };
-        for (auto [distance, degrees, E] : {Row{2, 0, 0.7853981633974},
-                                            {2, 30, 0.6801747615878},
-                                            {2, 60, 0.3926990816987},
-                                            {10, 0, 0.0314159265359},
-                                            {1.001f, 0, 3.13531888051},
-                                            {2, 70, 0.2753750579346},
-                                            {2, 90, 0.09058607370608},
-                                            {2, 100, 0.03544901531047},
-                                            {1.25f, 60, 1.076664812262}}) {
-            float a = degrees * pi / 180;
-            Vec3 x = {0, -distance, 0}, n = {std::sin(a), std::cos(a), 0};
-            for (bool by_area : {false, true}) {
-                if (by_area && distance < 1.1f) continue;
-                RunningStats s = irradiance(scene, x, n, by_area, 100000);
-                CAPTURE(x.y);
-                CAPTURE(n.x);
-                CAPTURE(by_area);
-                CHECK(std::abs(s.mean() - E) <= 5 * s.standard_error() + 1e-6 * E);
-                CHECK(s.standard_error() < 0.03 * E);
-            }
-        }
-    }
-
-    TEST_CASE("truth: a wall cut by the horizon: its lower half must not count") {
-        Scene scene = light_of("Translate 0 0 1 Rotate -90 1 0 0 " + square(0, true));
-        double E = 0.3501882877139;
-        for (bool by_area : {false, true}) {
-            RunningStats s = irradiance(scene, {0, 0, 0}, {0, 1, 0}, by_area, 200000);
-            CHECK(std::abs(s.mean() - E) < 5 * s.standard_error());
-            CHECK(s.standard_error() < 0.005 * E);
-        }
-    }
-
     TEST_CASE(
         "failure: on the light, in its plane, inside a ball: finite, and nothing from edge-on") {
         for (const auto& [name_of, shape] : shapes) {

@@ -24,34 +24,9 @@ std::string with_cr(const std::string& text) {
     return changed;
 }
 
-/// With the backslashes of Windows.
-std::string backslashed(std::string path) {
-    std::replace(path.begin(), path.end(), '/', '\\');
-    return path;
-}
-
 }  // namespace
 
 TEST_SUITE("names") {
-    TEST_CASE("identity: a name comes back from the form that the system has") {
-        for (const std::string& name :
-             {std::string("a/b.ppm"), strange, std::string(), "/" + strange})
-            CHECK(file_name(file_path(name)) == name);
-    }
-
-    TEST_CASE("files: names in any language are written, replaced, found and listed") {
-        TemporaryFolder folder;
-        std::string place = folder / strange, file = place + "/" + strange + ".pfm";
-        make_folder(place);
-        for (const char* bytes : {"old", "new"}) write_file_atomically(file, bytes);
-        CHECK(read_file(file) == "new");
-        CHECK(folder.names() == std::set<std::string>{strange});
-        CHECK(same_file(file, place + "/../" + strange + "/" + strange + ".pfm"));
-        CHECK(error_of([&] { check_outputs({file}, {file}); }).find(strange) != std::string::npos);
-        CHECK(error_of([&] { read_file(file + "x"); }) ==
-              file + "x: error: cannot read: No such file or directory");
-    }
-
     TEST_CASE("files: programs take names in any language, and a scene finds its files by them") {
         TemporaryFolder folder;
         std::string scene = folder / strange + ".pbrt", out = folder / strange + ".pfm";
@@ -75,54 +50,6 @@ TEST_SUITE("names") {
         words[0] = folder / strange + ".none";
         CHECK(run(path_tracer, words).err ==
               words[0] + ": error: cannot read: No such file or directory\n");
-    }
-
-    TEST_CASE("files: a backslash is a letter of a name, or stands between folders on Windows") {
-        TemporaryFolder folder;
-        fs::create_directory(folder / "d");
-        write_file_atomically(folder / "d\\a.b", "x");
-        write_file_atomically(folder / "a.pbrt", read_file(spheres));
-#ifdef _WIN32
-        CHECK(read_file(folder / "d/a.b") == "x");
-        CHECK(same_file(folder / "d/a.b", backslashed(folder / "D/A.B")));
-        CHECK(folder.path()[1] == ':');  // a drive, and after it the folders
-        std::string scene = backslashed(folder / "a.pbrt"), out = backslashed(folder / "d.e/a.ppm");
-        make_folder(backslashed(folder / "d.e"));
-        Words words = {scene, "--size", "9x7", "--spp", "1", "--quiet", "--out", out};
-        Finished end = run(path_tracer, words);
-        CHECK(end.err == "");
-        CHECK(read_image(folder / "d.e/a.ppm").width == 9);
-        words.back() = scene;
-        CHECK(run(path_tracer, words).code == 2);  // would overwrite its scene
-        words.back() = backslashed(folder / "d.e/a");
-        CHECK(run(path_tracer, words).code == 2);  // no ending
-#else
-        CHECK(folder.names().contains("d\\a.b"));
-        CHECK_FALSE(same_file(folder / "d/a.b", backslashed("d/a.b")));
-#endif
-    }
-
-    TEST_CASE(
-        "files: a file that is open is replaced, or the result is kept beside it on Windows") {
-        TemporaryFolder folder;
-        write_file_atomically(folder / "f", "old");
-        int reader = open_file(folder / "f");
-        REQUIRE(reader >= 0);
-        std::string error = error_of([&] { write_file_atomically(folder / "f", "new"); });
-        char bytes[4] = {};
-        CHECK(read_bytes(reader, bytes, 3) == 3);
-        CHECK(std::string(bytes) == "old");
-        close_file(reader);
-        if (error.empty()) {
-            CHECK(read_file(folder / "f") == "new");
-        } else {
-            size_t at = error.find("; what was to be written is ");
-            REQUIRE(at != std::string::npos);
-            CHECK(read_file(error.substr(error.rfind(' ') + 1)) == "new");
-            CHECK(read_file(folder / "f") == "old");
-        }
-        write_file_atomically(folder / "f", "newer");
-        CHECK(read_file(folder / "f") == "newer");
     }
 
     TEST_CASE("files: what is being written is not removed, what was left over is") {

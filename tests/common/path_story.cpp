@@ -33,7 +33,6 @@ struct Checked {
         bool first = true, aimed = false;
         std::istringstream lines(story);
         for (std::string line; std::getline(lines, line);) {
-            CAPTURE(line);
             if (line.starts_with("vertex ")) {
                 Vec3d before = p;
                 REQUIRE(read(line, " at", p));

@@ -160,51 +160,6 @@ TEST_SUITE("path text") {
               }).find("ends") == std::string::npos);
     }
 
-    TEST_CASE("truth: a tree of paths steps back, and a path that is stopped is given up") {
-        Materials m;
-        std::string text = story_of([&](Recorder& recorder, PathStory& story) {
-            recorder.vertex(hit_at({1, 0, 0}, m.glass));
-            recorder.scatter({1, 0, 0}, {1, 1, 1}, 1, true, {1, 1, 1});
-            recorder.vertex(hit_at({2, 0, 0}, m.wall));
-            recorder.scatter({1, 0, 0}, {1, 1, 1}, 1, true, {0.5f, 0.5f, 0.5f});
-            recorder.step_back();
-            recorder.step_back();
-            recorder.emitted({1, 1, 1});
-            story.is_given_up();
-        });
-        CHECK(
-            text.ends_with("    steps back to vertex 2\n"
-                           "    steps back to vertex 1\n"
-                           "    light met: adds (1, 1, 1), mis 1, class LE\n"
-                           "    given up here: the path goes on, but the program was stopped\n"));
-    }
-
-    TEST_CASE("truth: only the story that begins and has not ended keeps this thread's rays") {
-        CHECK(rays_kept == nullptr);
-        {
-            PathStory story(5, false);
-            CHECK(rays_kept == &story.rays());
-            trace_hit(), shadow_miss();
-            REQUIRE(story.rays().size() == 2);
-            CHECK(story.rays()[0].met);
-            CHECK_FALSE(story.rays()[0].shadow);
-            CHECK(story.rays()[1].shadow);
-            CHECK_FALSE(story.rays()[1].met);
-            story.ends();
-            CHECK(rays_kept == nullptr);
-            trace_hit();
-            CHECK(story.rays().size() == 2);
-        }
-        {
-            PathStory first(5, false);
-            { PathStory second(5, false); }
-            CHECK(rays_kept == nullptr);
-        }
-        PathStory stopped(5, false);
-        stopped.is_given_up();
-        CHECK(rays_kept == nullptr);
-    }
-
     TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {
         // From the light D S D, from the eye S D S: what lies between the two ends that are
         // connected has the letters of its vertices, and both ends are D.
@@ -260,33 +215,5 @@ TEST_SUITE("path text") {
         recorder.start();
         CHECK(recorder.contributions().empty());
         CHECK(recorder.vertices().empty());
-    }
-
-    TEST_CASE("truth: of light that is met the vertex is known, and of the sky the last one") {
-        Materials m;
-        Recorder recorder(true);
-        recorder.start();
-        recorder.emitted({1, 1, 1});
-        recorder.vertex(hit_at({}, m.wall));
-        recorder.emitted({1, 1, 1}, 0.25f);
-        recorder.direct({1, 1, 1}, {0, 1, 0}, 1, 1, 0.75f);
-        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});
-        recorder.emitted({1, 1, 1});
-        recorder.vertex(hit_at({}, m.wall));
-        recorder.emitted({1, 1, 1});
-        std::vector<int> vertex;
-        std::vector<float> mis;
-        for (const Contribution& part : recorder.contributions()) {
-            vertex.push_back(part.vertex), mis.push_back(part.mis);
-            CHECK(part.pixel == Contribution::own_pixel);
-        }
-        CHECK(vertex == std::vector<int>{0, 1, 1, 1, 2});
-        CHECK(mis == std::vector<float>{1, 0.25f, 0.75f, 1, 1});
-        // Each path that begins at a light begins a chain of vertices.
-        recorder.start_at_light({5, 0, 0});
-        recorder.vertex(hit_at({}, m.wall));
-        std::vector<int> from;
-        for (const PathVertex& x : recorder.vertices()) from.push_back(x.from);
-        CHECK(from == std::vector<int>{-1, 0, -2, 2});
     }
 }

@@ -60,26 +60,6 @@ TEST_SUITE("sheet") {
         CHECK_FALSE(shows(all, "LDE  8 %"));
     }
 
-    TEST_CASE("identity: of two lines below a tile each stands where it stands alone") {
-        auto lines = [](const std::string& a, const std::string& b) {
-            return sheet({{filled(50, 30, {1, 0, 0}), {a, b}}}, 1);
-        };
-        Image both = lines("LDE  9 %", "SSS"), first = lines("LDE  9 %", " "),
-              second = lines(" ", "SSS"), none = lines(" ", " ");
-        REQUIRE(both.height == none.height);
-        int ink = 0;
-        for (int y = 0; y < none.height; y++) {
-            for (int x = 0; x < std::min(second.width, none.width); x++) {
-                bool is_ink = is_black(both.at(x, y));
-                CHECK(is_ink == (is_black(first.at(x, y)) || is_black(second.at(x, y))));
-                CHECK_FALSE((is_black(first.at(x, y)) && is_black(second.at(x, y))));
-                ink += is_ink;
-            }
-        }
-        CHECK(ink > 50);
-        CHECK(count(none, {}) == 0);
-    }
-
     TEST_CASE("identity: a shrunk picture has the means of its squares") {
         Image image(5, 4);
         for (int i = 0; i < 20; i++) image.at(i % 5, i / 5).g = static_cast<float>(i);

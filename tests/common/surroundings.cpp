@@ -1,19 +1,12 @@
 // What surrounds a render: loading, progress, help, and the pixels at the edges of lamps.
 #include <doctest/doctest.h>
 
-#include <cmath>
-
-#include "common/base/report.h"
-#include "common/explaining/path_drawing.h"
 #include "common/options/loading.h"
 #include "common/options/loading_progress.h"
 #include "common/options/options.h"
-#include "common/picture/notes.h"
-#include "common/picture/verdict.h"
 #include "common/rendering/film_clock.h"
 #include "common/rendering/lamp_edges.h"
 #include "common/rendering/progress.h"
-#include "common/results/outputs.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
@@ -79,26 +72,6 @@ TEST_SUITE("surroundings") {
         CHECK(end.out.find(":3:7: error: ") != std::string::npos);
     }
 
-    TEST_CASE("input: what a chapter cannot render is refused, with its place in the file") {
-        auto scene = [](const std::string& directive, const std::string& shape = "") {
-            return world_of("LightSource \"infinite\"\n\n    " + directive + "\n" +
-                            (shape.empty() ? "Shape \"sphere\"" : shape));
-        };
-        auto error = [](auto refuse, const Scene& s) { return error_of([&] { refuse(s); }); };
-        const std::string at = "test.pbrt:7:5: error: ";
-        const Scene plain = scene("Material \"conductor\"");
-        CHECK(error(refuse_delta_lights, plain) == "");
-        CHECK(error(refuse_glossy, plain) == "");
-        for (const char* kind : {"point", "distant"}) {
-            CHECK(error(refuse_delta_lights, scene("LightSource \"" + std::string(kind) + "\"")) ==
-                  at + "a " + kind +
-                      " light has no size, so no path finds it by chance; chapters from 09 on "
-                      "sample it");
-        }
-        CHECK(error(refuse_glossy, scene("Material \"conductor\" \"float roughness\" 0.1")) ==
-              at + "rough conductors are not supported before chapter 13");
-    }
-
     TEST_CASE("truth: the pixels at edges of lamps are those that differ from a neighbour") {
         Scene scene = world_of(
             "LightSource \"infinite\" \"rgb L\" [0.5 0.5 0.5]\n" +
@@ -155,7 +128,6 @@ TEST_SUITE("surroundings") {
         CHECK(o.own ==
               std::vector<std::pair<std::string, std::string>>{{"way", "short"}, {"m", "4"}});
         CHECK(parsed({"--film", "a.film", "--part", "3/3"}).part == 3);
-        CHECK(parsed({"--film", "a.film", "--part", "1/1"}).parts == 1);
         CHECK(parsed({"--film-every", "0.01"}).film_every == 0.01);
         CHECK(parsed({}).film_every == 60);
         CHECK(parsed({"--explain-brightest"}).explain_brightest);
@@ -178,7 +150,6 @@ TEST_SUITE("surroundings") {
         }
         CHECK(error({"--film-every", "0.009"}) ==
               "error: --film-every takes at least 0.01 seconds, not '0.009'");
-        CHECK(error({"--size", "65537x1"}).find("from 1 to 65536") != std::string::npos);
         CHECK(parsed({"--size", "16384x16384"}).width == 16384);  // 2^28 pixels
     }
 
@@ -204,71 +175,5 @@ TEST_SUITE("surroundings") {
         FilmClock failing(scene, options);
         CHECK(captured([&] { return failing.save(r), 0; }).err ==
               "none/a.film: error: cannot write: No such file or directory\n");
-    }
-
-    TEST_CASE("truth: a ray that leaves is drawn as far as the scene is wide") {
-        Scene scene = world_of("LightSource \"point\"\n" + square(-1, true));
-        Vec3 p = {0, 0, 0};
-        TracedRay ray = {{p, {1, 0, 0}}, false, false, infinity};
-        std::string svg = draw_path(scene, scene.camera.o, {{p, -1}, {{0.5f, 0, 0}, 0}}, {ray});
-        svg = svg.substr(svg.find("as the camera sees it"));
-        Vec2 a, b;
-        size_t line = svg.find("stroke-dasharray='2 4'");
-        line = svg.rfind("<line", line);
-        REQUIRE(std::sscanf(svg.c_str() + line, "<line x1='%f' y1='%f' x2='%f' y2='%f'", &a.x, &a.y,
-                            &b.x, &b.y) == 4);
-        std::vector<float> points;
-        for (size_t i = 0; (i = svg.find("<circle cx='", i)) != std::string::npos; i++) {
-            if (svg.substr(i, svg.find('\n', i) - i).find("#c03") != std::string::npos)
-                points.push_back(std::strtof(svg.c_str() + i + 12, nullptr));
-        }
-        REQUIRE(points.size() == 2);
-        float scale = 2 * (points[1] - points[0]);  // px for 1 m
-        CHECK(std::abs(b.x - a.x - scale * 2 * scene.radius) < 2);
-    }
-
-    TEST_CASE("truth: where the facts about a picture are from, and means of nothing") {
-        TemporaryFolder folder;
-        Image image(4, 4), errors(4, 4);
-        for (Rgb& p : errors.pixels) p = {2, 2, 2};
-        std::string a = folder / "a.pfm";
-        write_image(a, image, "");
-        CHECK(facts_of(a, image).file == a);
-        CHECK(facts_of(a, image).known_from == "");
-        write_file_atomically(folder / "a.json", "{\"standard_error\": 0.25, \"spp\": 3}");
-        PictureFacts facts = facts_of(a, image);
-        CHECK(facts.known_from == folder / "a.json");
-        CHECK(facts.standard_error == 0.25);
-        CHECK(value_of(facts.notes, "spp") == "3");
-        CHECK(facts.other_stats == "");
-        write_image(folder / "a.err.pfm", errors, "");
-        facts = facts_of(a, image);
-        CHECK(facts.known_from == folder / "a.err.pfm");
-        CHECK(facts.standard_error == 0.5);
-        // Against black there is no share of the mean.
-        Comparison c;
-        c.mean_a = 1, c.mse = 1;
-        CHECK(verdict(c, 0.1, {}, {}) ==
-              "other means: A is brighter than B, and noise does not do that (10 standard errors)");
-        std::swap(c.mean_a, c.mean_b);
-        CHECK(verdict(c, 0.1, {}, {}) ==
-              "other means: A is 100 % darker than B, and noise does not do that (10 standard "
-              "errors)");
-        auto with_error = [](double e, const char* spp) {
-            return PictureFacts{"a.pfm", e, "", {{"spp", spp}}};
-        };
-        c.mean_a = 1, c.mean_b = 1;
-        auto told = [&](const PictureFacts& x, const PictureFacts& y) {
-            std::string text = verdict(c, 0.1, x, y);
-            return text.substr(std::min(text.size(), text.find("; ")));
-        };
-        CHECK(told(with_error(1, "4"), with_error(1.04, "4")) == "; both have the same error");
-        CHECK(told(with_error(1, "4"), with_error(1.05, "4")).starts_with("; A has 9.3 % less"));
-        CHECK(told(with_error(1, "x"), with_error(2, "4")) ==
-              "; A has 75 % less squared error, worth 4 times as many samples");
-        CHECK(told(with_error(NAN, "4"), with_error(2, "4")) == "");
-        CHECK(told(with_error(1, "4"), with_error(0, "4")) == "");
-        CHECK(told(with_error(1, "4"), with_error(5, "4")) ==
-              "; A has 96 % less squared error: at equal samples that is 25 times fewer");
     }
 }
