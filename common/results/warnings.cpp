@@ -173,6 +173,10 @@ double share_by_few_paths_to_mirrors(const Scene& scene, double paths) {
     return all > 0 ? light_of_fewest(lights) / all : 0;
 }
 
+bool has_own(const RenderOptions& options, const std::string& name, const std::string& value) {
+    return std::count(options.own.begin(), options.own.end(), std::pair(name, value)) > 0;
+}
+
 /// Adds warnings about light that this method leaves out, or finds by random hits.
 void add_missed_light(const Scene& scene, const RenderOptions& options, const Film& film,
                       std::vector<std::string>& lines) {
@@ -218,7 +222,9 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     const std::string blurred =
         "photons blur light within their radius: the reported error does not include this bias";
     if (options.search == LightSearch::photons) {
-        if (any_material(gathers_photons)) lines.push_back(blurred);
+        // Light straight from a light is in photons only without final gathering.
+        int fewest = has_own(options, "gather", "direct") ? 1 : 2;  // scattering events
+        if (scene.max_depth >= fewest && any_material(gathers_photons)) lines.push_back(blurred);
         return;
     }
     auto any_light = [&](auto is) {
@@ -227,9 +233,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     };
     if (options.search == LightSearch::light_sampling && any_material(is_receiver)) {
         // By default, chapter 13 samples lights only; later chapters also sample the metal's BSDF.
-        bool lights_alone =
-            std::count(options.own.begin(), options.own.end(),
-                       std::pair<std::string, std::string>("strategy", "light")) > 0;
+        bool lights_alone = has_own(options, "strategy", "light");
         double hidden = light_by_nearly_mirrors(scene, samples, !lights_alone);
         if (hidden > 0 && !(hidden <= error)) {
             lines.push_back(
@@ -245,7 +249,8 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     bool leaves_out = options.search == LightSearch::direct && scene.max_depth > 1;
     if (leaves_out && !any_material(is_specular) && surfaces_face_each_other(scene))
         lines.push_back("light that one surface reflects to another is left out");
-    if (!any_material(is_specular) || !any_material(is_receiver)) return;
+    bool has_both = any_material(is_specular) && any_material(is_receiver);
+    if (!has_both || scene.max_depth < 2) return;
     auto is_area = [](LightType type) { return type == LightType::area; };
     auto is_delta = [](LightType type) {
         return type == LightType::point || type == LightType::distant;
@@ -261,6 +266,7 @@ void add_missed_light(const Scene& scene, const RenderOptions& options, const Fi
     if (merges && any_material(gathers_photons)) lines.push_back(blurred);
     if (merges && !any_material(is_rough_metal)) return;
     if (options.search == LightSearch::both_ends || merges) {
+        if (scene.max_depth < 3) return;
         const std::string both =
             "light that goes through mirrors or glass to a surface that the camera sees in mirrors "
             "or glass ";

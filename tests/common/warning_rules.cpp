@@ -241,6 +241,15 @@ TEST_SUITE("warning rules") {
         Scene scene = seen(plain + sky);
         scene.max_depth = 0;
         CHECK(told(scene, LightSearch::direct) == Lines{});
+        // Light that mirrors and glass cast takes two scattering events, seen in them three.
+        for (int depth : {1, 2, 3}) {
+            scene = seen(with_glass);
+            scene.max_depth = depth;
+            Lines cast = depth < 2 ? Lines{} : Lines{leaves + met};
+            CHECK(told(scene, LightSearch::light_sampling) == cast);
+            CHECK(told(scene, LightSearch::both_ends) == (depth < 3 ? Lines{} : Lines{both + met}));
+            CHECK(told(scene, LightSearch::photons) == (depth < 2 ? Lines{} : Lines{blurred}));
+        }
     }
 
     TEST_CASE("truth: a lamp is small for chance where 50 paths do not meet it") {
