@@ -102,8 +102,7 @@ void draw_curves(const std::string& folder, const std::string& scene,
     for (const Curve& c : curves) {
         ErrorLine line = c.rel_mse_over_time();
         std::string than = first ? ", times faster: " + times_faster(c, first) : "";
-        lines.push_back(
-            {scene, c.method->label + than, c.method->color, "", line.seconds, line.error});
+        lines.push_back({scene, c.method->label + than, c.method->color, line.seconds, line.error});
     }
     write_lines(folder, "chart-" + file_name(scene), finding(scene, curves),
                 "seconds of one render", "relMSE", lines);

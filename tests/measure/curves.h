@@ -47,8 +47,3 @@ Curve measure_curve(const Method& method, Scene& scene, const Reference& referen
 /// each method is stands behind its name, and what they say together is the title.
 void draw_curves(const std::string& folder, const std::string& scene,
                  const std::vector<Curve>& curves);
-
-/// The pictures that all methods make in the same time, and their errors on one scale.
-void draw_equal_time(const std::string& path, const std::string& title,
-                     const std::vector<Curve>& curves, const std::string& scene_path,
-                     const Reference& reference, const MeasureOptions& o);

@@ -9,7 +9,7 @@
 #include "common/scene_file/reader.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/stability_cases.h"
-#include "tests/measure/stability_coverage.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -224,20 +224,15 @@ int main(int argc, char** argv) {
             argc, argv, "[WORD...]",
             "Every method on scenes on which some fail: whether each holds, or fails as theory "
             "predicts. 200 runs of one pixel each. Anything else makes it fail. WORD: only the "
-            "scenes with this in their name. At the end, or for the word coverage: whether "
-            "reported errors are the real ones, for every chapter and sampler; or for the word "
-            "blur: whether chapter 25 says that it blurs.",
+            "scenes with this in their name.",
             {.spp = 0, .runs = 200});
         Verdicts verdicts;
         std::vector<StabilityCase> cases;
         for (const StabilityCase& c : stability_cases()) {
             if (wanted(c.name, o.words)) cases.push_back(c);
         }
-        bool coverage = wanted("coverage", o.words), blur = wanted("blur", o.words);
-        Work work("stability: " + std::to_string(cases.size()) + " scenes on which methods fail" +
-                      (coverage || blur ? ", then whether reported errors are the real ones" : ""),
-                  static_cast<double>(cases.size() + (coverage ? coverage_steps() : 0) +
-                                      (blur ? blur_steps() : 0)));
+        Work work("stability: " + std::to_string(cases.size()) + " scenes on which methods fail",
+                  static_cast<double>(cases.size()));
         for (const StabilityCase& c : cases) judge_case(c, o, verdicts, work);
         if (!cases.empty()) {
             std::printf("%s\n", markdown(verdicts.rows).c_str());
@@ -245,8 +240,6 @@ int main(int argc, char** argv) {
             std::printf("\n%s", markdown(verdicts.matrix()).c_str());
             write_table(o.out, "stability", verdicts.rows);
         }
-        int not_covered = coverage ? show_coverage(o, work) : 0;
-        if (blur) not_covered += show_blur(work);
-        return verdicts.failures + not_covered == 0 ? 0 : 1;
+        return verdicts.failures == 0 ? 0 : 1;
     });
 }

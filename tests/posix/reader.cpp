@@ -1,22 +1,13 @@
-// What the reader refuses: devices, pipes, and what the memory is too small for.
+// What the memory is too small for.
 #include "common/scene_file/reader.h"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 
 #include "common/base/files.h"
 #include "tests/support/process.h"
 
 namespace {
-
-std::string refuse(const std::string& text) {
-    return error_of([&] { parse_scene("scene.pbrt", text, nullptr); });
-}
-
-std::string refuse_file(const std::string& path) {
-    return error_of([&] { load_scene(path, nullptr); });
-}
 
 const std::string world = "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n";
 
@@ -40,28 +31,6 @@ constexpr bool has_sanitizers = false;
 #endif
 
 }  // namespace
-
-TEST_SUITE("reader: malformed input") {
-    TEST_CASE("files: a device and a pipe are refused at once, as a scene and as a mesh") {
-        TemporaryFolder folder;
-        std::string pipe = folder / "pipe";
-        REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-        const std::string device_text = "cannot read: a device and no file",
-                          pipe_text = "cannot read: a pipe and no file";
-        CHECK(refuse_file("/dev/zero") == "/dev/zero: error: " + device_text);
-        CHECK(refuse_file("/dev/null") == "/dev/null: error: " + device_text);
-        CHECK(refuse_file(pipe) == pipe + ": error: " + pipe_text);
-        for (const std::string what : {"Include ", "Shape \"plymesh\" \"string filename\" "}) {
-            std::string before = "Camera \"perspective\" WorldBegin " + what;
-            size_t named = std::min(before.find("\"string"), before.size());
-            std::string at = "scene.pbrt:1:" + std::to_string(named + 1);
-            CHECK(refuse(before + "\"/dev/zero\"") ==
-                  at + ": error: \"/dev/zero\": " + device_text);
-            CHECK(refuse(before + '"' + pipe + '"') ==
-                  at + ": error: \"" + pipe + "\": " + pipe_text);
-        }
-    }
-}
 
 TEST_SUITE("reader: large scenes") {
     TEST_CASE("input: what does not fit into the memory is named, with its size") {
