@@ -32,22 +32,6 @@ TEST_SUITE("light table") {
         }
     }
 
-    TEST_CASE("teeth: 24 bits give single ones of a million lights 4 % too little or too much") {
-        constexpr double N = 1000003;
-        int least = 100, most = 0, count = 0;
-        for (int i = 0, column = 0; i < 1 << 20; i++) {
-            int at = static_cast<int>(N * i * 0x1p-24);
-            if (at != column) {
-                least = std::min(least, count), most = std::max(most, count);
-                column = at, count = 0;
-            }
-            count++;
-        }
-        CHECK(least == 16);
-        CHECK(most == 17);
-        CHECK(16 / (0x1p24 / N) < 0.96);
-    }
-
     TEST_CASE("identity: a light of probability 1e-10 is drawn, as often as it should be") {
         // Column 0 is the rare light up to 2e-10, and from there on the other one.
         LightTable table = build_light_table({1e-10, 1 - 1e-10});

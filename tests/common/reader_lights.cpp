@@ -46,13 +46,6 @@ const std::string quad =
 }  // namespace
 
 TEST_SUITE("reader: materials") {
-    TEST_CASE("input: diffuse") {
-        CHECK(material_of("\"diffuse\"").reflectance == Rgb{.5f, .5f, .5f});
-        CHECK(material_of("\"diffuse\" \"rgb reflectance\" [0 .25 1]").reflectance ==
-              Rgb{0, .25f, 1});
-        CHECK(material_of("\"diffuse\"").type == MaterialType::diffuse);
-    }
-
     TEST_CASE("input: a conductor's reflectance becomes eta and k that reflect so much") {
         Material m = material_of("\"conductor\" \"rgb reflectance\" [0 .5 .9]");
         CHECK(m.type == MaterialType::conductor);
@@ -140,17 +133,6 @@ TEST_SUITE("reader: materials") {
         CHECK(color(0) == Rgb{1, 0, 0});
         CHECK(color(1) == Rgb{1, 0, 0});
         CHECK(color(2) == Rgb{0, 1, 0});
-    }
-
-    TEST_CASE("input: an emitter may have a black material of its own") {
-        Scene scene = parse_world(
-            "MakeNamedMaterial \"black\" \"string type\" \"diffuse\" \"rgb reflectance\" [0 0 0] "
-            "AreaLightSource \"diffuse\" \"rgb L\" [17 12 4] NamedMaterial \"black\" " +
-            quad);
-        const Shape& shape = scene.shapes[scene.geometry.triangles[0].shape];
-        CHECK(is_black(scene.materials[shape.material].reflectance));
-        REQUIRE(shape.light == 0);
-        CHECK(scene.lights[0].L == Rgb{17, 12, 4});
     }
 }
 
