@@ -14,8 +14,7 @@ struct SmallScene {
     int depth = 1;                   // the most times that a path scatters
 };
 
-/// All of them: most of the probes of make check, and some more. tested by
-/// "identity: the small scenes of make probes show what the probes of make check show"
+/// All of them: most of the probes of make check, and some more.
 std::vector<SmallScene> small_scenes();
 /// The page that states them all.
 std::string small_scenes_page();

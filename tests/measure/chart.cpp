@@ -44,9 +44,6 @@ std::vector<Method> methods_for(const MeasureOptions& o, const std::string& scen
     std::vector<std::string> names = o.methods;
     if (names.empty()) {
         names = {"all", "15-sobol"};
-        if (scene == "cornell") {
-            names.insert(names.end(), {"depth-cap", "clamp", "wrong-pdf"});
-        }
         if (scene == "veach-mis") names.push_back("13-bsdf");
     }
     return methods_named(names);
@@ -89,7 +86,6 @@ int main(int argc, char** argv) {
                 continue;
             }
             add_summary(name, curves, summary);
-            std::printf("%s\n", finding(name, curves).c_str());
             draw_curves(o.out, name, curves);
         }
         write_table(o.out, "chart-summary", summary);

@@ -3,8 +3,6 @@
 
 #include "tests/traces/07.h"
 #include "tests/traces/08.h"
-#include "tests/traces/13.h"
-#include "tests/traces/14.h"
 #include "tests/traces/15.h"
 #include "tests/traces/20.h"
 #include "tests/traces/21.h"
@@ -59,10 +57,6 @@ Agreement hold_against_reference(const std::string& name, const MakeTrace& make_
 // Each chapter's trace, from the scene.
 Trace seven(const Scene&) { return trace_with<ch07::trace>(); }
 Trace eight(const Scene&) { return trace_with<ch08::trace>(); }
-Trace thirteen(const Scene& scene) {
-    return trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
-}
-Trace fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
 Trace fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
 
 }  // namespace
@@ -115,24 +109,6 @@ TEST_SUITE("references slow") {
         prepare(scene, 2);
         Reference reference(folder + "/reference");
         check_agreement(hold_against_reference(scene, reference, fifteen, 64, 8), 0.002);
-    }
-
-    TEST_CASE("agreement: plates, close lights and a box, with chapters 13 and 14") {
-        struct {
-            std::string name;
-            Trace (*chapter)(const Scene&);
-            int spp, block_side;
-            double relative_se;
-        } cases[] = {{"veach-mis", fourteen, 1024, 8, 0.004},
-                     {"tiny-close-light", fourteen, 1024, 8, 0.004},
-                     {"cornell-grey", fourteen, 512, 8, 0.002},
-                     {"veach-mis", thirteen, 1024, 32, 0.02},
-                     {"cornell-grey", thirteen, 512, 8, 0.002}};
-        for (const auto& c : cases) {
-            CAPTURE(c.name);
-            Agreement a = hold_against_reference(c.name, c.chapter, c.spp, c.block_side);
-            check_agreement(a, c.relative_se);
-        }
     }
 
     TEST_CASE("agreement: a caustic, found by chance") {
@@ -198,17 +174,5 @@ TEST_SUITE("references slow") {
         Measured all = theirs(0, 0, 128), p = by_photons.block(0, 0, 128);
         CAPTURE(p.mean / all.mean);
         CHECK(std::abs(p.mean / all.mean - 1) < 0.01);
-    }
-
-    TEST_CASE("agreement: lights that almost touch what they light") {
-        check_agreement(hold_against_reference("tiny-close-light", seven, 1024, 32), 0.01);
-    }
-
-    TEST_CASE("agreement: a room with a far brighter one behind the wall") {
-        check_agreement(hold_against_reference("hidden-bright", eight, 512, 16), 0.01);
-    }
-
-    TEST_CASE("agreement: a thousand lights, found by chance") {
-        check_agreement(hold_against_reference("many-lights", seven, 512, 32), 0.01);
     }
 }

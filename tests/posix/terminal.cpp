@@ -1,73 +1,24 @@
 // What is printed on a terminal, and what ends a program at once.
 #include <doctest/doctest.h>
-#include <poll.h>
 #include <stdlib.h>
 #include <termios.h>
 
 #include <filesystem>
 
-#include "common/rendering/progress.h"
 #include "tests/support/run_program.h"
-#include "tests/support/stand_ins.h"
 
 namespace {
 
-/// A new terminal, whose other end is `master`; -1 where there are none.
-int terminal(int* master = nullptr) {
+/// A new terminal; -1 where there are none.
+int terminal() {
     int other = ::posix_openpt(O_RDWR | O_NOCTTY);
     if (other < 0 || ::grantpt(other) != 0 || ::unlockpt(other) != 0) return -1;
-    if (master != nullptr) *master = other;
     return ::open(::ptsname(other), O_RDWR | O_NOCTTY);
-}
-
-/// What `work` prints on stderr, which is a terminal.
-template <class Work>
-std::string on_terminal(const Work& work) {
-    return Process([&] {
-               int master = -1, slave = terminal(&master);
-               if (slave < 0) return 77;
-               ::dup2(slave, STDERR_FILENO);
-               work();
-               std::fflush(stderr);
-               for (pollfd more = {master, POLLIN, 0}; ::poll(&more, 1, 200) == 1;) {
-                   char text[4096];
-                   ssize_t n = ::read(master, text, sizeof text);
-                   if (n > 0) std::fwrite(text, 1, static_cast<size_t>(n), stdout);
-               }
-               return 0;
-           })
-        .wait()
-        .out;
-}
-template <class Work>
-std::string in_file(const Work& work) {
-    return Process([&] { return work(), 0; }).wait().err;
 }
 
 }  // namespace
 
 TEST_SUITE("surroundings") {
-    TEST_CASE("truth: progress is a bar on a terminal, and a line a minute in a file") {
-        auto work = [](bool quiet) {
-            return [=] {
-                Progress progress(quiet);
-                progress.show(0.25, 0.05);  // too early
-                progress.show(0.5, 10);
-                progress.show(0.75, 61);
-                progress.show(0.8, 62);
-                progress.show(1.5, 122);
-            };
-        };
-        CHECK(in_file(work(false)) == " 75 %  20 s left\n100 %  0 s left\n");
-        CHECK(in_file(work(true)) == "");
-        std::string bar = on_terminal(work(false));
-        if (bar.empty()) return;  // no terminals here
-        CHECK(bar.starts_with("\r[#"));
-        CHECK(bar.find("] 100 %  0 s left") != std::string::npos);
-        CHECK(bar.ends_with("\r\x1b[K"));
-        CHECK(on_terminal(work(true)) == "");
-    }
-
     TEST_CASE("truth: a stopped terminal or a full pipe behind stderr stops no render") {
         TemporaryFolder folder;
         for (bool is_terminal : {true, false}) {
