@@ -156,12 +156,6 @@ TEST_SUITE("film error") {
         CHECK(film.effective_samples() == about(sum * sum / sum2));
         CHECK_FALSE(film.has_audits());
         CHECK(film.counts().at(1, 0).g == 3 + 4);
-        Film parts(6, 5);
-        parts.start_halves();
-        parts.add_part(3, grey(9), 1);
-        parts.count_as(film);
-        CHECK(parts.samples() == film.samples());
-        CHECK(parts.mean() > 0);
     }
 
     TEST_CASE("truth: whole passes tell the error by their means, each by its weight") {

@@ -238,15 +238,6 @@ TEST_SUITE("reader: transforms and camera") {
         CHECK(!outside.reverse);
     }
 
-    TEST_CASE("input: WorldBegin resets the transform") {
-        Scene scene = parse(
-            "Translate 5 5 5 Camera \"perspective\" WorldBegin LightSource \"point\" "
-            "Shape \"sphere\"");
-        CHECK(scene.camera.o == Vec3{-5, -5, -5});
-        CHECK(scene.lights[0].p == Vec3{0, 0, 0});
-        CHECK(scene.geometry.spheres[0].c == Vec3{0, 0, 0});
-    }
-
     TEST_CASE("input: the camera takes the transform where it stands, left-handed") {
         Camera camera = parse_options("LookAt 1 2 3  1 2 -7  0 9 0").camera;
         CHECK(near(camera.o, {1, 2, 3}));

@@ -72,30 +72,6 @@ TEST_SUITE("reader: materials") {
         CHECK(material_of("\"conductor\" \"rgb eta\" [1 2 3]").k == metal_ior("Cu")->k);
     }
 
-    TEST_CASE("truth: metals have the colors that they are known for") {
-        auto color = [](const std::string& symbol) {
-            MetalIor m = *metal_ior(symbol);
-            return Rgb{static_cast<float>(reflectance_at_normal(m.eta.r, m.k.r)),
-                       static_cast<float>(reflectance_at_normal(m.eta.g, m.k.g)),
-                       static_cast<float>(reflectance_at_normal(m.eta.b, m.k.b))};
-        };
-        CHECK(metal_symbols() == std::vector<std::string>{"Ag", "Al", "Au", "Cu"});
-        // Silver and aluminium are nearly grey; gold lacks blue, copper green and blue.
-        for (const char* grey : {"Ag", "Al"}) {
-            Rgb c = color(grey);
-            CHECK(std::min({c.r, c.g, c.b}) > 0.9f);
-            CHECK(max_component(c) < 0.98f);
-        }
-        Rgb gold = color("Au"), copper = color("Cu");
-        CHECK(gold.r > 0.95f);
-        CHECK(gold.g < 0.85f);
-        CHECK(gold.b < 0.45f);
-        CHECK(copper.r > 0.93f);
-        CHECK(copper.g < 0.7f);
-        CHECK(copper.b < copper.g);
-        CHECK(!metal_ior("Fe"));
-    }
-
     TEST_CASE("input: roughness is the square of alpha, unless it is alpha") {
         auto alpha = [](const std::string& text) {
             return material_of("\"conductor\" " + text).alpha;
@@ -278,15 +254,6 @@ TEST_SUITE("reader: lights") {
         xy(6500, x, y);
         CHECK(std::abs(x - 0.3135) < 2e-4);
         CHECK(std::abs(y - 0.3237) < 2e-4);
-        xy(1e6, x, y);
-        CHECK(std::abs(x - 0.2399) < 5e-4);
-        CHECK(std::abs(y - 0.2342) < 5e-4);
-        for (double kelvin = 500; kelvin < 1.1e6; kelvin *= 2) {
-            Rgb c = blackbody_rgb(kelvin);
-            CHECK(is_finite(c));
-            CHECK(std::min({c.r, c.g, c.b}) >= 0);
-            CHECK(std::abs(luminance(c) - 1) < 1e-5);
-        }
     }
 }
 
@@ -420,15 +387,6 @@ TEST_SUITE("reader: scenes made by others") {
         Vec3 p0 = box.geometry.positions[lamp.v[0]];
         CHECK(cross(box.geometry.positions[lamp.v[1]] - p0, box.geometry.positions[lamp.v[2]] - p0)
                   .y < 0);
-
-        Scene plates = load_scene("tests/pictures/real-scenes/veach-mis/scene-v4.pbrt", nullptr);
-        CHECK(plates.geometry.spheres.size() == 3);
-        CHECK(plates.lights.size() == 3);
-        std::vector<float> alphas;
-        for (const Material& m : plates.materials) {
-            if (m.type == MaterialType::conductor) alphas.push_back(m.alpha);
-        }
-        CHECK(alphas == std::vector<float>{.01f, .05f, .1f, .25f});
     }
 
     TEST_CASE("files: an included file continues where its Include stands") {

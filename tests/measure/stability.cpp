@@ -20,7 +20,7 @@ struct Observed {
     RunningStats largest;  // share of its largest sample, of each run that is not black
     double runs = 0, covered = 0, below_half = 0, black = 0, fireflies = 0;
     double sum = 0, sum_of_squares = 0;  // of samples
-    double cut = 0, not_finite = 0, samples = 0;
+    double not_finite = 0, samples = 0;
 };
 
 constexpr double rounding = 1e-5;  // relative, of float
@@ -43,7 +43,6 @@ Observed observe(const Method& method, Scene& scene, const StabilityCase& c,
         seen.fireflies += mean > 5 * c.truth;
         seen.sum += sum;
         seen.sum_of_squares += sum_of_squares;
-        seen.cut += static_cast<double>(r.stats.paths_cut);
         seen.not_finite += static_cast<double>(r.stats.not_finite);
         seen.samples += c.spp;
     }
@@ -69,7 +68,6 @@ Number measured(const Prediction& p, const Observed& seen, const StabilityCase& 
         case Metric::coverage: return share(seen.covered, seen.runs);
         case Metric::below_half: return share(seen.below_half, seen.runs);
         case Metric::black: return share(seen.black, seen.runs);
-        case Metric::cut: return share(seen.cut, seen.samples);
         case Metric::mean:
             return {seen.mean.mean() / c.truth, seen.mean.standard_error() / c.truth};
     }
@@ -83,7 +81,6 @@ const char* name_of(Metric metric) {
         case Metric::below_half: return "runs below half the truth";
         case Metric::black: return "runs of 0 +- 0";
         case Metric::mean: return "mean over truth";
-        case Metric::cut: return "paths cut";
     }
     return "";
 }
@@ -140,14 +137,13 @@ std::vector<std::string> row_of(const StabilityCase& c, const Method& method, co
             black ? "-" : percent(effective),
             short_number(seen.fireflies),
             short_number(seen.not_finite),
-            percent(seen.cut / seen.samples),
             verdict.text()};
 }
 
 /// All rows, and the verdict of each method on each scene.
 struct Verdicts {
     Table rows{{"scene", "method", "mean", "bias (s.e.)", "coverage %", "largest %", "effective %",
-                "fireflies", "not finite", "cut %", "verdict"},
+                "fireflies", "not finite", "verdict"},
                {}};
     std::vector<std::string> scenes;
     std::map<std::string, std::map<std::string, std::string>> words;  // by scene and method
@@ -197,7 +193,7 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdi
     for (const Method& method : methods_named(c.refuse)) {
         Verdict verdict{can_render(method, scene) ? "FAILS" : "refuses"};
         verdicts.add(c, method, verdict,
-                     {c.name, method.name, "-", "-", "-", "-", "-", "-", "-", "-", verdict.text()});
+                     {c.name, method.name, "-", "-", "-", "-", "-", "-", "-", verdict.text()});
     }
 }
 
@@ -205,8 +201,8 @@ constexpr const char* legend =
     "bias: in standard errors; coverage: of the truth by the 95 %% intervals of %d runs of 1000\n"
     "samples; largest: share of a run's largest sample, on average; effective: (sum X)^2 / sum "
     "X^2\n"
-    "over the samples; fireflies: runs above 5 times the truth; cut: paths that the depth limit\n"
-    "ended. In brackets: what theory predicts, within 5 standard errors. Below, \"as predicted\":\n"
+    "over the samples; fireflies: runs above 5 times the truth.\n"
+    "In brackets: what theory predicts, within 5 standard errors. Below, \"as predicted\":\n"
     "fails as predicted; \"refuses\": says that it cannot render the scene.\n";
 
 /// Whether the name contains one of the words.

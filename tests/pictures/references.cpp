@@ -4,10 +4,8 @@
 #include "tests/traces/07.h"
 #include "tests/traces/08.h"
 #include "tests/traces/15.h"
-#include "tests/traces/20.h"
 #include "tests/traces/21.h"
 #include "tests/traces/22.h"
-#include "tests/traces/23.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
 
@@ -131,48 +129,5 @@ TEST_SUITE("references slow") {
                     0.01);
             }
         }
-    }
-
-    TEST_CASE("agreement: a caustic, with chapters 20 and 23") {
-        Reference reference("references/glass-caustic");
-        Scene scene = scene_from("tests/pictures/references/glass-caustic.pbrt", 128, 100);
-        auto theirs = [&](int x, int y, int side) { return reference.block(x, y, side); };
-        // From the light: the blocks that show no glass.
-        BlockMeans by_light = blocks_of(
-            scene, trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)), 8, 32, 16);
-        BlockMeans by_photons{128, 16};
-        for (uint32_t seed = 1; seed <= 12; seed++) {
-            ch23::PhotonSettings settings{.seed = seed, .light_paths = 20000};
-            settings.radius = 0.01f * scene.radius;
-            by_photons.add(film_of(scene, passes_of<ch23::photon_passes>(scene, settings), 16, seed)
-                               .film.image());
-        }
-        int compared = 0;
-        double worst = 0;
-        CameraView view = camera_view(scene.camera, 128, 128);
-        for (int y = 0; y < 128; y += 16)
-            for (int x = 0; x < 128; x += 16) {
-                Measured r = theirs(x, y, 16), p = by_photons.block(x, y, 16);
-                CAPTURE(x);
-                CAPTURE(y);
-                CAPTURE(p.mean / r.mean);
-                CHECK(std::abs(p.mean - r.mean) <= 5 * std::hypot(p.se, r.se) + 0.02 * r.mean);
-                bool glass = false;
-                for (int i = 0; i < 16 * 16; i++) {
-                    Vec2 film = {static_cast<float>(x + i % 16) + 0.5f,
-                                 static_cast<float>(y + i / 16) + 0.5f};
-                    std::optional<Hit> hit = intersect(scene, camera_ray(view, film));
-                    glass = glass || (hit && is_specular(*hit->material));
-                }
-                if (glass) continue;
-                compared++;
-                Measured l = by_light.block(x, y, 16);
-                worst = std::max(worst, z_between(l, r));
-            }
-        CHECK(compared > 20);
-        CHECK(worst < 5);
-        Measured all = theirs(0, 0, 128), p = by_photons.block(0, 0, 128);
-        CAPTURE(p.mean / all.mean);
-        CHECK(std::abs(p.mean / all.mean - 1) < 0.01);
     }
 }

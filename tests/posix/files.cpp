@@ -46,26 +46,6 @@ TEST_SUITE("files") {
         CHECK(folder.names() == std::set<std::string>{"a"});
     }
 
-    TEST_CASE("files: killed at any time, the file is the old one or the new one") {
-        TemporaryFolder folder;
-        const std::string a(1 << 20, 'a'), b(1 << 19, 'b');
-        write_file_atomically(folder / "f", a);
-        int seen_b = 0;
-        for (int round = 0; round < 40 || (seen_b == 0 && round < 400); round++) {
-            pid_t child = ::fork();
-            if (child == 0) {
-                for (int i = 0;; i++) write_file_atomically(folder / "f", i % 2 ? a : b);
-            }
-            ::usleep(static_cast<useconds_t>(500 + 137 * round));
-            ::kill(child, SIGKILL);
-            ::waitpid(child, nullptr, 0);
-            std::string left = read_file(folder / "f");
-            REQUIRE((left == a || left == b));
-            seen_b += left == b;
-        }
-        CHECK(seen_b > 0);
-    }
-
     TEST_CASE("files: a folder without permission is an error") {
         TemporaryFolder folder;
         fs::create_directory(folder / "d");
