@@ -90,22 +90,6 @@ TEST_SUITE("film") {
         CHECK(std::isnan(film_of({{0, 1, 2}, {4}}).standard_error()));
     }
 
-    TEST_CASE("truth: the picture of counts has the film's size, and each pixel its own count") {
-        Film film(5, 3);
-        for (size_t i = 0; i < 15; i++) {
-            for (size_t k = 0; k < i; k++) film.add(i, grey(1));
-        }
-        Image counts = film.counts();
-        CHECK(counts.width == 5);
-        CHECK(counts.height == 3);
-        for (int y = 0; y < 3; y++) {
-            for (int x = 0; x < 5; x++) {
-                float n = static_cast<float>(5 * y + x);
-                CHECK(counts.at(x, y) == Rgb{n, n, n});
-            }
-        }
-    }
-
     TEST_CASE("truth: a pixel without samples is black, and not in the mean of the others") {
         Film film = film_of({{}, {4, 6}});
         CHECK(film.image().at(0, 0) == grey(0));

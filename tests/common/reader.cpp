@@ -125,17 +125,6 @@ TEST_SUITE("reader: language") {
         CHECK(parse(plain).camera.o == Vec3{0, 0, -4});
     }
 
-    TEST_CASE("input: of a parameter given twice the last one counts") {
-        CHECK(parse_options("Film \"rgb\" \"integer xresolution\" 5 \"integer xresolution\" 6")
-                  .width == 6);
-        CHECK(parse_options("Film \"rgb\" \"integer xresolution\" 5 Film \"rgb\"").width == 1280);
-        CHECK(parse_options(
-                  "Integrator \"path\" \"integer maxdepth\" 9 Integrator \"ambientocclusion\"")
-                  .max_depth == 5);
-        CHECK(!parse_options("Camera \"perspective\" \"float frameaspectratio\" 2")
-                   .camera.frame_aspect);
-    }
-
     TEST_CASE("input: what is given twice is noted") {
         std::vector<std::string> notes;
         parse(

@@ -9,7 +9,7 @@ struct SmallScene {
     std::string what;                // is seen there, in a few words
     std::string pbrt;                // the scene, with one object on each line
     std::string words;               // the same in words and numbers, in Markdown
-    std::set<std::string> has = {};  // what it has that few have: "a mirror"
+    std::set<std::string> has = {};  // "a sky", "more than one light"
     bool coloured = false;           // its channels differ
     int depth = 1;                   // the most times that a path scatters
 };
