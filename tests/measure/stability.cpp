@@ -17,9 +17,7 @@ namespace {
 struct Observed {
     RunningStats mean;     // of each run
     RunningStats squares;  // mean of (X - truth)^2 of each run
-    RunningStats largest;  // share of its largest sample, of each run that is not black
-    double runs = 0, covered = 0, below_half = 0, black = 0, fireflies = 0;
-    double sum = 0, sum_of_squares = 0;  // of samples
+    double runs = 0, covered = 0, below_half = 0, black = 0;
     double not_finite = 0, samples = 0;
 };
 
@@ -36,13 +34,9 @@ Observed observe(const Method& method, Scene& scene, const StabilityCase& c,
         seen.runs++;
         seen.mean.add(mean);
         seen.squares.add(sum_of_squares / c.spp - 2 * mean * c.truth + c.truth * c.truth);
-        if (sum > 0) seen.largest.add(r.stats.largest / sum);
         seen.covered += std::abs(mean - c.truth) <= 1.96 * se + rounding * c.truth;
         seen.below_half += mean < c.truth / 2;
         seen.black += mean == 0;
-        seen.fireflies += mean > 5 * c.truth;
-        seen.sum += sum;
-        seen.sum_of_squares += sum_of_squares;
         seen.not_finite += static_cast<double>(r.stats.not_finite);
         seen.samples += c.spp;
     }
@@ -126,24 +120,18 @@ std::vector<std::string> row_of(const StabilityCase& c, const Method& method, co
                                 const Verdict& verdict) {
     double se = seen.mean.standard_error(), away = seen.mean.mean() - c.truth;
     auto percent = [](double share) { return short_number(100 * share); };
-    double effective = seen.sum * seen.sum / seen.sum_of_squares / seen.samples;
-    bool black = seen.sum == 0;
     return {c.name,
             method.name,
             short_number(seen.mean.mean()),
             std::abs(away) <= rounding * c.truth ? "0" : short_number(away / se),
             percent(seen.covered / seen.runs),
-            black ? "-" : percent(seen.largest.mean()),
-            black ? "-" : percent(effective),
-            short_number(seen.fireflies),
             short_number(seen.not_finite),
             verdict.text()};
 }
 
 /// All rows, and the verdict of each method on each scene.
 struct Verdicts {
-    Table rows{{"scene", "method", "mean", "bias (s.e.)", "coverage %", "largest %", "effective %",
-                "fireflies", "not finite", "verdict"},
+    Table rows{{"scene", "method", "mean", "bias (s.e.)", "coverage %", "not finite", "verdict"},
                {}};
     std::vector<std::string> scenes;
     std::map<std::string, std::map<std::string, std::string>> words;  // by scene and method
@@ -192,16 +180,13 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdi
     }
     for (const Method& method : methods_named(c.refuse)) {
         Verdict verdict{can_render(method, scene) ? "FAILS" : "refuses"};
-        verdicts.add(c, method, verdict,
-                     {c.name, method.name, "-", "-", "-", "-", "-", "-", "-", verdict.text()});
+        verdicts.add(c, method, verdict, {c.name, method.name, "-", "-", "-", "-", verdict.text()});
     }
 }
 
 constexpr const char* legend =
     "bias: in standard errors; coverage: of the truth by the 95 %% intervals of %d runs of 1000\n"
-    "samples; largest: share of a run's largest sample, on average; effective: (sum X)^2 / sum "
-    "X^2\n"
-    "over the samples; fireflies: runs above 5 times the truth.\n"
+    "samples.\n"
     "In brackets: what theory predicts, within 5 standard errors. Below, \"as predicted\":\n"
     "fails as predicted; \"refuses\": says that it cannot render the scene.\n";
 
