@@ -63,13 +63,15 @@ TEST_SUITE("drawing") {
         TracedRay leaves = {{b, normalize(eye - a)}, false, false, infinity};
         std::vector<TracedRay> rays = {ray(a, b, true, false, NAN), ray(c, a, false, true, 1),
                                        leaves, ray({0, -4, 0}, {0, 4, 0}, true, true, NAN)};
-        // And a room whose z is up.
-        Scene other = scene_of(
-            "LookAt 0 -9 1  0 0 0  0 0 1 Camera \"perspective\"\nWorldBegin\n"
-            "LightSource \"point\" Shape \"sphere\"\n");
-        other.width = other.height = 20;
-        std::string drawn = draw_path(scene, eye, path, rays) +
-                            draw_path(other, other.camera.o, {{{1, 2, 3}, -1}}, {});
+        std::string drawn = draw_path(scene, eye, path, rays);
+        // Rooms whose z is up, and that are seen from above and behind.
+        for (const char* look : {"0 -9 1  0 0 0  0 0 1", "0 6 6  0 0 0  0 1 0"}) {
+            Scene other = scene_of("LookAt " + std::string(look) +
+                                   " Camera \"perspective\"\nWorldBegin\n"
+                                   "LightSource \"point\" Shape \"sphere\"\n");
+            other.width = other.height = 20;
+            drawn += draw_path(other, other.camera.o, {{{1, 2, 3}, -1}}, {});
+        }
         CHECK(without_pictures(drawn) == read_file("tests/support/drawing.svg"));
     }
 

@@ -301,6 +301,8 @@ TEST_SUITE("film files") {
         std::string before = bytes_of(sum);
         CHECK(error_of([&] { add_film(sum, "b", edges); }) ==
               "b: error: it has other pixels at the edges of lamps");
+        CHECK(error_of([&] { add_film(edges, "b", sum); }) ==
+              "b: error: it has other pixels at the edges of lamps");
         for (int kind : {0, 1, 2, 3}) {
             LabeledFilm a = any_film(kind, false, 0, 2);
             for (int other = 0; other < 6; other++) {
