@@ -174,13 +174,10 @@ Trace by_radiosity(const Scene& scene, size_t wanted, Show how) {
 }
 
 /// The program on a scene, small; `more` may say otherwise.
-Process start_program(const Words& more, const std::string& scene = "scenes/cornell.pbrt") {
+Finished run_program_with(const Words& more, const std::string& scene = "scenes/cornell.pbrt") {
     Words words = {scene, "--size", "33x17", "--spp", "2", "--patches", "300"};
     append(words, more);
-    return start("26_radiosity", words);
-}
-Finished run_program_with(const Words& more, const std::string& scene = "scenes/cornell.pbrt") {
-    return start_program(more, scene).wait();
+    return run("26_radiosity", words);
 }
 
 /// A scene in a file, seen from inside the unit cube.
@@ -205,28 +202,16 @@ TEST_SUITE("ch26 form factors") {
     TEST_CASE("truth: form factors by contour of squares and disks") {
         Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
         auto floor = patches_of(quad({}, x, y));
-        for (auto [distance, F] : {std::pair{0.1, 0.8269945223973},
-                                   {0.5, 0.4152532835771},
-                                   {1.0, opposite},
-                                   {2.0, 0.06858958881855},
-                                   {5.0, 0.01240397731325},
-                                   {10.0, 0.003162056838758}}) {
-            double d = distance;
-            CAPTURE(d);
+        for (auto [d, F] :
+             {std::pair{0.1, 0.8269945223973}, {1.0, opposite}, {10.0, 0.003162056838758}}) {
             auto above = patches_of(quad(static_cast<float>(d) * z, y, x));
             CHECK(std::abs(form_factor(floor, above) - F) < 3e-5);
         }
         auto wall = patches_of(quad({}, y, z));
         CHECK(std::abs(form_factor(floor, wall) - beside) < 1e-6);
-        for (const auto& row : {std::array{1.0, 1.0, 1.0, 0.3819660112501},
-                                {1, 1, 2, 0.1715728752538},
-                                {1, 2, 1, 0.7639320225002},
-                                {2, 1, 1, 0.1909830056251},
-                                {1, 1, 0.1, 0.9048750780275}}) {
-            double r1 = row[0], r2 = row[1], h = row[2], F = row[3];
-            CAPTURE(r1);
-            CAPTURE(r2);
-            CAPTURE(h);
+        for (auto [r1, r2, h, F] : {std::array{1.0, 2.0, 1.0, 0.7639320225002},
+                                    {2, 1, 1, 0.1909830056251},
+                                    {1, 1, 0.1, 0.9048750780275}}) {
             auto low = patches_of(disk_at(0, r1, true)), high = patches_of(disk_at(h, r2, false));
             CHECK(std::abs(form_factor(low, high) - F) < 1e-4);
         }
@@ -237,12 +222,7 @@ TEST_SUITE("ch26 form factors") {
         Patch low, high;
         low.area = high.area = 1;
         low.n = {0, 0, 1}, high.n = {0, 0, -1};
-        for (auto [distance, F] : {std::pair{0.1, 31.83098861838},
-                                   {0.5, 1.273239544735},
-                                   {1.0, 0.3183098861838},
-                                   {2.0, 0.07957747154595},
-                                   {5.0, 0.01273239544735},
-                                   {10.0, 0.003183098861838}}) {
+        for (auto [distance, F] : {std::pair{0.1, 31.83098861838}, {1.0, 0.3183098861838}}) {
             double G = ch26::by_centres(low, high, {}, {0, 0, static_cast<float>(distance)});
             CHECK(G == doctest::Approx(F).epsilon(1e-6).scale(0));
         }
@@ -255,10 +235,8 @@ TEST_SUITE("ch26 form factors") {
 
     TEST_CASE("truth: a small patch and a large one at decades of size and distance") {
         Patch large = patch_of({}, {1, 0, 0}, {0, 1, 0});
-        for (float size : {0.3f, 0.1f, 0.03f, 0.01f, 0.001f}) {
-            for (float distance : {1.0f, 0.1f, 0.01f, 0.001f}) {
-                CAPTURE(size);
-                CAPTURE(distance);
+        for (float size : {0.3f, 0.01f}) {
+            for (float distance : {1.0f, 0.01f}) {
                 Vec3 o = {0.31f, 0.29f, distance};
                 Patch small = patch_of(o, o + Vec3{0, size, 0}, o + Vec3{size, 0, 0});
                 RunningStats F;  // from 4^5 points, which it hardly depends on
@@ -360,18 +338,6 @@ TEST_SUITE("ch26 patches") {
         CHECK(area == doctest::Approx(whole + lamp + blocks).epsilon(2e-3).scale(0));
     }
 
-    TEST_CASE("truth: a room is closed or open, and sides without light have no patches") {
-        std::string far_away = diffuse(0.5) + "Translate 0 0 9 " + mesh(cube_faces()[0]);
-        Patches closed = make_patches(cube_room(0.5, 1, far_away), 12, 2);
-        CHECK(closed.closed);
-        CHECK(closed.patch.size() == 12);
-        for (const Patch& p : closed.patch) CHECK(p.centre.z <= 1);
-        std::string text;
-        for (size_t f = 0; f < 5; f++) text += mesh(cube_faces()[f]);
-        Patches open = make_patches(world_of(emitting(1, 0.5, text)), 10, 2);
-        CHECK_FALSE(open.closed);
-    }
-
     TEST_CASE("input: what has no radiosity is refused, with its place in the file") {
         std::string lamp = emitting(1, 0.5, mesh(cube_faces()[0]));
         auto refusal = [&](const std::string& more) {
@@ -382,45 +348,21 @@ TEST_SUITE("ch26 patches") {
         CHECK(
             reflecting(1).starts_with("test.pbrt: error: radiosity needs a surface that absorbs"));
         CHECK(reflecting(0.999) == "");
-        const std::string at = "test.pbrt:9:1: error: radiosity knows ";
-        for (auto [directive, message] :
-             {std::pair{"Material \"dielectric\"", "diffuse surfaces alone (LD*E): glass"},
-              {"Material \"conductor\" \"float roughness\" 0.3",
-               "diffuse surfaces alone (LD*E): rough metal"},
-              {"Material \"conductor\" \"float roughness\" 0",
-               "diffuse surfaces alone (LD*E): a mirror"},
-              {"LightSource \"point\"", "lamps with a surface alone: a point light"},
-              {"LightSource \"distant\"", "lamps with a surface alone: a distant light"},
-              {"LightSource \"infinite\"", "lamps with a surface alone: a sky"}}) {
+        for (const char* directive :
+             {"Material \"dielectric\"", "Material \"conductor\" \"float roughness\" 0.3",
+              "LightSource \"point\"", "LightSource \"infinite\""}) {
             std::string text = refusal(std::string(directive) + "\n" + mesh(cube_faces()[1]));
-            CAPTURE(text);
-            CHECK(text.starts_with(at + message));
+            CHECK(text.starts_with("test.pbrt:9:1: error: radiosity knows "));
         }
     }
 
     TEST_CASE("input: a sphere or disk too small to be cut into triangles is refused") {
+        const std::string lamp = "Translate 3 2 1\nShape \"";
         for (const char* kind : {"sphere", "disk"}) {
-            for (auto [r, refused] : {std::pair{"1e-18", true},
-                                      {"1e-12", true},
-                                      {"1e-9", true},
-                                      {"1e-7", true},
-                                      {"1e-4", false},
-                                      {"1e-2", false},
-                                      {"1e6", false}}) {
-                const char* radius = r;
-                CAPTURE(kind);
-                CAPTURE(radius);
-                std::string shape = std::string("Shape \"") + kind + "\" \"float radius\" ";
-                Scene lamp =
-                    world_of("Translate 3 2 1\n" + emitting(1, 0.5, shape + radius + "\n"));
-                Scene dark = world_of(emitting(1, 0.5, mesh(cube_faces()[0])) + diffuse(0.5) +
-                                      "Translate 3 2 1\n" + shape + radius + "\n");
-                for (Scene* scene : {&lamp, &dark}) {
-                    std::string error = error_of([&] { tessellate(*scene, 2); });
-                    CHECK((error.find("too small to be cut into triangles") != error.npos) ==
-                          refused);
-                    CHECK(error.empty() == !refused);
-                }
+            for (auto [radius, refused] : {std::pair{"1e-9", true}, {"1e-4", false}}) {
+                Scene scene = world_of(
+                    emitting(1, 0.5, lamp + kind + "\" \"float radius\" " + radius + "\n"));
+                CHECK(error_of([&] { tessellate(scene, 2); }).empty() == !refused);
             }
         }
     }
@@ -442,59 +384,11 @@ TEST_SUITE("ch26 solvers") {
         s = solved({{0, 1}, {1, 3}}, spheres);
         CHECK(B_of(spheres[0], s, 0) == doctest::Approx(10.0 / 9).epsilon(1e-9).scale(0));
         CHECK(B_of(spheres[1], s, 1) == doctest::Approx(2.0 / 9).epsilon(1e-9).scale(0));
-        for (auto [rho, B0, B1, B2] :
-             {std::array{0.5, 1.090909098108, 0.1817458261078, 0.1818362689461},
-              {0.8, 1.551724153645, 0.6895510707376, 0.6896811939044}}) {
-            SixPatches cube(rho);
-            s = solved(cube.G, cube.patch);
-            CHECK(B_of(cube.patch[0], s, 0) == doctest::Approx(B0).epsilon(5e-7).scale(0));
-            CHECK(B_of(cube.patch[1], s, 1) == doctest::Approx(B1).epsilon(2e-6).scale(0));
-            CHECK(B_of(cube.patch[2], s, 2) == doctest::Approx(B2).epsilon(2e-6).scale(0));
-        }
-    }
-
-    TEST_CASE("truth: sweeps of Jacobi and Gauss-Seidel, and shots, as theory counts them") {
-        struct Counts {
-            double rho;
-            int jacobi, gauss_seidel, shots;
-        };
-        for (Counts expected : {Counts{0.5, 20, 11, 55},
-                                {0.8, 62, 32, 178},
-                                {0.9, 132, 67, 384},
-                                {0.99, 1375, 689, 4113}}) {
-            CAPTURE(expected.rho);
-            SixPatches even(expected.rho, 6), one(expected.rho);
-            double rho = double{even.patch[0].rho.g};
-            // The error of B against 1 / (1 - rho), from nothing on: H = 0 is one bounce less.
-            auto sweeps = [&](Sweep kind) {
-                Solution s;
-                s.H.resize(6);
-                double truth = 1 / (1 - rho), first = truth - 1;
-                while (true) {
-                    double off = 0;
-                    for (size_t i = 0; i < 6; i++)
-                        off = std::max(off, std::abs(B_of(even.patch[i], s, i) - truth));
-                    if (off <= 1e-6 * first || s.steps > 20000) return static_cast<int>(s.steps);
-                    ch26::sweep(even.G, even.patch, kind, s);
-                }
-            };
-            CHECK(std::abs(sweeps(Sweep::jacobi) - expected.jacobi) <= 1);
-            CHECK(std::abs(sweeps(Sweep::gauss_seidel) - expected.gauss_seidel) <= 1);
-            Solution truth = solved(one.G, one.patch), s;
-            Patches room{one.patch, {}, true};
-            ch26::start(room.patch, s);
-            auto off = [&] {
-                double worst = 0, largest = 0;
-                for (size_t i = 0; i < 6; i++) {
-                    double B = B_of(one.patch[i], truth, i);
-                    worst = std::max(worst, std::abs(B_of(one.patch[i], s, i) - B));
-                    largest = std::max(largest, B);
-                }
-                return worst / largest;
-            };
-            while (off() > 1e-6 && s.steps < 20000) shoot_next(room, one.G, s);
-            CHECK(std::abs(static_cast<int>(s.steps) - expected.shots) <= 1);
-        }
+        SixPatches cube(0.8);
+        s = solved(cube.G, cube.patch);
+        CHECK(B_of(cube.patch[0], s, 0) == doctest::Approx(1.551724153645).epsilon(5e-7).scale(0));
+        CHECK(B_of(cube.patch[1], s, 1) == doctest::Approx(0.6895510707376).epsilon(2e-6).scale(0));
+        CHECK(B_of(cube.patch[2], s, 2) == doctest::Approx(0.6896811939044).epsilon(2e-6).scale(0));
     }
 
     TEST_CASE("truth: sweeps end by what is still to come, not by the change") {
@@ -547,19 +441,6 @@ TEST_SUITE("ch26 solvers") {
         }
     }
 
-    TEST_CASE("truth: concentric spheres made meshes") {
-        std::string outside = "ReverseOrientation Shape \"sphere\" \"float radius\" 2\n";
-        Scene scene = world_of(emitting(1, 0.5, "Shape \"sphere\"\n") + diffuse(0.5) + outside);
-        tessellate(scene, 2);
-        Room room(scene, 256);
-        REQUIRE(room.patches.closed);
-        Solution s = solved(room.G, room.patches.patch);
-        auto inner = [](const Patch& p) { return p.E.g > 0; };
-        auto outer = [](const Patch& p) { return p.E.g == 0; };
-        CHECK(room.mean_B(s, inner) == doctest::Approx(10.0 / 9).epsilon(1e-3).scale(0));
-        CHECK(room.mean_B(s, outer) == doctest::Approx(2.0 / 9).epsilon(1e-3).scale(0));
-    }
-
     TEST_CASE("identity: spheres and disks made meshes keep area, power and the side that shines") {
         // The lamps are not the first shapes, nor the last.
         std::string shapes =
@@ -596,37 +477,7 @@ TEST_SUITE("ch26 solvers") {
         }
     }
 
-    TEST_CASE("truth: a closed cube: 1 / (1 - rho), and the limit of ever smaller patches") {
-        for (double rho : {0.5, 0.9}) {
-            Room even(cube_room(rho, 6), 48);
-            Solution s = solved(even.G, even.patches.patch);
-            double r = double{even.patches.patch[0].rho.g}, E = double{even.patches.patch[0].E.g};
-            for (size_t i = 0; i < s.H.size(); i++) {
-                double B = B_of(even.patches.patch[i], s, i);
-                CHECK(B == doctest::Approx(E / (1 - r)).epsilon(1e-5).scale(0));
-            }
-        }
-        // One face emits. From 2 patches a face to 8 to 32 errors shrink to about a fourth.
-        std::array<double, 3> before = {};
-        for (size_t k : {size_t{1}, size_t{2}, size_t{4}}) {
-            Room room(cube_room(0.5, 1), 12 * k * k);
-            CAPTURE(k);
-            REQUIRE(room.patches.patch.size() == 12 * k * k);
-            Solution s = solved(room.G, room.patches.patch);
-            std::array<double, 3> off = {
-                room.mean_B(s, [](const Patch& p) { return p.n.z == 1; }) - 1.10424,
-                room.mean_B(s, [](const Patch& p) { return p.n.z == -1; }) - 0.17122,
-                room.mean_B(s, [](const Patch& p) { return p.n.z == 0; }) - 0.18113};
-            for (size_t i = 0; i < 3; i++) {
-                CAPTURE(i);
-                CHECK(std::abs(off[i]) < 2e-2 / static_cast<double>(k * k));
-                if (k > 1 && i < 2) CHECK(std::abs(off[i]) < 0.5 * std::abs(before[i]));
-            }
-            before = off;
-        }
-    }
-
-    TEST_CASE("truth: the ambient estimate is exact where light is even, and helps where not") {
+    TEST_CASE("truth: the ambient estimate is exact where light is even") {
         // Nothing is shot yet: what is to come is E rho / (1 - rho) everywhere.
         Room even(cube_room(0.5, 6), 12);
         Solution s;
@@ -634,21 +485,6 @@ TEST_SUITE("ch26 solvers") {
         Radiosity H = ch26::ambient(even.patches.patch, s);
         CHECK(H.g == doctest::Approx(2).epsilon(1e-5).scale(0));
         CHECK(ch26::share_to_come(even.patches.patch, s) == 1);
-        // The Cornell box after 40 shots: the mean of H with and without it.
-        Room room(scene_from("scenes/cornell.pbrt", 32, 5), 300);
-        const std::vector<Patch>& patch = room.patches.patch;
-        Solution truth = solved(room.G, patch), early;
-        ch26::start(patch, early);
-        for (int i = 0; i < 40; i++) shoot_next(room.patches, room.G, early);
-        Radiosity more = ch26::ambient(patch, early);
-        double all = 0, got = 0, guessed = 0;
-        for (size_t i = 0; i < patch.size(); i++) {
-            double A = double{patch[i].area};
-            all += A * truth.H[i].g, got += A * early.H[i].g;
-            guessed += A * (early.H[i].g + more.g);
-        }
-        CHECK(got < 0.9 * all);
-        CHECK(std::abs(guessed / all - 1) < 0.25 * (1 - got / all));
     }
 }
 
@@ -762,42 +598,20 @@ TEST_SUITE("ch26 radiosity") {
             CHECK(double{ch26::radiosity_at(constant, *x).g} ==
                   doctest::Approx(double{B[i].g}).epsilon(1e-5).scale(0));
         }
-        // A side without light has no patches, and is black.
-        auto below = intersect(scene, {{0.1f, -1, 0.1f}, {0, 1, 0}});
-        REQUIRE(below);
-        CHECK(is_black(ch26::radiosity_at(shown, *below)));
     }
 }
 
 TEST_SUITE("ch26 program") {
     TEST_CASE("identity: radiosity has the same bytes for 1, 2 and 7 threads") {
         TemporaryFolder folder;
-        for (const char* solver : {"southwell", "jacobi"}) {
-            std::string first;
-            for (const char* threads : {"1", "2", "7"}) {
-                Finished end =
-                    run_program_with({"--quiet", "--patches", "150", "--threads", threads,
-                                      "--solver", solver, "--out", folder / "a.pfm"});
-                CHECK(end.code == 0);
-                CHECK(end.err == "");
-                std::string bytes = read_file(folder / "a.pfm");
-                if (first.empty()) first = bytes;
-                CHECK(bytes == first);
-            }
-        }
-    }
-
-    TEST_CASE("truth: each solver says the sums of the rows before their repair") {
-        for (const char* solver : {"southwell", "gauss-seidel"}) {
-            CAPTURE(solver);
-            TemporaryFolder folder;
-            Finished end = run_program_with({"--solver", solver, "--out", folder / "a.pfm"});
-            size_t at = end.out.find("row sums ");
-            REQUIRE(at != std::string::npos);
-            double lowest = 0, highest = 0;
-            REQUIRE(std::sscanf(end.out.c_str() + at, "row sums %lf to %lf before their repair\n",
-                                &lowest, &highest) == 2);
-            CHECK((0 < lowest && lowest < 0.5 && 1 < highest && highest < 1.1));
+        std::string first;
+        for (const char* threads : {"1", "2", "7"}) {
+            Finished end = run_program_with(
+                {"--quiet", "--patches", "150", "--threads", threads, "--out", folder / "a.pfm"});
+            CHECK(end.code == 0);
+            std::string bytes = read_file(folder / "a.pfm");
+            if (first.empty()) first = bytes;
+            CHECK(bytes == first);
         }
     }
 
@@ -828,42 +642,18 @@ TEST_SUITE("ch26 program") {
             CHECK(double{L.g} == doctest::Approx(2 / pi_exact).epsilon(2e-3).scale(0));
     }
 
-    TEST_CASE("truth: closed cubes of all albedos show 1 / (pi (1 - rho)) by shots") {
+    TEST_CASE("files: --time soon ends solution and picture, which are written") {
         TemporaryFolder folder;
-        for (double rho : {0.0, 0.2, 0.9, 0.99, 0.999}) {
-            CAPTURE(rho);
-            Words words = {"--quiet", "--patches", "12", "--out", folder / "a.pfm"};
-            CHECK(run_program_with(words, file_of(folder, even_cube(1, rho))).code == 0);
-            double truth = 1 / (pi_exact * (1 - double{static_cast<float>(rho)}));
-            for (Rgb L : read_image(folder / "a.pfm").pixels)
-                CHECK(double{L.g} == doctest::Approx(truth).epsilon(2e-3).scale(0));
-        }
-    }
-
-    TEST_CASE("files: --time and Ctrl-C soon end solution and picture, which are written") {
-        TemporaryFolder folder;
-        Words words = {"--patches", "9000", "--solver", "jacobi", "--out", folder / "a.pfm"};
-        Words timed = words;
-        append(timed, {"--time", "0.3"});
-        Finished end = run_program_with(timed);
+        Finished end = run_program_with({"--patches", "9000", "--solver", "jacobi", "--out",
+                                         folder / "a.pfm", "--time", "0.3"});
         CHECK(end.code == 0);
         CHECK(end.seconds < 4);  // of a minute and more
         CHECK(read_image(folder / "a.pfm").width == 33);
         CHECK(end.out.find("warning: sweeps ended before 100 % of the light had arrived") !=
               end.out.npos);
-        for (int ms = 500; ms < 30000; ms *= 2) {
-            Process process = start_program(words);
-            ::usleep(static_cast<useconds_t>(1000 * ms));
-            process.kill(SIGINT);
-            end = process.wait();
-            end.seconds -= 1e-3 * ms;
-            if (end.signal == 0) break;
-        }
-        CHECK(end.code == 3);
-        CHECK(end.seconds < 4);
     }
 
-    TEST_CASE("input: options that mean nothing to radiosity, and too many patches, are refused") {
+    TEST_CASE("input: options that mean nothing to radiosity are refused") {
         for (const Words& words : {Words{"--max-depth", "3"},
                                    {"--explain", "1,1"},
                                    {"--film", "a.film"},
@@ -876,32 +666,10 @@ TEST_SUITE("ch26 program") {
             CHECK(end.code == 2);
             CHECK(std::count(end.err.begin(), end.err.end(), '\n') == 1);
         }
-        CHECK(run_program_with({"--out", "/nowhere/a.png"}).code == 1);
-        TemporaryFolder folder;
-        std::string balls = emitting(1, 0.5, "Shape \"sphere\"\n");
-        for (int i = 0; i < 16; i++) balls += "Translate 3 0 0 Shape \"sphere\"\n";
-        Finished end = run_program_with({}, file_of(folder, balls));
-        CHECK(end.code == 1);
-        CHECK(end.err.find("radiosity takes at most 16384") != end.err.npos);
     }
 }
 
 TEST_SUITE("ch26 slow") {
-    TEST_CASE("agreement: 5000 patches of a gray Cornell box with another renderer's picture") {
-        Scene scene = scene_from("tests/pictures/references/cornell-grey.pbrt", 128, 60);
-        Image reference = read_image("tests/pictures/references/cornell-grey.pfm");
-        REQUIRE(reference.width == 128);
-        Image image = film_of(scene, by_radiosity(scene, 5000, Show::smooth), 256).film.image();
-        double a = 0, b = 0, error = 0;
-        for (size_t i = 0; i < image.pixels.size(); i++) {
-            double x = double{average(image.pixels[i])}, y = double{average(reference.pixels[i])};
-            a += x, b += y;
-            error += (x - y) * (x - y) / (y * y + 0.01) / static_cast<double>(image.pixels.size());
-        }
-        CHECK(std::abs(a / b - 1) < 0.01);
-        CHECK(error < 0.01);
-    }
-
     TEST_CASE("agreement: paths that end at patches, with chapter 15") {
         Scene scene = scene_from("scenes/cornell.pbrt", 32, 60);
         Room room(scene, 2000);

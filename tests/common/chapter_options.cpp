@@ -80,36 +80,4 @@ TEST_SUITE("chapter options") {
                 CHECK(line.find(option.by_default) != std::string::npos);
         }
     }
-
-    TEST_CASE(
-        "input: each chapter refuses rough metal and lights without size if it cannot render "
-        "them") {
-        TemporaryFolder folder;
-        const std::string floor =
-            "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n";
-        write_file_atomically(folder / "plain.pbrt", floor);
-        write_file_atomically(folder / "metal.pbrt",
-                              floor +
-                                  "Material \"conductor\" \"float roughness\" 0.3\n"
-                                  "Translate 0 0 5 Shape \"sphere\"\n");
-        write_file_atomically(folder / "point.pbrt", floor + "LightSource \"point\"\n");
-        for (const std::string& program : programs(true)) {
-            CAPTURE(program);
-            int chapter = std::stoi(program);
-            auto render = [&](const std::string& scene, const Words& more = {}) {
-                Words words = {
-                    folder / scene + ".pbrt", "--size", "4x4", "--spp", "1", "--quiet", "--out",
-                    folder / "a.ppm"};
-                append(words, more);
-                return run(program, words);
-            };
-            CHECK(render("plain").code == 0);
-            Finished metal = render("metal"), point = render("point");
-            CHECK(metal.code == (chapter < 13 ? 1 : 0));
-            CHECK((metal.err.find("metal.pbrt:5:1: error: rough conductors") !=
-                   std::string::npos) == (chapter < 13));
-            CHECK(point.code == (chapter == 7 || chapter == 8 ? 1 : 0));
-            if (chapter == 13) CHECK(render("point", {"--strategy", "bsdf"}).code == 1);
-        }
-    }
 }

@@ -66,12 +66,11 @@ TEST_SUITE("film error") {
         struct {
             int width, height, edges;
             size_t audited;
-        } cases[] = {{8, 8, 0, 64},      {16, 16, 0, 64},    {40, 50, 0, 65},  // 31 in a group
-                     {256, 128, 0, 128}, {40, 50, 200, 132},  // 65 of 1800 / 28, 67 of 200 / 3
-                     {20, 20, 10, 75}};                       // 65 of 390 / 6, 10 of 10
+        } cases[] = {{8, 8, 0, 64},
+                     {40, 50, 0, 65},     // 31 in a group
+                     {40, 50, 200, 132},  // 65 of 1800 / 28, 67 of 200 / 3
+                     {20, 20, 10, 75}};   // 65 of 390 / 6, 10 of 10
         for (const auto& c : cases) {
-            CAPTURE(c.width);
-            CAPTURE(c.edges);
             Film film(c.width, c.height);
             for (int i = 0; i < c.edges; i++) film.mark_edge(static_cast<size_t>(7 * i));
             film.start_audit();
@@ -88,13 +87,6 @@ TEST_SUITE("film error") {
             CHECK(film.has_audits());
             CHECK_FALSE(film.has_halves());
         }
-        // Where groups are larger, it is not always the same one of each.
-        Film film(256, 128);
-        film.start_audit();
-        std::set<size_t> places;
-        for (size_t i = 0; i < film.pixels().size(); i++)
-            if (film.is_audited(i)) places.insert(i % 256);
-        CHECK(places.size() > 60);
     }
 
     TEST_CASE("truth: audits scale the error of the pixels like them, at edges and elsewhere") {
@@ -133,29 +125,6 @@ TEST_SUITE("film error") {
         CHECK(basis.audits == about(all * all / of_audits));
         CHECK(basis.squares == about(m2));
         CHECK(film.effective_samples() == about(sum * sum / sum2));
-
-        // Added to another film, samples and audits add up: as if it had had them all.
-        Film two(20, 20), both(20, 20);
-        for (Film* f : {&two, &both}) {
-            for (size_t i = 0; i < 400; i += 8) f->mark_edge(i);
-            f->start_audit();
-        }
-        for (size_t i = 0; i < 400; i++) {
-            std::vector<double> more = samples_of(static_cast<uint32_t>(i + 5000), 2);
-            std::vector<double> x = samples_of(static_cast<uint32_t>(i),
-                                               3 + static_cast<int>(i % 4), i % 8 == 0 ? 8 : 1);
-            std::vector<double> y = samples_of(static_cast<uint32_t>(i + 1000),
-                                               3 + static_cast<int>(i % 4), i % 8 == 0 ? 8 : 1);
-            for (double s : more) two.add(i, grey(s)), both.add(i, grey(s));
-            for (double s : x) both.add(i, grey(s));
-            if (!film.is_audited(i)) continue;
-            for (double s : more) two.audit(i, grey(s + 1)), both.audit(i, grey(s + 1));
-            for (double s : y) both.audit(i, grey(s));
-        }
-        two.add(film);
-        CHECK(two.standard_error() == both.standard_error());
-        CHECK(two.mean() == both.mean());
-        CHECK(two.samples() == both.samples());
     }
 
     TEST_CASE("truth: two halves tell the error by how far apart they are") {
@@ -187,12 +156,6 @@ TEST_SUITE("film error") {
         CHECK(film.effective_samples() == about(sum * sum / sum2));
         CHECK_FALSE(film.has_audits());
         CHECK(film.counts().at(1, 0).g == 3 + 4);
-        Film parts(6, 5);
-        parts.start_halves();
-        parts.add_part(3, grey(9), 1);
-        parts.count_as(film);
-        CHECK(parts.samples() == film.samples());
-        CHECK(parts.mean() > 0);
     }
 
     TEST_CASE("truth: whole passes tell the error by their means, each by its weight") {
@@ -234,17 +197,6 @@ TEST_SUITE("film error") {
         film.add_to_batch(31, half);
         batch.erase(batch_of(31));
         CHECK(film.standard_error() == about(expected()));
-        // One batch alone says nothing.
-        Film one(2, 2);
-        one.start_batches();
-        CHECK(std::isnan(one.standard_error()));
-        for (uint32_t pass : {0u, 1u}) {
-            std::vector<double> x = samples_of(pass, 4);
-            PixelSum sum;
-            for (size_t i = 0; i < 4; i++) one.add(i, grey(x[i])), sum.add(grey(x[i]));
-            one.add_to_batch(pass, sum);
-            CHECK(std::isnan(one.standard_error()) == (pass == 0));
-        }
     }
 
     TEST_CASE("truth: samples of a pass that depend on each other add to the error of the pixels") {
@@ -265,32 +217,12 @@ TEST_SUITE("film error") {
             // Each pixel: s^2 = 5/3, of its mean 5/12. Mean of 4 pixels: 5/12 together, else 5/48.
             CHECK(film.standard_error() == about(std::sqrt(together ? 5.0 / 12 : 5.0 / 48)));
         }
-        // Stratified samples: each pixel has the same mean twice, so its own error is zero.
-        Film film(4, 1);
-        film.start_audit();
-        film.start_batches();
-        for (uint32_t pass = 0; pass < 4; pass++) {
-            PixelSum sum;
-            for (uint32_t i = 0; i < 4; i++) {
-                film.add(i, grey((pass + i) % 4)), sum.add(grey((pass + i) % 4));
-                film.audit(i, grey((pass + i + 1) % 4));
-            }
-            film.add_to_batch(pass, sum);
-        }
-        CHECK(film.standard_error() == 0);
     }
 
     TEST_CASE("identity: film and comparison treat the channels alike") {
         Image a = random_image(37, 21, 1), b = random_image(37, 21, 2), a2 = a, b2 = b;
         for (Rgb& p : a2.pixels) p = turned(p);
         for (Rgb& p : b2.pixels) p = turned(p);
-        Comparison c = compare(a, b, 3), d = compare(a2, b2, 3);
-        CHECK(d.mse == about(c.mse));
-        CHECK(d.rel_mse == about(c.rel_mse));
-        CHECK(d.mean_a == about(c.mean_a));
-        CHECK(d.median_ratio == about(c.median_ratio));
-        CHECK(d.cut_off == c.cut_off);
-        CHECK(d.standard_error == about(c.standard_error));
         for (bool splats : {false, true}) {
             Film film(37, 21, splats), film2(37, 21, splats);
             for (size_t i = 0; i < a.pixels.size(); i++) {
@@ -389,11 +321,5 @@ TEST_SUITE("film error") {
         CHECK(c.worst_x == worst_x);
         CHECK(c.worst_y == worst_y);
         CHECK(c.beyond_5 == beyond);
-        // The range of an error picture leaves one pixel of a hundred white.
-        double range = error_range(a, b);
-        Image picture = error_image(a, b, range);
-        auto white = std::count(picture.pixels.begin(), picture.pixels.end(), Rgb{1, 1, 1});
-        CHECK(white == 777 / 100 + 1);
-        CHECK(error_image(a, a, 0).pixels == Image(width, height).pixels);
     }
 }

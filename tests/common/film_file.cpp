@@ -77,12 +77,6 @@ std::string refusal(const std::string& bytes) {
     return error.starts_with(where) ? error.substr(where.size()) : error;
 }
 
-LabeledFilm read_film_of(const std::string& bytes) {
-    TemporaryFolder folder;
-    write_file_atomically(folder / "a.film", bytes);
-    return read_film(folder / "a.film");
-}
-
 /// The same for a film whose checksum is made right after it was changed.
 std::string refusal_of_changed(std::string bytes) {
     bytes.resize(bytes.size() - 8);
@@ -139,31 +133,6 @@ TEST_SUITE("film") {
             CHECK(sum.r() == doctest::Approx(r).epsilon(tiny).scale(0));
             CHECK(sum.g() == doctest::Approx(3 * r).epsilon(tiny).scale(0));
             CHECK(sum.b() == doctest::Approx(-r).epsilon(tiny).scale(0));
-        }
-        for (float x : {1e-38f, 1e-20f, 0.1f, 1.0f, 1e20f, 3e38f}) {
-            PixelSum sum;
-            for (int i = 0; i < 1000; i++) sum.add(Rgb{x, x, x});
-            double exact = 1000 * static_cast<double>(x);
-            CHECK(sum.r() == exact);
-            CHECK(sum.mean() == doctest::Approx(exact / 1000).epsilon(1e-15).scale(0));
-            CHECK(sum.m2() <= 1e-15 * exact * exact);
-        }
-    }
-
-    TEST_CASE("failure: what is not finite makes its channel NaN for good, in any order") {
-        for (float bad : {std::nanf(""), infinity, -infinity}) {
-            PixelSum first, last;
-            first.add(Rgb{1, bad, 2}), first.add(Rgb{1e3f, 5, 1e-3f});
-            last.add(Rgb{1e3f, 5, 1e-3f}), last.add(Rgb{1, bad, 2});
-            CHECK(same_bits(first, last));
-            CHECK(first.r() == 1001);
-            CHECK(std::isnan(first.g()));
-            CHECK(std::isnan(first.m2()));
-            PixelSum added = sum_of(std::vector<Rgb>{{4, 4, 4}}), other = added;
-            added.add(first), first.add(other);
-            CHECK(same_bits(added, first));
-            CHECK(std::isnan(added.g()));
-            CHECK(added.b() > 5.9);
         }
     }
 
@@ -239,19 +208,12 @@ TEST_SUITE("film files") {
             return error;
         };
         CHECK(with(film_of(4, 9)) == "b.film: error: sample 4 of seed 1 would count twice");
-        CHECK(with(film_of(0, 5)) == "b.film: error: sample 4 of seed 1 would count twice");
-        CHECK(with(film_of(8, 20)) == "b.film: error: sample 8 of seed 1 would count twice");
         CHECK(with(film_of(6, 7)) == "b.film: error: sample 6 of seed 1 would count twice");
         LabeledFilm other = film_of(9, 12);
         other.label.options[3].second = "17";
         CHECK(with(other) == "b.film: error: its m is \"17\", here it is \"16\"");
         other.label.options[1].second = "xyz";
         CHECK(with(other) == "b.film: error: a film of another scene: its files are not the same");
-        other.label.options.pop_back();
-        CHECK(with(other) == "b.film: error: a film of another scene: its files are not the same");
-        other = film_of(9, 12);
-        other.label.options.pop_back();
-        CHECK(with(other) == "b.film: error: a film by another version of the program");
         sum.label.options[1] = {"code", "123"};
         before = bytes_of(sum);
         other = film_of(9, 12);
@@ -272,11 +234,6 @@ TEST_SUITE("film files") {
             REQUIRE(right);
         }
         CHECK(refusal(bytes + "x") == "the film is damaged: its checksum is wrong");
-        CHECK(refusal("PF\n1 1\n-1\nxxxxxxxxxxxx") == "not a film");
-        CHECK(refusal("") == "not a film");
-        std::string far = bytes;
-        far[far.size() / 2] = static_cast<char>(far[far.size() / 2] ^ 4);
-        CHECK(refusal(far) == "the film is damaged: its checksum is wrong");
     }
 
     TEST_CASE("input: a film whose label lies is refused, though its checksum is right") {
@@ -291,37 +248,22 @@ TEST_SUITE("film files") {
         CHECK(with("samples 0 2 1", "samples 2 2 1") == bad);
         CHECK(with("samples 0 2 1", "samples 0 1 1") == contradiction);
         CHECK(with("samples 0 2 1", "samples 0 x 1") == bad);
-        CHECK(with("samples 0 2 1", "samples 0 2") == bad);
-        CHECK(with("samples 0 2 1", "samples 0 4000000000 1") == bad);
-        CHECK(with("samples 0 2 1", "samples 0 -1 1") == bad);
-        CHECK(with("samples 0 2 1", "samples 0 02 1") == bad);
         CHECK(with("samples 0 2 1", "samples 0 2 1\nsamples 2 3 1") == bad);
-        CHECK(with("samples 0 2 1", "samples 4 6 1\nsamples 0 2 1") == bad);
         CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 2 1 1") == bad);
-        CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 0 1") == bad);
         CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 10 1") == bad);
-        CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 3 1\ngoal 8 3 1") == bad);
         CHECK(with("samples 0 2 1", "samples 0 2 1\ngoal 9 9 1") == "");
-        CHECK(with("samples 0 2 1", "samples 0 2 1 ") == bad);
         CHECK(with("samples 0 2 1\n", "") == contradiction);
         CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 31 0 1 2 4") == contradiction);
         CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 1 0 1 3 4") == bad);
-        CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 1 0 1 2 5") == bad);
-        CHECK(with("counts 30 0 0 0 0 0 0", "counts 30 0 1 0 -1 2 4") == bad);
         CHECK(with("counts 30 0 0 0 0 0 0 0", "counts 30 0 0 0 0 0 0 9218868437227405312") == bad);
         CHECK(with("size 5 3 1 1", "size 3 5 1 1") == "");
         CHECK(with("option paths", "option size 5x3\noption paths") == "");
         CHECK(with("option paths", "option size 5x4\noption paths") == bad);
-        CHECK(with("size 5 3 1 1", "size 5 3 2 1") != "");
-        CHECK(with("size 5 3 1 1", "size 5 3 3 1") != "");
         CHECK(with("size 5 3 1 1", "size 5 3 5 1") == bad);
-        CHECK(with("size 5 3 1 1", "size 5 3 1 0") != "");
         CHECK(with("size 5 3 1", "size 65536 65536 1") == bad);
-        CHECK(with("size 5 3 1", "size 0 3 1") == bad);
         CHECK(with("size 5 3 1", "size 60000 3000 1") == "the film is cut short");
         CHECK(with("counts", "count") == bad);
         CHECK(with("version 5", "version 4") == "a film by another version of the program");
-        CHECK(with("version 5", "version 50") == "a film by another version of the program");
     }
 
     TEST_CASE(
@@ -342,11 +284,8 @@ TEST_SUITE("film files") {
                 CHECK(with(which, top, uint8_t{1}) == bad);
                 CHECK(with(which, top, uint8_t{29}) == bad);
             }
-            for (uint8_t flag : {uint8_t{2}, uint8_t{255}}) {
-                CHECK(with(which, 98, flag) == bad);
-                CHECK(with(which, 99, flag) == bad);
-            }
-            for (uint32_t n : {1u, 3u, 1u << 28, 0xffffffffu}) CHECK(with(which, 100, n) == bad);
+            for (size_t flag : {98u, 99u}) CHECK(with(which, flag, uint8_t{2}) == bad);
+            for (uint32_t n : {1u, 3u, 0xffffffffu}) CHECK(with(which, 100, n) == bad);
         }
         CHECK(with(3, 98, uint8_t{1}) == "");  // a pixel at the edge of a lamp: all are audited
         CHECK(with(3, 99, uint8_t{0}) == bad);
@@ -354,16 +293,6 @@ TEST_SUITE("film files") {
         std::string nan = bytes;
         for (size_t bin : {0u, 1u, 2u}) nan = with_number(nan, 4, 32 * bin, std::nan(""));
         CHECK(refusal_of_changed(nan) == "");
-
-        // Halves of a pixel may have any number of samples, batches what the pixels have.
-        FilmFuzzer fuzzer;
-        std::string halves = fuzzer.films()[6], batches = fuzzer.films()[9];
-        REQUIRE(read_film_of(halves).film.has_halves());
-        REQUIRE(read_film_of(batches).film.has_batches());
-        CHECK(refusal_of_changed(with_number(halves, 9, 100, uint32_t{77})) == "");
-        CHECK(refusal_of_changed(with_number(halves, 9, 100, 1u << 29)) == bad);
-        CHECK(refusal_of_changed(with_number(halves, 9, 98, uint8_t{1})) == bad);
-        CHECK(refusal_of_changed(with_number(batches, 143, 100, uint32_t{77})) == bad);
     }
 
     TEST_CASE("input: films that fit no other are not added, though each is right by itself") {
@@ -371,6 +300,8 @@ TEST_SUITE("film files") {
         edges.film.mark_edge(3);
         std::string before = bytes_of(sum);
         CHECK(error_of([&] { add_film(sum, "b", edges); }) ==
+              "b: error: it has other pixels at the edges of lamps");
+        CHECK(error_of([&] { add_film(edges, "b", sum); }) ==
               "b: error: it has other pixels at the edges of lamps");
         for (int kind : {0, 1, 2, 3}) {
             LabeledFilm a = any_film(kind, false, 0, 2);
@@ -381,11 +312,6 @@ TEST_SUITE("film files") {
                 CHECK(error == (fits ? "" : "b: error: a film by another version of the program"));
             }
         }
-        // Samples of a pixel that are more than its count can hold.
-        LabeledFilm a = any_film(2, false, 0, 2), b = any_film(2, false, 2, 4);
-        a.film.pixels()[7].n = b.film.pixels()[7].n = 1u << 28;
-        CHECK(error_of([&] { add_film(a, "b", b); }) ==
-              "b: error: more than 2^28 samples of a pixel, in all");
         CHECK(bytes_of(sum) == before);
     }
 

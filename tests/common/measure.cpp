@@ -426,17 +426,4 @@ TEST_SUITE("charts") {
               is(3 * std::pow(4 / 3.0, 0.369070246428)));
         CHECK(std::isnan(times_faster(fast, {})));
     }
-
-    TEST_CASE("truth: the simplest of the best, and its ratio with two digits") {
-        CHECK(simplest_of_the_best({1, 74, 103, 115, 127}) == 2);
-        CHECK(simplest_of_the_best({1, 74, 101, 115, 127}) == 3);
-        CHECK(simplest_of_the_best({1, 0.5, 0}) == 0);
-        CHECK(two_digits(0.0744) == "0.074");
-        CHECK(two_digits(1.333) == "1.3");
-        CHECK(two_digits(74.4) == "74");
-        CHECK(two_digits(99.7) == "100");
-        CHECK(two_digits(127) == "130");
-        CHECK(two_digits(18234) == "18000");
-        CHECK(two_digits(NAN) == "nan");
-    }
 }

@@ -3,8 +3,6 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
-#include <chrono>
-
 #include "common/picture/image.h"
 #include "tests/support/run_program.h"
 
@@ -14,42 +12,11 @@ namespace {
 
 const std::string overwritten = ", and would be overwritten\n";
 
-/// A room of mirrors, in which a path of chapter 07 hardly ends.
-const char* mirrors = R"(
-LookAt 0 0 0  0 0.3 1  0 1 0
-Camera "perspective"
-Integrator "path" "integer maxdepth" 1000000000
-WorldBegin
-Material "conductor" "rgb reflectance" [1 1 1]
-Shape "sphere" "float radius" 2
-AttributeBegin
-Material "diffuse"
-AreaLightSource "diffuse"
-Translate 0 -1.5 0
-Shape "sphere" "float radius" 0.1
-AttributeEnd
-)";
-
 /// Options for a render of a few milliseconds.
 Words brief(const std::string& scene, const Words& more) {
     Words words = {scene, "--size", "16x16", "--spp", "2", "--max-depth", "3", "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// A run that gets SIGTERM soon after it has begun to render.
-Finished stopped(const std::string& program, const Words& words) {
-    for (int ms = 200;; ms *= 2) {  // longer where it was loading still
-        Process process = start(program, words);
-        ::usleep(static_cast<useconds_t>(1000 * ms));
-        process.kill(SIGTERM);
-        Finished end = process.wait();
-        if (end.signal == 0 || ms > 10000) return end;
-    }
 }
 
 }  // namespace
@@ -98,23 +65,6 @@ TEST_SUITE("outputs") {
         CHECK(run("17_sky_image", brief(folder / "a.pbrt", {"--out", out})).code == 0);
     }
 
-    TEST_CASE("files: two outputs of one run are never one file, those of --split among them") {
-        TemporaryFolder folder;
-        for (const char* name : {"LDE.pfm", "LSDE.png", "longer.pfm", "classes.png"}) {
-            for (const std::string& out : {folder / "d/" + name, folder / "d/../d/" + name}) {
-                Finished end =
-                    run(path_tracer, brief(spheres, {"--split", folder / "d", "--out", out}));
-                CHECK(end.code == 2);
-                CHECK(end.err.ends_with(" are one file\n"));
-            }
-        }
-        Words other = {"--split", folder / "d", "--out", folder / "d/picture.pfm"};
-        CHECK(run(path_tracer, brief(spheres, other)).code == 0);
-        CHECK(fs::exists(folder / "d/picture.pfm"));
-        Words map = {"--map", folder / "a.ppm", "--out", folder / "a.ppm"};
-        CHECK(run("19_adaptive", brief(spheres, map)).err.ends_with(" are one file\n"));
-    }
-
     TEST_CASE("files: compare and merge do not overwrite what they read") {
         TemporaryFolder folder;
         Image a(4, 4), b(4, 4);
@@ -148,35 +98,5 @@ TEST_SUITE("outputs") {
         }
         CHECK(read_file(out) == "precious");
         CHECK(folder.names() == std::set<std::string>{"a.ppm"});
-    }
-
-    TEST_CASE("truth: a large picture is announced before it is written") {
-        TemporaryFolder folder;
-        std::string out = folder / "a.ppm";
-        Words words = {"scenes/furnace.pbrt", "--size", "1024x1024", "--spp", "1", "--out", out};
-        CHECK(run(path_tracer, words).err == "writing " + out + "\n");
-        words.push_back("--quiet");
-        CHECK(run(path_tracer, words).err == "");
-    }
-
-    TEST_CASE("truth: --time ends chapters 05 and 07 in a room of mirrors, and so does a signal") {
-        TemporaryFolder folder;
-        write_file_atomically(folder / "m.pbrt", mirrors);
-        for (const std::string program : {"05_ray_casting", "07_path_tracing"}) {
-            Words words = {folder / "m.pbrt", "--size", "64x64",         "--spp", "1000",
-                           "--quiet",         "--out",  folder / "a.ppm"};
-            CHECK(stopped(program, words).code == 3);
-            auto begin = std::chrono::steady_clock::now();
-            words.insert(words.end(), {"--time", "0.3"});
-            CHECK(run(program, words).code == 0);
-            CHECK(seconds_since(begin) < 5);
-            CHECK(read_image(folder / "a.ppm").width == 64);
-        }
-        // The path that is explained is told up to where it was stopped.
-        Words words = {folder / "m.pbrt", "--explain", "3,3", "--quiet", "--out", folder / "a.ppm"};
-        Finished end = stopped("07_path_tracing", words);
-        CHECK(end.code == 3);
-        CHECK(end.out.find("\n    given up here: ") != std::string::npos);
-        CHECK(read_file(folder / "a.svg").ends_with("</svg>\n"));
     }
 }

@@ -22,26 +22,6 @@ Quantities all_right() {
 }  // namespace
 
 TEST_SUITE("probes") {
-    TEST_CASE("identity: black is what brings nothing anywhere") {
-        Quantities dark = all_right();
-        for (auto& [probe, row] : dark)
-            for (auto& [name, q] : row)
-                if (is_class(name)) q.mean = 0;
-        CHECK(Findings(dark, all_right()).black());
-        dark["floor"]["LDE"].mean = 1e-9;
-        CHECK(!Findings(dark, all_right()).black());
-        CHECK(Findings({}, all_right()).black());
-    }
-
-    TEST_CASE("truth: a factor is known by its name") {
-        CHECK(name_factor(0.318) == "1/pi");
-        CHECK(name_factor(2.02) == "2");
-        CHECK(name_factor(0.212) == "2/(3 pi)");
-        CHECK(name_factor(12.6) == "4 pi");
-        CHECK(name_factor(1.1) == "");
-        CHECK(name_factor(0) == "");
-    }
-
     TEST_CASE("identity: within their errors, ratios are not off") {
         Quantities measured = all_right();
         measured["floor"]["LDE"] = {1.03, 0.007};

@@ -92,11 +92,6 @@ TEST_SUITE("reader: malformed input") {
         std::string longest(100, 'x');
         CHECK(refuse(longest) ==
               "scene.pbrt:1:1: error: unknown directive \"" + longest.substr(0, 60) + "...\"");
-        // A word is cut before a character, never inside one.
-        std::string umlauts;
-        for (int i = 0; i < 50; i++) umlauts += "\xc3\xbc";
-        CHECK(refuse("x" + umlauts) ==
-              "scene.pbrt:1:1: error: unknown directive \"x" + umlauts.substr(0, 58) + "...\"");
     }
 
     TEST_CASE("input: a scene that is cut off anywhere is refused or whole, never half read") {
@@ -129,16 +124,6 @@ TEST_SUITE("reader: malformed input") {
         std::string said = refuse(text);
         CHECK(std::count(said.begin(), said.end(), '\n') == 20);
         CHECK(said.ends_with("x\"\nscene.pbrt: error: so much is wrong that the rest is not read"));
-        // Names of materials that do not exist are such errors too, by their first places.
-        text = "Camera \"perspective\" WorldBegin\n";
-        for (int i = 99; i >= 0; i--)
-            text += "NamedMaterial \"n" + std::to_string(i) + "\" Shape \"sphere\"\n";
-        said = refuse(text);
-        CHECK(std::count(said.begin(), said.end(), '\n') == 20);
-        CHECK(said.starts_with("scene.pbrt:2:15: error: unknown NamedMaterial \"n99\"\n"));
-        CHECK(
-            said.ends_with("\nscene.pbrt:21:15: error: unknown NamedMaterial \"n80\"\n"
-                           "scene.pbrt: error: so much is wrong that the rest is not read"));
         // The same one counts once.
         text.clear();
         for (int i = 0; i < 50; i++) text += "Textur\n";
@@ -163,15 +148,6 @@ TEST_SUITE("reader: malformed input") {
             }
         }
         CHECK(said.ends_with("error: unknown directive \"Shap\": did you mean \"Shape\"?"));
-        // Other errors are cut off as without them, and at some point it is enough.
-        for (size_t i = 0; i < 30; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
-        said = refuse(text);
-        CHECK(std::count(said.begin(), said.end(), '\n') == 100);
-        text = text.substr(0, text.find('\n') + 1);
-        for (int i = 0; i < 2000; i++) text += mesh + "\"" + std::to_string(i) + ".ply\"\n";
-        said = refuse(text);
-        CHECK(std::count(said.begin(), said.end(), '\n') == 1000);
-        CHECK(said.ends_with("so much is wrong that the rest is not read"));
     }
 
     TEST_CASE("input: where all triangles are too small, the message says so") {
@@ -185,14 +161,8 @@ TEST_SUITE("reader: malformed input") {
             "smaller unit)";
         CHECK(refuse(camera + light + tiny + triangle + triangle) ==
               "scene.pbrt:5:1: error: no Shape is left: " + why);
-        CHECK(refuse(camera + light + tiny + move + triangle) ==
-              "scene.pbrt:6:1: error: no Shape is left: " + why);
         CHECK(refuse(camera + triangle + tiny + triangle + emit + triangle) ==
               "scene.pbrt:7:1: error: no light is left: " + why);
-        CHECK(refuse(camera + tiny + emit + triangle) ==
-              "scene.pbrt:5:1: error: no Shape is left: " + why);
-        CHECK(refuse(camera + triangle) ==
-              "scene.pbrt: error: no light: the picture would be black");
         CHECK(refuse(camera + emit + triangle + tiny + triangle) == "");
 
         // Where something is left, a note tells of what is not, and nothing that is empty moves.
@@ -202,44 +172,6 @@ TEST_SUITE("reader: malformed input") {
         CHECK(scene.movers.empty());
         CHECK(notes[0] ==
               "scene.pbrt:7:1: note: left out triangles without area: 1, which is all of them");
-    }
-
-    TEST_CASE("input: of notes there are at most a hundred, and one that says so") {
-        std::string text = "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n", points;
-        for (int i = 0; i < 3; i++) points += " 0 0 0";
-        for (int i = 0; i < 150; i++) {
-            text += "Shape \"trianglemesh\" \"point3 P\" [" + points +
-                    " 0 1 0 1 0 0] \"integer indices\" [3 4 0";
-            for (int j = 0; j <= i; j++) text += " 0 1 2";
-            text += "]\n";
-        }
-        std::vector<std::string> notes;
-        parse_scene("scene.pbrt", text, &notes);
-        REQUIRE(notes.size() == 101);
-        CHECK(notes[99] == "scene.pbrt:101:1: note: left out triangles without area: 100");
-        CHECK(notes[100] == "scene.pbrt:102:1: note: there is more of which to take note");
-    }
-
-    TEST_CASE("input: notes are told although an error follows") {
-        std::vector<std::string> notes;
-        const std::string text = "Sampler \"halton\"\nCamera \"perspective\"\nShape \"spere\"";
-        CHECK(error_of([&] { parse_scene("scene.pbrt", text, &notes); }) != "");
-        CHECK(notes ==
-              std::vector<std::string>{"scene.pbrt:1:1: note: Sampler \"halton\" only sets "
-                                       "the samples per pixel"});
-    }
-
-    TEST_CASE("files: a missing file, a folder and a huge file have their own messages") {
-        CHECK(refuse_file("tests/missing.pbrt") ==
-              "tests/missing.pbrt: error: cannot read: No such file or directory");
-        CHECK(refuse_file("tests") == "tests: error: cannot read: Is a directory");
-        TemporaryFolder folder;
-        std::string huge = write(folder, "huge.pbrt", "");
-        // With a hole: takes no room. Windows sets sizes of 31 bits.
-        fs::resize_file(huge, sizeof(off_t) == 4 ? uintmax_t{3} << 29 : uintmax_t{1} << 40);
-        CHECK(refuse_file(huge) == huge + ": error: larger than 1 GiB");
-        std::string scene = write(folder, "scene.pbrt", "Include \"huge.pbrt\"");
-        CHECK(refuse_file(scene) == scene + ":1:9: error: \"" + huge + "\": larger than 1 GiB");
     }
 
     TEST_CASE("files: files that include each other end") {
@@ -256,9 +188,6 @@ TEST_SUITE("reader: malformed input") {
         }
         write(folder, "100", "Identity");
         CHECK(refuse_file(folder / "0").ends_with("more than 10000 files are included"));
-        write(folder, "100", "Include \"101\"");
-        write(folder, "101", "Identity");
-        CHECK(refuse_file(folder / "0").ends_with("files include each other more than 100 deep"));
     }
 
     TEST_CASE("files: an error inside an included file names that file") {

@@ -46,13 +46,6 @@ const std::string quad =
 }  // namespace
 
 TEST_SUITE("reader: materials") {
-    TEST_CASE("input: diffuse") {
-        CHECK(material_of("\"diffuse\"").reflectance == Rgb{.5f, .5f, .5f});
-        CHECK(material_of("\"diffuse\" \"rgb reflectance\" [0 .25 1]").reflectance ==
-              Rgb{0, .25f, 1});
-        CHECK(material_of("\"diffuse\"").type == MaterialType::diffuse);
-    }
-
     TEST_CASE("input: a conductor's reflectance becomes eta and k that reflect so much") {
         Material m = material_of("\"conductor\" \"rgb reflectance\" [0 .5 .9]");
         CHECK(m.type == MaterialType::conductor);
@@ -77,30 +70,6 @@ TEST_SUITE("reader: materials") {
         CHECK(material_of("\"conductor\"").eta == metal_ior("Cu")->eta);
         CHECK(material_of("\"conductor\"").k == metal_ior("Cu")->k);
         CHECK(material_of("\"conductor\" \"rgb eta\" [1 2 3]").k == metal_ior("Cu")->k);
-    }
-
-    TEST_CASE("truth: metals have the colors that they are known for") {
-        auto color = [](const std::string& symbol) {
-            MetalIor m = *metal_ior(symbol);
-            return Rgb{static_cast<float>(reflectance_at_normal(m.eta.r, m.k.r)),
-                       static_cast<float>(reflectance_at_normal(m.eta.g, m.k.g)),
-                       static_cast<float>(reflectance_at_normal(m.eta.b, m.k.b))};
-        };
-        CHECK(metal_symbols() == std::vector<std::string>{"Ag", "Al", "Au", "Cu"});
-        // Silver and aluminium are nearly grey; gold lacks blue, copper green and blue.
-        for (const char* grey : {"Ag", "Al"}) {
-            Rgb c = color(grey);
-            CHECK(std::min({c.r, c.g, c.b}) > 0.9f);
-            CHECK(max_component(c) < 0.98f);
-        }
-        Rgb gold = color("Au"), copper = color("Cu");
-        CHECK(gold.r > 0.95f);
-        CHECK(gold.g < 0.85f);
-        CHECK(gold.b < 0.45f);
-        CHECK(copper.r > 0.93f);
-        CHECK(copper.g < 0.7f);
-        CHECK(copper.b < copper.g);
-        CHECK(!metal_ior("Fe"));
     }
 
     TEST_CASE("input: roughness is the square of alpha, unless it is alpha") {
@@ -140,17 +109,6 @@ TEST_SUITE("reader: materials") {
         CHECK(color(0) == Rgb{1, 0, 0});
         CHECK(color(1) == Rgb{1, 0, 0});
         CHECK(color(2) == Rgb{0, 1, 0});
-    }
-
-    TEST_CASE("input: an emitter may have a black material of its own") {
-        Scene scene = parse_world(
-            "MakeNamedMaterial \"black\" \"string type\" \"diffuse\" \"rgb reflectance\" [0 0 0] "
-            "AreaLightSource \"diffuse\" \"rgb L\" [17 12 4] NamedMaterial \"black\" " +
-            quad);
-        const Shape& shape = scene.shapes[scene.geometry.triangles[0].shape];
-        CHECK(is_black(scene.materials[shape.material].reflectance));
-        REQUIRE(shape.light == 0);
-        CHECK(scene.lights[0].L == Rgb{17, 12, 4});
     }
 }
 
@@ -296,15 +254,6 @@ TEST_SUITE("reader: lights") {
         xy(6500, x, y);
         CHECK(std::abs(x - 0.3135) < 2e-4);
         CHECK(std::abs(y - 0.3237) < 2e-4);
-        xy(1e6, x, y);
-        CHECK(std::abs(x - 0.2399) < 5e-4);
-        CHECK(std::abs(y - 0.2342) < 5e-4);
-        for (double kelvin = 500; kelvin < 1.1e6; kelvin *= 2) {
-            Rgb c = blackbody_rgb(kelvin);
-            CHECK(is_finite(c));
-            CHECK(std::min({c.r, c.g, c.b}) >= 0);
-            CHECK(std::abs(luminance(c) - 1) < 1e-5);
-        }
     }
 }
 
@@ -402,27 +351,6 @@ TEST_SUITE("reader: spectra") {
 }
 
 TEST_SUITE("reader: scenes made by others") {
-    TEST_CASE("input: the reference scenes load with all that is in them") {
-        struct Expected {
-            const char* name;
-            size_t triangles, spheres, lights;
-        };
-        const Expected expected[] = {{"cornell-grey", 32, 0, 1},    {"furnace", 0, 1, 1},
-                                     {"furnace-glass", 0, 1, 1},    {"glass-caustic", 4, 1, 1},
-                                     {"hidden-bright", 40, 1, 2},   {"many-lights", 1546, 0, 1000},
-                                     {"tiny-close-light", 8, 1, 3}, {"veach-mis", 12, 4, 4}};
-        for (const Expected& e : expected) {
-            CAPTURE(e.name);
-            Scene scene =
-                load_scene("tests/pictures/references/" + std::string(e.name) + ".pbrt", nullptr);
-            CHECK(scene.geometry.triangles.size() == e.triangles);
-            CHECK(scene.geometry.spheres.size() == e.spheres);
-            CHECK(scene.lights.size() == e.lights);
-            CHECK(scene.width == 256);
-            CHECK(scene.spp == 64);
-        }
-    }
-
     TEST_CASE("input: scenes as other programs write them load unchanged") {
         std::vector<std::string> notes;
         Scene box = load_scene("tests/pictures/real-scenes/cornell-box/scene-v4.pbrt", &notes);
@@ -438,15 +366,6 @@ TEST_SUITE("reader: scenes made by others") {
         Vec3 p0 = box.geometry.positions[lamp.v[0]];
         CHECK(cross(box.geometry.positions[lamp.v[1]] - p0, box.geometry.positions[lamp.v[2]] - p0)
                   .y < 0);
-
-        Scene plates = load_scene("tests/pictures/real-scenes/veach-mis/scene-v4.pbrt", nullptr);
-        CHECK(plates.geometry.spheres.size() == 3);
-        CHECK(plates.lights.size() == 3);
-        std::vector<float> alphas;
-        for (const Material& m : plates.materials) {
-            if (m.type == MaterialType::conductor) alphas.push_back(m.alpha);
-        }
-        CHECK(alphas == std::vector<float>{.01f, .05f, .1f, .25f});
     }
 
     TEST_CASE("files: an included file continues where its Include stands") {

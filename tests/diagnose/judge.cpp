@@ -287,32 +287,6 @@ bool are_of_one_kind(const std::vector<std::string>& names) {
     });
 }
 
-/// What all scenes that are off have (one thing or two), and the fewest others.
-std::string where_to_look(const std::vector<std::string>& off,
-                          const std::vector<std::string>& held) {
-    std::map<std::string, std::set<std::string>> has;
-    std::set<std::string> all = {""};  // which all have
-    for (const SmallScene& s : small_scenes()) {
-        has[s.name] = s.has, has[s.name].insert("");
-        all.insert(s.has.begin(), s.has.end());
-    }
-    std::string best;
-    std::ptrdiff_t fewest = static_cast<std::ptrdiff_t>(held.size());
-    for (const std::string& one : all)
-        for (const std::string& two : all) {
-            auto with = [&](const std::string& name) {
-                return has[name].contains(one) && has[name].contains(two);
-            };
-            if (!std::all_of(off.begin(), off.end(), with)) continue;
-            std::ptrdiff_t others = std::count_if(held.begin(), held.end(), with);
-            if (others >= fewest || two < one) continue;
-            fewest = others, best = one.empty() || one == two ? two : one + ", and " + two;
-        }
-    if (best.empty()) return "what is off has nothing in common that the others lack";
-    return "all scenes that are off have " + best + "; of those that hold, " +
-           std::to_string(fewest) + " have";
-}
-
 }  // namespace
 
 Folder read_folder(const std::string& folder) {
@@ -453,7 +427,6 @@ Diagnosis judge(const Folder& folder, const References& references,
                       ? "No known mistake explains all numbers.\n"
                       : format("%zu known mistakes explain all numbers about equally well.\n",
                                best.size());
-        d.text += "    Where to look: " + where_to_look(off, held) + ".\n";
     }
     return d;
 }

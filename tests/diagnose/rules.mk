@@ -5,7 +5,7 @@ planted_methods := 07 09 14
 # They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
 $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
 
-.PHONY: probes diagnose effects diagnose-references
+.PHONY: probes diagnose effects
 #: teaching: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes
 probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
@@ -20,8 +20,3 @@ $(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.
 	  CCACHE_NODIRECT=1 $(CXX) $(filter-out -I.,$(CXXFLAGS)) -w -I$(BUILD)/diagnosed -I. -include tests/diagnose/planted.h \
 	    -c tests/measure/method_$$chapter.cpp -o $(BUILD)/diagnosed/$$chapter.o || exit 1; done
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $(planted_methods:%=$(BUILD)/diagnosed/%.o) $(filter %.o,$^) -o $@
-# What the small scenes should be, by chapters that agree (5 minutes).
-diagnose-references: $(BUILD)/diagnose_references
-	@$< --references --spp 8192
-$(BUILD)/diagnose_references: $(patsubst %,$(BUILD)/obj/tests/measure/method_%.o,08 10 14 15 21) $(measuring_small) $(common)
-	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@

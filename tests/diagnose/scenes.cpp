@@ -79,7 +79,6 @@ void add_object(const Scene& scene, const Object& o, SmallScene& to) {
         line += "Translate " + triple(o.centre) + " ";
         words = "- a sphere around (" + triple(o.centre, ", ") + ") of radius " +
                 number(double{o.radius});
-        to.has.insert("a sphere");
     } else {
         words = "- a quad with the corners ";
         for (size_t i = 0; i < 4; i++)
@@ -96,7 +95,6 @@ void add_object(const Scene& scene, const Object& o, SmallScene& to) {
                            : o.corners.empty() ? (shape.reverse ? "inwards" : "outwards")
                                                : "from the side that it faces";
         words += "; it shines " + std::string(side) + " with radiance " + value(light->L);
-        if (both) to.has.insert("a two-sided lamp");
     }
     line += "Material " + material_in_pbrt(m);
     if (o.corners.empty()) {
@@ -107,10 +105,6 @@ void add_object(const Scene& scene, const Object& o, SmallScene& to) {
         line += "]";
     }
     to.pbrt += line + " AttributeEnd\n", to.words += words + "\n";
-    if (m.type == MaterialType::dielectric) to.has.insert("glass");
-    if (m.type == MaterialType::conductor) to.has.insert("a mirror");
-    if (m.type == MaterialType::diffuse && max_component(m.reflectance) > 0)
-        to.has.insert("a diffuse surface");
     to.coloured |= (light && !is_grey(light->L)) || !is_grey(m.reflectance);
 }
 
@@ -152,8 +146,6 @@ SmallScene plain(const std::string& name, const std::string& what, const std::st
     }
     add_where(-1);
     if (s.lights.size() > 1) small.has.insert("more than one light");
-    if (s.sky_light < 0 && !small.has.contains("a sky")) small.has.insert("lamps and no sky");
-    if (s.max_depth > 1) small.has.insert("paths that scatter twice or more");
     return small;
 }
 

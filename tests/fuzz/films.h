@@ -137,32 +137,11 @@ private:
 
     /// Changes a word or a line of the label.
     std::string damage_label(const std::string& bytes, Dice& dice) const {
-        static const std::vector<std::string> words = {"0",
-                                                       "1",
-                                                       "2",
-                                                       "3",
-                                                       "4",
-                                                       "5",
-                                                       "9",
-                                                       "11",
-                                                       "13",
-                                                       "-1",
-                                                       "00",
-                                                       "65536",
-                                                       "268435456",
-                                                       "268435457",
-                                                       "2147483648",
-                                                       "4294967295",
-                                                       "18446744073709551615",
-                                                       "9218868437227405312",
-                                                       "",
-                                                       "x",
-                                                       "samples",
-                                                       "goal",
-                                                       "option",
-                                                       "size",
-                                                       "samples 2 3 0",
-                                                       "goal 9 3 0"};
+        static const std::vector<std::string> words = split(
+            "0|1|2|3|4|5|9|11|13|-1|00|65536|268435456|268435457|2147483648|"
+            "4294967295|18446744073709551615|9218868437227405312||x|samples|"
+            "goal|option|size|samples 2 3 0|goal 9 3 0",
+            '|');
         size_t end = std::min(bytes.size(), bytes.find("\n\n") + 1);
         std::string label = bytes.substr(0, end);
         size_t other = dice.below(bytes_.size());

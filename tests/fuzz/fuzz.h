@@ -172,12 +172,12 @@ inline RandomPly random_ply(Dice& dice) {
     return ply;
 }
 
-/// The lines of a file.
-inline std::vector<std::string> read_lines(const std::string& path) {
-    std::vector<std::string> lines;
-    std::istringstream text(read_file(path));
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
-    return lines;
+/// The parts of a text between these characters: of a file, its lines.
+inline std::vector<std::string> split(const std::string& text, char at = '\n') {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+    return parts;
 }
 
 /// Throws unless everything in the scene is what a renderer may rely on.
@@ -307,11 +307,11 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count,
 
     // All that pbrt has, from line to line of another one of them.
     std::string all = "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n";
-    for (const std::string& line : read_lines("tests/support/pbrt_v4.txt")) {
+    for (const std::string& line : split(read_file("tests/support/pbrt_v4.txt"))) {
         if (line.starts_with("w ")) all += "AttributeBegin " + line.substr(2) + " AttributeEnd\n";
     }
     corpus.emplace_back(folder + "all.pbrt", all);
-    std::vector<std::string> words = read_lines("tests/fuzz/words.txt");
+    std::vector<std::string> words = split(read_file("tests/fuzz/words.txt"));
     FuzzResult result;
     for (uint32_t i = first; i < first + count; i++) {
         Dice dice(i);

@@ -117,29 +117,11 @@ inline bool read_anything(const std::string& bytes) {
 /// Reads `count` damaged pictures, from number `first` on; see fuzz().
 inline FuzzResult fuzz_pictures(uint32_t first, uint32_t count,
                                 const std::function<void(uint32_t)>& begin = {}) {
-    const std::vector<std::string> words = {"IHDR",
-                                            "IDAT",
-                                            "IEND",
-                                            "tEXtComment",
-                                            "PLTE",
-                                            "tRNS",
-                                            "CgBI",
-                                            "P6",
-                                            "PF",
-                                            "Pf",
-                                            "\n",
-                                            "\r\n",
-                                            "#",
-                                            "255",
-                                            "-1.0",
-                                            "65536",
-                                            "4294967295",
-                                            "picture of path-by-path",
-                                            "\"notes\": [\"",
-                                            "\\",
-                                            "1e400",
-                                            "\x1b[2J",
-                                            "\xff\xff\xff\xff"};
+    const std::vector<std::string> words = split(
+        "IHDR|IDAT|IEND|tEXtComment|PLTE|tRNS|CgBI|P6|PF|Pf|\n|\r\n|#|255|"
+        "-1.0|65536|4294967295|picture of path-by-path|\"notes\": [\"|\\|"
+        "1e400|\x1b[2J|\xff\xff\xff\xff",
+        '|');
     FuzzResult result;
     for (uint32_t i = first; i < first + count; i++) {
         Dice dice(i);

@@ -4,7 +4,6 @@
 
 #include "common/base/error.h"
 #include "tests/measure/agreement.h"
-#include "tests/measure/gnuplot.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 
@@ -15,7 +14,6 @@ namespace {
 using Batches = std::map<std::string, std::vector<double>>;
 
 constexpr int block = 16;  // pixels
-const std::vector<std::string> kinds = {"total", "block", "length", "class"};
 
 double block_mean(const Image& image, int x0, int y0) {
     RunningStats mean;
@@ -173,48 +171,6 @@ Table matrix_of(const std::vector<SceneResult>& results, const std::vector<Metho
     return matrix;
 }
 
-/// Rows: scenes. Columns: methods, each with its four kinds.
-void draw(const std::string& path, const std::vector<SceneResult>& results,
-          const std::vector<Method>& methods) {
-    std::string data, x_labels, y_labels;
-    for (size_t m = 0; m < methods.size(); m++) {
-        std::string x = std::to_string(5 * m);
-        x_labels += (m ? ", " : "") + quoted_for_gnuplot(methods[m].name) + " " + x + ".5 + 1";
-        for (size_t s = 0; s < results.size(); s++) {
-            for (const Column& c : results[s].columns) {
-                if (c.method->name != methods[m].name) continue;
-                for (size_t k = 0; k < kinds.size(); k++) {
-                    auto found = c.worst.find(kinds[k]);
-                    if (found == c.worst.end()) continue;
-                    data += std::to_string(5 * m + k) + " " + std::to_string(s) + " " +
-                            digits(found->second) + "\n";
-                }
-            }
-        }
-    }
-    for (size_t s = 0; s < results.size(); s++) {
-        y_labels +=
-            (s ? ", " : "") + quoted_for_gnuplot(results[s].scene) + " " + std::to_string(s);
-    }
-    std::string script = "$data << EOD\n" + data +
-                         R"(EOD
-set title 'Largest |z| of each chapter against all others: total, blocks, lengths, classes'
-set xlabel 'chapter'
-set cbrange [0:6]
-set cblabel '|z|, beyond 5 fails'
-set palette defined (0 '#f0f6fc', 2 '#9ecae1', 3.5 '#3182bd', 5 '#08306b', \
-    5.001 '#d62728', 6 '#d62728')
-set style fill solid
-unset key
-)"
-                         "set xtics (" +
-                         x_labels + ") scale 0\nset ytics (" + y_labels +
-                         ") scale 0\nset xrange [-1:" + std::to_string(5 * methods.size() - 1) +
-                         "]\nset yrange [" + std::to_string(results.size()) + "-0.5:-0.5]\n" +
-                         "plot $data using 1:2:(0.45):(0.42):3 with boxxyerror palette linewidth 0";
-    draw_chart(path, script, 1100, 160 + 24 * static_cast<int>(results.size()));
-}
-
 /// Measures one scene with every method that can render it, and judges.
 SceneResult agree_on(const std::string& path, const std::vector<Method>& methods,
                      const MeasureOptions& o, double cell_seconds, Work& work) {
@@ -268,7 +224,6 @@ int main(int argc, char** argv) {
             "*: its standard error is above 1 %% of the mean; ?: too few lucky samples.\n%s",
             failures.c_str());
         write_table(o.out, "agree", details);
-        draw(o.out + "/agree", results, methods);
         return failures.empty() ? 0 : 1;
     });
 }

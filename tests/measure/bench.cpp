@@ -172,20 +172,12 @@ std::vector<double> speeds(const std::vector<Contender>& contenders, const RaySe
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        int runs = 5, size = 384;
+        constexpr int runs = 5, size = 384;  // of which the median counts; size^2 primary rays
         parse_options(
             argc, argv, "",
             "M rays/s of `four` of chapter 06, of common/geometry, and of Embree where it "
             "is installed (libembree-dev), on one thread. Writes out/bench.tsv.",
-            {{"runs", "R", "of which the median counts (default 5)",
-              [&](const std::string& text) {
-                  runs = static_cast<int>(parse_integer("runs", text, 1, 1000));
-              }},
-             {"size", "N", "N x N primary rays (default 384)",
-              [&](const std::string& text) {
-                  size = static_cast<int>(parse_integer("size", text, 8, 10000));
-              }}},
-            [](const std::string& word) {
+            {}, [](const std::string& word) {
                 throw UsageError("error: bench takes options alone, not '" + word + "'");
             });
         std::vector<BenchMesh> meshes = all_meshes();

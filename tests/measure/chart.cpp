@@ -1,4 +1,4 @@
-// Error against time for every method and scene: charts, pictures in equal time, and a table.
+// Error against time for every method and scene: charts, and a table.
 #include <cstdio>
 
 #include "common/base/error.h"
@@ -44,9 +44,6 @@ std::vector<Method> methods_for(const MeasureOptions& o, const std::string& scen
     std::vector<std::string> names = o.methods;
     if (names.empty()) {
         names = {"all", "15-sobol"};
-        if (scene == "cornell") {
-            names.insert(names.end(), {"depth-cap", "clamp", "wrong-pdf"});
-        }
         if (scene == "veach-mis") names.push_back("13-bsdf");
     }
     return methods_named(names);
@@ -68,8 +65,7 @@ int main(int argc, char** argv) {
         MeasureOptions o = parse_measure_options(
             argc, argv, "[SCENE...]",
             "Error against time of every method on every scene, against references of known error "
-            "(make references). Writes chart-SCENE.svg, .png and .tsv, equal-time-SCENE.png, and "
-            "chart-summary.tsv.",
+            "(make references). Writes chart-SCENE.svg, .png and .tsv, and chart-summary.tsv.",
             {.spp = 0, .runs = 4, .width = 64, .height = 64, .seconds = 600});
         if (o.words.empty()) {
             o.words = own_scenes();
@@ -90,14 +86,7 @@ int main(int argc, char** argv) {
                 continue;
             }
             add_summary(name, curves, summary);
-            std::string file = file_name(name);
-            std::printf("%s\n", finding(name, curves).c_str());
             draw_curves(o.out, name, curves);
-            Scene scene = load_scene_for(path, o);
-            draw_equal_time(
-                o.out + "/equal-time-" + file, name, curves, path,
-                reference_for(name, {.name = "none"}, scene.width, scene.height, scene.max_depth),
-                o);
         }
         write_table(o.out, "chart-summary", summary);
         std::printf("%s", markdown(summary).c_str());

@@ -42,21 +42,6 @@ std::string times_faster(const Curve& curve, const Curve* first) {
     return curve.flat() ? "never" : two_digits(ratio(curve, *first));
 }
 
-std::string finding(const std::string& scene, const std::vector<Curve>& curves) {
-    const Curve* first = measure_of_all(curves);
-    if (!first) return scene + ": error against time";
-    std::vector<double> ratios;
-    for (const Curve& c : curves) {
-        ratios.push_back(c.falls() && !c.method->biased ? ratio(c, *first) : 0);
-    }
-    size_t named = simplest_of_the_best(ratios);
-    const std::string &name = curves[named].method->name, &than = first->method->name;
-    if (name == than) return scene + ": none is much faster than " + than;
-    bool best = ratios[named] == *std::max_element(ratios.begin(), ratios.end());
-    return scene + ": " + name + " is " + two_digits(ratios[named]) + " times faster than " + than +
-           " at equal error" + (best ? "" : ", none much faster");
-}
-
 /// Of log RMSE over log samples, from the last three points; NaN for one.
 static double last_slope(const std::vector<CurvePoint>& points) {
     std::vector<double> spp, rmse;
@@ -102,9 +87,8 @@ void draw_curves(const std::string& folder, const std::string& scene,
     for (const Curve& c : curves) {
         ErrorLine line = c.rel_mse_over_time();
         std::string than = first ? ", times faster: " + times_faster(c, first) : "";
-        lines.push_back(
-            {scene, c.method->label + than, c.method->color, "", line.seconds, line.error});
+        lines.push_back({scene, c.method->label + than, c.method->color, line.seconds, line.error});
     }
-    write_lines(folder, "chart-" + file_name(scene), finding(scene, curves),
+    write_lines(folder, "chart-" + file_name(scene), scene + ": error against time",
                 "seconds of one render", "relMSE", lines);
 }

@@ -31,9 +31,6 @@ const Curve* measure_of_all(const std::vector<Curve>& curves);
 /// for one that is exact from the first sample on.
 std::string times_faster(const Curve& curve, const Curve* first);
 
-/// What the curves say: "cornell: 15 is 97 times faster than 07 at equal error".
-std::string finding(const std::string& scene, const std::vector<Curve>& curves);
-
 /// Root of the mean of the squares; mean.
 double root_mean_square(const std::vector<double>& values);
 double mean_of(const std::vector<double>& values);
@@ -44,11 +41,6 @@ Curve measure_curve(const Method& method, Scene& scene, const Reference& referen
                     const MeasureOptions& o, double seconds);
 
 /// Writes chart-SCENE.tsv, relMSE over seconds, and draws it: how many times faster than the first
-/// each method is stands behind its name, and what they say together is the title.
+/// each method is stands behind its name.
 void draw_curves(const std::string& folder, const std::string& scene,
                  const std::vector<Curve>& curves);
-
-/// The pictures that all methods make in the same time, and their errors on one scale.
-void draw_equal_time(const std::string& path, const std::string& title,
-                     const std::vector<Curve>& curves, const std::string& scene_path,
-                     const Reference& reference, const MeasureOptions& o);

@@ -35,14 +35,6 @@ inline double times_faster(const ErrorLine& one, const ErrorLine& other) {
     return seconds_at(other, error) / seconds_at(one, error);
 }
 
-/// The first of those that come within 1.25 of the largest: less is noise of the clock, or not
-/// worth a chapter; tested by "truth: the simplest of the best".
-inline size_t simplest_of_the_best(const std::vector<double>& ratios) {
-    double most = *std::max_element(ratios.begin(), ratios.end());
-    auto good = [&](double ratio) { return 1.25 * ratio >= most; };
-    return static_cast<size_t>(std::find_if(ratios.begin(), ratios.end(), good) - ratios.begin());
-}
-
 /// 0.074, 1.3, 74, 110: measured times are not better than that.
 inline std::string two_digits(double x) {
     char text[64];

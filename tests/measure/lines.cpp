@@ -1,9 +1,17 @@
 #include "tests/measure/lines.h"
 
-#include <cstdio>
+#include <algorithm>
+#include <cstdlib>
 
-#include "tests/measure/gnuplot.h"
+#include "common/base/error.h"
 #include "tests/measure/measure.h"
+#include "tests/support/work.h"
+
+static void need_gnuplot() {
+    static bool here = std::system("command -v gnuplot >/dev/null") == 0 ||
+                       std::system("common/tools/install gnuplot-nox") == 0;
+    if (!here) throw InputError("error: gnuplot is missing, and could not be installed");
+}
 
 void write_lines(const std::string& folder, const std::string& name, const std::string& title,
                  const std::string& x_label, const std::string& y_label,
@@ -16,15 +24,10 @@ void write_lines(const std::string& folder, const std::string& name, const std::
         }
     }
     write_table(folder, name, table);
-    draw_table(folder + "/" + name, title);
-}
-
-Table slopes_table(const std::vector<Line>& lines) {
-    Table table{{"against", "line", "slope", "theory"}, {}};
-    for (const Line& line : lines) {
-        char slope[32];
-        std::snprintf(slope, sizeof slope, "%.2f", line.slope());
-        table.rows.push_back({line.panel, line.label, slope, line.theory});
-    }
-    return table;
+    need_gnuplot();
+    std::string path = folder + "/" + name, words = title;
+    std::replace(words.begin(), words.end(), '\'', ' ');
+    std::string command = "gnuplot -c tests/measure/plot.gp '" + path + ".tsv' '" + words + "'";
+    if (std::system(command.c_str()) != 0) throw InputError(path + ".tsv: error: gnuplot failed");
+    say_wrote(path + ".svg and .png");
 }

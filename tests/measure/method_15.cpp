@@ -23,38 +23,8 @@ static Method with_sobol() {
     return m;
 }
 
-// Wrong on purpose, so that charts show what no number of samples cures.
-
-static Trace clamped(const Scene& scene) {
-    return [trace = with_candidates(scene, 64)](const Scene& s, Ray ray, Sampler& sampler,
-                                                Recorder& recorder) {
-        Rgb L = trace(s, ray, sampler, recorder);
-        return max_component(L) > 1 ? L / max_component(L) : L;
-    };
-}
-
-static Method clamp() {
-    Method m = method("clamp", "15, samples clamped to 1", "#7b4173");
-    m.render = by_trace(clamped);
-    m.biased = true;
-    return m;
-}
-
-static Method depth_cap() {
-    Method m = method("depth-cap", "15, paths cut after 2", "#eebb88");
-    m.render = [render = m.render](const Scene& scene, const RenderOptions& options) {
-        Scene cut = scene;
-        cut.max_depth = std::min(2, scene.max_depth);
-        return render(cut, options);
-    };
-    m.biased = true;
-    return m;
-}
-
 [[maybe_unused]] static const bool added[] = {
     add_method(method("15", "15 MIS with RIS", "#d62728")),
     add_method(method("15-m16", "15 MIS with RIS, M = 16", "#7f0000", 16)),
     add_method(with_sobol()),
-    add_method(clamp()),
-    add_method(depth_cap()),
 };

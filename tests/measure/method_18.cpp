@@ -1,5 +1,4 @@
 #include "chapters/18_dispersion/estimator.h"
-#include "tests/measure/chance.h"
 #include "tests/measure/methods.h"
 
 static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
@@ -19,23 +18,7 @@ static Method method(const char* name, const char* label, const char* color, Sam
             .features = features_of(18)};
 }
 
-static Method by_chance() {
-    return {.name = "18-chance",
-            .label = "18, light by chance",
-            .color = "#0077ff",
-            .finds_light = "by chance",
-            .refuse = {refuse_delta_lights},
-            .render = by_trace([](const Scene&) -> Trace {
-                return [white = shares_of_white()](const Scene& scene, Ray ray, Sampler& sampler,
-                                                   Recorder& recorder) {
-                    return trace_by_chance(scene, white, ray, sampler, recorder);
-                };
-            }),
-            .features = features_of(18)};
-}
-
 [[maybe_unused]] static const bool added[] = {
     add_method(method("18", "18 dispersion", "#54278f", SamplerType::independent)),
-    add_method(by_chance()),
     add_method(method("18-sobol", "18, Sobol", "#bcbddc", SamplerType::sobol)),
 };

@@ -2,15 +2,14 @@
 #include "tests/measure/methods.h"
 
 static Method method(const char* name, const char* label, const char* color, int chances,
-                     bool light_sampling, SamplerType sampler) {
+                     bool light_sampling) {
     return {.name = name,
             .label = label,
             .color = color,
             .finds_light = "from both ends",
             .scenes = {"cornell-spheres", "cornell", "lamp"},
             .render =
-                [=](const Scene& scene, RenderOptions options) {
-                    if (sampler != SamplerType::independent) options.sampler = sampler;
+                [=](const Scene& scene, const RenderOptions& options) {
                     return render_film(scene, options,
                                        splat_trace_with<ch22::trace>(
                                            ch22::prepare(scene, chances, light_sampling)));
@@ -19,10 +18,7 @@ static Method method(const char* name, const char* label, const char* color, int
 }
 
 [[maybe_unused]] static const bool added[] = {
-    add_method(
-        method("22", "22 fast bidirectional", "#e377c2", 16, true, SamplerType::independent)),
-    add_method(
-        method("22-weights", "22, weights alone", "#c49c94", 0, false, SamplerType::independent)),
-    add_method(method("22-direct", "22, no chances", "#c7c7c7", 0, true, SamplerType::independent)),
-    add_method(method("22-sobol", "22, Sobol", "#f7b6d2", 16, true, SamplerType::sobol)),
+    add_method(method("22", "22 fast bidirectional", "#e377c2", 16, true)),
+    add_method(method("22-weights", "22, weights alone", "#c49c94", 0, false)),
+    add_method(method("22-direct", "22, no chances", "#c7c7c7", 0, true)),
 };

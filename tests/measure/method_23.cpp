@@ -10,13 +10,6 @@ static auto by_photons(ch23::PhotonSettings settings) {
 }
 
 [[maybe_unused]] static const bool added = [] {
-    add_method({.name = "23-direct",
-                .label = "23 without final gathering",
-                .color = "#006655",
-                .finds_light = "by photons",
-                .render = by_photons({.final_gathering = false}),
-                .biased = true,
-                .search = LightSearch::photons});
     add_method({.name = "23-few",
                 .label = "23 with few photons",
                 .color = "#66dfc0",

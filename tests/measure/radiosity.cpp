@@ -46,8 +46,8 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
 void report(const std::vector<Solved>& solved, const std::vector<std::array<double, 3>>& paths,
             const MeasureOptions& o, const std::string& name) {
     Table table{{name, "seconds", "relMSE, constant", "relMSE, smooth"}, {}};
-    Line constant{name, "26, constant", "#8c564b", ""}, smooth{name, "26, smooth", "#17becf", ""},
-        traced{name, "15", "#d62728", "-1"};
+    Line constant{name, "26, constant", "#8c564b"}, smooth{name, "26, smooth", "#17becf"},
+        traced{name, "15", "#d62728"};
     for (const Solved& s : solved) {
         table.rows.push_back({"26, " + std::to_string(s.patches) + " patches",
                               short_number(s.seconds), short_number(s.constant),

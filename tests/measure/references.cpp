@@ -45,33 +45,15 @@ int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int
         1, static_cast<int>(std::bit_floor(static_cast<unsigned>(o.seconds / o.runs / seconds))));
 }
 
-/// The chapter that is quickest to a small error, and the quickest that finds light another way;
-/// where one chapter alone can render the scene, the two quickest of its variants.
-std::vector<std::string> two_best(Scene& scene, const MeasureOptions& o) {
-    std::vector<std::pair<double, const Method*>> costs;
-    auto measure = [&](bool variants) {
-        for (const Method& method : all_methods()) {
-            if (!can_render(method, scene) || method.biased || is_variant(method) != variants)
-                continue;
-            Spread spread;
-            double seconds = 0;
-            for (uint32_t seed = 0; seed < 4; seed++) {
-                Rendering r = render_once(method, scene, o, 64, seed);
-                spread.add(r.film.image());
-                seconds += r.stats.seconds;
-            }
-            costs.push_back({spread.rel_mse(spread.mean()) * seconds, &method});
-        }
-    };
-    measure(false);
-    bool one_chapter = costs.size() < 2;
-    if (one_chapter) measure(true);
-    std::sort(costs.begin(), costs.end());
-    const Method *best = costs[0].second, *other = costs[1].second;
-    for (size_t i = costs.size(); i-- > 1 && !one_chapter;) {
-        if (costs[i].second->finds_light != best->finds_light) other = costs[i].second;
-    }
-    return {best->name, other->name};
+/// The two methods whose references of this scene are there.
+std::vector<std::string> made_for(const std::string& scene) {
+    std::vector<std::string> names;
+    for (const Method& method : all_methods())
+        if (std::filesystem::exists(reference_path(scene, method.name) + ".pfm"))
+            names.push_back(method.name);
+    if (names.empty())
+        throw UsageError("error: " + scene + " has no references; choose two by --methods");
+    return names;
 }
 
 /// Merges the parts; how far they lie apart says how sure the whole is.
@@ -141,7 +123,8 @@ int main(int argc, char** argv) {
         for (const std::string& word : o.words) {
             work.next(word);
             Scene scene = load_scene_for(find_scene(word), o);
-            std::vector<std::string> names = o.methods.empty() ? two_best(scene, o) : o.methods;
+            std::vector<std::string> names =
+                o.methods.empty() ? made_for(scene_name(scene.file)) : o.methods;
             remove_references(scene_name(scene.file));
             int first_seed = 1;
             for (const Method& method : methods_named(names)) {

@@ -13,10 +13,9 @@ $(BUILD)/bench: LIBS += $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3
 $(BUILD)/gnuplot:
 	@command -v gnuplot >/dev/null || common/tools/install gnuplot-nox; mkdir -p $(@D); touch $@
 
-#: measuring: make chart        error against time of all chapters, and how time grows (16 minutes; QUICK=1: 5; SCENE=cornell)
-chart: $(BUILD)/chart $(BUILD)/growth $(BUILD)/gnuplot $(made)
+#: measuring: make chart        error against time of all chapters (11 minutes; QUICK=1: 2; SCENE=cornell)
+chart: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
-	$(if $(SCENE),,$(BUILD)/growth $(call quick,--quick))
 #: maintaining: make front        the chart of the front page, anew
 front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart cornell --methods all --seconds 60
@@ -26,7 +25,7 @@ front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 stability: $(BUILD)/stability $(made)
 	$<
 #: measuring: make agree        z values of every chapter against the others, on every scene (8 minutes)
-agree: $(BUILD)/agree $(BUILD)/gnuplot $(made)
+agree: $(BUILD)/agree $(made)
 	$< $(SCENE)
 #: measuring: make efficiency CH=14   a chapter's error, time and efficiency beside the one before (3 minutes)
 efficiency: $(BUILD)/efficiency $(made)
@@ -43,7 +42,7 @@ references: $(BUILD)/references $(made)
 #: measuring: make bench        rays per second of the hierarchy of common/geometry, beside Embree (2 minutes)
 bench: $(BUILD)/bench
 	@$<
-readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency passes radiosity stability gnuplot))
+readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
 harness := $(common) $(support)
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))

@@ -9,7 +9,7 @@
 #include "common/scene_file/reader.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/stability_cases.h"
-#include "tests/measure/stability_coverage.h"
+#include "tests/support/work.h"
 
 namespace {
 
@@ -17,10 +17,8 @@ namespace {
 struct Observed {
     RunningStats mean;     // of each run
     RunningStats squares;  // mean of (X - truth)^2 of each run
-    RunningStats largest;  // share of its largest sample, of each run that is not black
-    double runs = 0, covered = 0, below_half = 0, black = 0, fireflies = 0;
-    double sum = 0, sum_of_squares = 0;  // of samples
-    double cut = 0, not_finite = 0, samples = 0;
+    double runs = 0, covered = 0, below_half = 0, black = 0;
+    double not_finite = 0, samples = 0;
 };
 
 constexpr double rounding = 1e-5;  // relative, of float
@@ -36,14 +34,9 @@ Observed observe(const Method& method, Scene& scene, const StabilityCase& c,
         seen.runs++;
         seen.mean.add(mean);
         seen.squares.add(sum_of_squares / c.spp - 2 * mean * c.truth + c.truth * c.truth);
-        if (sum > 0) seen.largest.add(r.stats.largest / sum);
         seen.covered += std::abs(mean - c.truth) <= 1.96 * se + rounding * c.truth;
         seen.below_half += mean < c.truth / 2;
         seen.black += mean == 0;
-        seen.fireflies += mean > 5 * c.truth;
-        seen.sum += sum;
-        seen.sum_of_squares += sum_of_squares;
-        seen.cut += static_cast<double>(r.stats.paths_cut);
         seen.not_finite += static_cast<double>(r.stats.not_finite);
         seen.samples += c.spp;
     }
@@ -69,7 +62,6 @@ Number measured(const Prediction& p, const Observed& seen, const StabilityCase& 
         case Metric::coverage: return share(seen.covered, seen.runs);
         case Metric::below_half: return share(seen.below_half, seen.runs);
         case Metric::black: return share(seen.black, seen.runs);
-        case Metric::cut: return share(seen.cut, seen.samples);
         case Metric::mean:
             return {seen.mean.mean() / c.truth, seen.mean.standard_error() / c.truth};
     }
@@ -83,7 +75,6 @@ const char* name_of(Metric metric) {
         case Metric::below_half: return "runs below half the truth";
         case Metric::black: return "runs of 0 +- 0";
         case Metric::mean: return "mean over truth";
-        case Metric::cut: return "paths cut";
     }
     return "";
 }
@@ -129,25 +120,18 @@ std::vector<std::string> row_of(const StabilityCase& c, const Method& method, co
                                 const Verdict& verdict) {
     double se = seen.mean.standard_error(), away = seen.mean.mean() - c.truth;
     auto percent = [](double share) { return short_number(100 * share); };
-    double effective = seen.sum * seen.sum / seen.sum_of_squares / seen.samples;
-    bool black = seen.sum == 0;
     return {c.name,
             method.name,
             short_number(seen.mean.mean()),
             std::abs(away) <= rounding * c.truth ? "0" : short_number(away / se),
             percent(seen.covered / seen.runs),
-            black ? "-" : percent(seen.largest.mean()),
-            black ? "-" : percent(effective),
-            short_number(seen.fireflies),
             short_number(seen.not_finite),
-            percent(seen.cut / seen.samples),
             verdict.text()};
 }
 
 /// All rows, and the verdict of each method on each scene.
 struct Verdicts {
-    Table rows{{"scene", "method", "mean", "bias (s.e.)", "coverage %", "largest %", "effective %",
-                "fireflies", "not finite", "cut %", "verdict"},
+    Table rows{{"scene", "method", "mean", "bias (s.e.)", "coverage %", "not finite", "verdict"},
                {}};
     std::vector<std::string> scenes;
     std::map<std::string, std::map<std::string, std::string>> words;  // by scene and method
@@ -196,17 +180,14 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdi
     }
     for (const Method& method : methods_named(c.refuse)) {
         Verdict verdict{can_render(method, scene) ? "FAILS" : "refuses"};
-        verdicts.add(c, method, verdict,
-                     {c.name, method.name, "-", "-", "-", "-", "-", "-", "-", "-", verdict.text()});
+        verdicts.add(c, method, verdict, {c.name, method.name, "-", "-", "-", "-", verdict.text()});
     }
 }
 
 constexpr const char* legend =
     "bias: in standard errors; coverage: of the truth by the 95 %% intervals of %d runs of 1000\n"
-    "samples; largest: share of a run's largest sample, on average; effective: (sum X)^2 / sum "
-    "X^2\n"
-    "over the samples; fireflies: runs above 5 times the truth; cut: paths that the depth limit\n"
-    "ended. In brackets: what theory predicts, within 5 standard errors. Below, \"as predicted\":\n"
+    "samples.\n"
+    "In brackets: what theory predicts, within 5 standard errors. Below, \"as predicted\":\n"
     "fails as predicted; \"refuses\": says that it cannot render the scene.\n";
 
 /// Whether the name contains one of the words.
@@ -224,20 +205,15 @@ int main(int argc, char** argv) {
             argc, argv, "[WORD...]",
             "Every method on scenes on which some fail: whether each holds, or fails as theory "
             "predicts. 200 runs of one pixel each. Anything else makes it fail. WORD: only the "
-            "scenes with this in their name. At the end, or for the word coverage: whether "
-            "reported errors are the real ones, for every chapter and sampler; or for the word "
-            "blur: whether chapter 25 says that it blurs.",
+            "scenes with this in their name.",
             {.spp = 0, .runs = 200});
         Verdicts verdicts;
         std::vector<StabilityCase> cases;
         for (const StabilityCase& c : stability_cases()) {
             if (wanted(c.name, o.words)) cases.push_back(c);
         }
-        bool coverage = wanted("coverage", o.words), blur = wanted("blur", o.words);
-        Work work("stability: " + std::to_string(cases.size()) + " scenes on which methods fail" +
-                      (coverage || blur ? ", then whether reported errors are the real ones" : ""),
-                  static_cast<double>(cases.size() + (coverage ? coverage_steps() : 0) +
-                                      (blur ? blur_steps() : 0)));
+        Work work("stability: " + std::to_string(cases.size()) + " scenes on which methods fail",
+                  static_cast<double>(cases.size()));
         for (const StabilityCase& c : cases) judge_case(c, o, verdicts, work);
         if (!cases.empty()) {
             std::printf("%s\n", markdown(verdicts.rows).c_str());
@@ -245,8 +221,6 @@ int main(int argc, char** argv) {
             std::printf("\n%s", markdown(verdicts.matrix()).c_str());
             write_table(o.out, "stability", verdicts.rows);
         }
-        int not_covered = coverage ? show_coverage(o, work) : 0;
-        if (blur) not_covered += show_blur(work);
-        return verdicts.failures + not_covered == 0 ? 0 : 1;
+        return verdicts.failures == 0 ? 0 : 1;
     });
 }

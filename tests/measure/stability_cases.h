@@ -10,7 +10,6 @@ enum class Metric {
     below_half,         // share of the runs whose estimate is below half of the truth
     black,              // share of the runs that say 0 +- 0
     mean,               // of all runs, over the truth
-    cut,                // share of the paths that the depth limit ended
 };
 
 /// A number that theory predicts.

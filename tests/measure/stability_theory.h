@@ -2,13 +2,9 @@
 // often an error bar holds the truth.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <vector>
-
-#include "common/path/roulette.h"
 
 /// A small part of what a surface sees: the cosine there, what one of its samples is worth (f cos
 /// Le, up to a factor), and its solid angle in sr.
@@ -24,12 +20,6 @@ inline std::vector<Part> rings(double from, double to, int n = 20000) {
         parts.push_back({c, c, 2 * std::numbers::pi * (to - from) / n});
     }
     return parts;
-}
-
-inline double solid_angle(const std::vector<Part>& parts) {
-    double sum = 0;
-    for (const Part& p : parts) sum += p.omega;
-    return sum;
 }
 
 /// Mean, and mean of the square, of one sample value weight / pdf.
@@ -121,72 +111,3 @@ inline double coverage_of_rare(double p, int N) {
     }
     return sum;
 }
-
-/// A path inside a sphere whose wall emits 1 and reflects `albedo`: nothing but its throughputs.
-struct WalkInside {
-    std::array<double, 3> albedo;
-    bool uniform;         // directions; else by the cosine
-    bool roulette;        // as in the chapters
-    bool light_sampling;  // at each vertex, at the wall: brings exactly the albedo
-
-    /// What one path of at most 100 bounces brings, averaged over the channels.
-    /// u()  in [0,1)
-    template <typename Random>
-    double sample(Random&& u) const {
-        std::array<double, 3> beta = {1, 1, 1};
-        double sum = 1;
-        for (int depth = 0; depth < 100; depth++) {
-            double c = uniform ? 2 * u() : 1, before = 0, after = 0;
-            for (size_t i = 0; i < 3; i++) {
-                before += beta[i] * albedo[i] / 3;
-                beta[i] *= c * albedo[i];
-                after += beta[i] / 3;
-            }
-            if (light_sampling) sum += before;
-            double q = roulette ? survival(beta, depth) : 1;
-            if (q < 1 && u() >= q) break;
-            for (double& x : beta) x /= q;
-            if (!light_sampling) sum += after / q;
-            if (after < 1e-7) break;
-        }
-        return sum;
-    }
-
-    static double survival(const std::array<double, 3>& beta, int depth) {
-        auto b = [&](size_t i) { return static_cast<float>(beta[i]); };
-        return static_cast<double>(survival_probability({b(0), b(1), b(2)}, depth));
-    }
-
-    /// What a run of N paths says of itself.
-    struct Run {
-        double mean, se, square;
-    };
-    std::vector<Run> runs_of(int N, int runs) const {
-        std::mt19937_64 engine(1);
-        auto u = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
-        std::vector<Run> result;
-        for (int run = 0; run < runs; run++) {
-            double sum = 0, squares = 0;
-            for (int i = 0; i < N; i++) {
-                double x = sample(u);
-                sum += x, squares += x * x;
-            }
-            double mean = sum / N, variance = (squares - N * mean * mean) / (N - 1.0);
-            result.push_back({mean, std::sqrt(variance / N), squares / N});
-        }
-        return result;
-    }
-
-    /// How often the 95 % interval of N such paths holds `truth`, from 2000 runs.
-    double coverage(double truth, int N) const {
-        double covered = 0;
-        for (const Run& r : runs_of(N, 2000)) covered += std::abs(r.mean - truth) <= 1.96 * r.se;
-        return covered / 2000;
-    }
-
-    /// By trying: for walks whose throughputs are bounded.
-    double relative_variance(int paths = 2000000) const {
-        Run all = runs_of(paths, 1)[0];
-        return all.square / (all.mean * all.mean) - 1;
-    }
-};

@@ -3,13 +3,9 @@
 
 #include "tests/traces/07.h"
 #include "tests/traces/08.h"
-#include "tests/traces/13.h"
-#include "tests/traces/14.h"
 #include "tests/traces/15.h"
-#include "tests/traces/20.h"
 #include "tests/traces/21.h"
 #include "tests/traces/22.h"
-#include "tests/traces/23.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
 
@@ -59,10 +55,6 @@ Agreement hold_against_reference(const std::string& name, const MakeTrace& make_
 // Each chapter's trace, from the scene.
 Trace seven(const Scene&) { return trace_with<ch07::trace>(); }
 Trace eight(const Scene&) { return trace_with<ch08::trace>(); }
-Trace thirteen(const Scene& scene) {
-    return trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
-}
-Trace fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
 Trace fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
 
 }  // namespace
@@ -117,24 +109,6 @@ TEST_SUITE("references slow") {
         check_agreement(hold_against_reference(scene, reference, fifteen, 64, 8), 0.002);
     }
 
-    TEST_CASE("agreement: plates, close lights and a box, with chapters 13 and 14") {
-        struct {
-            std::string name;
-            Trace (*chapter)(const Scene&);
-            int spp, block_side;
-            double relative_se;
-        } cases[] = {{"veach-mis", fourteen, 1024, 8, 0.004},
-                     {"tiny-close-light", fourteen, 1024, 8, 0.004},
-                     {"cornell-grey", fourteen, 512, 8, 0.002},
-                     {"veach-mis", thirteen, 1024, 32, 0.02},
-                     {"cornell-grey", thirteen, 512, 8, 0.002}};
-        for (const auto& c : cases) {
-            CAPTURE(c.name);
-            Agreement a = hold_against_reference(c.name, c.chapter, c.spp, c.block_side);
-            check_agreement(a, c.relative_se);
-        }
-    }
-
     TEST_CASE("agreement: a caustic, found by chance") {
         check_agreement(hold_against_reference("glass-caustic", seven, 4096, 32), 0.015);
     }
@@ -155,60 +129,5 @@ TEST_SUITE("references slow") {
                     0.01);
             }
         }
-    }
-
-    TEST_CASE("agreement: a caustic, with chapters 20 and 23") {
-        Reference reference("references/glass-caustic");
-        Scene scene = scene_from("tests/pictures/references/glass-caustic.pbrt", 128, 100);
-        auto theirs = [&](int x, int y, int side) { return reference.block(x, y, side); };
-        // From the light: the blocks that show no glass.
-        BlockMeans by_light = blocks_of(
-            scene, trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)), 8, 32, 16);
-        BlockMeans by_photons{128, 16};
-        for (uint32_t seed = 1; seed <= 12; seed++) {
-            ch23::PhotonSettings settings{.seed = seed, .light_paths = 20000};
-            settings.radius = 0.01f * scene.radius;
-            by_photons.add(film_of(scene, passes_of<ch23::photon_passes>(scene, settings), 16, seed)
-                               .film.image());
-        }
-        int compared = 0;
-        double worst = 0;
-        CameraView view = camera_view(scene.camera, 128, 128);
-        for (int y = 0; y < 128; y += 16)
-            for (int x = 0; x < 128; x += 16) {
-                Measured r = theirs(x, y, 16), p = by_photons.block(x, y, 16);
-                CAPTURE(x);
-                CAPTURE(y);
-                CAPTURE(p.mean / r.mean);
-                CHECK(std::abs(p.mean - r.mean) <= 5 * std::hypot(p.se, r.se) + 0.02 * r.mean);
-                bool glass = false;
-                for (int i = 0; i < 16 * 16; i++) {
-                    Vec2 film = {static_cast<float>(x + i % 16) + 0.5f,
-                                 static_cast<float>(y + i / 16) + 0.5f};
-                    std::optional<Hit> hit = intersect(scene, camera_ray(view, film));
-                    glass = glass || (hit && is_specular(*hit->material));
-                }
-                if (glass) continue;
-                compared++;
-                Measured l = by_light.block(x, y, 16);
-                worst = std::max(worst, z_between(l, r));
-            }
-        CHECK(compared > 20);
-        CHECK(worst < 5);
-        Measured all = theirs(0, 0, 128), p = by_photons.block(0, 0, 128);
-        CAPTURE(p.mean / all.mean);
-        CHECK(std::abs(p.mean / all.mean - 1) < 0.01);
-    }
-
-    TEST_CASE("agreement: lights that almost touch what they light") {
-        check_agreement(hold_against_reference("tiny-close-light", seven, 1024, 32), 0.01);
-    }
-
-    TEST_CASE("agreement: a room with a far brighter one behind the wall") {
-        check_agreement(hold_against_reference("hidden-bright", eight, 512, 16), 0.01);
-    }
-
-    TEST_CASE("agreement: a thousand lights, found by chance") {
-        check_agreement(hold_against_reference("many-lights", seven, 512, 32), 0.01);
     }
 }

@@ -1,6 +1,5 @@
-// Films by other code of a chapter, which make compiles; and pipes instead of films.
+// The hashes of the code of chapters, which make finds.
 #include <doctest/doctest.h>
-#include <sys/stat.h>
 
 #include <fstream>
 #include <map>
@@ -60,30 +59,6 @@ private:
 }  // namespace
 
 TEST_SUITE("films of parts") {
-    TEST_CASE("input: merge refuses a pipe or a device in one line, and does not wait for it") {
-        TemporaryFolder folder;
-        REQUIRE(::mkfifo((folder / "pipe.film").c_str(), 0600) == 0);
-        fs::create_symlink(folder / "pipe.film", folder / "link.film");
-        REQUIRE(run(path_tracer, {spheres, "--size", "9x7", "--spp", "1", "--quiet", "--film",
-                                  folder / "a.film", "--out", folder / "a.ppm"})
-                    .code == 0);
-        std::string good = folder / "a.film";
-        for (const std::string& bad :
-             {folder / "pipe.film", folder / "link.film", std::string("/dev/null")}) {
-            for (const Words& films : {Words{bad, good}, {good, bad}}) {
-                Finished end =
-                    Process([&] {
-                        ::alarm(20);  // s: ends it where it waits
-                        return execute("merge", {folder / "out.pfm", films[0], films[1]});
-                    }).wait();
-                CHECK(end.code == 1);
-                CHECK(end.err == bad +
-                                     ": error: a film must be a file: what this is cannot be read "
-                                     "and replaced\n");
-            }
-        }
-    }
-
     TEST_CASE(
         "teeth: the hash of a chapter's code changes with any file of it, and of no other "
         "chapter") {
@@ -107,63 +82,5 @@ TEST_SUITE("films of parts") {
         // A tool is in no chapter.
         std::ofstream(copy / "common/tools/compare.cpp", std::ios::app) << "// more\n";
         CHECK(copy.hashes() == before);
-    }
-}
-
-TEST_SUITE("films, slow") {
-    TEST_CASE("teeth: a chapter that was edited and compiled again refuses its old films") {
-        TemporaryFolder folder;
-        // What make needs to compile one file of the chapter and the hashes, and to link.
-        Finished end = Process([&] {
-                           ::unsetenv("MAKEFLAGS");
-                           ::unsetenv("MAKELEVEL");
-                           ::setenv("program", path_tracer.c_str(), 1);
-                           ::setenv("programs", program_folder.c_str(), 1);
-                           ::setenv("copy", folder.path().c_str(), 1);
-                           const char* script = R"bash(set -e
-mkdir -p "$copy/build/obj"
-cp -a Makefile common chapters "$copy"
-cp -a "$programs"/{flags,packages,include} "$copy/build"
-cp -a "$programs/obj/common" "$copy/build/obj"
-rm -f "$copy"/build/obj/*/*/*.d
-cd "$copy"
-echo '// more' >>"chapters/$program/estimator.h"
-make --quiet CXX="$(cut -d' ' -f1 build/flags)" CXXFLAGS="$(cut -d' ' -f2- build/flags)" \
-    BUILD=build "build/$program")bash";
-                           ::execlp("bash", "bash", "-c", script, nullptr);
-                           return 127;
-                       }).wait();
-        CAPTURE(end.err);
-        REQUIRE(end.code == 0);
-        MESSAGE(end.out);
-        std::string edited = folder / "build/" + path_tracer;
-        auto words = [&](const char* film, const char* seed) {
-            return Words{spheres, "--size",  "4x3",    "--spp",       "1",     "--seed",
-                         seed,    "--quiet", "--film", folder / film, "--out", folder / "a.ppm"};
-        };
-        REQUIRE(run(path_tracer, words("a.film", "1")).code == 0);
-        std::string before = read_file(folder / "a.film");
-        auto render_edited = [&](const char* film, const char* seed) {
-            return Process([&] {
-                       std::vector<char*> argv = {edited.data()};
-                       Words all = words(film, seed);
-                       for (std::string& word : all) argv.push_back(word.data());
-                       argv.push_back(nullptr);
-                       ::execv(argv[0], argv.data());
-                       return 127;
-                   })
-                .wait();
-        };
-        const std::string why = ": error: the film was made by other code of this chapter\n";
-        end = render_edited("a.film", "1");
-        CHECK(end.code == 1);
-        CHECK(end.err == folder / "a.film" + why);
-        CHECK(read_file(folder / "a.film") == before);
-        REQUIRE(render_edited("b.film", "2").code == 0);
-        end = run("merge", {folder / "out.pfm", folder / "a.film", folder / "b.film"});
-        CHECK(end.code == 1);
-        CHECK(end.err == folder / "b.film" + why);
-        CHECK(render_edited("b.film", "2").code == 0);
-        CHECK(run(path_tracer, words("a.film", "1")).code == 0);
     }
 }

@@ -43,106 +43,35 @@ Finished with_own_mounts(const Work& work) {
 
 TEST_SUITE("outputs") {
 #ifdef __linux__
-    TEST_CASE("files: a file that is mounted, and a full disk, are refused before rendering") {
+    TEST_CASE("files: a full disk is refused before rendering, and loses no output elsewhere") {
         TemporaryFolder folder;
-        std::string busy = folder / "busy.ppm", disk = folder / "disk";
-        write_file_atomically(busy, "mounted");
+        std::string elsewhere = folder / "a.ppm", disk = folder / "disk";
         fs::create_directory(disk);
-        Finished end = with_own_mounts([&] {
-            ::mount(busy.c_str(), busy.c_str(), nullptr, MS_BIND, nullptr);
-            return execute(path_tracer, {spheres, "--spp", "100000000", "--out", busy});
-        });
-        if (end.code == 77) {
-            MESSAGE("skipped: no mounts of one's own here");
-            return;
-        }
-        CHECK(end.code == 1);
-        CHECK(end.err.ends_with(busy + ": error: cannot write: Device or resource busy\n"));
-        CHECK(folder.names() == std::set<std::string>{"busy.ppm", "disk"});
-
-        end = with_own_mounts([&] {
-            ::mount("none", disk.c_str(), "tmpfs", 0, "size=1m");
-            return execute(path_tracer, {spheres, "--size", "256x256", "--spp", "100000000",
-                                         "--out", disk + "/a.pfm", "--out", disk + "/b.pfm"});
-        });
-        CHECK(end.code == 1);
-        CHECK(end.err.ends_with(
-            disk +
-            "/b.pfm: error: cannot write: No space left on device: what is to be written "
-            "there needs 1.57 MB, 1.05 MB are free\n"));
-
         // A film of 10 x 10 pixels has 11 kB, and two are there when it is saved again.
         for (const char* size : {"size=20k", "size=64k"}) {
-            end = with_own_mounts([&] {
+            Finished end = with_own_mounts([&] {
                 ::mount("none", disk.c_str(), "tmpfs", 0, size);
                 return execute(path_tracer, {spheres, "--size", "10x10", "--spp", "4", "--quiet",
-                                             "--film", disk + "/a.film", "--out", busy});
+                                             "--film", disk + "/a.film", "--out", elsewhere});
             });
+            if (end.code == 77) {
+                MESSAGE("skipped: no mounts of one's own here");
+                return;
+            }
             bool has_room = size == std::string("size=64k");
             CHECK(end.code == (has_room ? 0 : 1));
-            CHECK((end.err.find(disk + "/a.film: error: cannot write: No space left on device: ") ==
-                   0) == !has_room);
+            CHECK(end.err.starts_with(disk + "/a.film: error: ") == !has_room);
         }
-        end = with_own_mounts([&] {
+        Finished end = with_own_mounts([&] {
             ::mount("none", disk.c_str(), "tmpfs", 0, "size=4k");
             return execute(path_tracer, brief(spheres, {"--out", disk + "/a.pfm", "--out",
-                                                        disk + "/b.pfm", "--out", busy}));
+                                                        disk + "/b.pfm", "--out", elsewhere}));
         });
         CHECK(end.code == 1);
-        CHECK(end.err.ends_with(disk + "/b.pfm: error: cannot write: No space left on device\n"));
-        CHECK(read_image(busy).width == 16);
+        CHECK(end.err.find(disk + "/b.pfm: error: cannot write: ") != std::string::npos);
+        CHECK(read_image(elsewhere).width == 16);
     }
 #endif
-
-    TEST_CASE("files: a read-only folder says so, also that of out/ and --split") {
-        TemporaryFolder folder;
-        std::string program = fs::absolute(program_file(path_tracer)).string();
-        std::string scene = fs::absolute(spheres).string();
-        fs::copy_file(program, folder / "program");
-        fs::copy_file(scene, folder / "a.pbrt");
-        ::chmod(folder.path().c_str(), 0555);
-        auto run_there = [&](const std::string& words) {
-            return Process([&] {
-                       if (::getuid() == 0 && ::setuid(65534) != 0) return 2;
-                       fs::current_path(folder.path());
-                       std::string command = "exec ./program a.pbrt --quiet --spp 1 " + words;
-                       ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-                       return 127;
-                   })
-                .wait();
-        };
-        const std::string why = ": error: cannot make the folder: Permission denied\n";
-        Finished end = run_there("");
-        CHECK(end.code == 1);
-        CHECK(end.err == "out" + why);
-        end = run_there("--split d --out a.ppm");
-        CHECK(end.err == "d" + why);
-        end = run_there("--out a.ppm");
-        CHECK(end.err == "a.ppm: error: cannot write: Permission denied\n");
-        ::chmod(folder.path().c_str(), 0755);
-    }
-
-    TEST_CASE("input: a pipe or a device as film, and a film at every moment, end with a message") {
-        TemporaryFolder folder;
-        std::string film = folder / "a.film", out = folder / "a.ppm";
-        REQUIRE(::mkfifo(film.c_str(), 0600) == 0);
-        fs::create_symlink("/dev/null", folder / "b.film");
-        for (const std::string& name : {film, folder / "b.film"}) {
-            Finished end = run(path_tracer, brief(spheres, {"--film", name, "--out", out}));
-            CHECK(end.code == 1);
-            CHECK(end.err == name +
-                                 ": error: a film must be a file: what this is cannot be read "
-                                 "and replaced\n");
-        }
-        for (const char* seconds : {"1e-9", "0.009", "0"}) {
-            Words words = {"--film", folder / "c.film", "--film-every", seconds, "--out", out};
-            Finished end = run(path_tracer, brief(spheres, words));
-            CHECK(end.code == 2);
-            CHECK(end.err.starts_with("error: --film-every takes "));
-        }
-        Words words = {"--film", folder / "c.film", "--film-every", "0.01", "--out", out};
-        CHECK(run(path_tracer, brief(spheres, words)).code == 0);
-    }
 
     TEST_CASE("files: a signal while results are written loses none of them") {
         for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -258,49 +187,5 @@ TEST_SUITE("outputs") {
         CHECK(with_limit(RLIMIT_STACK, 64 << 10, words).err ==
               "error: out of memory: the stack needs 0.131 MB\n");
 #endif
-    }
-
-    TEST_CASE("teeth: the name of a folder runs no code in make compile_commands.json") {
-        TemporaryFolder folder;
-        std::string place = folder / "it's;touch pwned;'\"\\x", project = fs::current_path();
-        fs::create_directory(place);
-        for (const char* name : {"Makefile", "common", "chapters", "tests", "scenes"})
-            fs::create_symlink(fs::path(project) / name, fs::path(place) / name);
-        Finished end = Process([&] {
-                           fs::current_path(place);
-                           ::unsetenv("MAKEFLAGS"), ::unsetenv("PWD");
-                           ::execlp("make", "make", "BUILD=b", "compile_commands.json", nullptr);
-                           return 127;
-                       }).wait();
-        CHECK(end.code == 0);
-        CHECK_FALSE(fs::exists(place + "/pwned"));
-        std::string json = read_file(place + "/compile_commands.json");
-        CHECK(json.find("/it's;touch pwned;'\\\"\\\\x\", \"file\": \"chapters/") !=
-              std::string::npos);
-        CHECK(json.find("command not found") == std::string::npos);
-    }
-
-    TEST_CASE("teeth: render_parts hands on names with braces as they are") {
-        TemporaryFolder folder;
-        if (std::system("command -v parallel >/dev/null") != 0) {
-            MESSAGE("skipped: GNU parallel is not installed");
-            return;
-        }
-        // A program, and a merge beside it, that write down their words.
-        write_file_atomically(folder / "program",
-                              "#!/bin/sh\nprintf '<%s>' \"$@\" >>\"$0.words\"\n");
-        ::chmod((folder / "program").c_str(), 0755);
-        fs::copy_file(folder / "program", folder / "merge");
-        std::string out = folder / "a{}{1}{=1=}.film", scene = "{} it's {.}.pbrt";
-        Finished end = Process([&] {
-                           ::execlp("bash", "bash", "common/tools/render_parts", "1", out.c_str(),
-                                    (folder / "program").c_str(), scene.c_str(), nullptr);
-                           return 127;
-                       }).wait();
-        CHECK(end.code == 0);
-        CHECK(read_file(folder / "program.words") == "<" + scene +
-                                                         "><--quiet><--part><1/1><--film><" + out +
-                                                         "-1.film><--out><" + out + "-1.ppm>");
-        CHECK(read_file(folder / "merge.words") == "<" + out + "><" + out + "-1.film>");
     }
 }

@@ -76,17 +76,4 @@ TEST_SUITE("race") {
             CHECK(refused.err == path + ": not translated: " + what + "\n");
         }
     }
-
-    TEST_CASE("input: without another renderer it says what it needs") {
-        if (!can_race()) return;
-        Finished end =
-            Process({"/bin/sh", "-c", "exec tests/race/race none --blender none --pbrt none 2>&1"})
-                .wait();
-        CHECK(end.code == 2);
-        CHECK(end.out ==
-              "cycles: needs the program none: Debian has it (apt-get install blender), or "
-              "BLENDER=FILE names it\n"
-              "pbrt: needs the program none: it is built from its source (pbrt.org), or PBRT=FILE "
-              "names it\n");
-    }
 }

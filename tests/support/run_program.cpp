@@ -37,5 +37,3 @@ Words few_photons(const std::string& program) {
     if (program.find("photon") == std::string::npos) return {};
     return {"--photons", "2000"};
 }
-
-bool begins_at_lights(const std::string& program) { return program > "20" && program < "23"; }

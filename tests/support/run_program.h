@@ -30,5 +30,3 @@ void append(Words& words, const Words& more);
 
 /// For programs that trace photons: few, since these take most of the time of a brief render.
 Words few_photons(const std::string& program);
-
-bool begins_at_lights(const std::string& program);

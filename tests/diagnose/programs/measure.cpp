@@ -1,5 +1,5 @@
-// Measures, of the small scenes, what make diagnose compares with: with --references what several
-// chapters agree on; else, in the copies that tests/diagnose/plant makes, what each mistake does.
+// Measures what each mistake does to the small scenes, in the copies that tests/diagnose/plant
+// makes.
 #include "tests/measure/measure.h"
 
 #include <algorithm>
@@ -30,65 +30,6 @@ Image picture_of(const std::string& text, const Method& method, const MeasureOpt
     if (change) change(scene);
     prepare(scene, o.threads);
     return render_once(method, scene, o, spp, seed).film.image();
-}
-
-/// The references: by chapters that find light in different ways.
-int write_references(const MeasureOptions& o) {
-    constexpr int batches = 8;
-    std::string text =
-        "# What the 4 x 4 tiles of the small scenes should be, row by row (of coloured scenes "
-        "first\n"
-        "# those of red), and a standard error. By chapters 08, 10, 14, 15 and 21, which agree:\n"
-        "# make diagnose-references.\n";
-    int disagree = 0;
-    for (const SmallScene& scene : small_scenes()) {
-        std::vector<Tiles> answers;
-        for (const Method& method : methods_named({"08", "10", "14", "15", "21"})) {
-            std::vector<RunningStats> stats(count_tiles(scene));
-            for (uint32_t batch = 0; batch < batches; batch++) {
-                Image image = picture_of(scene.pbrt, method, o, o.spp / batches, 1 + batch);
-                for (size_t i = 0; i < stats.size(); i++) {
-                    double sum = 0, n = 0;
-                    visit_tile(
-                        i, scene.coloured, image.width, image.height,
-                        [&](int x, int y, int c) { sum += channel(image.at(x, y), c), n++; });
-                    stats[i].add(sum / n);
-                }
-            }
-            // An error from eight batches is rough: that of all tiles together is better.
-            double squares = 0, mean = 0;
-            Tiles tiles;
-            for (const RunningStats& s : stats)
-                squares += s.standard_error() * s.standard_error(), mean += s.mean();
-            double se = std::sqrt(squares / static_cast<double>(stats.size()));
-            for (const RunningStats& s : stats) tiles.push_back({s.mean(), se + 1e-7 * mean});
-            answers.push_back(tiles);
-        }
-        text += scene.name + "\t";
-        double error = 0;
-        for (size_t i = 0; i < count_tiles(scene); i++) {
-            double weights = 0, sum = 0;
-            for (const Tiles& t : answers)
-                weights += 1 / (t[i].se * t[i].se + 1e-20),
-                    sum += t[i].mean / (t[i].se * t[i].se + 1e-20);
-            double mean = sum / weights;
-            for (const Tiles& t : answers) {
-                if (std::abs(t[i].mean - mean) <= 5.5 * t[i].se + 1e-9) continue;
-                std::printf("%s, tile %zu: %g +- %g beside %g\n", scene.name.c_str(), i, t[i].mean,
-                            t[i].se, mean);
-                disagree++;
-            }
-            char number[40];
-            std::snprintf(number, sizeof number, "%s%.5g", i == 0 ? "" : " ", mean);
-            text += number, error = 1 / std::sqrt(weights);
-        }
-        char number[40];
-        std::snprintf(number, sizeof number, "\t%.1g\n", error);
-        text += number;
-    }
-    write_file_atomically(references_file, text);
-    std::printf("wrote %s; %d tiles disagree\n", references_file, disagree);
-    return disagree == 0 ? 0 : 1;
 }
 
 /// What a row that is no code does to a picture that is right.
@@ -336,11 +277,8 @@ int write_effects(const MeasureOptions& o, const std::string& rows) {
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        bool references = false;
-        std::vector<Option> flags = {
-            {"references", "", "what is right", [&](const std::string&) { references = true; }}};
         MeasureOptions o =
-            parse_measure_options(argc, argv, "ROWS", "Measures the small scenes.", {}, flags);
-        return references ? write_references(o) : write_effects(o, o.words.at(0));
+            parse_measure_options(argc, argv, "ROWS", "Measures the small scenes.", {});
+        return write_effects(o, o.words.at(0));
     });
 }
