@@ -176,10 +176,13 @@ double light_by_few_paths(const Scene& scene, const InView& seen, double paths) 
     return light;
 }
 
-/// The share of the light of point and distant lights to mirrors and glass that few paths carry.
+/// The share of the light of point and distant lights to mirrors, glass and metal that is nearly a
+/// mirror that few paths carry.
 double share_by_few_paths_to_mirrors(const Scene& scene, double paths) {
     if (scene.max_depth < 2) return 0;
-    Outlines mirrors = outlines_of(scene, is_specular);
+    Outlines mirrors = outlines_of(
+        scene, [&](const Material& m) { return is_specular(m) || is_nearly_mirror(m, paths); });
+    if (mirrors.area == 0) return 0;
     Endpoints endpoints = endpoints_of(scene);
     double few = 0, all = 0;
     for (size_t i = 0; i < scene.lights.size(); i++) {
@@ -269,19 +272,19 @@ std::vector<std::string> missed_light(const Scene& scene, const RenderOptions& o
     bool leaves_out = options.search == LightSearch::direct && scene.max_depth > 1;
     if (leaves_out && !any_material(is_specular) && surfaces_face_each_other(scene, in_view(scene)))
         lines.push_back("light that one surface reflects to another is left out");
+    bool merges = options.search == LightSearch::merging;
+    if ((options.search == LightSearch::both_ends || merges) && any_material(is_receiver) &&
+        share_by_few_paths_to_mirrors(scene, samples) > 0.01) {
+        lines.push_back(
+            "hardly any path from a point or distant light hits a mirror, glass or smooth "
+            "metal: the light that these cast on surfaces may be missing");
+    }
     if (!any_material(is_specular) || !any_material(is_receiver)) return lines;
     auto is_area = [](LightType type) { return type == LightType::area; };
     auto is_delta = [](LightType type) {
         return type == LightType::point || type == LightType::distant;
     };
     auto is_rough_metal = [&](const Material& m) { return is_receiver(m) && !is_diffuse(m); };
-    bool merges = options.search == LightSearch::merging;
-    if ((options.search == LightSearch::both_ends || merges) &&
-        share_by_few_paths_to_mirrors(scene, samples) > 0.01) {
-        lines.push_back(
-            "hardly any path from a point or distant light hits a mirror or glass: the light that "
-            "these cast on surfaces may be missing");
-    }
     if (merges && any_material(gathers_photons)) lines.push_back(blurred);
     if (merges && !any_material(is_rough_metal)) return lines;
     if (options.search == LightSearch::both_ends || merges) {

@@ -242,21 +242,21 @@ TEST_SUITE("warnings") {
 
     TEST_CASE("truth: light paths that hardly reach what the camera sees, or glass, are told") {
         // The disk on which paths from the sky and the sun begin grows with the ground.
-        const std::string reach = "so few paths", hit = "hardly any path";
+        const std::string reach = "so few paths", hit = "hardly any path",
+                          roof = in(diffuse, "Translate 0 9 0 Scale 6e3 1 6e3 " + floor_2);
         Film film = film_with(256, [](size_t, int s) { return 2 * (s % 2); });
-        std::string roof = in(diffuse, "Translate 0 9 0 Scale 6e3 1 6e3 " + floor_2);
         for (bool far : {false, true}) {
-            CAPTURE(far);
             std::string ground = in(diffuse, (far ? "Scale 5e3 1 5e3 " : "Scale 2 1 2 ") + floor_2);
             for (const std::string& light : {sky, distant}) {
                 CHECK(tells(ground + light, LightSearch::from_lights, film, reach) == far);
                 CHECK(!tells(ground + roof + light, LightSearch::from_lights, film, reach));
             }
-            std::string with_glass = ground + in(glass, ball("0 1 0", "0.5"));
-            for (LightSearch search : {LightSearch::both_ends, LightSearch::merging}) {
-                CHECK(tells(with_glass + distant, search, film, hit) == far);
-                CHECK(!tells(with_glass + sky, search, film, hit));
-            }
+            for (const std::string& material : {glass, metal("0.01", "0.9 0.9 0.9")})
+                for (LightSearch search : {LightSearch::both_ends, LightSearch::merging}) {
+                    std::string shiny = ground + in(material, ball("0 1 0", "0.5"));
+                    CHECK(tells(shiny + distant, search, film, hit) == far);
+                    CHECK(!tells(shiny + sky, search, film, hit));
+                }
         }
     }
 
