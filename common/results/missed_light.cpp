@@ -132,6 +132,18 @@ bool surfaces_face_each_other(const Scene& scene, const InView& seen) {
     return false;
 }
 
+/// Whether a flat lamp is so near to a surface in view that it is no point: within twice the radius
+/// of a disk of its area, which a point of that intensity makes 25 % too bright and more.
+bool lamps_are_near(const Scene& scene, const InView& seen) {
+    auto is_near = [&](const LightShape& lamp) {
+        float near = 2 * std::sqrt(lamp.area / pi);
+        return lamp.flat && std::ranges::any_of(seen.points, [&](const auto& point) {
+                   return length(lamp.centre - point.second.p) < near;
+               });
+    };
+    return std::ranges::any_of(scene.light_shapes, is_near);
+}
+
 /// The part of the picture's mean that hardly any path from a light finds: the direct light of
 /// those places in view that the fewest paths reach, together fewer than few_paths. A light sample
 /// at each place tells how many of `paths` paths from that light reach it.
@@ -264,14 +276,20 @@ std::vector<std::string> missed_light(const Scene& scene, const RenderOptions& o
                 "the true error may be larger than the reported one");
         }
     }
-    bool is_lit_by_sky = scene.sky_light >= 0 && scene.max_depth > 0 && any_material(is_receiver);
-    if (options.search == LightSearch::direct && is_lit_by_sky)
-        lines.push_back(
-            "light that surfaces receive from the sky is left out: the sky is seen only directly "
-            "and in mirrors");
-    bool leaves_out = options.search == LightSearch::direct && scene.max_depth > 1;
-    if (leaves_out && !any_material(is_specular) && surfaces_face_each_other(scene, in_view(scene)))
-        lines.push_back("light that one surface reflects to another is left out");
+    if (options.search == LightSearch::direct && scene.max_depth > 0) {
+        InView seen = in_view(scene);
+        if (scene.sky_light >= 0 && any_material(is_receiver))
+            lines.push_back(
+                "light that surfaces receive from the sky is left out: the sky is seen only "
+                "directly and in mirrors");
+        if (lamps_are_near(scene, seen))
+            lines.push_back(
+                "a lamp near a surface lights it as if all came from the lamp's middle: too "
+                "bright");
+        if (scene.max_depth > 1 && !any_material(is_specular) &&
+            surfaces_face_each_other(scene, seen))
+            lines.push_back("light that one surface reflects to another is left out");
+    }
     bool merges = options.search == LightSearch::merging;
     if ((options.search == LightSearch::both_ends || merges) && any_material(is_receiver) &&
         share_by_few_paths_to_mirrors(scene, samples) > 0.01) {

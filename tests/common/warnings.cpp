@@ -180,6 +180,9 @@ TEST_SUITE("warnings") {
                           blurred = "photons blur light within their radius";
         const std::string plain = grey_floor + high_lamp,
                           some_mirror = in(mirror, ball("2 2 2", "0.2")),
+                          disk_above =
+                              "Rotate 90 1 0 0 Shape \"disk\" \"float height\" -2 "
+                              "\"float radius\" 2\n",
                           wall = "Translate 0 1 1 Rotate -90 1 0 0 " + floor_2;
         struct {
             std::string world;
@@ -187,9 +190,8 @@ TEST_SUITE("warnings") {
         } cases[] = {
             {plain, {}, {}, {}},
             {plain + some_mirror, {met}, {direct}, {both_met}},
-            {plain + some_glass, {met}, {direct}, {both_met}},
+            {grey_floor + lamp(disk_above), {}, {"from the lamp's middle"}, {}},
             {in(black, floor_2) + high_lamp + some_mirror, {}, {}, {}},
-            {in(mirror, floor_2) + high_lamp, {}, {}, {}},
             {plain + some_mirror + point, {delta, met}, {direct}, {both_delta}},
             {grey_floor + distant + some_glass, {delta}, {direct}, {both_delta}},
             {grey_floor + sky + some_glass, {}, {by_sky, direct}, {}},
