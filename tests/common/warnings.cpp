@@ -181,14 +181,12 @@ TEST_SUITE("warnings") {
         const std::string plain = grey_floor + high_lamp,
                           some_mirror = in(mirror, ball("2 2 2", "0.2")),
                           disk_above =
-                              "Rotate 90 1 0 0 Shape \"disk\" \"float height\" -2 "
-                              "\"float radius\" 2\n",
+                              "Rotate 90 1 0 0 Scale 2 2 1 Translate 0 0 -2 Shape \"disk\"\n",
                           wall = "Translate 0 1 1 Rotate -90 1 0 0 " + floor_2;
         struct {
             std::string world;
             Lines light_sampling, direct, both_ends;
         } cases[] = {
-            {plain, {}, {}, {}},
             {plain + some_mirror, {met}, {direct}, {both_met}},
             {grey_floor + lamp(disk_above), {}, {"from the lamp's middle"}, {}},
             {in(black, floor_2) + high_lamp + some_mirror, {}, {}, {}},
