@@ -133,7 +133,7 @@ bool surfaces_face_each_other(const Scene& scene, const InView& seen) {
 }
 
 /// Whether a flat lamp is so near to a surface in view that it is no point: within twice the radius
-/// of a disk of its area, which a point of that intensity makes 25 % too bright and more.
+/// of a disk of its area. Below a disk a point is 25 % too bright there, and more if nearer.
 bool lamps_are_near(const Scene& scene, const InView& seen) {
     auto is_near = [&](const LightShape& lamp) {
         float near = 2 * std::sqrt(lamp.area / pi);
