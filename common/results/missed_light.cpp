@@ -284,8 +284,8 @@ std::vector<std::string> missed_light(const Scene& scene, const RenderOptions& o
                 "directly and in mirrors");
         if (lamps_are_near(scene, seen))
             lines.push_back(
-                "a lamp near a surface lights it as if all came from the lamp's middle: too "
-                "bright");
+                "a lamp near a surface lights it as if all came from the lamp's middle: the "
+                "error is not reported");
         if (scene.max_depth > 1 && !any_material(is_specular) &&
             surfaces_face_each_other(scene, seen))
             lines.push_back("light that one surface reflects to another is left out");
