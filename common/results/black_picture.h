@@ -6,10 +6,7 @@
 #include "common/options/options.h"
 #include "common/scene/scene.h"
 
-/// The causes that may make a picture of this scene black, one line each: those that a few hundred
-/// rays do not rule out. Not empty.
-///
-/// chance   the probability that a path hits a light at random; see LightSearch::by_chance
-/// tested by  "failure: a black picture names what makes it black"
-std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options,
-                                         double chance);
+/// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
+/// view and the lights tell them; nothing is rendered. Not empty.
+/// tested by  "truth: the causes of a black picture, all of them, and no others"
+std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);
