@@ -111,7 +111,8 @@ TEST_SUITE("ch22 fast bidirectional") {
     }
 
     TEST_CASE("agreement: with and without chances through mirrors, by length and class") {
-        for (std::string name : {"cornell-spheres", "light-in-glass", "caustic"}) {
+        // Not in caustic: without chances, one path in 200,000 carries most of the light of length 4.
+        for (std::string name : {"cornell-spheres", "light-in-glass"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
             CHECK(check_classes(scene, by_22(scene, 0), scene, by_22(scene, 16), 400000) >= 8);
