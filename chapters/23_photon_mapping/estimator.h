@@ -88,16 +88,16 @@ inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endp
     return vertices;
 }
 
-/// The first radius: what the user asks for, or one that suits the map with denser photons.
+/// The first radius: what the user asks for, or one that suits the photons.
 inline float choose_radius(const Scene& scene, const Endpoints& endpoints,
                            const PhotonSettings& settings) {
     if (settings.radius > 0) return settings.radius;
     PhotonSettings few = settings;
     few.light_paths = std::min(settings.light_paths, 1 << 14);
     auto vertices = trace_light_paths(scene, endpoints, few, 0, 1, [] { return false; });
-    PhotonMaps maps = build_maps(std::move(vertices), 4 * pixel_width(scene), false);
+    PhotonMaps maps = build_maps(std::move(vertices), 3.3f * pixel_width(scene), false);
     double share = static_cast<double>(few.light_paths) / settings.light_paths;
-    return std::min(first_radius(maps.global, share), first_radius(maps.caustic, share));
+    return first_radius(maps, share);
 }
 
 /// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.

@@ -207,19 +207,13 @@ inline void trace_light_paths(const Scene& scene, const PhotonSettings& settings
 
 /// The settings, where the user leaves them open: two light paths for each pixel, at most a
 /// million, and a first radius as in chapter 23. No light paths where nothing is a mirror or glass.
-inline PhotonSettings settings_for(const Scene& scene, PhotonSettings settings, Merging& merging) {
+inline PhotonSettings settings_for(const Scene& scene, const Endpoints& endpoints,
+                                   PhotonSettings settings) {
     auto any = std::find_if(scene.materials.begin(), scene.materials.end(), is_specular);
     if (any == scene.materials.end()) return {.light_paths = 0};
     double most = 2.0 * scene.width * scene.height;
     if (settings.light_paths == 0) settings.light_paths = static_cast<int>(std::min(most, 1e6));
-    if (settings.radius > 0) return settings;
-    PhotonSettings few = settings;
-    few.light_paths = std::min(settings.light_paths, 1 << 14);
-    few.radius = 4 * pixel_width(scene);
-    trace_light_paths(
-        scene, few, 0, 1, [] { return false; }, merging);
-    double share = static_cast<double>(few.light_paths) / settings.light_paths;
-    settings.radius = first_radius(merging.map, share);
+    settings.radius = choose_radius(scene, endpoints, settings);
     return settings;
 }
 
@@ -227,7 +221,7 @@ inline PhotonSettings settings_for(const Scene& scene, PhotonSettings settings, 
 inline SplatPassTrace merging_passes(const Scene& scene, PhotonSettings settings) {
     auto merging =
         std::make_shared<Merging>(Merging{endpoints_of(scene), many_lights::prepare(scene)});
-    settings = settings_for(scene, settings, *merging);
+    settings = settings_for(scene, merging->endpoints, settings);
     auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         trace_light_paths(scene, settings, pass, threads, stopped, *merging);
     };

@@ -6,7 +6,8 @@
 #include "common/path/photon_map.h"
 
 /// The width of a pixel where the camera sees surfaces, in m: the median over paths through a grid
-/// of film points, which follow mirrors and glass to another surface.
+/// of film points, which follow mirrors and glass to another surface. A smaller picture counts as
+/// one of 128x128 pixels, since its light is no less sharp.
 ///
 ///   width = length of the path * sqrt(solid angle of the pixel)
 ///
@@ -14,7 +15,9 @@
 inline float pixel_width(const Scene& scene) {
     constexpr int side = 32;  // of the grid
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    float pixel = std::sqrt(length(cross(view.dx, view.dy)));  // its width at distance 1
+    float pixels = static_cast<float>(scene.width) * static_cast<float>(scene.height);
+    float part = std::min(pixels / (128 * 128), 1.0f);
+    float pixel = std::sqrt(part * length(cross(view.dx, view.dy)));  // its width at distance 1
     float step_x = static_cast<float>(scene.width) / side;
     float step_y = static_cast<float>(scene.height) / side;
     std::vector<float> widths;
@@ -39,24 +42,26 @@ inline float pixel_width(const Scene& scene) {
     return *median;
 }
 
-/// The first radius: within it a photon has 36 others around it, on average over all photons; at
-/// most the radius of the map, four pixels. `share`: how many of a pass's light paths made the map.
+/// The first radius: within it a photon of a caustic has 50 others of any kind around it, on
+/// average; at most the radius of the maps, 3.3 pixels. Where there are no caustics, all photons
+/// count. `share`: how many of a pass's light paths made the maps.
 ///
-///   mean over photons of the number of others nearer than r = 36 share
+///   mean over caustic photons of the number of others nearer than r = 50 share
 ///
 /// tested by  "truth: the first radius of even photons, ...", to 6 %
-inline float first_radius(const PhotonMap& map, double share) {
+inline float first_radius(const PhotonMaps& maps, double share) {
     constexpr size_t most = 500;  // photons to count from: enough for a mean
-    std::span<const Photon> photons = map.photons();
+    const PhotonMap& sharp = maps.caustic.size() > 0 ? maps.caustic : maps.global;
+    std::span<const Photon> photons = sharp.photons();
     size_t step = photons.size() / most + 1, from = 0;
     std::vector<float> distances;
     for (size_t i = 0; i < photons.size(); i += step) {
         from++;
-        map.for_each_near(photons[i].p,
-                          [&](const Photon&, Vec3 v) { distances.push_back(length(v)); });
+        maps.global.for_each_near(photons[i].p,
+                                  [&](const Photon&, Vec3 v) { distances.push_back(length(v)); });
     }
-    size_t wanted = static_cast<size_t>((1 + 36 * share) * static_cast<double>(from));
-    if (wanted >= distances.size()) return map.radius();
+    size_t wanted = static_cast<size_t>((1 + 50 * share) * static_cast<double>(from));
+    if (wanted >= distances.size()) return maps.global.radius();
     auto last = distances.begin() + static_cast<std::ptrdiff_t>(wanted);
     std::nth_element(distances.begin(), last, distances.end());
     return *last;

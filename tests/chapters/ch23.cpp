@@ -140,24 +140,36 @@ TEST_SUITE("ch23 photon map") {
 }
 
 TEST_SUITE("ch23 first radius") {
-    TEST_CASE("truth: the first radius of even photons, and at most four pixels") {
-        // n photons on 1 m^2: n pi r^2 = 36, and a little more, since disks at its edge are empty.
+    TEST_CASE("truth: the first radius of even photons, and at most that of the maps") {
+        // n photons on 1 m^2: n pi r^2 = 50, and a little more, since disks at its edge are empty.
+        // It is the same if only few of them are of caustics.
         Sampler random(SamplerType::independent, 1, 1);
+        auto maps = [&](int n, int caustic) {
+            std::vector<Photon> photons = on_a_square(n, random, 1);
+            PhotonMap global(photons, 0.2f);
+            photons.resize(static_cast<size_t>(caustic));
+            return ch23::PhotonMaps{false, {}, global, PhotonMap(photons, 0.2f)};
+        };
         for (int n : {10000, 40000}) {
-            PhotonMap map(on_a_square(n, random, 1), 0.2f);
-            for (double share : {1.0, 0.25}) {
-                double r = std::sqrt(36 * share / (pi_exact * n));
-                CHECK(double{ch23::first_radius(map, share)} ==
-                      doctest::Approx(r).epsilon(0.06).scale(0));
+            for (int caustic : {0, n / 20}) {
+                for (double share : {1.0, 0.25}) {
+                    double r = std::sqrt(50 * share / (pi_exact * n));
+                    CHECK(double{ch23::first_radius(maps(n, caustic), share)} ==
+                          doctest::Approx(r).epsilon(0.06).scale(0));
+                }
             }
         }
-        CHECK(ch23::first_radius(PhotonMap(on_a_square(30, random, 1), 0.2f), 1) == 0.2f);
-        CHECK(ch23::first_radius(PhotonMap({}, 0.2f), 1) == 0.2f);
-        // A floor 1.9 m below a camera of 60 degrees and 32 pixels. The median ray is 1.1 times as
-        // long as the one in the middle.
-        double width = 1.1 * 1.9 * 2 * std::tan(pi_exact / 6) / 32;
-        CHECK(double{ch23::pixel_width(SpotByMirror().scene)} ==
-              doctest::Approx(width).epsilon(0.03).scale(0));
+        CHECK(ch23::first_radius(maps(30, 0), 1) == 0.2f);
+        CHECK(ch23::first_radius(maps(0, 0), 1) == 0.2f);
+        // A floor 1.9 m below a camera of 60 degrees. The median ray is 1.1 times as long as the
+        // one in the middle. A picture with fewer than 128x128 pixels counts as one with as many.
+        SpotByMirror spot;
+        for (int pixels : {32, 256}) {
+            spot.scene.width = spot.scene.height = pixels;
+            double width = 1.1 * 1.9 * 2 * std::tan(pi_exact / 6) / std::max(pixels, 128);
+            CHECK(double{ch23::pixel_width(spot.scene)} ==
+                  doctest::Approx(width).epsilon(0.03).scale(0));
+        }
     }
 
     TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {
