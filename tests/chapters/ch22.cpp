@@ -111,7 +111,7 @@ TEST_SUITE("ch22 fast bidirectional") {
     }
 
     TEST_CASE("agreement: with and without chances through mirrors, by length and class") {
-        // Not in caustic: without chances, one path in 200,000 carries most of the light of length 4.
+        // Not in caustic: without chances, one path in 200,000 carries most light of length 4.
         for (std::string name : {"cornell-spheres", "light-in-glass"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
