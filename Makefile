@@ -30,7 +30,7 @@ support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
 started    =
 made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt)
 
-.PHONY: all programs test host test-slow help help-all clean always $(numbers)
+.PHONY: all programs test host test-slow clean always $(numbers)
 .SECONDARY .DELETE_ON_ERROR .SECONDEXPANSION:
 
 #: starting: make              install what is missing, build, and render all pictures into out/
@@ -87,8 +87,3 @@ include $(wildcard common/*/rules.mk tests/*/rules.mk)
 clean:
 	rm -rf build out
 #: maintaining: make SAN=1 test   under the sanitizers of addresses and undefined behaviour
-help:
-	@common/tools/help
-#: starting: make help-all     these commands, and those that only makers use
-help-all:
-	@common/tools/help all

@@ -8,6 +8,7 @@
 #include "common/path/trace.h"
 #include "common/rendering/progress.h"
 #include "common/rendering/tile_renderer.h"
+#include "common/results/outputs.h"
 #include "common/results/results.h"
 
 namespace ch26 {
@@ -105,6 +106,7 @@ inline void report(const Patches& patches, const Matrix& G, const Solution& s, c
 /// One run of the program: patches, solution, picture. Time and signals end the solution, and then
 /// the picture, soon.
 inline int run(const Scene& scene, RenderOptions options, const Settings& settings) {
+    check_outputs(scene, options);
     Limit limit(options.time);
     refuse_many(scene, 2 * scene.geometry.triangles.size());
     auto patches =

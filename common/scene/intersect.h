@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "common/material/hit.h"
 #include "common/base/ray_count.h"
+#include "common/material/hit.h"
 #include "common/scene/scene.h"
 
 /// A ray that was traced: in search of the nearest surface, or as a shadow ray, of anything.

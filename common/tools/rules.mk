@@ -1,6 +1,11 @@
 # Pages, and what looks at the text of the code.
-.PHONY: diff lint pictures gallery readmes student-edition tidy
+.PHONY: help help-all diff lint pictures gallery readmes student-edition tidy
 
+#: starting: make help-all     these commands, and those that only makers use
+help:
+	@common/tools/help
+help-all:
+	@common/tools/help all
 #: reading: make diff CH=08   what a chapter changes of the one before
 diff:
 	@common/tools/chapter_diff '$(CH)'

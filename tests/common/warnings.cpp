@@ -127,7 +127,7 @@ TEST_SUITE("warnings") {
         CHECK(are(told(film, 10.2), {}));
         CHECK(are(told(film, 10.3), {"one sample contains 1.01 % of the whole picture"}));
         // n equal samples and nothing else are n effective ones.
-        for (size_t n : {99, 100}) {
+        for (size_t n : {99u, 100u}) {
             Film few = film_with(2, [&](size_t i, int s) { return s == 0 && i < n ? 1 : 0; });
             CHECK(are(told(few), n < 100 ? Lines{"as few as 99 samples determine"} : Lines{}));
         }
@@ -159,7 +159,7 @@ TEST_SUITE("warnings") {
             bool few = spp > 1 && spp < 16;
             CHECK(are(told(film), few ? Lines{"estimated from few passes"} : Lines{}));
         }
-        for (size_t noisy : {15, 17}) {
+        for (size_t noisy : {15u, 17u}) {
             Film film(16, 16);
             film.start_halves();
             for (size_t i = 0; i < 256; i++)
