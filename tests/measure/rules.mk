@@ -52,10 +52,3 @@ teeth: $(harness) $(made)
 #: teaching: make break CH=09 N=2   plant the second mistake of that page's "Break it", and show its test red
 break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
-#: maintaining: make kills        end renders by 300 signals at random moments: no film or picture is lost (4 minutes)
-kills: $(BUILD)/15_mis_ris $(BUILD)/07_path_tracing
-	tests/kills $(BUILD)
-#: maintaining: make parts        render parts by GNU parallel and Slurm: the same bytes as one run
-parts: $(BUILD)/15_mis_ris $(BUILD)/merge
-	tests/parts $(BUILD)
-.PHONY: kills parts
