@@ -15,8 +15,9 @@ function layers(live) {
         const classes = Object.keys(files).filter(file => file.startsWith('out/classes/') && file.endsWith('.pfm'));
         const found = classes.map(file => ({...readPnm(files[file]), name: file.slice(12, -4)}));
         found.sort((a, b) => mean(b) - mean(a));
+        live.viewer.set([whole, found[0]]);
         list.append(...[whole, ...found].map(picture => make('button', {
-            type: 'button', onclick: () => live.viewer.set([picture])
+            type: 'button', onclick: () => live.viewer.set([whole, picture])
         }, `${picture.name} ${(100 * mean(picture) / mean(whole)).toFixed(1)} %`)));
     };
     return make('div', {class: 'by-class'}, split, list);

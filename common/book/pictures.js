@@ -73,7 +73,7 @@ class Viewer {
         this.errorButton = button('error view', () => { this.error = !this.error; });
         this.node = make('div', {class: 'viewer', hidden: true},
             make('div', {class: 'sheet'}, this.canvas, this.overlay, this.mark), this.range, this.choices,
-            make('span', {class: 'choices'}, button('darker', () => { this.exposure -= 0.5; }),
+            make('span', {class: 'buttons'}, button('darker', () => { this.exposure -= 0.5; }),
                 button('brighter', () => { this.exposure += 0.5; }), this.errorButton), this.readout);
         this.canvas.onpointermove = event => this.read(this.pixelAt(event));
         this.canvas.onclick = event => this.pick?.(this.pixelAt(event));
@@ -83,7 +83,9 @@ class Viewer {
 
     set(pictures) {
         this.node.hidden = false, this.range.hidden = pictures.length < 2;
-        if (pictures.length !== this.pictures.length) this.offer(pictures);
+        const names = pictures.map(({name}) => name).join('|');
+        if (names !== this.names) this.offer(pictures);
+        this.names = names;
         this.pictures = pictures;
         const {width, height} = pictures[0];
         if (this.canvas.width !== width || this.canvas.height !== height) {

@@ -178,7 +178,7 @@ async function path_by_keys(browser) {
     for (const key of ['ArrowDown', 'ArrowDown', 'ArrowRight', 'Enter']) await browser.key(key);
     await browser.until(`live.viewer.overlay.querySelector('svg circle')`);
     const story = await browser.value('live.text.textContent');
-    check('arrow keys choose a pixel, and Enter tells its path', story.includes('pixel 129,129 sample 0'), story.slice(0, 60));
+    check('arrow keys choose a pixel, and Enter tells its path', story.includes('pixel 129,130 sample 0'), story.slice(0, 60));
 }
 /// Tab reaches all that a mouse can use, with a frame around it, and Enter renders.
 async function by_keyboard(browser) {
