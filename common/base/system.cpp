@@ -306,7 +306,9 @@ int lock_file(const std::string& name) {
 }
 void pass_lock(int& lock, int& file) { std::swap(lock, file); }
 void unlock_file(int lock, const std::string& name) {
-    if (bytes_in(lock) == 0) ::unlink(name.c_str());
+    // By name: in a page the size of a file that was renamed while it was open is not known.
+    struct stat status = {};
+    if (::stat(name.c_str(), &status) == 0 && status.st_size == 0) ::unlink(name.c_str());
     ::close(lock);
 }
 

@@ -40,33 +40,28 @@ onmessage = async ({data: job}) => {
     }
 };`;
 
-/// What data.js holds, unpacked: {module, size (bytes), worker, scenes, files, references}.
+/// What data.js holds, unpacked: {module, size (bytes), worker, files}.
 async function unpack() {
-    if (typeof packed === 'undefined') {
-        await new Promise(ready => window.addEventListener('packed', ready));
-    }
     const gzipped = Uint8Array.from(atob(packed), letter => letter.charCodeAt(0));
     const stream = new Blob([gzipped]).stream().pipeThrough(new DecompressionStream('gzip'));
-    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-    let at = bytes.indexOf(10);
-    const text = part => new TextDecoder().decode(part), list = JSON.parse(text(bytes.subarray(0, at++)));
-    const data = {scenes: {}, files: {}, references: {}};
-    for (const [name, length] of list) {
-        const content = bytes.subarray(at, at += length);
-        if (name.startsWith('references/')) data.references[name.slice(11)] = content;
-        else if (name.endsWith('.pbrt')) data.scenes[name] = text(content);
-        else data.files[name] = content;
+    const bytes = new Uint8Array(await new Response(stream).arrayBuffer()), files = {};
+    // A header of tar: the name, and at 124 the size in octal digits.
+    for (let at = 0; bytes[at];) {
+        const [name] = textOf(bytes.subarray(at, at + 100)).split('\0');
+        const size = parseInt(textOf(bytes.subarray(at + 124, at + 135)), 8);
+        files[name] = bytes.subarray(at + 512, at + 512 + size);
+        at += 512 * (1 + Math.ceil(size / 512));
     }
-    const {'live.js': glue, 'live.wasm': wasm, ...files} = data.files;
+    const {'live.js': glue, 'live.wasm': wasm, ...others} = files;
     const worker = URL.createObjectURL(new Blob([glue, workerText], {type: 'text/javascript'}));
-    const all = {...data, files, worker, module: await WebAssembly.compile(wasm), size: wasm.length};
-    await Promise.all(made.map(async name => {
+    const data = {files: others, worker, module: await WebAssembly.compile(wasm), size: wasm.length};
+    await Promise.all(made.split(' ').map(async name => {
         const program = name.replace(/scenes\/(.*)\..*/, 'make_$1'), written = name.replace('scenes', 'out');
-        const content = (await new Run(all, program, [written], {}, () => {}).done).files[written];
-        if (name.endsWith('.pbrt')) all.scenes[name] = text(content); else all.files[name] = content;
+        others[name] = (await new Run(data, program, [written], {}, () => {}).done).files[written];
     }));
-    return all;
+    return data;
 }
+const textOf = bytes => new TextDecoder().decode(bytes);
 const engine = unpack();
 
 /// One run of a program. show({width, height, pixels, mean, error, seconds}) is called now and then;
@@ -92,53 +87,22 @@ class Run {
     stop() { this.end(null, {}); }
 }
 
-/// The picture of a .pfm file: {width, height, pixels}, four numbers a pixel from the top left.
-function readPfm(bytes) {
-    let at = 0;
-    const word = () => {
-        let text = '';
-        while (bytes[at] > 32) text += String.fromCharCode(bytes[at++]);
-        at++;
-        return text;
-    };
-    word();
-    const width = +word(), height = +word();
-    word();
-    const floats = new Float32Array(bytes.slice(at).buffer);
-    const pixels = new Float32Array(4 * width * height);
-    for (let y = 0; y < height; y++) {
-        for (let x = 0; x < width; x++) {
-            const from = 3 * ((height - 1 - y) * width + x), to = 4 * (y * width + x);
-            pixels.set(floats.subarray(from, from + 3), to);
-        }
-    }
-    return {width, height, pixels};
-}
-
-/// Pictures of parts of the samples as one: each pixel counts by its samples, which its fourth
-/// number tells.
+/// Pictures of parts of the samples as one: each pixel counts by its samples, which its fourth number tells.
 function joined(parts) {
-    if (parts.length === 1) return parts[0];
-    const {width, height} = parts[0], pixels = new Float32Array(4 * width * height);
-    for (let i = 0; i < pixels.length; i += 4) {
-        let n = 0;
-        for (const part of parts) n += part.pixels[i + 3];
+    const pixels = parts[0].pixels.map((_, i) => {
+        let sum = 0, n = 0;
         for (const part of parts) {
-            const share = n > 0 ? part.pixels[i + 3] / n : 0;
-            for (let k = 0; k < 3; k++) pixels[i + k] += share * part.pixels[i + k];
+            n += part.pixels[i | 3];
+            sum += part.pixels[i] * part.pixels[i | 3];
         }
-        pixels[i + 3] = n;
-    }
-    return {width, height, pixels};
+        return i % 4 === 3 ? n : n > 0 ? sum / n : 0;
+    });
+    return {...parts[0], pixels};
 }
 
-/// relMSE = mean((a - b)^2 / (b^2 + 0.01)), as build/compare has it.
-function relMse(a, b) {
-    let sum = 0;
-    for (let i = 0; i < a.pixels.length; i++) {
-        if (i % 4 === 3) continue;
-        const d = a.pixels[i] - b.pixels[i];
-        sum += d * d / (b.pixels[i] ** 2 + 0.01);
-    }
-    return sum / (a.pixels.length / 4 * 3);
+/// The mean of a picture, or of what `value` makes of each number in it.
+function mean({pixels}, value = x => x) {
+    return pixels.reduce((sum, x, i) => i % 4 === 3 ? sum : sum + value(x, i), 0) / (pixels.length / 4 * 3);
 }
+/// relMSE = mean((a - b)^2 / (b^2 + 0.01)), as build/compare has it.
+const relMse = (a, b) => mean(b, (x, i) => (a.pixels[i] - x) ** 2 / (x ** 2 + 0.01));

@@ -39,7 +39,6 @@ local kinds = {jpg = "image/jpeg", png = "image/png", svg = "image/svg+xml"}
 function Image(image)
     if image.src:match("^%a+:") then error("a picture from elsewhere: " .. image.src) end
     local file = in_project(image.src)
-    image.attributes["data-file"] = file
     local chapter = file:match("^chapters/(%d%d)_[^/]*/strip.png$")
     if chapter then
         local names = pandoc.pipe("common/tools/make_strips", {"--names", chapter}, "")

@@ -7,7 +7,7 @@ function field(name, label, attributes, values) {
         make('input', {name, ...attributes});
     return make('label', {}, `${label} `, input);
 }
-const sceneFile = name => `scenes/${name}.pbrt`;
+const count = (name, label, value, min = 1) => field(name, label, {type: 'number', min: Math.min(min, value), value});
 
 class Live {
     constructor(name, data) {
@@ -24,22 +24,24 @@ class Live {
         this.node = make('section', {class: 'live', 'aria-label': 'live'},
             make('h2', {id: 'live'}, 'Try it here'),
             this.form, this.errors, this.viewer.node, this.status, this.text);
-        if (this.about.kind === 'film') this.node.append(layers(this), race(this));
+        if (this.about.kind === 'film') {
+            this.node.append(layers(this), race(this));
+            this.viewer.pick = ([x, y]) => this.tell(x, y);
+        }
         if (this.about.kind !== 'table') this.node.insertBefore(this.editor(), this.errors);
-        if (this.about.kind === 'film') this.viewer.pick = ([x, y]) => this.tell(x, y);
     }
 
     fields() {
         const about = this.about, own = (about.own || []).map(o => o.values ?
-            field(o.name, o.label, {'data-own': true}, o.values) :
-            field(o.name, o.label, {'data-own': true, type: 'number', min: Math.min(1, o.value), value: o.value}));
-        const seed = field('seed', 'seed', {type: 'number', min: 0, value: 0});
-        if (about.kind === 'table') return [field('n', 'samples', {type: 'number', min: 1, value: about.n}), seed];
-        const names = Object.keys(this.data.scenes).map(file => file.slice(7, -5));
-        const scene = field('scene', 'scene', {}, [about.scene, ...names.filter(n => n !== about.scene)]);
+            field(o.name, o.label, {}, o.values) : count(o.name, o.label, o.value));
+        const seed = count('seed', 'seed', 0);
+        if (about.kind === 'table') return [count('n', 'samples', about.n), seed];
+        const names = Object.keys(this.data.files).filter(file => file.endsWith('.pbrt')).map(file => file.slice(7, -5));
+        const scene = field('scene', 'scene', {}, names);
+        scene.lastChild.value = about.scene;
         const size = field('size', 'size', {}, ['256x256', '24x24', '64x64', '128x128', '512x512']);
         if (about.kind === 'once') return [scene, size, ...own];
-        return [scene, size, field('spp', 'samples per pixel', {type: 'number', min: 1, value: about.spp || 16}),
+        return [scene, size, count('spp', 'samples per pixel', about.spp || 16),
             field('sampler', 'sampler', {}, ['independent', 'stratified', 'sobol']), seed,
             field('max-depth', 'longest path', {type: 'number', min: 0, placeholder: 'of the scene'}),
             field('paths', 'classes', {placeholder: 'all; LD(S|D)*E', size: 12}), ...own];
@@ -57,32 +59,32 @@ class Live {
     /// The scene's text, which may be changed.
     editor() {
         this.editing = make('textarea', {spellcheck: 'false', rows: 14, 'aria-label': 'text of the scene'});
-        const scene = this.form.elements.scene;
-        const fill = () => { this.editing.value = this.data.scenes[sceneFile(scene.value)]; };
-        scene.onchange = fill;
+        const fill = () => { this.editing.value = textOf(this.data.files[this.sceneName()]); };
+        this.form.elements.scene.onchange = fill;
         fill();
-        return make('details', {class: 'editor'}, make('summary', {}, 'The scene, to be changed'), this.editing);
+        return make('details', {}, make('summary', {}, 'The scene, to be changed'), this.editing);
     }
 
     /// The options in the form, as words.
-    options(form = this.form) {
+    options() {
         const words = [];
-        for (const input of form.elements) {
-            if (!input.name || input.name === 'scene' || input.name === 'n' || input.value === '') continue;
-            const isDefault = (this.about.own || []).some(o => o.name === input.name && o.values?.[0] === input.value);
-            if (!isDefault) words.push(`--${input.name}`, input.value);
+        for (const {name, value} of this.form.elements) {
+            if (!name || name === 'scene' || name === 'n' || value === '') continue;
+            const isDefault = (this.about.own || []).some(o => o.name === name && o.values?.[0] === value);
+            if (!isDefault) words.push(`--${name}`, value);
         }
         return words;
     }
-    files() {
-        const files = {...this.data.files, ...this.data.scenes};
-        if (this.editing) files[sceneFile(this.form.elements.scene.value)] = this.editing.value;
-        return files;
-    }
-    start(program, args, show = () => {}) {
-        const run = new Run(this.data, program, [...args, '--threads', '1'], this.files(), show);
+    /// Starts a program, which stop() ends.
+    run(program, args, files, show = () => {}) {
+        const run = new Run(this.data, program, args, files, show);
         this.runs.push(run);
         return run.done;
+    }
+    /// A program of a chapter, with the scene as it stands in the page.
+    start(program, args, show) {
+        const files = {...this.data.files, [this.sceneName()]: this.editing.value};
+        return this.run(program, [...args, '--threads', '1'], files, show);
     }
     stop() {
         for (const run of this.runs) run.stop();
@@ -98,33 +100,29 @@ class Live {
         this.errors.replaceChildren();
         this.viewer.overlay.replaceChildren();
         this.busy(true);
-        this.began = performance.now(), this.first = null;
-        const kind = this.about.kind;
-        const done = await (kind === 'table' ? this.table() : kind === 'once' ? this.once() : this.film());
+        this.began = performance.now();
+        this.status.textContent = 'working';
+        const done = await this[this.about.kind]();
         this.busy(false);
         if (done.code === null) this.status.textContent += ', stopped';
         else this.report(done);
     }
     /// One run that shows all at its end.
     once() {
-        this.status.textContent = 'working';
         return this.start(this.name, [this.sceneName(), ...this.options(), ...this.about.words || [],
             '--out', 'out/picture.pfm']);
     }
-    sceneName() { return sceneFile(this.form.elements.scene.value); }
+    sceneName() { return `scenes/${this.form.elements.scene.value}.pbrt`; }
 
     /// More and more samples, up to those asked for.
     async table() {
-        const n = +this.form.elements.n.value, seed = this.form.elements.seed.value;
+        const n = +this.form.elements.n.value, seed = this.form.elements.seed.value, shares = [64, 8, 1];
         let done;
-        for (const share of [64, 8, 1]) {
+        for (const [stage, share] of shares.entries()) {
+            if (done) this.report(done, `stage ${stage} of ${shares.length}`);
             const some = Math.max(1, Math.floor(n / share));
-            const words = ['--n', `${some}`, '--seed', seed, '--out', 'out/picture.pfm'];
-            const run = new Run(this.data, this.name, words, {}, () => {});
-            this.runs.push(run);
-            done = await run.done;
-            if (done.code !== 0) return done;
-            if (share > 1) this.report(done);
+            done = await this.run(this.name, ['--n', `${some}`, '--seed', seed, '--out', 'out/picture.pfm'], {});
+            if (done.code !== 0) break;
         }
         return done;
     }
@@ -132,32 +130,23 @@ class Live {
     /// Parts of the samples in several workers, each into a film of its own; then all as one.
     async film() {
         const spp = Math.max(1, +this.form.elements.spp.value);
-        const parts = Math.max(1, Math.min(navigator.hardwareConcurrency || 1, spp, 8));
-        const shown = [], films = [];
-        this.workers = parts;
-        const runs = Array.from({length: parts}, (_, k) => this.start(this.name, [
+        const parts = Math.max(1, Math.min(navigator.hardwareConcurrency || 1, spp, 8)), shown = [];
+        const results = await Promise.all(Array.from({length: parts}, (_, k) => this.start(this.name, [
             this.sceneName(), ...this.options(), '--film', `out/${k}.film`, '--film-every', '0.1', '--part',
             `${k + 1}/${parts}`, '--out', 'out/picture.pfm'
         ], message => {
             // Drawn once for all workers, since they are about equally far.
             shown[k] = message;
             if (k === 0) this.progress(shown.filter(Boolean));
-        }));
-        const results = await Promise.all(runs);
+        })));
         const failed = results.find(result => result.code !== 0);
         if (failed || parts === 1) return failed || results[0];
-        const files = {};
-        results.forEach((result, k) => {
-            files[`in/${k}.film`] = result.files[`out/${k}.film`];
-            films.push(`in/${k}.film`);
-        });
-        const merge = new Run(this.data, 'merge', ['out/picture.pfm', ...films], files, () => {});
-        const whole = await merge.done;
+        const films = Object.assign({}, ...results.map(({files}, k) => ({[`in/${k}.film`]: files[`out/${k}.film`]})));
+        const whole = await this.run('merge', ['out/picture.pfm', ...Object.keys(films)], films);
         return {...whole, out: [...results[0].out.slice(0, 1), ...whole.out]};
     }
     progress(parts) {
         const picture = joined(parts);
-        this.first ??= performance.now() - this.began;
         let n = 0;
         for (let i = 3; i < picture.pixels.length; i += 4) n += picture.pixels[i];
         this.viewer.set([{...picture, name: this.name}]);
@@ -166,47 +155,18 @@ class Live {
     }
     seconds() { return ((performance.now() - this.began) / 1000).toFixed(1); }
 
-    report({code, files, out, errors}) {
+    report({code, files, out, errors}, how = 'done') {
         this.result = files;
-        if (files['out/picture.pfm']) {
-            const picture = readPfm(files['out/picture.pfm']);
-            this.first ??= performance.now() - this.began;
-            this.viewer.set([{...picture, name: this.name}]);
-        }
-        this.text.hidden = out.length === 0;
-        this.text.textContent = out.filter(line => !line.startsWith('wrote ')).join('\n');
+        if (files['out/picture.pfm']) this.viewer.set([{...readPnm(files['out/picture.pfm']), name: this.name}]);
+        this.print(out);
         this.complain(errors);
-        if (code !== 0) this.status.textContent = `the program ended with code ${code}`;
-        else {
-            this.status.textContent = `done in ${this.seconds()} s; first picture after ` +
-                `${this.first.toFixed(0)} ms${this.speed()}`;
-        }
+        this.status.textContent = code === 0 ? `${how} in ${this.seconds()} s` : `the program ended with code ${code}`;
     }
-    speed() {
-        if (this.about.kind !== 'film') return '';
-        const {width, height} = this.viewer.pictures[0];
-        const rate = width * height * this.form.elements.spp.value / (performance.now() - this.began) / 1000;
-        return `; ${rate.toPrecision(2)} M samples/s with ${this.workers} worker${this.workers > 1 ? 's' : ''}`;
+    print(out, hint = '') {
+        this.text.hidden = out.length === 0;
+        this.text.textContent = out.filter(line => !line.startsWith('wrote ')).join('\n') + hint;
     }
-    /// Lists errors; a click, or the first of them, goes to the place in the scene that it names.
-    complain(errors) {
-        this.errors.replaceChildren(...errors.map(line => {
-            const [, row, column] = line.match(/\.pbrt:(\d+):(\d+): /) || [];
-            const go = () => this.goTo(+row, +column);
-            return make('li', {}, row ? make('button', {type: 'button', onclick: go}, line) : line);
-        }));
-        this.errors.querySelector('button')?.click();
-    }
-    goTo(row, column) {
-        const lines = this.editing.value.split('\n');
-        const at = lines.slice(0, row - 1).reduce((sum, line) => sum + line.length + 1, 0) + column - 1;
-        const word = this.editing.value.slice(at).match(/^("[^"\n]*"|\S*)/)[0];
-        this.editing.closest('details').open = true;
-        this.editing.focus();
-        this.editing.setSelectionRange(at, at + Math.max(1, word.length));
-        const height = parseFloat(getComputedStyle(this.editing).lineHeight);
-        this.editing.scrollTop = (row - 4) * height;
-    }
+    complain(errors) { this.errors.replaceChildren(...errors.map(line => make('li', {}, line))); }
 
     /// The story of a path through a pixel, drawn into the picture.
     async tell(x, y) {
@@ -218,10 +178,8 @@ class Live {
             `${x},${y},${sample}`, '--out', 'out/path.ppm']);
         this.complain(done.errors);
         if (done.code !== 0) return;
-        this.text.hidden = false;
-        this.text.textContent = done.out.filter(line => !line.startsWith('wrote ')).join('\n') +
-            '\n\nClick the same pixel again (or press Enter) to see its next sample.';
-        this.lay(new TextDecoder().decode(done.files['out/path.svg']));
+        this.print(done.out, '\n\nClick the same pixel again (or press Enter) to see its next sample.');
+        this.lay(textOf(done.files['out/path.svg']));
     }
     /// Lays the drawing of a path over the picture: of its two panels that of the camera, whose frame
     /// is the first rectangle without a filling; without the background and the small picture that are in it.

@@ -1,5 +1,4 @@
-// Pictures to hold: two beside each other behind a slider, the values of a pixel, exposure, the error
-// and single pixels.
+// Pictures to look at closely: two beside each other behind a slider, the values of a pixel, exposure and the error.
 
 const make = (tag, attributes = {}, ...children) => {
     const node = document.createElement(tag);
@@ -23,94 +22,99 @@ const toSrgb = Uint8ClampedArray.from({length: steps + 1}, (_, i) => {
     return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 });
 
-/// A canvas with what is needed to look closely. pictures: {name, width, height, pixels}, linear, four
-/// numbers a pixel; all of one size. The first is to the left of the slider, the second to the right.
+/// What is drawn on a canvas: {width, height, pixels}, linear, four numbers a pixel from the top left.
+function linear(canvas, x = 0, y = 0, width = canvas.width, height = canvas.height) {
+    const {data} = canvas.getContext('2d').getImageData(x, y, width, height);
+    return {width, height, pixels: Float32Array.from(data, (code, i) => i % 4 === 3 ? 1 : fromSrgb[code])};
+}
+function canvasOf(image) {
+    const canvas = make('canvas', {width: image.naturalWidth || image.width, height: image.naturalHeight || image.height});
+    canvas.getContext('2d').drawImage(image, 0, 0);
+    return canvas;
+}
+/// A picture in the bytes of a .pfm, a .ppm or a .png file.
+async function readPicture(bytes) {
+    if (bytes[0] === 0x89) {
+        return linear(canvasOf(await createImageBitmap(new Blob([bytes]), {colorSpaceConversion: 'none'})));
+    }
+    return readPnm(bytes);
+}
+function readPnm(bytes) {
+    const [head, kind, width, height] = new TextDecoder('latin1').decode(bytes.subarray(0, 1 << 16))
+        .match(/^(P6|PF)\s(?:#.*\n)*(\d+)\s+(\d+)\s+(?:#.*\n)*\S+\s/);
+    const isPfm = kind === 'PF', body = bytes.slice(head.length), pixels = new Float32Array(4 * width * height).fill(1);
+    const values = isPfm ? new Float32Array(body.buffer) : Float32Array.from(body, code => fromSrgb[code]);
+    for (let y = 0; y < height; y++) {
+        for (let x = 0; x < width; x++) {
+            const from = 3 * ((isPfm ? height - 1 - y : y) * width + x);
+            pixels.set(values.subarray(from, from + 3), 4 * (y * width + x));
+        }
+    }
+    return {width: +width, height: +height, pixels};
+}
+
+/// A canvas with what is needed to look closely. pictures: {name, width, height, pixels}, all of one size. The first
+/// is to the left of the slider, the second to the right.
 class Viewer {
     constructor() {
-        this.left = 0, this.right = 1, this.exposure = 0, this.zoom = 1, this.error = false;
-        this.slider = 0.5, this.pictures = [];
+        this.left = 0, this.right = 1, this.exposure = 0, this.error = false, this.pictures = [];
         this.canvas = make('canvas', {tabindex: 0, role: 'img', width: 256, height: 256});
         this.overlay = make('div', {class: 'overlay'});
         this.mark = make('div', {class: 'mark', hidden: true});  // around the pixel that keys have chosen
         this.pick = null;  // called with the pixel that is clicked, or chosen by keys and Enter
-        this.stage = make('div', {class: 'stage'},
-            make('div', {class: 'sheet'}, this.canvas, this.overlay, this.mark));
         this.choices = make('span', {class: 'choices', role: 'group', 'aria-label': 'picture'});
-        this.readout = make('output', {class: 'readout'}, 'point at a pixel to read its values, or move by the arrow keys');
+        this.readout = make('output', {class: 'readout'},
+            'point at a pixel to read its values, or move by the arrow keys');
         this.range = make('input', {
-            type: 'range', min: 0, max: 1, step: 0.005, value: 0.5, hidden: true,
-            'aria-label': 'slider between two pictures',
-            oninput: () => { this.slider = +this.range.value; this.draw(); }
+            type: 'range', min: 0, max: 1, step: 0.005, value: 0.5, oninput: () => this.draw(),
+            'aria-label': 'slider between two pictures'
         });
-        this.buttons = make('span', {class: 'buttons'}, ...[
-            ['e', 'darker', () => this.expose(-0.5)], ['E', 'brighter', () => this.expose(0.5)],
-            ['d', 'error view', () => this.toggleError()], ['z', 'zoom', () => this.magnify()]
-        ].map(([key, name, act]) => make('button', {type: 'button', title: `key ${key}`, onclick: act}, name)));
-        this.node = make('div', {class: 'viewer', hidden: true}, this.stage, this.range, this.choices, this.buttons, this.readout);
+        const button = (name, act) => make('button', {type: 'button', onclick: () => { act(); this.draw(); }}, name);
+        this.errorButton = button('error view', () => { this.error = !this.error; });
+        this.node = make('div', {class: 'viewer', hidden: true},
+            make('div', {class: 'sheet'}, this.canvas, this.overlay, this.mark), this.range, this.choices,
+            make('span', {class: 'buttons'}, button('darker', () => { this.exposure -= 0.5; }),
+                button('brighter', () => { this.exposure += 0.5; }), this.errorButton), this.readout);
         this.canvas.onpointermove = event => this.read(this.pixelAt(event));
-        this.canvas.onpointerdown = event => this.read(this.pixelAt(event));
         this.canvas.onclick = event => this.pick?.(this.pixelAt(event));
+        this.canvas.onkeydown = event => this.press(event);
         this.canvas.onblur = () => { this.mark.hidden = true; };
-        this.node.onkeydown = event => this.press(event);
     }
 
     set(pictures) {
-        this.pictures = pictures, this.node.hidden = false;
-        if (pictures.length !== this.count) this.left = 0, this.right = Math.min(1, pictures.length - 1);
-        this.count = pictures.length;
+        this.node.hidden = false, this.range.hidden = pictures.length < 2;
+        const names = pictures.map(({name}) => name).join('|');
+        if (names !== this.names) this.offer(pictures);
+        this.names = names;
+        this.pictures = pictures;
         const {width, height} = pictures[0];
         if (this.canvas.width !== width || this.canvas.height !== height) {
             this.canvas.width = width, this.canvas.height = height;
         }
-        this.range.hidden = pictures.length < 2;
-        const names = pictures.map(picture => picture.name).join('|');
-        if (names !== this.names) this.offer(names);
         this.draw();
     }
-    /// Buttons for the pictures: the one to the left of the slider, and the one to its right.
-    offer(names) {
-        this.names = names;
-        this.choices.replaceChildren(...this.pictures.length < 2 ? [] : this.pictures.map((picture, i) =>
-            make('button', {type: 'button', title: `key ${i + 1}`, onclick: () => this.show(i)},
-                `${i + 1} ${picture.name}`)));
-    }
-    /// Shows a picture to the right of the slider, and what was there to its left.
-    show(i) {
-        if (i >= this.pictures.length || i === this.right) return;
-        this.left = this.right, this.right = i;
-        this.draw();
-    }
-    expose(stops) { this.exposure += stops; this.draw(); }
-    toggleError() { this.error = !this.error; this.draw(); }
-    magnify() {
-        this.zoom = this.zoom >= 8 ? 1 : 2 * this.zoom;
-        this.stage.classList.toggle('zoomed', this.zoom > 1);
-        this.canvas.parentNode.style.width = this.zoom > 1 ? `${100 * this.zoom}%` : '';
-    }
-    press(event) {
-        const act = {
-            e: () => this.expose(-0.5), E: () => this.expose(0.5), d: () => this.toggleError(),
-            z: () => this.magnify(),
-            ...event.target === this.canvas && {
-                ArrowLeft: () => this.move(-1, 0, event), ArrowRight: () => this.move(1, 0, event),
-                ArrowUp: () => this.move(0, -1, event), ArrowDown: () => this.move(0, 1, event),
-                Enter: () => this.at && this.pick?.(this.at)
+    /// Buttons for the pictures. One that is chosen comes to the right of the slider; what was there, to its left.
+    offer(pictures) {
+        this.left = 0, this.right = Math.min(1, pictures.length - 1);
+        this.choices.replaceChildren(...pictures.length < 2 ? [] : pictures.map(({name}, i) => make('button', {
+            type: 'button', onclick: () => {
+                if (i !== this.right) this.left = this.right, this.right = i;
+                this.draw();
             }
-        }[event.key] || (/^[1-9]$/.test(event.key) && (() => this.show(event.key - 1)));
-        if (!act || event.target.closest('input:not([type=range]), textarea, select')) return;
-        act();
-        event.preventDefault();
+        }, name)));
     }
 
     /// Moves the mark by one pixel, with Shift by ten, and reads the pixel that it is around.
-    move(dx, dy, event) {
-        const {width, height} = this.canvas, step = event.shiftKey ? 10 : 1;
-        const [x, y] = this.at || [width >> 1, height >> 1], inside = (v, n) => Math.min(n - 1, Math.max(0, v));
-        this.at = this.at && this.at[0] < width && this.at[1] < height ?
-            [inside(x + step * dx, width), inside(y + step * dy, height)] : [width >> 1, height >> 1];
+    press(event) {
+        if (event.key === 'Enter' && this.at) return this.pick?.(this.at);
+        const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+        if (!way) return;
+        event.preventDefault();
+        const size = [this.canvas.width, this.canvas.height], from = this.at || size.map(n => n >> 1);
+        this.at = from.map((v, k) => Math.min(size[k] - 1, Math.max(0, v + way[k] * (event.shiftKey ? 10 : 1))));
         this.mark.hidden = false;
-        this.mark.style.left = `${100 * (this.at[0] + 0.5) / width}%`;
-        this.mark.style.top = `${100 * (this.at[1] + 0.5) / height}%`;
+        this.mark.style.left = `${100 * (this.at[0] + 0.5) / size[0]}%`;
+        this.mark.style.top = `${100 * (this.at[1] + 0.5) / size[1]}%`;
         this.read(this.at);
     }
 
@@ -118,7 +122,7 @@ class Viewer {
         if (this.pictures.length === 0) return;
         const {width, height} = this.pictures[0], image = new ImageData(width, height);
         const a = this.pictures[this.left], b = this.pictures[this.right], gain = steps * 2 ** this.exposure;
-        const edge = a === b ? width : Math.round(this.slider * width);
+        const edge = a === b ? width : Math.round(this.range.value * width);
         for (let i = 0; i < image.data.length; i += 4) {
             const from = i / 4 % width < edge ? a : b;
             for (let k = 0; k < 3; k++) {
@@ -138,9 +142,7 @@ class Viewer {
         [...this.choices.children].forEach((button, i) => {
             button.setAttribute('aria-pressed', i === this.left || i === this.right);
         });
-        for (const button of this.buttons.children) {
-            if (button.title === 'key d') button.setAttribute('aria-pressed', this.error);
-        }
+        this.errorButton.setAttribute('aria-pressed', this.error);
     }
     /// |a - b| / (b + 0.1) of the pixel, in grey.
     errorAt(a, b, i) {
@@ -158,53 +160,33 @@ class Viewer {
         return [Math.min(width - 1, Math.max(0, x)), Math.min(height - 1, Math.max(0, y))];
     }
     read([x, y]) {
-        if (this.pictures.length === 0) return;
-        const i = 4 * (y * this.canvas.width + x);
-        const a = this.pictures[this.left], b = this.pictures[this.right];
-        const values = p => [...p.pixels.subarray(i, i + 3)];
-        const said = p => `${p.name} (${values(p).map(digits).join(', ')})`;
-        let text = `pixel ${x},${y}: ${said(a)}`;
-        if (a !== b) {
-            const apart = values(a).map((value, k) => value - values(b)[k]);
-            const error = apart.reduce((sum, d, k) => sum + d * d / (values(b)[k] ** 2 + 0.01), 0) / 3;
-            text += `; ${said(b)}; difference (${apart.map(digits).join(', ')}), relMSE ${digits(error)}`;
-        }
-        this.readout.textContent = text;
+        const i = 4 * (y * this.canvas.width + x), shown = new Set([this.left, this.right]);
+        const said = ({name, pixels}) => `${name} (${[...pixels.subarray(i, i + 3)].map(digits).join(', ')})`;
+        this.readout.textContent = `pixel ${x},${y}: ${[...shown].map(k => said(this.pictures[k])).join('; ')}`;
     }
 }
 
 /// The pictures in an <img>: of a strip each tile, 256 pixels and a border of 2, below a label.
 function picturesOf(img) {
-    const {naturalWidth: width, naturalHeight: height} = img, side = 256, border = 2, label = 24;
-    const isStrip = height === side + label && width % (side + 2 * border) === 0;
-    const tiles = isStrip ? width / (side + 2 * border) : 1;
-    const canvas = make('canvas', {width, height}), paint = canvas.getContext('2d');
-    paint.drawImage(img, 0, 0);
+    const side = 256, step = side + 4, label = 24, canvas = canvasOf(img), tiles = canvas.width / step;
+    if (canvas.height !== side + label || !Number.isInteger(tiles)) return [{...linear(canvas), name: img.alt}];
     const names = (img.dataset.names || '').split('|');
-    return Array.from({length: tiles}, (_, t) => {
-        const data = isStrip ? paint.getImageData(t * (side + 2 * border) + border, label, side, side) :
-            paint.getImageData(0, 0, width, height);
-        const pixels = Float32Array.from(data.data, (code, i) => i % 4 === 3 ? 1 : fromSrgb[code]);
-        const name = isStrip && names.length === tiles ? names[t] : img.alt || 'picture';
-        return {name, width: data.width, height: data.height, pixels};
-    });
+    return Array.from({length: tiles}, (_, t) =>
+        ({...linear(canvas, t * step + 2, label, side, side), name: names[t] || `tile ${t + 1}`}));
 }
 
-/// Opens the pictures of an <img>, with those beside it that have the same size.
+/// Opens the pictures of an <img>.
 function hold(img) {
-    const near = [...img.closest('p, figure').querySelectorAll('img')].filter(other =>
-        other.naturalWidth === img.naturalWidth && other.naturalHeight === img.naturalHeight);
     const viewer = new Viewer(), close = make('button', {type: 'button', class: 'close'}, 'close');
     const dialog = make('dialog', {'aria-label': 'pictures'}, close, viewer.node);
     close.onclick = () => dialog.close();
     dialog.onclose = () => dialog.remove();
     document.body.append(dialog);
-    viewer.set(near.flatMap(picturesOf));
+    viewer.set(picturesOf(img));
     dialog.showModal();
 }
 
 for (const img of document.querySelectorAll('main img[src^="data:image/png"]:not(.thumbnail)')) {
-    const button = make('button', {type: 'button', class: 'hold', onclick: () => hold(img)}, 'hold this picture');
     img.onclick = () => hold(img);
-    img.after(button);
+    img.after(make('button', {type: 'button', class: 'hold', onclick: img.onclick}, 'hold this picture'));
 }

@@ -4,7 +4,7 @@
 book: $(made)
 	@command -v em++ >/dev/null || common/tools/install emscripten || true
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
-	    MADE='$(made_here)' common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
+	    common/book/make_book out/book $(wasm) $(made_here); else common/book/make_book out/book; fi
 
 #: teaching: make slides       slides of each chapter, from its page: out/slides/, one HTML file each; the browser prints them
 slides:
@@ -14,10 +14,10 @@ slides:
 wasm          := $(BUILD)/wasm
 # What the module makes itself, with the same bytes; it has another exp() than the skies were made with.
 made_here     := $(filter-out %.pfm,$(made))
-makers        := $(patsubst scenes/%,make_%,$(basename $(made_here)))
-wasm_programs := $(chapters) merge compare $(makers)
+makers        := $(made_here:scenes/%=make_%)
+wasm_programs := $(chapters) merge compare $(basename $(makers))
 wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp common/tools/compare.cpp \
-    $(makers:%=scenes/%.cpp) \
+    $(addprefix scenes/,$(addsuffix .cpp,$(basename $(makers)))) \
     $(filter-out common/tools/% common/rendering/film_clock.cpp,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h

@@ -137,11 +137,12 @@ bool surfaces_face_each_other(const Scene& scene, const InView& seen) {
 bool lamps_are_near(const Scene& scene, const InView& seen) {
     auto is_near = [&](const LightShape& lamp) {
         float near = 2 * std::sqrt(lamp.area / pi);
-        return lamp.flat && std::ranges::any_of(seen.points, [&](const auto& point) {
-                   return length(lamp.centre - point.second.p) < near;
-               });
+        auto within = [&](const auto& point) {
+            return length(lamp.centre - point.second.p) < near;
+        };
+        return lamp.flat && std::any_of(seen.points.begin(), seen.points.end(), within);
     };
-    return std::ranges::any_of(scene.light_shapes, is_near);
+    return std::any_of(scene.light_shapes.begin(), scene.light_shapes.end(), is_near);
 }
 
 /// The part of the picture's mean that hardly any path from a light finds: the direct light of
