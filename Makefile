@@ -45,7 +45,7 @@ $(foreach c,$(chapters),$(eval out/$c.png: | $(previous))$(eval previous := out/
 
 #: starting: make test         build, and run all tests but the slow ones; T='NAME': those so named
 test: $(BUILD)/tests programs $$(started) $(if $(T),,check_pages)
-	tests/run $(BUILD) $(if $(T),--test-case="$$T",--quick)
+	tests/run $(BUILD) $(if $(T),--no-skip --test-case="$$T",--quick)
 #: maintaining: make test-slow    run the slow tests (9 minutes)
 test-slow: $(BUILD)/tests programs $$(started)
 	tests/run $(BUILD) --slow
