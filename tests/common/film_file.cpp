@@ -8,7 +8,7 @@
 
 #include "common/base/checksum.h"
 #include "common/base/files.h"
-#include "tests/fuzz/films.h"
+#include "tests/damage/films.h"
 #include "tests/support/folder.h"
 
 namespace {

@@ -127,21 +127,6 @@ TEST_SUITE("programs") {
         CHECK(folder.names().empty());
     }
 
-    TEST_CASE("files: no result overwrites the scene or another result") {
-        TemporaryFolder folder;
-        std::string scene = folder / "a.pbrt";
-        fs::copy_file("scenes/furnace.pbrt", scene);
-        Finished end = run(path_tracer, {scene, "--out", folder / "a.ppm", "--stats", scene});
-        CHECK(end.code == 2);
-        CHECK(end.err == "error: '" + scene + "' is an input, and would be overwritten\n");
-        CHECK(read_file(scene) == read_file("scenes/furnace.pbrt"));
-        end = run(path_tracer, {"--out", folder / "a.ppm", "--out", folder / "./a.ppm"});
-        CHECK(end.code == 2);
-        CHECK(end.err ==
-              "error: '" + folder / "a.ppm" + "' and '" + folder / "./a.ppm" + "' are one file\n");
-        CHECK(folder.names() == std::set<std::string>{"a.pbrt"});
-    }
-
     TEST_CASE("files: each program writes what it is asked for, and what it wrote is a picture" *
               doctest::skip()) {
         for (bool render : {false, true}) {

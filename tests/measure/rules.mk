@@ -54,8 +54,8 @@ break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
 #: maintaining: make kills        end renders by 300 signals at random moments: no film or picture is lost (4 minutes)
 kills: $(BUILD)/15_mis_ris $(BUILD)/07_path_tracing
-	tests/kills $(BUILD)
+	tests/damage/kills $(BUILD)
 #: maintaining: make parts        render parts by GNU parallel and Slurm: the same bytes as one run
 parts: $(BUILD)/15_mis_ris $(BUILD)/merge
-	tests/parts $(BUILD)
+	tests/damage/parts $(BUILD)
 .PHONY: kills parts
