@@ -323,51 +323,6 @@ TEST_SUITE("programs") {
         }
     }
 
-    TEST_CASE("truth: what compare prints, number by number") {
-        // The left half of A is a third brighter; a few pixels are much brighter.
-        Image a(24, 16), b(24, 16);
-        for (size_t i = 0; i < a.pixels.size(); i++) {
-            float noise = to_unit_float(hash32(1, static_cast<uint32_t>(i))) - 0.5f;
-            b.pixels[i] = Rgb{0.5f, 0.4f, 0.3f} * (1 + static_cast<float>(i % 5));
-            a.pixels[i] = b.pixels[i] * ((i % 24 < 8 ? 4.0f / 3 : 1) + 0.01f * noise);
-            if (i % 100 == 99) a.pixels[i] += Rgb{2, 1, 0};
-        }
-        TemporaryFolder folder;
-        write_image(folder / "a.pfm", a, ""), write_image(folder / "b.pfm", b, "");
-        for (auto [trim, range] : {std::pair{0.0, 0.0}, {2.0, 0.3}}) {
-            Comparison c = compare(a, b, trim);
-            Words words = {folder / "a.pfm", folder / "b.pfm", "--out", folder / "e.pfm"};
-            if (trim > 0) append(words, {"--trim", "2"});
-            if (range > 0) append(words, {"--range", "0.3"});
-            double white = range > 0 ? range : error_range(a, b);
-            std::string out = run("compare", words).out;
-            auto line = [](const char* pattern, auto... values) {
-                char text[300];
-                std::snprintf(text, sizeof text, pattern, values...);
-                return std::string(text);
-            };
-            CAPTURE(out);
-            CHECK((out.find("without the worst") != std::string::npos) == (trim > 0));
-            for (const std::string& expected :
-                 {line("A  %s  mean %.6g, standard error unknown\n", (folder / "a.pfm").c_str(),
-                       c.mean_a),
-                  line("B  %s  mean %.6g, standard error unknown\n", (folder / "b.pfm").c_str(),
-                       c.mean_b),
-                  line("A - B  %.3g (", c.mean_a - c.mean_b),
-                  "), " + digits((c.mean_a - c.mean_b) / c.standard_error, 3) +
-                      " standard errors by the differences of pixels within blocks\n",
-                  line("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse),
-                  line("worst 0.1 %% of the pixels: %.3g %% of the squared error\n",
-                       100 * c.worst_share),
-                  line("median of A/B over the pixels: %.5g\n", c.median_ratio),
-                  line("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks,
-                       c.worst_z, c.worst_x, c.worst_y, c.beyond_5),
-                  line("white %.3g\n", white), std::string("\nverdict: other means: A is ")})
-                CHECK(out.find(expected) != std::string::npos);
-            CHECK(read_image(folder / "e.pfm").pixels == error_image(a, b, white).pixels);
-        }
-    }
-
     TEST_CASE("files: Ctrl-C and its like leave a whole picture, with a note and exit code 3" *
               doctest::skip()) {
         for (int signal : {SIGINT, SIGTERM}) {
