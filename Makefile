@@ -24,7 +24,8 @@ numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)/*/*.cpp)))
 common    := $(call objects,common,common/tools/% common/book/%)
-tests     := $(call objects,tests,tests/measure/% tests/fuzz/% tests/check/compare_probes.cpp)
+tests     := $(call objects,tests,tests/measure/% \
+             tests/damage/fuzz_reader.cpp tests/check/compare_probes.cpp)
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
 # Programs that tests start: see tests/*/rules.mk.
 started    =
@@ -45,7 +46,7 @@ $(foreach c,$(chapters),$(eval out/$c.png: | $(previous))$(eval previous := out/
 
 #: starting: make test         build, and run all tests but the slow ones; T='NAME': those so named
 test: $(BUILD)/tests programs $$(started) $(if $(T),,check_pages)
-	tests/run $(BUILD) $(if $(T),--test-case="$$T",--quick)
+	tests/run $(BUILD) $(if $(T),--no-skip --test-case="$$T",--quick)
 #: maintaining: make test-slow    run the slow tests (9 minutes)
 test-slow: $(BUILD)/tests programs $$(started)
 	tests/run $(BUILD) --slow

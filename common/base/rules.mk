@@ -39,7 +39,7 @@ ifneq ($(findstring mingw,$(machine)),)
 CXXFLAGS += -mno-avx
 LIBS     += -static -municode
 link      = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS) && { [ -e $@ ] || ln -s $(@F).exe $@; }
-tests    := $(filter-out $(BUILD)/obj/tests/posix/%,$(tests))
+tests    := $(filter-out $(patsubst %,$(BUILD)/obj/tests/%,damage/% race/% grade/%),$(tests))
 ifneq ($(OS),Windows_NT)
 CXXFLAGS += -isystem $(BUILD)/include
 $(BUILD)/packages: | $(BUILD)/include/stb

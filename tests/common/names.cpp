@@ -1,10 +1,7 @@
-// Names of files as each system has them, files that are open elsewhere, and the ends of lines.
+// Names of files as each system has them, and files that are open elsewhere.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
 #include "common/picture/image.h"
-#include "common/scene_file/reader.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
@@ -16,13 +13,6 @@ const std::string
     triangle =
         "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
         "property list uchar int vertex_indices\nend_header\n";
-
-/// The text with CR LF for each LF.
-std::string with_cr(const std::string& text) {
-    std::string changed;
-    for (char c : text) changed += c == '\n' ? "\r\n" : std::string(1, c);
-    return changed;
-}
 
 }  // namespace
 
@@ -67,31 +57,5 @@ TEST_SUITE("names") {
         }
         CHECK(read_file(folder / "f") == "half of it");
         CHECK(folder.names() == std::set<std::string>{"f"});
-    }
-
-    TEST_CASE("input: CR LF and LF end lines alike, in scenes and in headers of meshes") {
-        TemporaryFolder folder;
-        const std::string vertices(
-            "\0\0\0\0\0\0\0\0\0\0\200?\0\0\200?\0\0\0\0\0\0\200?\0\0\0\0\0\0\200?\0\0\200?", 36),
-            face("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
-        const std::string text =
-            "Camera \"perspective\"\nWorldBegin # a comment\nLightSource \"infinite\"\n"
-            "Shape \"plymesh\"\n  \"string filename\" \"binary.ply\"\n"
-            "Shape \"plymesh\" \"string filename\" \"ascii.ply\"\n";
-        for (bool cr : {false, true}) {
-            auto ends = [&](const std::string& lines) { return cr ? with_cr(lines) : lines; };
-            write_file_atomically(
-                folder / "binary.ply",
-                ends("ply\nformat binary_little_endian 1.0\n" + triangle) + vertices + face);
-            write_file_atomically(folder / "ascii.ply", ends("ply\nformat ascii 1.0\n" + triangle +
-                                                             "0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n"));
-            Scene scene = parse_scene(folder / "a.pbrt", ends(text), nullptr);
-            REQUIRE(scene.geometry.positions.size() == 6);
-            for (size_t i = 0; i < 3; i++)
-                CHECK(scene.geometry.positions[i].z == scene.geometry.positions[i + 3].z);
-            CHECK(error_of([&] {
-                      parse_scene("a.pbrt", ends(text + "\n  Shap"), nullptr);
-                  }).find("a.pbrt:8:3: error: ") != std::string::npos);
-        }
     }
 }

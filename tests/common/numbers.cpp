@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "common/base/percent.h"
 #include "common/path/sampler.h"
 
 TEST_SUITE("numbers") {
@@ -66,5 +67,12 @@ TEST_SUITE("numbers") {
         CHECK(to_number("1e-320") == 1e-320);
         CHECK_FALSE(to_number("1,5"));
         std::setlocale(LC_NUMERIC, "C");
+    }
+
+    TEST_CASE("truth: large shares are written without an exponent") {
+        CHECK(percent(0.0123) == "1.23 %");
+        CHECK(percent(0.9994) == "99.9 %");
+        CHECK(percent(0.9999) == "100 %");
+        CHECK(percent(-52.345) == "-5234 %");
     }
 }

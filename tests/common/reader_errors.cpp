@@ -1,20 +1,22 @@
-// Scenes and files that the reader must refuse, each with its own line.
+// Scenes and files that the reader must refuse, each with its own line; and where large ones end.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <fstream>
 
-#include "common/scene_file/reader.h"
+#include "common/base/files.h"
+#include "common/geometry/bvh_build.h"
+#include "tests/support/described.h"
 #include "tests/support/folder.h"
 #include "tests/support/malformed.h"
+#include "tests/support/run_program.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string refuse(const std::string& text) {
-    return error_of([&] { parse_scene("scene.pbrt", text, nullptr); });
+std::string refuse(const std::string& text, const Limits& limits = {},
+                   const std::string& folder = "") {
+    return error_of([&] { parse_scene(folder + "scene.pbrt", text, nullptr, {}, limits); });
 }
 
 // Writes a file, in a new folder within `folder` where the name has one, and returns its path.
@@ -30,6 +32,21 @@ std::string refuse_file(const std::string& path) {
     return error_of([&] { load_scene(path, nullptr); });
 }
 
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; i++) all += text;
+    return all;
+}
+
+const std::string world = "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n";
+
+/// A square of two triangles, as text.
+const std::string square_ply =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+const std::string with_mesh = "Shape \"plymesh\" \"string filename\" \"a.ply\"\n";
+
 }  // namespace
 
 TEST_SUITE("reader: malformed input") {
@@ -38,9 +55,8 @@ TEST_SUITE("reader: malformed input") {
         auto cases = read_malformed_cases(folder + "scenes.txt");
         CHECK(cases.size() >= 150);
         for (const MalformedCase& c : cases) {
-            std::string world = c.in_world ? "Camera \"perspective\" WorldBegin\n" : "";
-            std::string said =
-                error_of([&] { parse_scene(folder + "scene.pbrt", world + c.input, nullptr); });
+            std::string begin = c.in_world ? "Camera \"perspective\" WorldBegin\n" : "";
+            std::string said = refuse(begin + c.input, {}, folder);
             for (size_t at; (at = said.find(folder)) != std::string::npos;) {
                 said.erase(at, folder.size());
             }
@@ -55,52 +71,47 @@ TEST_SUITE("reader: malformed input") {
         }
     }
 
-    TEST_CASE("input: a scene needs a camera, shapes and lights") {
-        const std::string camera = "Camera \"perspective\"\n", world = "WorldBegin\n",
-                          shape = "Shape \"sphere\"\n", light = "LightSource \"infinite\"\n";
-        CHECK(refuse(world + shape + light) == "scene.pbrt: error: no Camera");
-        CHECK(refuse(camera + world + light) == "scene.pbrt: error: no Shape");
-        CHECK(refuse(camera + world + shape) ==
-              "scene.pbrt: error: no light: the picture would be black");
-        CHECK(refuse(camera) == "scene.pbrt: error: no WorldBegin");
-        CHECK(refuse("") == "scene.pbrt: error: no WorldBegin");
-        CHECK(refuse(camera + world + shape + light) == "");
-    }
-
-    TEST_CASE("input: text that is not UTF-8 is refused where it stands") {
-        CHECK(refuse("Camera \"perspective\"\n# gr\xfc\xdf\n") ==
-              "scene.pbrt:2:5: error: not UTF-8 text");
-        CHECK(refuse("# \xc3\xbc\xe2\x82\xac\xf0\x9f\x98\x80\xff") ==
-              "scene.pbrt:1:6: error: not UTF-8 text");
+    TEST_CASE("input: what no text file can hold, or no line can say, is refused in a line") {
+        const std::string camera = "Camera \"perspective\"\n", shape = "Shape \"sphere\"\n",
+                          light = "LightSource \"infinite\"\n", begin = "WorldBegin\n",
+                          utf8 = "not UTF-8 text", gzip = "compressed by gzip: unpack it first";
+        struct {
+            std::string text, place, message;
+        } cases[] = {
+            {begin + shape + light, "", "no Camera"},
+            {camera + begin + light, "", "no Shape"},
+            {camera + begin + shape, "", "no light: the picture would be black"},
+            {camera, "", "no WorldBegin"},
+            {"", "", "no WorldBegin"},
+            {camera + "# gr\xfc\xdf\n", ":2:5", utf8},
+            {"# \xc3\xbc\xe2\x82\xac\xf0\x9f\x98\x80\xff", ":1:6", utf8},
+            {"# one\r# \xff", ":2:3", utf8},
+            {{"\xff\xfe#\x00", 4}, "", "UTF-16 text: save it as UTF-8"},
+            {{"\xfe\xff\x00#", 4}, "", "UTF-16 text: save it as UTF-8"},
+            {"\x1f\x8b\x08", "", gzip},
+            {std::string("A\x01\x7f\0B", 5), ":1:1", "unknown directive \"A???B\""},
+            {std::string(100, 'x'), ":1:1",
+             "unknown directive \"" + std::string(60, 'x') + "...\""},
+            // Lines end with LF, CR LF or CR.
+            {"# one\r\n\r\n  Camra", ":3:3",
+             "unknown directive \"Camra\": did you mean \"Camera\"?"},
+            {"Camera \"perspec\rtive\"", ":1:8", "the string does not end on its line"},
+        };
+        for (const auto& c : cases)
+            CHECK(refuse(c.text) == "scene.pbrt" + c.place + ": error: " + c.message);
         for (const char* bad : {"\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80",
                                 "\xf8\x88\x80\x80\x80", "\xc3", "\x80"}) {
-            CHECK(refuse(std::string("#") + bad) == "scene.pbrt:1:2: error: not UTF-8 text");
+            CHECK(refuse(std::string("#") + bad) == "scene.pbrt:1:2: error: " + utf8);
         }
-        CHECK(refuse({"\xff\xfe#\x00", 4}) == "scene.pbrt: error: UTF-16 text: save it as UTF-8");
-        CHECK(refuse({"\xfe\xff\x00#", 4}) == "scene.pbrt: error: UTF-16 text: save it as UTF-8");
-        CHECK(refuse("\x1f\x8b\x08") == "scene.pbrt: error: compressed by gzip: unpack it first");
-    }
-
-    TEST_CASE("input: a message stays on one line and prints nothing that is not text") {
-        CHECK(refuse("Camera \"a\\nb\"") ==
-              "scene.pbrt:1:8: error: unknown Camera \"a?b\" (known: perspective)");
-        CHECK(refuse(std::string("A\x01\x7f\0B", 5)) ==
-              "scene.pbrt:1:1: error: unknown directive \"A???B\"");
-        // Also what is a command to a terminal as UTF-8: U+009B, U+202E and U+2028.
-        CHECK(refuse(std::string("A\xc2\x9b") + "31mB\xe2\x80\xae\xe2\x80\xa8") ==
-              "scene.pbrt:1:1: error: unknown directive \"A?31mB??\"");
-        std::string longest(100, 'x');
-        CHECK(refuse(longest) ==
-              "scene.pbrt:1:1: error: unknown directive \"" + longest.substr(0, 60) + "...\"");
     }
 
     TEST_CASE("input: a scene that is cut off anywhere is refused or whole, never half read") {
-        const std::string scene =
-            "LookAt 0 0 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" [ 40 ]\n"
-            "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n"
-            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [ .8 .8 .8 ]\n"
-            "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ]"
-            " \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] AttributeEnd";
+        const std::string scene = unquoted(
+            "LookAt 0 0 -4 0 0 0 0 1 0 Camera 'perspective' 'float fov' [ 40 ]\n"
+            "WorldBegin\nLightSource 'infinite' 'rgb L' [ 1 1 1 ]\n"
+            "AttributeBegin Material 'diffuse' 'rgb reflectance' [ .8 .8 .8 ]\n"
+            "Shape 'trianglemesh' 'integer indices' [ 0 1 2 ]"
+            " 'point3 P' [ 0 0 0 1 0 0 0 1 0 ] AttributeEnd");
         for (size_t length = 0; length < scene.size(); length++) {
             CAPTURE(scene.substr(0, length));
             CHECK(refuse(scene.substr(0, length)) != "");
@@ -108,79 +119,53 @@ TEST_SUITE("reader: malformed input") {
         CHECK(refuse(scene) == "");
     }
 
-    TEST_CASE("input: lines end with LF, CR LF or CR, in messages too") {
-        for (const std::string end : {"\n", "\r\n", "\r"}) {
-            CHECK(refuse("# one" + end + end + "  Camra \"perspective\"" + end) ==
-                  "scene.pbrt:3:3: error: unknown directive \"Camra\": did you mean \"Camera\"?");
-            CHECK(refuse("# one" + end + "# \xff") == "scene.pbrt:2:3: error: not UTF-8 text");
-            CHECK(refuse("Camera \"perspec" + end + "tive\"") ==
-                  "scene.pbrt:1:8: error: the string does not end on its line");
-        }
-    }
-
-    TEST_CASE("input: after twenty different errors the rest is not read") {
-        std::string text;
+    TEST_CASE("input: after twenty different errors only missing files are named") {
+        std::string text, missing = "Camera \"perspective\" WorldBegin\n";
         for (size_t i = 0; i < 50; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
         std::string said = refuse(text);
         CHECK(std::count(said.begin(), said.end(), '\n') == 20);
-        CHECK(said.ends_with("x\"\nscene.pbrt: error: so much is wrong that the rest is not read"));
+        CHECK(said.ends_with("\nscene.pbrt: error: so much is wrong that the rest is not read"));
         // The same one counts once.
-        text.clear();
-        for (int i = 0; i < 50; i++) text += "Textur\n";
-        CHECK(refuse(text + "Shap") ==
-              "scene.pbrt:1:1: error: unknown directive \"Textur\": did you mean \"Texture\"?\n"
-              "scene.pbrt:51:1: error: unknown directive \"Shap\": did you mean \"Shape\"?");
-    }
-
-    TEST_CASE("input: every missing file is named, though other errors are cut off") {
-        std::string text = "Camera \"perspective\" WorldBegin\n";
-        const std::string mesh = "Shape \"plymesh\" \"string filename\" ";
+        said = refuse(repeated("Textur\n", 50) + "Shap");
+        CHECK(std::count(said.begin(), said.end(), '\n') == 1);
+        CHECK(said.find("\nscene.pbrt:51:1: error: ") != std::string::npos);
         for (int i = 0; i < 40; i++) {
-            text += mesh + "\"" + std::to_string(i) + ".ply\"\n" + mesh + "\"0.ply\"\n" +
-                    "Include \"" + std::to_string(i) + ".pbrt\"\n";
+            std::string number = std::to_string(i);
+            missing += "Shape \"plymesh\" \"string filename\" \"" + number + ".ply\"\nInclude \"" +
+                       number + ".pbrt\"\nInclude \"0.pbrt\"\n";
         }
-        std::string said = refuse(text + "Shap");
+        said = refuse(missing + "Shap");
         CHECK(std::count(said.begin(), said.end(), '\n') == 80);
-        for (int i = 0; i < 40; i++) {
-            for (const char* kind : {".ply", ".pbrt"}) {
-                CHECK(said.find('"' + std::to_string(i) + kind + "\": cannot read: No such file") !=
-                      std::string::npos);
-            }
-        }
-        CHECK(said.ends_with("error: unknown directive \"Shap\": did you mean \"Shape\"?"));
+        for (const char* name : {"\"0.ply", "\"0.pbrt", "\"39.ply", "\"39.pbrt"})
+            CHECK(said.find(name) != std::string::npos);
     }
 
     TEST_CASE("input: where all triangles are too small, the message says so") {
-        const std::string camera = "Camera \"perspective\"\nWorldBegin\n",
-                          light = "LightSource \"infinite\"\n", tiny = "Scale 1e-10 1e-10 1e-10\n",
-                          emit = "AreaLightSource \"diffuse\"\n",
-                          triangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n",
-                          move = "ActiveTransform EndTime Translate 1 0 0\n";
-        const std::string why =
-            "all triangles of this Shape are too small (areas of 0, or below 5e-20: choose a "
-            "smaller unit)";
-        CHECK(refuse(camera + light + tiny + triangle + triangle) ==
-              "scene.pbrt:5:1: error: no Shape is left: " + why);
-        CHECK(refuse(camera + triangle + tiny + triangle + emit + triangle) ==
-              "scene.pbrt:7:1: error: no light is left: " + why);
-        CHECK(refuse(camera + emit + triangle + tiny + triangle) == "");
-
+        const std::string tiny = "Scale 1e-10 1e-10 1e-10\n", emit = "AreaLightSource 'diffuse'\n",
+                          begin = "Camera 'perspective'\nWorldBegin\n",
+                          light = "LightSource 'infinite'\n",
+                          triangle = "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]\n",
+                          why = "all triangles of this Shape are too small";
+        auto said = [](const std::string& text) { return refuse(unquoted(text)); };
+        CHECK(said(begin + light + tiny + triangle + triangle)
+                  .starts_with("scene.pbrt:5:1: error: no Shape is left: " + why));
+        CHECK(said(begin + triangle + tiny + triangle + emit + triangle)
+                  .starts_with("scene.pbrt:7:1: error: no light is left: " + why));
+        CHECK(said(begin + emit + triangle + tiny + triangle) == "");
         // Where something is left, a note tells of what is not, and nothing that is empty moves.
         std::vector<std::string> notes;
         Scene scene =
-            parse_scene("scene.pbrt", camera + light + triangle + tiny + move + triangle, &notes);
+            read_world(tiny + "ActiveTransform EndTime Translate 1 0 0\n" + triangle, &notes);
         CHECK(scene.movers.empty());
-        CHECK(notes[0] ==
-              "scene.pbrt:7:1: note: left out triangles without area: 1, which is all of them");
+        CHECK(notes[0].find(":4:1: note: left out triangles") != std::string::npos);
     }
 
-    TEST_CASE("files: files that include each other end") {
+    TEST_CASE("files: errors name the included file, and files that include each other end") {
         TemporaryFolder folder;
         std::string a = write(folder, "a.pbrt", "Include \"sub/b.pbrt\"");
         std::string b = write(folder, "sub/b.pbrt", "\n  Include \"../a.pbrt\"");
         CHECK(refuse_file(a) ==
               b + ":2:11: error: \"" + folder / "sub/../a.pbrt" + "\" includes itself");
-
         // Each of 100 files includes the next one twice: 2^100 files, if nobody counts.
         for (int i = 0; i < 100; i++) {
             std::string next = "Include \"" + std::to_string(i + 1) + "\"\n";
@@ -188,17 +173,108 @@ TEST_SUITE("reader: malformed input") {
         }
         write(folder, "100", "Identity");
         CHECK(refuse_file(folder / "0").ends_with("more than 10000 files are included"));
+
+        std::string ply = write(folder, "a.ply", "ply\nformat ascii 2.0\n");
+        write(
+            folder, "sub/b.pbrt",
+            "Camera \"perspective\" WorldBegin Shape \"plymesh\" \"string filename\" \"../a.ply\"");
+        CHECK(refuse_file(a).ends_with("a.ply:2:14: error: unknown version \"2.0\""));
+    }
+}
+
+TEST_SUITE("reader: large scenes") {
+    TEST_CASE("input: a scene ends at the limits, each with its place") {
+        const std::string sphere = "Shape \"sphere\"\n", disk = "Shape \"disk\"\n",
+                          identity = "Identity ",
+                          triangles = unquoted(
+                              "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 1 1 0 0 1 0] "
+                              "'integer indices' [0 1 2 0 2 3]\n");
+        Limits primitives, vertices, directives;
+        primitives.primitives = 3;
+        vertices.vertices = 3;
+        directives.directives = 5;
+        const std::string shapes = "more than 3 triangles, spheres and disks";
+        struct {
+            Limits limits;
+            std::string last_one, one_more, place, message;
+        } cases[] = {
+            {primitives, sphere + sphere + disk, sphere, "5:1", shapes},
+            {primitives, sphere + triangles, sphere, "4:1", shapes},
+            {primitives, sphere, triangles + triangles, "4:1", shapes},
+            {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
+            {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
+            {{}, sphere, repeated("AttributeBegin ", 1001), "3:15001", "more than 1000 deep"},
+        };
+        for (const auto& c : cases) {
+            CHECK(refuse(world + c.last_one, c.limits) == "");
+            std::string said = refuse(world + c.last_one + c.one_more, c.limits);
+            CHECK(said.starts_with("scene.pbrt:" + c.place + ": error: "));
+            CHECK(said.ends_with(c.message));
+        }
+        std::string many = "Shape \"sphere\"";
+        for (int i = 0; i <= 100; i++) many += " \"float x" + std::to_string(i) + "\" 1";
+        CHECK(refuse(world + many).ends_with("has more than 100 parameters"));
     }
 
-    TEST_CASE("files: an error inside an included file names that file") {
+    TEST_CASE("files: all files together end at their limit; a mesh named often is read once") {
         TemporaryFolder folder;
-        std::string part = write(folder, "part.pbrt", "\nShape \"spere\"");
+        const std::string beside = folder.path() + "/";
+        write(folder, "part.pbrt", "Shape \"sphere\"" + std::string(986, ' '));
+        std::string include = "Include \"part.pbrt\"\n";
+        Limits limits;
+        limits.file_bytes = 3000;
+        CHECK(refuse(world + repeated(include, 3), limits, beside) == "");
+        CHECK(refuse(world + repeated(include, 4), limits, beside)
+                  .starts_with(folder / "scene.pbrt" + ":5:9: error: more than 3000 bytes"));
+
+        write(folder, "a.ply", square_ply);
+        limits.file_bytes = square_ply.size();
+        std::string often = world + repeated("Translate 0 0 1 " + with_mesh, 100);
+        Scene scene = parse_scene(folder / "scene.pbrt", often, nullptr, {}, limits);
+        REQUIRE(scene.geometry.positions.size() == 400);
+        for (size_t i = 0; i < 400; i++)
+            CHECK(scene.geometry.positions[i].z == 1 + static_cast<float>(i / 4));
+        // Too many are refused where they are, before any of the last one is stored.
+        limits.primitives = 100;
+        CHECK(
+            refuse(often, limits, beside)
+                .starts_with(folder / "scene.pbrt" + ":52:17: error: the scene has more than 100"));
+    }
+
+    TEST_CASE("truth: reading and building tell what they are at, and how far") {
+        TemporaryFolder folder;
+        write(folder, "a.ply", square_ply);
+        std::string text =
+            world + with_mesh + repeated("Translate 0 0 1 Shape \"sphere\"\n", 150'000);
+        std::vector<double> of_scene, of_mesh, of_hierarchy;
+        auto report = [&](const std::string& what, double share) {
+            CHECK((share >= 0 && share <= 1));
+            bool is_scene = what == "reading " + folder / "scene.pbrt",
+                 is_mesh = what == "reading " + folder / "a.ply";
+            (is_scene ? of_scene : is_mesh ? of_mesh : of_hierarchy).push_back(share);
+        };
+        Scene scene = parse_scene(folder / "scene.pbrt", text, nullptr, report);
+        CHECK(of_scene.size() >= 4);  // of 4.6 MB, one each MiB
+        CHECK(std::is_sorted(of_scene.begin(), of_scene.end()));
+        CHECK(of_scene.back() > 0.7);
+        CHECK(of_mesh.size() >= 2);
+        build_bvh(scene.geometry, 1, report);
+        CHECK(of_hierarchy.size() >= 9);  // of 16384 references at most
+        CHECK(of_hierarchy.back() == 1);
+    }
+
+    TEST_CASE("input: a program prints notes and all errors of a scene, and with --quiet errors") {
+        TemporaryFolder folder;
         std::string scene =
-            write(folder, "scene.pbrt", "Camera \"perspective\" WorldBegin Include \"part.pbrt\"");
-        CHECK(refuse_file(scene) ==
-              part + ":2:7: error: unknown Shape \"spere\": did you mean \"sphere\"?");
-        std::string ply = write(folder, "mesh.ply", "ply\nformat ascii 2.0\n");
-        write(folder, "part.pbrt", "Shape \"plymesh\" \"string filename\" \"mesh.ply\"");
-        CHECK(refuse_file(scene) == ply + ":2:14: error: unknown version \"2.0\"");
+            write(folder, "scene.pbrt", "Sampler \"halton\"\nMakeNamedMedium \"a\"\nCamra");
+        Finished loud = run(path_tracer, {scene}), quiet = run(path_tracer, {scene, "--quiet"});
+        for (const Finished* end : {&loud, &quiet}) {
+            CHECK(end->code == 1);
+            CHECK(end->out == "");
+            for (const char* place : {":2:1: error: ", ":3:1: error: "})
+                CHECK(end->err.find(scene + place) != std::string::npos);
+        }
+        CHECK(loud.err.starts_with(scene + ":1:1: note: "));
+        CHECK(quiet.err.find(": note: ") == std::string::npos);
     }
 }

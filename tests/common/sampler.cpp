@@ -421,7 +421,8 @@ TEST_SUITE("sampler: Sobol") {
                 }
     }
 
-    TEST_CASE("variance: Owen-scrambled Sobol as with explicit nested scrambling") {
+    TEST_CASE("variance: Owen-scrambled Sobol as with explicit nested scrambling" *
+              doctest::skip()) {
         struct Row {
             uint32_t n;
             double pi, xy, exponential;

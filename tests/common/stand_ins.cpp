@@ -223,17 +223,17 @@ TEST_SUITE("stand-ins") {
     }
 
     TEST_CASE("truth: a .jpg and a .tga have the colors of the .png that they were made of") {
-        Image png = read_image("tests/fuzz/corpus/sky.png");
+        Image png = read_image("tests/damage/corpus/sky.png");
         for (auto [name, error] : {std::pair("sky.tga", 0.0), std::pair("sky.jpg", 0.03)}) {
             const char* file = name;
-            Image image = read_image("tests/fuzz/corpus/" + std::string(file));
+            Image image = read_image("tests/damage/corpus/" + std::string(file));
             REQUIRE(image.pixels.size() == png.pixels.size());
             double sum = 0;
             for (size_t i = 0; i < png.pixels.size(); i++) {
                 sum += double{max_component(abs_of(image.pixels[i] - png.pixels[i]))};
             }
             CHECK(sum <= error * static_cast<double>(png.pixels.size()));
-            std::string bytes = read_file("tests/fuzz/corpus/" + std::string(file));
+            std::string bytes = read_file("tests/damage/corpus/" + std::string(file));
             for (size_t length = 0; length < bytes.size(); length++) {
                 CHECK(error_of([&] { decode_image(file, bytes.substr(0, length)); }) != "");
             }
@@ -242,8 +242,8 @@ TEST_SUITE("stand-ins") {
 
     TEST_CASE(
         "input: what stands in the segments of a .jpg is no marker, and endings may be capitals") {
-        const std::string jpg = read_file("tests/fuzz/corpus/sky.jpg"),
-                          tga = read_file("tests/fuzz/corpus/sky.tga");
+        const std::string jpg = read_file("tests/damage/corpus/sky.jpg"),
+                          tga = read_file("tests/damage/corpus/sky.tga");
         const std::string table = "\xff\xc4\1\1" + std::string(200, '\xff'), end = "\xff\xd9";
         std::vector<Rgb> expected = decode_image("a.jpg", jpg).pixels;
         for (const char* kind : {"\xe1", "\xed", "\xfe"}) {  // Exif, Photoshop, a comment
@@ -259,7 +259,7 @@ TEST_SUITE("stand-ins") {
         CHECK(decode_image("a.TGA", tga).pixels == decode_image("a.tga", tga).pixels);
         for (const char* path : {"a.PPM", "a.Pfm", "a.PNG"}) CHECK(is_image_path(path));
         // A .png as Xcode packs it.
-        const std::string png = read_file("tests/fuzz/corpus/sky.png");
+        const std::string png = read_file("tests/damage/corpus/sky.png");
         CHECK_THROWS_WITH_AS(
             decode_image("a.png", png.substr(0, 8) + png_chunk("CgBI1234") + png.substr(8)),
             doctest::Contains("CgBI"), InputError);

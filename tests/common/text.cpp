@@ -61,13 +61,4 @@ TEST_SUITE("text") {
         CHECK(json_quoted("gr\xfc\xdf \xc3\xbc") == "\"gr\\ufffd\\ufffd \xc3\xbc\"");
         CHECK(json_quoted("a\n\"b\\\x1b") == "\"a\\u000a\\\"b\\\\\\u001b\"");
     }
-
-    TEST_CASE("truth: a word is cut off where it is too long to print, the name of a file is not") {
-        std::string word(100, 'x');
-        CHECK(quote(word) == '"' + word.substr(0, 60) + "...\"");
-        CHECK(quote_file(word) == '"' + word + '"');
-        // No system has names of files as long as this.
-        std::string longest(4097, 'x');
-        CHECK(quote_file(longest) == quote(longest));
-    }
 }

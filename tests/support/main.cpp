@@ -9,8 +9,6 @@
 #endif
 
 #include <cmath>
-#include <fstream>
-#include <set>
 #include <utility>
 
 #include "tests/support/process.h"
@@ -46,21 +44,13 @@ std::wstring quoted(const std::wstring& word) {
 }
 #endif
 
-/// Tests that make test leaves to make test-slow; make check runs them too.
-const std::set<std::string> of_make_test_slow = [] {
-    std::set<std::string> names;
-    std::ifstream file("tests/slow.txt");
-    for (std::string name; std::getline(file, name);) names.insert(name);
-    return names;
-}();
-
 struct Reporter : doctest::ConsoleReporter {
     explicit Reporter(const doctest::ContextOptions& options) : ConsoleReporter(options) {}
     void test_case_start(const doctest::TestCaseData& data) override {
         ConsoleReporter::test_case_start(data);
         name_ = data.m_name;
         bool in_suite = std::string(data.m_test_suite).find("slow") != std::string::npos;
-        limit_ = in_suite ? HUGE_VAL : of_make_test_slow.contains(name_) ? 10 : 3;
+        limit_ = in_suite ? HUGE_VAL : data.m_skip ? 10 : 3;
         begun_ = seconds();
     }
     void test_case_end(const doctest::CurrentTestCaseStats& stats) override {
@@ -70,7 +60,7 @@ struct Reporter : doctest::ConsoleReporter {
         if (of_processor.seconds <= limit_) return;
         std::printf("'%s' takes %.0f s of processor time: beyond %.0f s a test belongs into %s\n",
                     name_.c_str(), of_processor.seconds, limit_,
-                    limit_ == 10 ? "a slow suite" : "tests/slow.txt");
+                    limit_ == 10 ? "a slow suite" : "those with doctest::skip()");
     }
     void test_run_end(const doctest::TestRunStats& stats) override {
         ConsoleReporter::test_run_end(stats);

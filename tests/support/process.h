@@ -84,8 +84,8 @@ inline double processor_seconds(const rusage& used) {
 /// Becomes the program.
 int execute_words(std::vector<std::string> words);
 
-/// A program that runs, with the words of its command line; or, in tests/posix, a process that does
-/// `work` and exits with what it returns.
+/// A program that runs, with the words of its command line; or, in tests/damage, a process that
+/// does `work` and exits with what it returns.
 class Process {
 public:
     explicit Process(const std::vector<std::string>& words);

@@ -16,13 +16,13 @@ Finished run_script(const char* script, const std::vector<std::string>& argument
 
 TEST_SUITE("films, slow") {
     TEST_CASE("identity: renders killed 30 times lose nothing") {
-        Finished end = run_script("tests/kills", {"30"});
+        Finished end = run_script("tests/damage/kills", {"30"});
         CHECK(end.code == 0);
         MESSAGE(end.out);
     }
 
     TEST_CASE("identity: parts by a job runner have the bytes of one run") {
-        Finished end = run_script("tests/parts", {});
+        Finished end = run_script("tests/damage/parts", {});
         CHECK(end.code == 0);
         MESSAGE(end.out);
     }

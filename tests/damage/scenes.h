@@ -292,7 +292,7 @@ inline double processor_seconds() { return static_cast<double>(std::clock()) / C
 inline FuzzResult fuzz(uint32_t first, uint32_t count,
                        const std::function<void(uint32_t)>& begin = {}) {
     TemporaryFolder temporary;
-    const std::string folder = "tests/fuzz/corpus/";
+    const std::string folder = "tests/damage/corpus/";
     std::vector<std::pair<std::string, std::string>> corpus;
     for (const char* name : {"features.pbrt", "part.pbrt", "square-ascii.ply", "square-little.ply",
                              "square-big.ply", "sky.pfm", "sky.png", "sky.jpg", "sky.tga"}) {
@@ -311,7 +311,7 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count,
         if (line.starts_with("w ")) all += "AttributeBegin " + line.substr(2) + " AttributeEnd\n";
     }
     corpus.emplace_back(folder + "all.pbrt", all);
-    std::vector<std::string> words = split(read_file("tests/fuzz/words.txt"));
+    std::vector<std::string> words = split(read_file("tests/damage/words.txt"));
     FuzzResult result;
     for (uint32_t i = first; i < first + count; i++) {
         Dice dice(i);

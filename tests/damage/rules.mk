@@ -5,7 +5,7 @@ fuzz: $(BUILD)/fuzz_reader
 	$< $(COUNT)
 	$< $(or $(COUNT),100000) 0 pictures
 	$< $(or $(COUNT),100000) 0 films
-$(BUILD)/fuzz_reader: $(BUILD)/obj/tests/fuzz/reader.o $(common)
+$(BUILD)/fuzz_reader: $(BUILD)/obj/tests/damage/fuzz_reader.o $(common)
 	$(link)
 
 .PHONY: fuzz

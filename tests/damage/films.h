@@ -12,7 +12,7 @@
 #include "common/picture/film_file.h"
 #include "common/results/results.h"
 #include "common/results/warnings.h"
-#include "tests/fuzz/fuzz.h"
+#include "tests/damage/scenes.h"
 
 /// A film of 11 x 13 pixels with a few samples of each, some of them not finite. `kind` as in
 /// FilmShape.

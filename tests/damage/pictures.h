@@ -4,7 +4,7 @@
 #include "common/picture/png.h"
 #include "common/picture/stats_file.h"
 #include "common/picture/verdict.h"
-#include "tests/fuzz/fuzz.h"
+#include "tests/damage/scenes.h"
 
 /// Any of the .png kinds, any size up to 9x9, with a comment, and rows that are not packed.
 inline std::string any_png(Dice& dice) {

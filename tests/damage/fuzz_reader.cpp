@@ -1,5 +1,5 @@
 // fuzz_reader [COUNT [FIRST [pictures|films]]]: the readers against damaged scenes and meshes (see
-// fuzz.h), or against damaged pictures or films (see pictures.h, films.h).
+// scenes.h), or against damaged pictures or films (see pictures.h, films.h).
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -9,8 +9,8 @@
 #include <cstdlib>
 
 #define DOCTEST_CONFIG_DISABLE  // this is no test, though it uses the same helpers
-#include "tests/fuzz/films.h"
-#include "tests/fuzz/pictures.h"
+#include "tests/damage/films.h"
+#include "tests/damage/pictures.h"
 #include "tests/support/folder.cpp"
 
 namespace {

@@ -61,44 +61,6 @@ TEST_SUITE("files") {
         ::chmod((folder / "d").c_str(), 0755);
     }
 
-    TEST_CASE("files: what a killed run left behind is removed; what is being written is not") {
-        TemporaryFolder folder;
-        auto part_of = [&](const std::string& name) {
-            for (const std::string& found : folder.names())
-                if (found.starts_with(name + ".part-")) return found;
-            return std::string();
-        };
-        auto begin_and_wait = [&](const std::string& name) {
-            pid_t child = ::fork();
-            if (child == 0) {
-                NewFile file(folder / name);
-                file.write("half of i");
-                for (;;) ::pause();
-            }
-            while (part_of(name).empty()) ::usleep(1000);
-            ::usleep(20000);  // until it is locked
-            return child;
-        };
-        pid_t other = begin_and_wait("f"), others_file = begin_and_wait("g");
-        std::string living = part_of("f"), of_g = part_of("g");
-        // Names that are nearly those of this program.
-        std::set<std::string> alien = {"f.part-abc", "f.part-ABCDEFGHIJKL", "xf.part-abcdefghijkl"};
-        for (const std::string& name : alien) write_file_atomically(folder / name, "of somebody");
-        check_writable(folder / "f");
-        write_file_atomically(folder / "f", "whole");
-        CHECK(folder.names().contains(living));
-
-        for (pid_t child : {other, others_file}) {
-            ::kill(child, SIGKILL);
-            ::waitpid(child, nullptr, 0);
-        }
-        check_writable(folder / "f");
-        std::set<std::string> left = alien;
-        left.insert({"f", of_g});
-        CHECK(folder.names() == left);
-        CHECK(read_file(folder / "f") == "whole");
-    }
-
     TEST_CASE("files: a link stays a link, and the file it names is written") {
         TemporaryFolder folder;
         fs::create_directory(folder / "d");
