@@ -37,25 +37,15 @@ TEST_SUITE("optics") {
             double degrees, eta, R;
         };
         for (auto [degrees, eta, R] : {Row{0, 1.5, 0.04},
-                                       {0, 1.33, 0.02005931219952},
-                                       {0, 1.5168, 0.04216456259455},
                                        {0, 2.417, 0.1719688325232},
-                                       {15, 1.5, 0.04008076715287},
                                        {30, 1.5, 0.04152262597582},
-                                       {45, 1.5, 0.05023991101224},
-                                       {56, 1.5, 0.07291318722731},
+                                       {50, 1.5, 0.05766294470392},
                                        {56.30993247402, 1.5, 0.07396449704142},  // Brewster's angle
-                                       {60, 1.5, 0.08918671280221},
                                        {75, 1.5, 0.2530605629903},
-                                       {80, 1.5, 0.3877043546915},
-                                       {85, 1.5, 0.6127996452648},
                                        {89, 1.5, 0.9041849497802},
                                        {0, 1 / 1.5, 0.04},
-                                       {20, 1 / 1.5, 0.04172851819062},
-                                       {30, 1 / 1.5, 0.05519016729538},
+                                       {30.7102207661, 1 / 1.5, 0.05766294470392},
                                        {40, 1 / 1.5, 0.2452912042869},
-                                       {41, 1 / 1.5, 0.3797512659624},
-                                       {41.8, 1 / 1.5, 0.8907719214997},
                                        {41.81, 1 / 1.5, 0.9798553651264}}) {
             // In float, cos_t loses digits as it goes to 0 (grazing, and the critical angle).
             double sin = std::sin(degrees * std::numbers::pi / 180) / eta;
@@ -67,11 +57,6 @@ TEST_SUITE("optics") {
         for (double degrees : {41.82, 45.0, 60.0, 89.9}) CHECK(reflected(degrees, 1 / 1.5) == 1);
         CHECK(fresnel_dielectric(0, 1.5f) == 1);
         CHECK(reflected(40, 1) == 0);
-    }
-
-    TEST_CASE("identity: glass reflects the same share from both sides of the surface") {
-        CHECK(std::abs(reflected(50, 1.5) - 0.05766294470392) < 1e-6);
-        CHECK(std::abs(reflected(30.7102207661, 1 / 1.5) - 0.05766294470392) < 1e-6);
     }
 
     TEST_CASE("identity: refraction obeys Snell, stays in its plane, and runs back the same way") {

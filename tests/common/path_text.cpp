@@ -86,42 +86,6 @@ TEST_SUITE("path text") {
               "    ends: it has left the scene\n");
     }
 
-    TEST_CASE("truth: the story of a path from a light, and of the one from the eye behind it") {
-        Materials m;
-        for (bool reaches_limit : {false, true}) {
-            std::string text = story_of(
-                [&](Recorder& recorder, PathStory& story) {
-                    recorder.start_at_light({0, 9, 0});
-                    trace_hit();
-                    recorder.vertex(hit_at({0, 8, 0}, m.mirror));
-                    recorder.splat({1, 2, 3}, 7);
-                    if (reaches_limit) recorder.cut();
-                    recorder.scatter({0, -1, 0}, {1, 1, 1}, 1, true, {1, 1, 1});
-                    recorder.start_at_eye();
-                    trace_hit();
-                    recorder.vertex(hit_at({0, 0, 1}, m.wall));
-                    recorder.connected({1, 1, 2}, 2, 2, 0.125f);
-                    story.ends();
-                },
-                5);
-            const std::string middle =
-                reaches_limit ? "    ends: the depth limit, 5 scattering events\n"
-                              : "    goes on along wi (0, -1, 0): f (1, 1, 1) sr^-1, pdf_w 1 "
-                                "(delta), beta (1, 1, 1)\n"
-                                "    ends: roulette stops it\n";
-            CHECK(text ==
-                  "vertex 1  a light at (0, 9, 0)\n"
-                  "vertex 2  conductor at (0, 8, 0), n (0, 0, -1), front, distance 2.5\n"
-                  "    s 2, t 1: adds (1, 2, 3), mis 1, class LDE\n" +
-                      middle +
-                      "from the eye:\n"
-                      "vertex 3  diffuse at (0, 0, 1), n (0, 0, -1), front, distance 2.5\n"
-                      "    s 2, t 2: adds (1, 1, 2), mis 0.125, class LDDE\n"
-                      "    ends: absorbed at vertex 3: the direction drawn lies below the "
-                      "surface\n");
-        }
-    }
-
     TEST_CASE("truth: why a path ends at a vertex") {
         Materials m;
         auto end_at = [&](const Material& material, bool counts_photons) {
