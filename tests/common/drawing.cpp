@@ -3,6 +3,7 @@
 
 #include "common/base/files.h"
 #include "common/explaining/path_drawing.h"
+#include "common/explaining/preview.h"
 #include "common/picture/comparison.h"
 #include "common/picture/heat_map.h"
 #include "tests/support/scenes.h"
@@ -62,6 +63,26 @@ TEST_SUITE("drawing") {
         CHECK(without_pictures(drawn) == read_file("tests/support/drawing.svg"));
     }
 
+    TEST_CASE("truth: a preview has the sky, lamps and materials, each lit from the camera") {
+        const std::string point = "LightSource \"point\"\n",
+                          red = "Material \"diffuse\" \"rgb reflectance\" [0.5 0.25 0]\n";
+        auto middle = [](const std::string& world) {
+            Scene scene = world_of(world);
+            CameraView view = camera_view(scene.camera, 101, 101);
+            return preview(scene, 101, 101, [&](Vec2 p) { return camera_ray(view, p); }).at(50, 50);
+        };
+        auto is = [](Rgb a, Rgb b) {
+            return max_component(abs(Vec3{a.r - b.r, a.g - b.g, a.b - b.b})) < 0.01f;
+        };
+        CHECK(is(middle(point + "Translate 50 0 0 Shape \"sphere\""), {0.8f, 0.85f, 0.9f}));
+        CHECK(is(middle(point + red + "Shape \"sphere\""), {0.5f, 0.25f, 0}));
+        CHECK(is(middle("AreaLightSource \"diffuse\" Shape \"sphere\""), {1, 0.75f, 0.05f}));
+        // A plane at 60 degrees is lit by 1/4 + 3/4 cos 60 = 5/8.
+        CHECK(is(
+            middle(point + red + "Rotate 60 0 1 0 Rotate 90 1 0 0 Scale 9 1 9 " + square(0, true)),
+            {0.5f * 0.625f, 0.25f * 0.625f, 0}));
+    }
+
     TEST_CASE("truth: the colours of a heat map, and which pixel each has") {
         Image numbers(6, 1);
         for (int i = 0; i < 6; i++) numbers.at(i, 0).r = static_cast<float>(2 * i);
@@ -77,6 +98,8 @@ TEST_SUITE("drawing") {
             scene, 1, [&](const Ray& r) { return length(r.d - ray.d) < 1e-6f ? 1.0f : 0.0f; });
         for (size_t i = 0; i < 800; i++) CHECK(of_work.pixels[i].g == (i == 83 ? 1 : 0));
         CHECK(pixel_rays(scene, 7).size() == 115);
+        // Of numbers from 0 to 1: black, red in the middle, white.
+        CHECK(false_colour(0.5) == Rgb{0.6f, 0.06f, 0.1f});
         CHECK(false_colour(-1) == Rgb{0, 0, 0});
         CHECK(false_colour(9) == Rgb{1, 1, 1});
     }

@@ -23,24 +23,16 @@ double off_sphere(Vec3 p, Vec3 c, double r) {
 }  // namespace
 
 TEST_SUITE("frame") {
-    TEST_CASE("identity: the frame is orthonormal") {
-        std::vector<Vec3> normals = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
-                                     {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-        for (float e = 1e-4f; e < 0.2f;
-             e *= 1.1f) {  // where the frame without copysign is infinite
-            normals.push_back(normalize({e, e, -1}));
-            normals.push_back(normalize({-e, e, -1}));
-        }
+    TEST_CASE("identity: the frame is orthonormal, also where its formula is nearly infinite") {
         Sampler random = random_numbers(1);
-        while (normals.size() < 100000) normals.push_back(uniform_direction(random.u2()));
         float worst = 0;
-        for (Vec3 n : normals) {
+        for (int i = 0; i < 100000; i++) {
+            Vec3 n = uniform_direction(random.u2());
+            if (i % 2 == 0) n = normalize({1e-3f * n.x, 1e-3f * n.y, n.z});
             Frame f(n);
             for (float error : {dot(f.s, f.t), dot(f.s, n), dot(f.t, n), length(f.s) - 1,
-                                length(f.t) - 1, length(cross(f.s, f.t) - n)}) {
-                worst = std::max(worst, std::abs(error));
-                REQUIRE(std::isfinite(error));
-            }
+                                length(f.t) - 1, length(cross(f.s, f.t) - n)})
+                worst = std::isfinite(error) ? std::max(worst, std::abs(error)) : infinity;
         }
         CHECK(worst < 1e-6f);
     }

@@ -306,10 +306,8 @@ TEST_SUITE("measuring") {
             }
             e.push_back(estimate_of(values));  // of standard error 0.036
         }
-        for (size_t i = 0; i < e.size(); i++) {
-            CHECK(judge(e, i).known);
-            CHECK((std::abs(judge(e, i).z) > 5) == (i == 3));
-        }
+        for (size_t i = 0; i < e.size(); i++)
+            CHECK((judge(e, i).known && std::abs(judge(e, i).z) > 5) == (i == 3));
     }
 }
 
