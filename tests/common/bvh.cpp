@@ -237,7 +237,7 @@ TEST_SUITE("ch06 bvh hits") {
                     p[axis] = at, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
                     return p;
                 });
-                check_same_hits(flat, 0.1, 600);
+                check_same_hits(flat, 0.04, 600);
             }
         }
         // One less and one more than fit side by side.
