@@ -79,11 +79,12 @@ TEST_SUITE("comparison") {
     }
 
     TEST_CASE("truth: the verdict names the channels that differ") {
-        Image b = noisy(grey(64, 64, 1), 0.1f, 1), a = b, exchanged = b;
+        Image b = noisy(grey(64, 64, 1), 0.1f, 1), a = b, exchanged = b, brighter = b;
         for (Rgb& p : b.pixels) p = {0.5f * p.r, p.g, 0.2f * p.b};
         for (size_t i = 0; i < b.pixels.size(); i++) {
             Rgb p = b.pixels[i];
             exchanged.pixels[i] = {p.b, p.g, p.r};
+            brighter.pixels[i] = 1.02f * p;
             float by = i % 16 < 8 ? 0.1f : -0.1f;  // errors that cancel in each channel's mean
             a.pixels[i] = p + by * Rgb{1, -1, 0};
         }
@@ -93,6 +94,7 @@ TEST_SUITE("comparison") {
         };
         CHECK(verdict_of(exchanged).find("60 % darker in red, 150 % brighter in blue than B") !=
               std::string::npos);
+        CHECK(verdict_of(brighter).find("A is 2 % brighter than B") != std::string::npos);
         CHECK(verdict_of(a).find("64 of 64 blocks differ in red and green") != std::string::npos);
     }
 
