@@ -99,39 +99,6 @@ TEST_SUITE("explain") {
         }
     }
 
-    TEST_CASE("identity: a path from the eye is the same, however many numbers the light's took") {
-        TemporaryFolder folder;
-        const std::string room =
-            "LookAt 0 0 -0.5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material \"diffuse\" "
-            "\"rgb reflectance\" [.5 .5 .5] Shape \"sphere\" \"float radius\" 2 ";
-        auto eye_path = [&](const std::string& program, const char* light) {
-            write_file_atomically(folder / "a.pbrt", room + light);
-            Words words = {folder / "a.pbrt", "--size", "8x8",           "--spp", "4",
-                           "--sampler",       "sobol",  "--max-depth",   "4",     "--explain",
-                           "3,3,1",           "--out",  folder / "a.pfm"};
-            std::string text = run(program, words).out, path;
-            std::istringstream lines(text.substr(text.find("from the eye:\n")));
-            for (std::string line; std::getline(lines, line);) {
-                if (line.starts_with("vertex ")) path += line.substr(line.find("  ")) + "\n";
-                if (line.starts_with("    goes on ")) path += line + "\n";
-                if (line.starts_with("    s ")) break;
-            }
-            return path;
-        };
-        std::vector<std::string> paths;
-        for (const char* program :
-             {"21_bidirectional", "22_fast_bidirectional", "25_vertex_merging"}) {
-            CAPTURE(program);
-            std::string path = eye_path(program, "LightSource \"point\"");
-            CHECK(std::count(path.begin(), path.end(), '\n') >= 4);
-            CHECK(path == eye_path(program,
-                                   "AreaLightSource \"diffuse\" Translate 0 1 0 Shape \"sphere\" "
-                                   "\"float radius\" 0.01"));
-            paths.push_back(path);
-        }
-        CHECK(paths[0] == paths[1]);
-    }
-
     TEST_CASE("identity: --explain-brightest explains the largest sample of the picture") {
         TemporaryFolder folder;
         for (const std::string& program : programs(true)) {

@@ -10,6 +10,8 @@
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
 #include "common/picture/film.h"
+#include "common/picture/finite_part.h"
+#include "tests/fuzz/films.h"
 #include "tests/support/scenes.h"
 
 namespace {
@@ -184,6 +186,32 @@ TEST_SUITE("film error") {
         film.add_to_batch(31, half);
         batch.erase(batch_of(31));
         CHECK(film.standard_error() == about(expected()));
+    }
+
+    TEST_CASE("truth: where samples are not finite, mean and error are those of the other pixels") {
+        for (int kind : {0, 1, 2, 3, 4})
+            for (bool takes_splats : {false, true}) {
+                if (kind == 2 && takes_splats) continue;
+                CAPTURE(kind);
+                Film film = any_film(kind, takes_splats, 0, 6).film;  // six pixels are not
+                double sum = 0, others = 0;
+                for (Rgb L : film.image().pixels)
+                    if (is_finite(L)) sum += double{L.r} + double{L.g} + double{L.b}, others++;
+                CHECK(others == 137);
+                FinitePart part = finite_part(film);
+                CHECK(part.share == about(137 / 143.0));
+                CHECK(part.mean == about(sum / 3 / others, 1e-6));
+                double rgb = double{part.rgb.r} + double{part.rgb.g} + double{part.rgb.b};
+                CHECK(rgb == about(sum / others, 1e-6));
+                if (kind >= 3) continue;  // no pass is finite
+                double error = 0;         // of pixels alone
+                for (size_t i : {0u, 1u, 2u, 3u, 4u, 5u}) film.pixels()[i] = {};
+                if (kind == 2)
+                    for (size_t i : {0u, 1u, 2u, 3u, 4u, 5u}) film.audits()[i] = {};
+                error = film.standard_error();
+                CHECK(std::isfinite(error));
+                CHECK(part.error == error);
+            }
     }
 
     TEST_CASE("brute: a comparison's numbers counted in another way") {

@@ -268,23 +268,6 @@ TEST_SUITE("measuring") {
         CHECK(spread.rel_mse(grey(2, 1, 0)) == doctest::Approx(25).epsilon(1e-6).scale(0));
     }
 
-    TEST_CASE("truth: mean, standard error and skewness of batches") {
-        Estimate e = estimate_of({1, 2, 3, 6});
-        CHECK(e.mean == 3);
-        CHECK(e.se == doctest::Approx(std::sqrt(14.0 / 3 / 4)).epsilon(1e-9).scale(0));
-        CHECK(e.skewness == doctest::Approx(4.5 / std::pow(3.5, 1.5)).epsilon(1e-12).scale(0));
-        CHECK(e.reliable());
-        // One lucky batch of many.
-        std::vector<double> rare(64, 0.0);
-        rare[17] = 1;
-        CHECK(!estimate_of(rare).reliable());
-        CHECK(!estimate_of(std::vector<double>(64, 0.0)).reliable());
-        // No noise at all is exact up to rounding.
-        Estimate exact = estimate_of(std::vector<double>(64, 0.8));
-        CHECK(exact.reliable());
-        CHECK(exact.se == doctest::Approx(0.8e-6).epsilon(1e-9).scale(0));
-    }
-
     TEST_CASE("truth: z of three estimates") {
         // The others: (1/4 * 10 + 1 * 12) / (5/4), with variance 4/5.
         std::vector<Estimate> e = {{13, 1, 0}, {10, 2, 0}, {12, 1, 0}, {99, 0.1, 5}};

@@ -86,41 +86,6 @@ TEST_SUITE("path text") {
               "    ends: it has left the scene\n");
     }
 
-    TEST_CASE("truth: why a path ends at a vertex") {
-        Materials m;
-        auto end_at = [&](const Material& material, bool counts_photons) {
-            std::string text = story_of(
-                [&](Recorder& recorder, PathStory& story) {
-                    trace_hit();
-                    recorder.vertex(hit_at({}, material));
-                    story.ends();
-                },
-                5, counts_photons);
-            return text.substr(text.find('\n') + 1);
-        };
-        const std::string below =
-            "    ends: absorbed at vertex 1: the direction drawn lies below the surface\n";
-        CHECK(end_at(m.wall, false) == below);
-        CHECK(end_at(m.wall, true) == "    ends: photons around vertex 1 tell the rest\n");
-        CHECK(end_at(m.mirror, true) == below);
-        CHECK(end_at(m.soot, true) == "    ends: vertex 1 is black: it absorbs all\n");
-        CHECK(end_at(m.soot, false) == "    ends: vertex 1 is black: it absorbs all\n");
-        std::string at_limit = story_of(
-            [&](Recorder& recorder, PathStory& story) {
-                recorder.start_at_light({});
-                trace_hit();
-                recorder.vertex(hit_at({}, m.mirror));
-                story.ends();
-            },
-            1);
-        CHECK(at_limit.ends_with("    ends: the depth limit, 1 scattering events\n"));
-        // One that has no rays of its own cannot tell.
-        CHECK(story_of([&](Recorder& recorder, PathStory& story) {
-                  recorder.vertex(hit_at({}, m.soot));
-                  story.ends();
-              }).find("ends") == std::string::npos);
-    }
-
     TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {
         // From the light D S D, from the eye S D S: what lies between the two ends that are
         // connected has the letters of its vertices, and both ends are D.
