@@ -188,29 +188,54 @@ TEST_SUITE("film error") {
         CHECK(film.standard_error() == about(expected()));
     }
 
+    TEST_CASE("truth: samples of a pass that depend on each other add to the error of the pixels") {
+        // All pixels of a pass are equally bright, and the four passes of a pixel are 0, 1, 2, 3 in
+        // any order. Independent samples of other pixels: no more than the pixels' own variance.
+        for (bool together : {true, false}) {
+            Film film(4, 1);
+            film.start_batches();
+            for (uint32_t pass = 0; pass < 4; pass++) {
+                PixelSum sum;
+                for (uint32_t i = 0; i < 4; i++) {
+                    Rgb L = grey(together ? pass : (pass + i) % 4);
+                    film.add(i, L), sum.add(L);
+                }
+                film.add_to_batch(pass, sum);
+            }
+            // Each pixel: s^2 = 5/3, of its mean 5/12. Mean of 4 pixels: 5/12 together, else 5/48.
+            CHECK(film.standard_error() == about(std::sqrt(together ? 5.0 / 12 : 5.0 / 48)));
+        }
+    }
+
     TEST_CASE("truth: where samples are not finite, mean and error are those of the other pixels") {
         for (int kind : {0, 1, 2, 3, 4})
             for (bool takes_splats : {false, true}) {
                 if (kind == 2 && takes_splats) continue;
                 CAPTURE(kind);
-                Film film = any_film(kind, takes_splats, 0, 6).film;  // six pixels are not
-                double sum = 0, others = 0;
-                for (Rgb L : film.image().pixels)
-                    if (is_finite(L)) sum += double{L.r} + double{L.g} + double{L.b}, others++;
-                CHECK(others == 137);
+                Film film = any_film(kind, takes_splats, 0, 9).film;  // six pixels are not
+                if (takes_splats) film.add_total(99, grey(infinity));
                 FinitePart part = finite_part(film);
+                double sum = 0;
+                for (size_t i = 6; i < 143; i++) {
+                    Rgb L = film.image().pixels[i];
+                    sum += double{L.r} + double{L.g} + double{L.b};
+                }
                 CHECK(part.share == about(137 / 143.0));
-                CHECK(part.mean == about(sum / 3 / others, 1e-6));
-                double rgb = double{part.rgb.r} + double{part.rgb.g} + double{part.rgb.b};
-                CHECK(rgb == about(sum / others, 1e-6));
-                if (kind >= 3) continue;  // no pass is finite
-                double error = 0;         // of pixels alone
-                for (size_t i : {0u, 1u, 2u, 3u, 4u, 5u}) film.pixels()[i] = {};
-                if (kind == 2)
-                    for (size_t i : {0u, 1u, 2u, 3u, 4u, 5u}) film.audits()[i] = {};
-                error = film.standard_error();
-                CHECK(std::isfinite(error));
-                CHECK(part.error == error);
+                CHECK(part.mean == about(sum / 3 / 137, 1e-6));
+                CHECK(double{part.rgb.r} + double{part.rgb.g} + double{part.rgb.b} ==
+                      about(sum / 137, 1e-6));
+                auto leave_out = [](auto& sums) {
+                    for (PixelSum& s : sums)
+                        if (!std::isfinite(s.mean())) s = {};
+                };
+                for (size_t i = 0; i < 6; i++) {
+                    film.pixels()[i] = {};
+                    if (kind == 2) film.audits()[i] = {};
+                }
+                leave_out(film.totals());
+                leave_out(film.batches());
+                CHECK(std::isfinite(part.error));
+                CHECK(part.error == film.standard_error());
             }
     }
 

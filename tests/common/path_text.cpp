@@ -14,10 +14,9 @@ Hit hit_at(Vec3 p, const Material& material, bool front = true) {
 }
 
 struct Materials {
-    Material wall, soot, mirror, glass;
+    Material wall, mirror, glass;
     Materials() {
         wall.reflectance = {0.5f, 0.5f, 0.5f};
-        soot.reflectance = {0, 0, 0};
         mirror.type = MaterialType::conductor;
         glass.type = MaterialType::dielectric;
     }
@@ -36,8 +35,8 @@ void shadow_miss() { occluded(ball(), {{0, 0, 0}, {0, 1, 0}}); }
 
 /// The story of events: tell(recorder, story).
 template <class Tell>
-std::string story_of(const Tell& tell, int max_depth = 5, bool counts_photons = false) {
-    PathStory story(max_depth, counts_photons);
+std::string story_of(const Tell& tell) {
+    PathStory story(5, false);
     Recorder recorder(true, &story);
     recorder.start();
     tell(recorder, story);
@@ -84,6 +83,29 @@ TEST_SUITE("path text") {
               "    leaves the scene along (0, 1, 0)\n"
               "    sky met: adds (6, 8, 6), mis 1, class LDSE\n"
               "    ends: it has left the scene\n");
+    }
+
+    TEST_CASE("truth: why a path ends") {
+        Materials m;
+        Material soot = m.wall;
+        soot.reflectance = {0, 0, 0};
+        auto end_at = [](const Material& material, bool counts_photons, bool goes_on = false) {
+            PathStory story(1, counts_photons);
+            Recorder recorder(true, &story);
+            recorder.start();
+            trace_hit();
+            recorder.vertex(hit_at({}, material));
+            if (goes_on) recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
+            story.ends();
+            return story.text().substr(story.text().find("    ends: ") + 10);
+        };
+        const std::string below =
+            "absorbed at vertex 1: the direction drawn lies below the surface\n";
+        CHECK(end_at(m.wall, false) == below);
+        CHECK(end_at(m.wall, true) == "photons around vertex 1 tell the rest\n");
+        CHECK(end_at(m.mirror, true) == below);
+        CHECK(end_at(soot, true) == "vertex 1 is black: it absorbs all\n");
+        CHECK(end_at(m.wall, false, true) == "roulette stops it\n");
     }
 
     TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {
