@@ -207,7 +207,7 @@ TEST_SUITE("film error") {
         }
     }
 
-    TEST_CASE("truth: where samples are not finite, mean and error are those of the other pixels") {
+    TEST_CASE("truth: where samples are not finite, mean and error are those of the others") {
         for (int kind : {0, 1, 2, 3, 4})
             for (bool takes_splats : {false, true}) {
                 if (kind == 2 && takes_splats) continue;

@@ -151,7 +151,7 @@ TEST_SUITE("film") {
 }
 
 TEST_SUITE("film files") {
-    TEST_CASE("identity: films of parts, of any kind, added in any order, have the whole's bytes") {
+    TEST_CASE("identity: films of parts, added in any order, have the bytes of the whole") {
         // And each film is read back as it was written.
         for (int kind : {0, 1, 2, 3, 4})
             for (bool takes_splats : {false, true}) {
