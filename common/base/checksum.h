@@ -11,7 +11,7 @@
 ///
 ///   h = mix(h ^ word)      for each 8 bytes, the last ones filled up with 0
 ///
-/// tested by  "teeth: any flipped bit changes the checksum, and so does any cut"
+/// tested by  "identity: the checksum of bytes is the same however they are cut into pieces"
 class Checksum {
 public:
     void add(std::string_view bytes) {

@@ -40,7 +40,7 @@ inline double triangle_solid_angle(Vec3d a, Vec3d b, Vec3d c) {
 ///
 /// pdf_w = 1 / omega. The corners must not lie on one great circle.
 /// source  Arvo 1995; c' from the spherical excess of two sides and the angle between them
-/// tested by  "density: spherical triangle"
+/// tested by  "density: directions in cones and triangles, and the way back to their numbers"
 inline Vec3d sample_spherical_triangle(Vec3d a, Vec3d b, Vec3d c, double omega, Vec2 u) {
     // The corner c' on the edge from a to c that leaves the wanted solid angle:
     // tan(|ac'| / 2) = y / x, both sides of the formula above times |ab| |ac|.

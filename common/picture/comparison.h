@@ -37,7 +37,7 @@ inline constexpr const char* channel_names[] = {"red", "green", "blue"};
 ///
 /// trim  percent of the pixels, those with the largest relative error, that mse, rmse, rel_mse and
 ///       worst_share leave out; means, ratio and blocks take all
-/// tested by  "truth: the numbers of a comparison, worked out by hand"
+/// tested by  "brute: a comparison's numbers counted in another way"
 Comparison compare(const Image& a, const Image& b, double trim = 0);
 
 /// Throws InputError when the sizes differ, or a pixel is not finite.

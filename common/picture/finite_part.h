@@ -10,5 +10,5 @@ struct FinitePart {
     double share = 1;  // of the pixels that have samples: those with finite ones alone
 };
 
-/// tested by  "failure: where samples are not finite, the mean is that of the other pixels"
+/// tested by  "truth: where samples are not finite, mean and error are those of the others"
 FinitePart finite_part(const Film& film);

@@ -16,74 +16,51 @@ namespace {
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float smallest = std::numeric_limits<float>::denorm_min();
 
-enum class RayKind : uint8_t {
-    random,         // from around the mesh to a point in its box
-    axis_parallel,  // with zeros of either sign
-    grazing,        // towards edges and corners
-    in_plane,       // from coordinates of corners, along one or two axes
-    edge_on,        // nearly within the plane of a triangle
-    leaving,        // from a corner
-    far_away,       // from up to 2^17 times the size of the mesh
-    far_parallel,   // the same along an axis
-    long_or_short,  // directions of any length
-    count
-};
+constexpr int edge_on = 3, ray_kinds = 5;
 
 /// Makes rays that a hierarchy may get wrong, out of the mesh's own numbers: there zeros, ties and
 /// touching boxes are.
 class RayMaker {
 public:
     explicit RayMaker(const Geometry& g) : g_(g), random_(SamplerType::independent, 11, 1) {
-        for (Vec3 p : g.positions) {
-            if (is_finite(p)) corners_.push_back(p);
-        }
+        corners_ = g.positions;
         auto add_around = [&](Vec3 c, float r) {
-            for (int axis = 0; axis < 3; axis++) {
-                Vec3 towards;
-                towards[axis] = r;
-                for (Vec3 p : {c - towards, c + towards}) {
-                    if (is_finite(p)) corners_.push_back(p);
-                }
-            }
+            for (Vec3 side : {Vec3{r, 0, 0}, {0, r, 0}, {0, 0, r}})
+                corners_.insert(corners_.end(), {c - side, c + side});
         };
         for (const Sphere& s : g.spheres) add_around(s.c, s.r);
         for (const Disk& d : g.disks) add_around(d.c, d.r);
+        std::erase_if(corners_, [](Vec3 p) { return !is_finite(p); });
         if (corners_.empty()) corners_.push_back({});
         low_ = high_ = corners_[0];
         for (Vec3 p : corners_) low_ = min(low_, p), high_ = max(high_, p);
     }
 
-    Ray make(RayKind kind, uint32_t number) {
+    Ray make(int kind, uint32_t number) {
         random_.start(static_cast<uint32_t>(kind), number);
-        Vec3 inside = point(0), outside = point(1);
+        Vec3 inside = point(0), outside = point(1), to = random_.u1() < 0.5f ? inside : on_edge();
+        float far = std::exp2(17 * random_.u1());  // in sizes of the mesh
         switch (kind) {
-            case RayKind::random: return {outside, inside - outside};
-            case RayKind::axis_parallel: return {outside_along(axis_direction(), inside, 2)};
-            case RayKind::grazing: return {outside, on_edge() - outside};
-            case RayKind::in_plane: {
-                Vec3 o = {corner().x, corner().y, corner().z}, d = axis_direction();
-                if (random_.u1() < 0.5f) d = d + 0.5f * axis_direction();
-                return outside_along(d, o, random_.u1() < 0.5f ? 0.0f : 2.0f);
+            case 0: {  // from around the mesh, with directions of any length
+                float scale = std::exp2(std::floor(120 * random_.u1() - 60));
+                return {outside, (number % 3 == 0 ? scale : 1) * (to - outside)};
             }
-            case RayKind::edge_on: {
+            case 1: {  // from coordinates of corners or elsewhere, along one or two axes
+                Vec3 through = {corner().x, corner().y, corner().z}, d = axis_direction();
+                if (number % 4 == 0) d = d + 0.5f * axis_direction();
+                const float back[] = {0, 2, far};
+                return outside_along(d, number % 2 == 0 ? through : to, back[number % 3]);
+            }
+            case 2: return {corner(), inside - outside};
+            case edge_on: {  // nearly within the plane of a triangle
                 auto [a, b, c] = triangle();
                 Vec2 u = random_.u2(), v = random_.u2();
                 Vec3 from = a + (6 * u.x - 3) * (b - a) + (6 * u.y - 3) * (c - a);
                 return {from, a + v.x * (b - a) + v.y * (1 - v.x) * (c - a) - from};
             }
-            case RayKind::leaving: return {corner(), inside - outside};
-            case RayKind::far_away: {
-                float distance = std::exp2(17 * random_.u1());
-                Vec3 to = random_.u1() < 0.5f ? inside : on_edge();
-                Vec3 from = to + distance * (outside - inside);
-                return {from, to - from};
-            }
-            case RayKind::far_parallel:
-                return outside_along(axis_direction(), random_.u1() < 0.5f ? inside : on_edge(),
-                                     std::exp2(17 * random_.u1()));
             default: {
-                float scale = std::exp2(std::floor(120 * random_.u1() - 60));
-                return {outside, scale * (inside - outside)};
+                Vec3 from = to + far * (outside - inside);
+                return {from, to - from};
             }
         }
     }
@@ -135,75 +112,53 @@ private:
     Vec3 low_, high_;
 };
 
-/// What a ray found, so that it can be found again.
-std::string described(const char* what, int kind, uint32_t number, const Ray& ray,
-                      const PrimHit& found, const PrimHit& truth) {
-    char text[400];
-    std::snprintf(
-        text, sizeof text,
-        "%s, kind %d, ray %u: o %a %a %a, d %a %a %a, t_max %a: primitive %d at t %a, not "
-        "%d at %a",
-        what, kind, number, double{ray.o.x}, double{ray.o.y}, double{ray.o.z}, double{ray.d.x},
-        double{ray.d.y}, double{ray.d.z}, double{ray.t_max}, static_cast<int>(found.prim),
-        double{found.t}, static_cast<int>(truth.prim), double{truth.t});
-    return text;
+/// Whether a triangle is next to nothing, seen from so far away.
+bool is_tiny(const Geometry& g, uint32_t prim, Vec3 from) {
+    if (prim >= g.triangles.size()) return false;
+    auto [a, b, c] = g.triangles[prim].v;
+    Vec3 p = g.positions[a], u = g.positions[b] - p, v = g.positions[c] - p;
+    float height = length(cross(u, v)) / std::max(length(u), length(v));
+    return !(height > 0x1p-18f * length(p - from));
 }
 
-/// Holds rays against the linear scan, and keeps the first one that found something else.
-struct Comparison {
-    const Geometry& g;
-    Bvh bvh;
-    int rays = 0, hits = 0, wrong = 0;
-    std::string first_wrong = {};
-
-    /// Whether a triangle is next to nothing, seen from so far away.
-    bool is_tiny(uint32_t prim, Vec3 from) const {
-        if (prim >= g.triangles.size()) return false;
-        auto [a, b, c] = g.triangles[prim].v;
-        Vec3 p = g.positions[a], u = g.positions[b] - p, v = g.positions[c] - p;
-        float height = length(cross(u, v)) / std::max(length(u), length(v));
-        return !(height > 0x1p-18f * length(p - from));
-    }
-
-    PrimHit compare(const char* what, int kind, uint32_t number, const Ray& ray) {
-        PrimHit truth = linear_scan(g, ray), found = closest_hit(bvh, g, ray);
-        bool hit = truth.prim != PrimHit::none, any = any_hit(bvh, g, ray);
-        rays++, hits += hit;
-        // Nearly edge-on, next to where a ray starts, and as far away as float can just tell,
-        // rounding decides, and double precision decides otherwise than float: there it is enough
-        // that both questions have one answer.
-        bool open = kind == static_cast<int>(RayKind::edge_on) ||
-                    (hit && (truth.t < 0x1p-20f || is_tiny(truth.prim, ray.o)));
-        if (open) hit = found.prim != PrimHit::none;
-        if ((open || same_hit(found, truth)) && any == hit) return truth;
-        if (wrong++ == 0) {
-            if (any != hit) found = {any ? 0 : PrimHit::none, 0, 0, 0};
-            first_wrong = described(what, kind, number, ray, found, truth);
-        }
-        return truth;
-    }
-};
+/// Whether the hierarchy gives this ray the hit of the linear scan, and has one answer to both
+/// questions.
+bool agrees(const Bvh& bvh, const Geometry& g, const Ray& ray, int kind, const PrimHit& truth) {
+    PrimHit found = closest_hit(bvh, g, ray);
+    bool hit = truth.prim != PrimHit::none, any = any_hit(bvh, g, ray);
+    // Nearly edge-on, next to where a ray starts, and as far away as float can just tell, rounding
+    // decides, and double precision decides otherwise than float.
+    if (kind == edge_on || (hit && (truth.t < 0x1p-20f || is_tiny(g, truth.prim, ray.o))))
+        return any == (found.prim != PrimHit::none);
+    return same_hit(found, truth) && any == hit;
+}
 
 /// Rays of all kinds find in the hierarchy what they find one primitive after the other. At least
 /// this share of them hits something.
-void check_same_hits(const Geometry& g, double least_share, uint32_t rays_of_each = 1000) {
-    Comparison all{g, build_bvh(g, 1)};
+void check_same_hits(const Geometry& g, double least_share, uint32_t rays_of_each = 2000) {
+    Bvh bvh = build_bvh(g, 1);
     RayMaker maker(g);
-    for (int kind = 0; kind < static_cast<int>(RayKind::count); kind++) {
+    int rays = 0, hits = 0;
+    std::set<std::pair<int, uint32_t>> wrong;  // kind and number
+    for (int kind = 0; kind < ray_kinds; kind++) {
         for (uint32_t i = 0; i < rays_of_each; i++) {
-            Ray ray = maker.make(static_cast<RayKind>(kind), i);
-            PrimHit hit = all.compare("ray", kind, i, ray);
+            Ray ray = maker.make(kind, i);
+            PrimHit hit = linear_scan(g, ray);
+            bool right = agrees(bvh, g, ray, kind, hit);
+            rays++, hits += hit.prim != PrimHit::none;
             // Edge-on, rounding puts the hit anywhere on the triangle, even before its box.
-            if (hit.prim == PrimHit::none || kind == static_cast<int>(RayKind::edge_on)) continue;
-            // A ray that ends before the hit does not have it any more, one that ends behind does.
-            ray.t_max = 0.999f * hit.t;
-            all.compare("ends before the hit", kind, i, ray);
-            ray.t_max = 1.001f * hit.t;
-            all.compare("ends behind it", kind, i, ray);
+            if (hit.prim != PrimHit::none && kind != edge_on) {
+                // A ray that ends before the hit does not have it any more, one behind it does.
+                for (float end : {0.999f, 1.001f}) {
+                    ray.t_max = end * hit.t;
+                    right = right && agrees(bvh, g, ray, kind, linear_scan(g, ray));
+                }
+            }
+            if (!right) wrong.emplace(kind, i);
         }
     }
-    CHECK(all.first_wrong == "");
-    CHECK(all.hits >= least_share * all.rays);
+    CHECK(wrong == decltype(wrong){});
+    CHECK(hits >= least_share * rays);
 }
 
 /// n triangles of this size with their centres in the cube [-1,1]^3.
@@ -242,13 +197,12 @@ bool same_memory(const Array& a, const Array& b) {
 }
 
 /// Nodes on the longest way down.
-int levels_below(const Bvh& bvh, uint32_t child) {
+int levels_of(const Bvh& bvh, uint32_t child) {
     if (child & BvhNode::leaf) return 0;
     int levels = 0;
-    for (uint32_t next : bvh.nodes[child].child) levels = std::max(levels, levels_below(bvh, next));
+    for (uint32_t next : bvh.nodes[child].child) levels = std::max(levels, levels_of(bvh, next));
     return levels + 1;
 }
-int levels_of(const Bvh& bvh) { return levels_below(bvh, bvh.root); }
 
 template <typename Change>
 Geometry changed(Geometry g, const Change& change) {
@@ -260,56 +214,40 @@ Geometry changed(Geometry g, const Change& change) {
 
 TEST_SUITE("ch06 bvh hits") {
     TEST_CASE("brute: meshes, spheres and disks are hit as the linear scan hits them") {
-        check_same_hits(random_triangles(500, 0.2f), 0.2);
-        check_same_hits(random_triangles(40, 2), 0.2);
-        check_same_hits(mixed(200), 0.2);
-        Geometry round = mixed(40);
+        Geometry sphere, disk, boxes, round = mixed(40), flaws = mixed(100);
+        sphere.spheres = {{{1, 2, 3}, 2, 0}};
+        disk.disks = {{{1, 2, 3}, {0, 0, 1}, 2, 0}};
+        for (int k = 0; k < 27; k++) {  // whose sides are met by many rays at once
+            float x = static_cast<float>(k % 3), y = static_cast<float>(k / 3 % 3),
+                  z = static_cast<float>(k / 9);
+            add_box(boxes, {x, y, z}, {x + 1, y + 1, z + 1});
+        }
         round.triangles.clear();
-        check_same_hits(round, 0.2);
-        check_same_hits(cornell_box(), 0.2);
-        check_same_hits(closed_mesh(3), 0.2);
-        check_same_hits(thin_diagonals(300), 0.1);
-    }
-
-    TEST_CASE("brute: flat meshes in the planes of the axes") {
+        flaws.spheres[3].r = flaws.disks[6].r = 0;
+        flaws.disks[7].n = {};
+        check_same_hits({}, 0);
+        for (const Geometry& g : {sphere, disk, boxes, round, flaws, mixed(200), cornell_box(),
+                                  closed_mesh(3), thin_diagonals(300), random_triangles(40, 2)})
+            check_same_hits(g, 0.1);
         for (int axis = 0; axis < 3; axis++) {
-            for (float at : {0.0f, 1.0f, -1e5f}) {
-                Geometry g;
-                add_surface(g, 10, 10, [&](float a, float b) {
+            for (float at : {0.0f, -1e5f}) {
+                Geometry flat;
+                add_surface(flat, 10, 10, [&](float a, float b) {
                     Vec3 p;
                     p[axis] = at, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
                     return p;
                 });
-                check_same_hits(g, 0.1, 300);
+                check_same_hits(flat, 0.04, 600);
             }
         }
-    }
-
-    TEST_CASE("brute: touching boxes, whose sides are met by many rays at once") {
-        Geometry g;
-        for (int k = 0; k < 27; k++) {
-            float x = static_cast<float>(k % 3), y = static_cast<float>(k / 3 % 3),
-                  z = static_cast<float>(k / 9);
-            add_box(g, {x, y, z}, {x + 1, y + 1, z + 1});
-        }
-        check_same_hits(g, 0.5);
-    }
-
-    TEST_CASE("brute: no primitive, one, and one less or more than fit side by side") {
-        check_same_hits({}, 0);
-        for (uint32_t n : {1u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 32u, 33u}) {
-            check_same_hits(random_triangles(n, 1), 0.05, 300);
-        }
+        // One less and one more than fit side by side.
+        for (uint32_t n : {1u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 32u, 33u})
+            check_same_hits(random_triangles(n, 1), 0.02, 600);
         for (size_t n : {2u, 4u, 8u, 10u}) {  // 6, 12, 24 and 30 primitives
             Geometry g = mixed(40);
             g.triangles.resize(n), g.spheres.resize(n), g.disks.resize(n);
-            check_same_hits(g, 0.05, 300);
+            check_same_hits(g, 0.02, 600);
         }
-        Geometry sphere, disk;
-        sphere.spheres = {{{1, 2, 3}, 2, 0}};
-        disk.disks = {{{1, 2, 3}, {0, 0, 1}, 2, 0}};
-        check_same_hits(sphere, 0.2);
-        check_same_hits(disk, 0.1);
     }
 
     TEST_CASE("brute: NaN and infinite vertices are never hit, and hide nothing") {
@@ -323,42 +261,23 @@ TEST_SUITE("ch06 bvh hits") {
             for (Vec3& p : all_bad.positions) p.y = x;
             check_same_hits(all_bad, 0, 100);
         }
-        Geometry g = mixed(100);
-        g.spheres[3].r = g.disks[6].r = 0;
-        g.disks[7].n = {};
-        check_same_hits(g, 0.2);
     }
 
     TEST_CASE("brute: coordinates far from 0, huge ones and tiny ones") {
         Geometry g = random_triangles(200, 0.5f);
-        for (Vec3 offset : {Vec3{1e4f, -1e4f, 1e4f}, {148376, 1234, -223423}, {1e7f, 0, 0}}) {
-            auto moved = changed(g, [&](Vec3 p) { return p + offset; });
-            check_same_hits(moved, 0.05);
-        }
-        for (float scale : {1e-9f, 1e-6f, 1e6f, 1e9f}) {
-            CAPTURE(scale);
-            check_same_hits(changed(g, [&](Vec3 p) { return scale * p; }), 0.05, 300);
-        }
+        for (Vec3 offset : {Vec3{1e4f, -1e4f, 1e4f}, {148376, 1234, -223423}, {1e7f, 0, 0}})
+            check_same_hits(changed(g, [&](Vec3 p) { return p + offset; }), 0.05);
+        for (float scale : {1e-9f, 1e-6f, 1e6f, 1e9f})
+            check_same_hits(changed(g, [&](Vec3 p) { return scale * p; }), 0.05, 600);
         // Of very different size within one mesh.
         for (size_t i = 0; i < 300; i++) g.positions[i] = 1000 * g.positions[i];
         check_same_hits(g, 0.05);
-        // So large that float overflows: whatever is found, both questions have the same answer.
-        for (size_t i = 0; i < 60; i++) {
-            g.positions[i] = (i % 2 == 0 ? -largest : largest) * Vec3{1, 1, 0};
-        }
-        Bvh bvh = build_bvh(g, 1);
-        RayMaker maker(g);
-        for (uint32_t i = 0; i < 1000; i++) {
-            Ray ray = maker.make(RayKind::random, i);
-            CHECK(any_hit(bvh, g, ray) == (closest_hit(bvh, g, ray).prim != PrimHit::none));
-        }
     }
 
     TEST_CASE("brute: rays without a direction, without an end, and with NaN") {
         const float odd[] = {0.0f, -0.0f, smallest, 1, largest, infinity, -infinity, std::nanf("")};
         Geometry many = mixed(200), few = mixed(40);
         few.triangles.resize(10), few.spheres.resize(10), few.disks.resize(10);  // no boxes
-        int rays = 0;
         for (const Geometry& g : {many, few}) {
             Bvh bvh = build_bvh(g, 1);
             for (float x : odd)
@@ -368,49 +287,15 @@ TEST_SUITE("ch06 bvh hits") {
                             for (Ray ray : {Ray{{0.1f, 0.2f, 0.3f}, {x, y, z}, t_max},
                                             Ray{{x, y, z}, {0.3f, 0.2f, 0.5f}, t_max}}) {
                                 PrimHit truth = linear_scan(g, ray);
-                                CAPTURE(rays);
                                 REQUIRE(same_hit(closest_hit(bvh, g, ray), truth));
                                 REQUIRE(any_hit(bvh, g, ray) == (truth.prim != PrimHit::none));
-                                rays++;
                             }
                         }
         }
-        CHECK(rays == 2 * 2 * 6 * 512);
     }
 }
 
 TEST_SUITE("ch06 bvh build") {
-    TEST_CASE("brute: a million rays through edges and corners of closed meshes, and no leak") {
-        for (Vec3 offset : {Vec3{0, 0, 0}, {148376, 1234, -223423}}) {
-            Geometry g = closed_mesh(5);
-            float size = offset.x == 0 ? 1.0f : 1000.0f;
-            for (Vec3& p : g.positions) p = size * p + offset;
-            Bvh bvh = build_bvh(g, 1);
-            Sampler random(SamplerType::independent, 14, 1);
-            int leaks = 0, shadow_leaks = 0, late = 0;
-            for (uint32_t i = 0; i < 500000; i++) {
-                random.start(i, 0);
-                const Triangle& t = g.triangles[i % g.triangles.size()];
-                Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]], at = a;
-                if (i % 4 != 0) at = at + random.u1() * (b - a);
-                // From near the middle outwards, or from outside through the middle.
-                Vec2 u = random.u2();
-                Vec3 middle = offset + 0.3f * size * Vec3{u.x - 0.5f, u.y - 0.5f, random.u1()};
-                bool from_outside = i % 2 == 0;
-                if (from_outside) middle = offset;
-                Ray ray = {middle, at - middle};
-                if (from_outside) ray = {at + (at - middle), middle - at};
-                PrimHit hit = closest_hit(bvh, g, ray);
-                leaks += hit.prim == PrimHit::none;
-                shadow_leaks += !any_hit(bvh, g, ray);
-                if (from_outside) late += hit.t > 1.001f;  // not the first wall
-            }
-            CHECK(leaks == 0);
-            CHECK(shadow_leaks == 0);
-            CHECK(late == 0);
-        }
-    }
-
     TEST_CASE("identity: the same hierarchy for any number of threads") {
         Geometry ball, copies;
         add_bumpy_ball(ball, {0, 0, 0}, 1, 200);
@@ -432,7 +317,8 @@ TEST_SUITE("ch06 bvh build") {
         Geometry copies, shrinking;
         copies.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
         copies.triangles.assign(100000, {{0, 1, 2}, 0});
-        CHECK(levels_of(build_bvh(copies, 1)) <= 17);
+        Bvh of_copies = build_bvh(copies, 1);
+        CHECK(levels_of(of_copies, of_copies.root) <= 17);
         for (int i = 0; i < 149; i++) {
             float s = std::ldexp(1.0f, -i);
             for (int copy = 0; copy < 200; copy++) {
@@ -442,9 +328,9 @@ TEST_SUITE("ch06 bvh build") {
                 shrinking.triangles.push_back({{v, v + 1, v + 2}, 0});
             }
         }
-        CHECK(levels_of(build_bvh(shrinking, 1)) <= 96);
-        PrimHit hit =
-            closest_hit(build_bvh(shrinking, 1), shrinking, {{-1, 0.1f, 0.1f}, {1, 0, 0}});
+        Bvh bvh = build_bvh(shrinking, 1);
+        CHECK(levels_of(bvh, bvh.root) <= 96);
+        PrimHit hit = closest_hit(bvh, shrinking, {{-1, 0.1f, 0.1f}, {1, 0, 0}});
         CHECK(same_hit(hit, linear_scan(shrinking, {{-1, 0.1f, 0.1f}, {1, 0, 0}})));
         CHECK(hit.prim != PrimHit::none);
     }

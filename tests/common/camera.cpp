@@ -11,7 +11,7 @@
 namespace {
 
 /// Where on the film, in shares of its width and height, the camera of these options sees p.
-Vec2 film_place(const std::string& options, Vec3 p, int width = 100, int height = 100) {
+Vec2 film_place(const std::string& options, Vec3 p, int width, int height) {
     Scene scene = scene_of(options + "\nWorldBegin\nLightSource \"infinite\" Shape \"sphere\"");
     CameraView view = camera_view(scene.camera, width, height);
     // Solve p - o = s (corner + x dx + y dy) by Cramer's rule.
@@ -23,68 +23,50 @@ Vec2 film_place(const std::string& options, Vec3 p, int width = 100, int height 
             dot(view.corner, cross(view.dx, d)) / det / s / static_cast<float>(height)};
 }
 
-void check_place(Vec2 place, float x, float y) {
-    CHECK(std::abs(place.x - x) < 1e-5f);
-    CHECK(std::abs(place.y - y) < 1e-5f);
-}
-
 const std::string perspective = "Camera \"perspective\" \"float fov\" 90 ";
 
 }  // namespace
 
 TEST_SUITE("camera") {
-    TEST_CASE("truth: LookAt is left-handed") {
-        // Looking along +z with y up, +x is on the right; looking along -z it is on the left.
-        check_place(film_place("LookAt 0 0 0  0 0 1  0 1 0 " + perspective, {1, 0, 2}), 0.75f,
-                    0.5f);
-        check_place(film_place("LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {1, 0, -2}), 0.25f,
-                    0.5f);
-        // Up is up: the first row of pixels is the top one.
-        check_place(film_place("LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {0, 1, -2}), 0.5f,
-                    0.25f);
-        // Without a transform, the camera looks along +z from the origin.
-        check_place(film_place(perspective, {1, 1, 2}), 0.75f, 0.25f);
-    }
-
-    TEST_CASE("truth: Scale -1 1 1 in front of LookAt mirrors the picture") {
-        check_place(
-            film_place("Scale -1 1 1 LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {1, 1, -2}),
-            0.75f, 0.25f);
-    }
-
-    TEST_CASE("truth: the camera takes the transform where it stands, and WorldBegin drops it") {
-        std::string moved = "Translate 0 0 5 LookAt 1 2 3  1 2 4  0 1 0 " + perspective;
-        // Translate comes after LookAt has acted: the camera stands 5 farther back.
-        check_place(film_place(moved + "Translate 100 0 0", {1, 2, 3}), 0.5f, 0.5f);
-        check_place(film_place(moved, {3.5f, 2, 3}), 0.75f, 0.5f);
-        check_place(film_place("Rotate 90 0 0 1 " + perspective, {1, 0, 2}), 0.5f, 0.25f);
-        // A camera matrix that scales the world changes nothing but units.
-        check_place(film_place("Scale 3 3 3 " + perspective, {1, 1, 2}), 0.75f, 0.25f);
-    }
-
-    TEST_CASE("truth: fov is the full angle across the shorter side") {
-        std::string fov = "Camera \"perspective\" \"float fov\" 60";
+    TEST_CASE("truth: where a camera of pbrt's conventions has a point in its picture") {
+        const std::string fov = "Camera \"perspective\" \"float fov\" 60",
+                          moved = "Translate 0 0 5 LookAt 1 2 3  1 2 4  0 1 0 " + perspective,
+                          window = perspective + "\"float screenwindow\" [-2 2 -1 3]",
+                          aspect = perspective + "\"float frameaspectratio\" ";
         float half = std::tan(pi / 6);
-        check_place(film_place(fov, {half, half, 1}), 1, 0);
-        check_place(film_place(fov, {0, half, 1}, 200, 100), 0.5f, 0);
-        check_place(film_place(fov, {2 * half, 0, 1}, 200, 100), 1, 0.5f);
-        check_place(film_place(fov, {half, 0, 1}, 100, 300), 1, 0.5f);
-        check_place(film_place(fov, {0, 3 * half, 1}, 100, 300), 0.5f, 0);
-        check_place(film_place("Camera \"perspective\"", {1, 1, 1}), 1, 0);  // 90 when not given
-    }
-
-    TEST_CASE("truth: screenwindow and frameaspectratio replace the film's own shape") {
-        check_place(film_place(perspective + "\"float screenwindow\" [-2 2 -1 3]", {0, 0, 1}), 0.5f,
-                    0.75f);
-        check_place(film_place(perspective + "\"float screenwindow\" [-2 2 -1 3]", {2, 3, 1}), 1,
-                    0);
-        check_place(film_place(perspective + "\"float frameaspectratio\" 2", {2, 1, 1}), 1, 0);
-        check_place(film_place(perspective + "\"float frameaspectratio\" 0.5", {1, 2, 1}), 1, 0);
-        // Both: the window as it is written.
-        check_place(film_place(perspective + "\"float frameaspectratio\" 4 "
-                                             "\"float screenwindow\" [-1 1 -1 1]",
-                               {1, 1, 1}),
-                    1, 0);
+        struct {
+            std::string options;
+            Vec3 p;
+            float x, y;
+            int width = 100, height = 100;
+        } cases[] = {
+            // Looking along +z with y up, +x is on the right; looking along -z it is on the left.
+            {"LookAt 0 0 0  0 0 1  0 1 0 " + perspective, {1, 0, 2}, 0.75f, 0.5f},
+            {"LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {1, 1, -2}, 0.25f, 0.25f},
+            {perspective, {1, 1, 2}, 0.75f, 0.25f},
+            {"Scale -1 1 1 LookAt 0 0 0  0 0 -1  0 1 0 " + perspective, {1, 1, -2}, 0.75f, 0.25f},
+            // Translate comes after LookAt has acted: the camera stands 5 farther back.
+            {moved + "Translate 100 0 0", {1, 2, 3}, 0.5f, 0.5f},
+            {moved, {3.5f, 2, 3}, 0.75f, 0.5f},
+            {"Rotate 90 0 0 1 " + perspective, {1, 0, 2}, 0.5f, 0.25f},
+            {"Scale 3 3 3 " + perspective, {1, 1, 2}, 0.75f, 0.25f},
+            // The angle across the shorter side.
+            {fov, {half, half, 1}, 1, 0},
+            {fov, {2 * half, half, 1}, 1, 0, 200, 100},
+            {fov, {half, 3 * half, 1}, 1, 0, 100, 300},
+            {"Camera \"perspective\"", {1, 1, 1}, 1, 0},  // 90 when not given
+            {window, {0, 0, 1}, 0.5f, 0.75f},
+            {window, {2, 3, 1}, 1, 0},
+            {aspect + "2", {2, 1, 1}, 1, 0},
+            {aspect + "0.5", {1, 2, 1}, 1, 0},
+            {aspect + "4 \"float screenwindow\" [-1 1 -1 1]", {1, 1, 1}, 1, 0},
+        };
+        for (const auto& c : cases) {
+            CAPTURE(c.options);
+            Vec2 place = film_place(c.options, c.p, c.width, c.height);
+            CHECK(std::abs(place.x - c.x) < 1e-5f);
+            CHECK(std::abs(place.y - c.y) < 1e-5f);
+        }
     }
 
     TEST_CASE(

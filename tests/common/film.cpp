@@ -59,24 +59,6 @@ doctest::Approx about(double x) { return doctest::Approx(x).epsilon(1e-14).scale
 }  // namespace
 
 TEST_SUITE("film") {
-    TEST_CASE("truth: mean, standard error and effective samples of six numbers") {
-        // Variances within the pixels 1 and 0, so that of the mean of means (1/3 + 0/3) / 2^2.
-        Film film = film_of({{0, 1, 2}, {4, 4, 4}});
-        CHECK(film.mean() == about(2.5));
-        CHECK(film.standard_error() == about(std::sqrt(1.0 / 3) / 2));
-        CHECK(film.effective_samples() == about(15.0 * 15.0 / 53));
-        CHECK(film.image().at(0, 0) == grey(1));
-        CHECK(film.image().at(1, 0) == grey(4));
-    }
-
-    TEST_CASE("truth: the channels have means of their own, and the film's is their average") {
-        Film film(1, 2);
-        film.add(0, {1, 2, 6});
-        film.add(1, {3, 2, 10});
-        CHECK(film.mean_rgb() == Rgb{2, 2, 8});
-        CHECK(film.mean() == about(4));
-    }
-
     TEST_CASE("truth: pixels with different numbers of samples have each the mean of their own") {
         Film film = film_of({{0, 1, 2}, {4, 6}});
         CHECK(film.samples() == 5);
@@ -88,10 +70,10 @@ TEST_SUITE("film") {
         CHECK(film.standard_error() == about(std::sqrt(1.0 / 3 + 1) / 2));
         CHECK(film.effective_samples() == about(13.0 * 13.0 / 57));
         CHECK(std::isnan(film_of({{0, 1, 2}, {4}}).standard_error()));
-    }
-
-    TEST_CASE("truth: a pixel without samples is black, and not in the mean of the others") {
-        Film film = film_of({{}, {4, 6}});
+        CHECK(film_of({{0, 1, 2}, {4, 4, 4}}).effective_samples() == about(15.0 * 15.0 / 53));
+        CHECK(film_of({{0, 0}, {0, 0}}).effective_samples() == 0);
+        // One without samples is black, and not in the mean of the others.
+        film = film_of({{}, {4, 6}});
         CHECK(film.image().at(0, 0) == grey(0));
         CHECK(film.mean() == about(5));
         CHECK(film.standard_error() == about(1));
@@ -117,29 +99,13 @@ TEST_SUITE("film") {
         }
     }
 
-    TEST_CASE("truth: one sample says nothing about its error") {
-        CHECK(std::isnan(film_of({{3}, {5}}).standard_error()));
-        CHECK(film_of({{3}, {5}}).mean() == 4);
-    }
-
-    TEST_CASE("truth: n equal samples are n effective ones, and a lone bright one is 1") {
-        CHECK(film_of({{2, 2, 2}, {2, 2, 2}}).effective_samples() == about(6));
-        CHECK(film_of({{0, 0, 1000}, {0, 0, 0}}).effective_samples() == about(1));
-        CHECK(film_of({{0, 0}, {0, 0}}).effective_samples() == 0);
-    }
-
     TEST_CASE("truth: sample number 2^24 + 1 still counts, and a large mean keeps its variance") {
         Film film(1, 1);
-        float sum = 0;
         uint64_t n = (1 << 24) + 1000;
-        for (uint64_t s = 0; s < n; s++) {
-            film.add(0, grey(s % 2 == 0 ? 1000.5f : 1001.5f));
-            sum += 1;
-        }
+        for (uint64_t s = 0; s < n; s++) film.add(0, grey(s % 2 == 0 ? 1000.5f : 1001.5f));
         CHECK(film.image().at(0, 0) == grey(1001));
         double se = 0.5 / std::sqrt(static_cast<double>(n - 1));
         CHECK(film.standard_error() == doctest::Approx(se).epsilon(1e-9).scale(0));
-        CHECK(sum == 1 << 24);  // what a sum in float does
     }
 
     TEST_CASE("truth: parts of samples add up, however rare they are") {
@@ -150,14 +116,6 @@ TEST_SUITE("film") {
         CHECK(film.mean() == about(0.3));
         CHECK(film.image().at(0, 0).r == 0.6f);
         CHECK(film.image().at(1, 0).r == 0);
-    }
-
-    TEST_CASE("truth: splats add to the mean of the samples what they sum to for each sample") {
-        Film film = film_with({{0, grey(1)}, {3, grey(0.5f)}, {3, {1, 2, 3}}}, 1);
-        CHECK(film.image().at(0, 0) == grey(0.75f));
-        CHECK(film.image().at(1, 0) == grey(0.25f));
-        CHECK(film.image().at(3, 0) == Rgb{1, 1.5f, 2});
-        CHECK(film.mean() == about(0.25 + (1 + 0.5 + 2) / 2 / 15));
     }
 
     TEST_CASE("truth: the error of a film with splats is that of the totals of its samples") {
@@ -186,17 +144,14 @@ TEST_SUITE("film") {
         }
     }
 
-    TEST_CASE("failure: a splat that is not finite makes its pixel NaN, and no other") {
+    TEST_CASE("failure: a sample or splat that is not finite shows in its pixel and in the mean") {
         for (float bad : {std::nanf(""), infinity, -infinity}) {
-            Film film = film_with({{0, {1, bad, 1}}, {0, grey(1)}, {1, grey(1)}}, 2);
-            CHECK(film.image().at(0, 0).r == 1.25f);
-            CHECK(std::isnan(film.image().at(0, 0).g));
-            CHECK(film.image().at(1, 0) == grey(0.75f));
-            CHECK(std::isnan(film.mean()));
+            Film splatted = film_with({{0, {1, bad, 1}}, {0, grey(1)}, {1, grey(1)}}, 2);
+            CHECK(splatted.image().at(0, 0).r == 1.25f);
+            CHECK(std::isnan(splatted.image().at(0, 0).g));
+            CHECK(splatted.image().at(1, 0) == grey(0.75f));
+            CHECK(std::isnan(splatted.mean()));
         }
-    }
-
-    TEST_CASE("failure: a sample that is not finite shows in its pixel and in the mean") {
         Film film = film_of({{1, std::nanf("")}, {2, 2}});
         CHECK(std::isnan(film.image().at(0, 0).r));
         CHECK(film.image().at(1, 0) == grey(2));

@@ -20,56 +20,25 @@ double off_sphere(Vec3 p, Vec3 c, double r) {
                     r);
 }
 
-/// Two one-sided walls a hundredth apart, at x = 0 and x = 0.01, in a room of this size.
-Scene two_walls(float size, float distance) {
-    std::string s = std::to_string(size), x = std::to_string(distance);
-    auto wall = [&](const std::string& at) {
-        return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [" + at +
-               " 0 0  " + at + " " + s + " 0  " + at + " " + s + " " + s + "  " + at + " 0 " + s +
-               "]\n";
-    };
-    return world_of("LightSource \"infinite\"\n" + wall(s) + wall(std::to_string(size + distance)));
-}
-
 }  // namespace
 
 TEST_SUITE("frame") {
-    TEST_CASE("identity: the frame is orthonormal") {
-        std::vector<Vec3> normals = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
-                                     {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-        for (float e = 1e-4f; e < 0.2f;
-             e *= 1.1f) {  // where the frame without copysign is infinite
-            normals.push_back(normalize({e, e, -1}));
-            normals.push_back(normalize({-e, e, -1}));
-        }
+    TEST_CASE("identity: the frame is orthonormal, also where its formula is nearly infinite") {
         Sampler random = random_numbers(1);
-        while (normals.size() < 100000) normals.push_back(uniform_direction(random.u2()));
         float worst = 0;
-        for (Vec3 n : normals) {
+        for (int i = 0; i < 100000; i++) {
+            Vec3 n = uniform_direction(random.u2());
+            if (i % 2 == 0) n = normalize({1e-3f * n.x, 1e-3f * n.y, n.z});
             Frame f(n);
             for (float error : {dot(f.s, f.t), dot(f.s, n), dot(f.t, n), length(f.s) - 1,
-                                length(f.t) - 1, length(cross(f.s, f.t) - n)}) {
-                worst = std::max(worst, std::abs(error));
-                REQUIRE(std::isfinite(error));
-            }
+                                length(f.t) - 1, length(cross(f.s, f.t) - n)})
+                worst = std::isfinite(error) ? std::max(worst, std::abs(error)) : infinity;
         }
         CHECK(worst < 1e-6f);
     }
 }
 
 TEST_SUITE("intersect shapes") {
-    TEST_CASE("truth: a sphere from outside, from inside, beside and behind") {
-        Vec3 c = {0, 0, 0};
-        CHECK(*intersect_sphere({{0, 0, -4}, {0, 0, 1}}, c, 1) == 3);
-        CHECK(*intersect_sphere({{0, 0, -4}, {0, 0, 2}}, c, 1) == 1.5f);
-        CHECK(*intersect_sphere({{0, 0, 0.5f}, {0, 0, 1}}, c, 1) == 0.5f);
-        CHECK(*intersect_sphere({{0, 0.999f, -4}, {0, 0, 1}}, c, 1) > 3.9f);
-        CHECK_FALSE(intersect_sphere({{0, 1.001f, -4}, {0, 0, 1}}, c, 1));
-        CHECK_FALSE(intersect_sphere({{0, 0, 4}, {0, 0, 1}}, c, 1));
-        CHECK_FALSE(intersect_sphere({{0, 0, -4}, {0, 0, 1}, 3}, c, 1));
-        CHECK_FALSE(intersect_sphere({{0, 0, -4}, {0, 0, std::nanf("")}}, c, 1));
-    }
-
     TEST_CASE("truth: a small sphere far away keeps its edge and its distance") {
         // In float, b^2 - a c would be wrong by about 10 here, for a radius of 1.
         Sampler random = random_numbers(1);
@@ -106,29 +75,39 @@ TEST_SUITE("intersect shapes") {
             }
     }
 
-    TEST_CASE("truth: a disk is hit up to its rim, from both sides, and never edge-on") {
-        Vec3 c = {1, 2, 3}, n = {0, 0, 1};
-        CHECK(*intersect_disk({{1, 2, 0}, {0, 0, 1}}, c, n, 2) == 3);
-        CHECK(*intersect_disk({{1, 2, 6}, {0, 0, -1}}, c, n, 2) == 3);
-        CHECK(intersect_disk({{2.999f, 2, 0}, {0, 0, 1}}, c, n, 2));
-        CHECK_FALSE(intersect_disk({{3.001f, 2, 0}, {0, 0, 1}}, c, n, 2));
-        CHECK_FALSE(intersect_disk({{-4, 2, 3}, {1, 0, 0}}, c, n, 2));
-        CHECK_FALSE(intersect_disk({{-4, 2, 2}, {1, 0, 0}}, c, n, 2));
-        CHECK_FALSE(intersect_disk({{1, 2, 0}, {0, 0, 1}, 3}, c, n, 2));
-        CHECK_FALSE(intersect_disk({{1, 2, 6}, {0, 0, 1}}, c, n, 2));
-    }
-
-    TEST_CASE("truth: a triangle's distance and weights, from both sides") {
-        Vec3 p0 = {0, 0, 2}, p1 = {4, 0, 2}, p2 = {0, 4, 3};
-        for (Vec3 d : {Vec3{0, 0, 1}, Vec3{0, 0, -2}}) {
-            float from = d.z > 0 ? -1.0f : 7.0f;
-            Ray ray = {{1, 2, from}, d};
-            auto hit = intersect_triangle(ray, shear_to_ray(d), p0, p1, p2);
-            REQUIRE(hit);
-            CHECK(hit->b1 == 0.25f);
-            CHECK(hit->b2 == 0.5f);
-            CHECK(hit->t == (2.5f - from) / d.z);
-        }
+    TEST_CASE("truth: where a ray meets a sphere, a disk and a triangle, and which miss") {
+        constexpr float none = -1;
+        const Vec3 up = {0, 0, 1}, centre = {1, 2, 3}, p[] = {{0, 0, 2}, {4, 0, 2}, {0, 4, 3}};
+        auto sphere = [=](Ray ray) { return intersect_sphere(ray, {}, 1).value_or(none); };
+        auto disk = [&](Ray ray) { return intersect_disk(ray, centre, up, 2).value_or(none); };
+        auto triangle = [&](Ray ray) {
+            auto hit = intersect_triangle(ray, shear_to_ray(ray.d), p[0], p[1], p[2]);
+            CHECK((!hit || (hit->b1 == 0.25f && hit->b2 == 0.5f)));
+            return hit ? hit->t : none;
+        };
+        struct {
+            float found, truth;
+        } cases[] = {
+            {sphere({{0, 0, -4}, up}), 3},
+            {sphere({{0, 0, -4}, 2 * up}), 1.5f},
+            {sphere({{0, 0, 0.5f}, up}), 0.5f},
+            {sphere({{0, 1.001f, -4}, up}), none},
+            {sphere({{0, 0, 4}, up}), none},
+            {sphere({{0, 0, -4}, up, 3}), none},
+            {sphere({{0, 0, -4}, {0, 0, std::nanf("")}}), none},
+            {disk({{1, 2, 0}, up}), 3},
+            {disk({{1, 2, 6}, -up}), 3},
+            {disk({{2.999f, 2, 0}, up}), 3},
+            {disk({{3.001f, 2, 0}, up}), none},
+            {disk({{-4, 2, 3}, {1, 0, 0}}), none},
+            {disk({{1, 2, 0}, up, 3}), none},
+            {disk({{1, 2, 6}, up}), none},
+            {triangle({{1, 2, -1}, up}), 3.5f},
+            {triangle({{1, 2, 7}, -2 * up}), 2.25f},
+            {triangle({{1, 2, -1}, up, 3.5f}), none},
+            {triangle({{1, 2, 7}, up}), none},
+        };
+        for (const auto& [found, truth] : cases) CHECK(found == truth);
     }
 
     TEST_CASE("truth: a ray that leaves a thin trim does not meet it, and misses what is far off") {
@@ -166,23 +145,33 @@ TEST_SUITE("intersect shapes") {
     }
 
     TEST_CASE("brute: no ray leaks through a closed mesh") {
-        Geometry g = closed_mesh(2);
-        Bvh bvh = build_bvh(g, 1);
-        Sampler random = random_numbers(1);
-        int leaks = 0, disagreements = 0;
-        for (int i = 0; i < 40000; i++) {
-            // Aim at a point of an edge, or at a corner, from around the middle.
-            const Triangle& t = g.triangles[static_cast<size_t>(i) % g.triangles.size()];
-            Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]];
-            Vec3 from = 0.2f * uniform_direction(random.u2());
-            Vec3 at = i % 4 == 0 ? a : a + random.u1() * (b - a);
-            Ray ray = {from, at - from};
-            PrimHit brute = linear_scan(g, ray), found = closest_hit(bvh, g, ray);
-            leaks += brute.prim == PrimHit::none;
-            disagreements += !same_hit(found, brute);
+        for (Vec3 offset : {Vec3{0, 0, 0}, {148376, 1234, -223423}}) {
+            Geometry g = closed_mesh(3);
+            float size = offset.x == 0 ? 1.0f : 1000.0f;
+            for (Vec3& p : g.positions) p = size * p + offset;
+            Bvh bvh = build_bvh(g, 1);
+            Sampler random = random_numbers(1);
+            int leaks = 0, disagreements = 0, late = 0;
+            for (int i = 0; i < 40000; i++) {
+                // Aim at a point of an edge, or at a corner, from around the middle; or from
+                // outside through them to the middle.
+                const Triangle& t = g.triangles[static_cast<size_t>(i) % g.triangles.size()];
+                Vec3 a = g.positions[t.v[0]], b = g.positions[t.v[1]];
+                Vec3 from = offset + 0.2f * size * uniform_direction(random.u2());
+                Vec3 at = i % 4 == 0 ? a : a + random.u1() * (b - a);
+                bool from_outside = i % 8 < 4;
+                if (from_outside) from = at + (at - offset);
+                Ray ray = {from, from_outside ? offset - at : at - from};
+                PrimHit brute = linear_scan(g, ray), found = closest_hit(bvh, g, ray);
+                leaks += brute.prim == PrimHit::none;
+                leaks += !any_hit(bvh, g, ray);
+                disagreements += !same_hit(found, brute);
+                late += from_outside && found.t > 1.001f;  // not the first wall
+            }
+            CHECK(leaks == 0);
+            CHECK(disagreements == 0);
+            CHECK(late == 0);
         }
-        CHECK(leaks == 0);
-        CHECK(disagreements == 0);
     }
 }
 
@@ -285,30 +274,6 @@ TEST_SUITE("intersect hits") {
             }
             CHECK(worst <= 1);
             CHECK(hits > 1900);
-        }
-    }
-
-    TEST_CASE("failure: two walls a hundredth apart do not leak, nor stop what runs between them") {
-        for (auto [size, distance] : {std::pair{556.0f, 0.01f}, {1.0f, 0.001f}, {0.001f, 1e-6f}}) {
-            Scene scene = two_walls(size, distance);
-            Sampler random = random_numbers(1);
-            int wrong = 0;
-            for (int i = 0; i < 20000; i++) {
-                Vec2 u = random.u2();
-                Vec3 from = {0.2f * size, (0.3f + 0.4f * u.x) * size, (0.3f + 0.4f * u.y) * size};
-                auto x = intersect(scene, {from, {1, 0, 0}});
-                REQUIRE(x);
-                Vec3 wi = uniform_direction(random.u2());
-                wi.x = std::abs(wi.x);
-                // Back into the room: free. Onwards: the second wall, a distance / cos away.
-                wrong += intersect(scene, spawn_ray(*x, -wi)).has_value();
-                if (wi.x < 0.1f) continue;
-                auto second = intersect(scene, spawn_ray(*x, wi));
-                wrong += !second || std::abs(second->t * wi.x / distance - 1) > 0.1f;
-                // From the second wall back into the gap: the first wall stops it.
-                if (second) wrong += !intersect(scene, spawn_ray(*second, -wi)).has_value();
-            }
-            CHECK(wrong == 0);
         }
     }
 

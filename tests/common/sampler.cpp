@@ -106,29 +106,17 @@ bool are_equal_tiles(const std::vector<Rectangle>& boxes) {
 }  // namespace
 
 TEST_SUITE("sampler: bits") {
-    TEST_CASE("identity: 32 random bits become a float that is never 1") {
+    TEST_CASE("identity: random bits become numbers that are never 1") {
         CHECK(to_unit_float(0xffffffffu) == 0x1.fffffep-1f);
         CHECK(to_unit_float(0) == 0);
         CHECK(to_unit_float(0x100u) == 0x1p-24f);  // the smallest that is not 0
-        CHECK(to_unit_float(0x80000000u) == 0.5f);
-    }
-
-    TEST_CASE("identity: reverse_bits puts bit k at 31 - k") {
-        for (uint32_t k = 0; k < 32; k++) CHECK(reverse_bits(1u << k) == 1u << (31 - k));
-        CHECK(reverse_bits(reverse_bits(0x12345678u)) == 0x12345678u);
+        CHECK(to_unit_double({0, 0x1p-24f}) == 0x1p-48);
+        CHECK(to_unit_double({0x1.fffffep-1f, 0x1.fffffep-1f}) == 1 - 0x1p-48);
     }
 
     TEST_CASE("identity: Sobol's second coordinate from either end") {
         for (uint32_t k = 0; k < 32; k++)  // linear: what holds for each bit holds for all
             CHECK(sobol_second_reversed(1u << k) == reverse_bits(sobol_second(1u << k)));
-        CHECK(sobol_second_reversed(0x12345678u) == reverse_bits(sobol_second(0x12345678u)));
-    }
-
-    TEST_CASE("identity: hash32 has no collisions") {
-        std::vector<uint32_t> hashes;
-        for (uint32_t i = 0; i < 1u << 20; i++) hashes.push_back(hash32(i));
-        std::sort(hashes.begin(), hashes.end());
-        CHECK(std::adjacent_find(hashes.begin(), hashes.end()) == hashes.end());
     }
 
     TEST_CASE("identity: a sample is a function of seed, pixel and number, not of the order") {
@@ -188,35 +176,6 @@ TEST_SUITE("sampler: keys") {
             CHECK(undo_shift(back * inverse(0xbf58476d1ce4e5b9u), 30) == x);
         }
     }
-
-    TEST_CASE("identity: two numbers make one of 48 bits that is never 1") {
-        CHECK(to_unit_double({0, 0}) == 0);
-        CHECK(to_unit_double({0, 0x1p-24f}) == 0x1p-48);
-        CHECK(to_unit_double({0x1.fffffep-1f, 0x1.fffffep-1f}) == 1 - 0x1p-48);
-    }
-
-    TEST_CASE("density: neighbouring seeds and pixels share no numbers in any pairing") {
-        // 12 (u - 1/2)(v - 1/2), for pixel p of one seed and p ^ c, p + c, -p of another.
-        constexpr uint32_t n = 1 << 16;
-        for (SamplerType type : all_types)
-            for (auto [a, b] : {std::pair{0u, 1u}, {92u, 267u}, {1u, 0x80000001u}}) {
-                RunningStats same, crossed, shifted, mirrored;
-                auto number = [&](uint32_t seed, uint32_t pixel) {
-                    Sampler s(type, seed, 16);
-                    s.start(pixel, 3);
-                    return double{s.u1()} - 0.5;
-                };
-                for (uint32_t p = 0; p < n; p++) {
-                    double u = number(a, p);
-                    same.add(12 * u * number(b, p));
-                    crossed.add(12 * u * number(b, p ^ 8592u));
-                    shifted.add(12 * u * number(b, p + b - a));
-                    mirrored.add(12 * u * number(b, n - p));
-                }
-                for (const RunningStats& s : {same, crossed, shifted, mirrored})
-                    check_mean(s, 0, 1, 0.035);
-            }
-    }
 }
 
 TEST_SUITE("sampler: uniform and independent") {
@@ -245,30 +204,37 @@ TEST_SUITE("sampler: uniform and independent") {
 
     TEST_CASE("density: neighbours in pixel, sample, dimension and seed are not correlated") {
         // 12 (u - 1/2)(v - 1/2) has mean 0 and variance 1 when u and v are independent.
-        constexpr uint32_t n = 1 << 18;
-        for (SamplerType type : all_types) {
-            auto number = [&](uint32_t seed, uint32_t pixel, uint32_t sample, uint32_t dimension) {
-                Sampler s(type, seed, 16);
-                s.start(pixel, sample);
-                for (uint32_t d = 0; d < dimension; d++) s.u1();
-                return static_cast<double>(s.u1()) - 0.5;
-            };
-            RunningStats pixel, row, dimension, seed;
-            for (uint32_t i = 0; i < n; i++) {
-                double u = number(1, i, 0, 0);
-                pixel.add(12 * u * number(1, i + 1, 0, 0));
-                row.add(12 * u * number(1, i + 256, 0, 0));
-                dimension.add(12 * u * number(1, i, 0, 1));
-                seed.add(12 * u * number(2, i, 0, 0));
+        constexpr uint32_t n = 1 << 17;
+        struct Number {
+            uint32_t seed, pixel, dimension = 0;
+        };
+        for (SamplerType type : all_types)
+            for (auto [a, b] : {std::pair{1u, 2u}, {92u, 267u}, {1u, 0x80000001u}}) {
+                auto check_apart = [&](const auto& other) {
+                    RunningStats products;
+                    auto number = [&](Number x) {
+                        Sampler s(type, x.seed, 16);
+                        s.start(x.pixel, 3);
+                        for (uint32_t d = 0; d < x.dimension; d++) s.u1();
+                        return double{s.u1()} - 0.5;
+                    };
+                    for (uint32_t p = 0; p < n; p++)
+                        products.add(12 * number({a, p}) * number(other(p)));
+                    check_mean(products, 0, 1, 0.025);
+                };
+                check_apart([&, a = a, b = b](uint32_t p) { return Number{a, p + 1}; });
+                check_apart([&, a = a, b = b](uint32_t p) { return Number{a, p + 256}; });
+                check_apart([&, a = a, b = b](uint32_t p) { return Number{a, p, 1}; });
+                check_apart([&, a = a, b = b](uint32_t p) { return Number{b, p}; });
+                check_apart([&, a = a, b = b](uint32_t p) { return Number{b, p ^ 8592u}; });
+                check_apart([&, a = a, b = b](uint32_t p) { return Number{b, p + b - a}; });
+                check_apart([&, a = a, b = b](uint32_t p) { return Number{b, n - p}; });
             }
-            for (const RunningStats& s : {pixel, row, dimension, seed}) check_mean(s, 0, 1, 0.02);
-        }
         RunningStats sample;
         std::vector<Vec2> p = pixel_points(Sampler(SamplerType::independent, 1, 1), 0, n + 1);
         for (uint32_t i = 0; i < n; i++)
-            sample.add(12 * (static_cast<double>(p[i].x) - 0.5) *
-                       (static_cast<double>(p[i + 1].x) - 0.5));
-        check_mean(sample, 0, 1, 0.02);
+            sample.add(12 * (double{p[i].x} - 0.5) * (double{p[i + 1].x} - 0.5));
+        check_mean(sample, 0, 1, 0.025);
     }
 
     TEST_CASE("density: the numbers of one long path are uniform, and each pair independent") {
@@ -348,17 +314,6 @@ TEST_SUITE("sampler: strata") {
         }
     }
 
-    TEST_CASE("identity: strata of large n stay in the square and 1/n in area") {
-        for (uint32_t n : {1000003u, 16777216u, 0xfffffffeu})
-            for (uint32_t i : {0u, n / 3, n - 1}) {
-                Vec2 p = jitter_in_stratum(i, n, {0x1.fffffep-1f, 0x1.fffffep-1f});
-                CHECK(p.x >= 0);
-                CHECK(p.x < 1);
-                CHECK(p.y >= 0);
-                CHECK(p.y < 1);
-            }
-    }
-
     TEST_CASE("identity: the samples of a pixel fill all strata in every dimension, for any spp") {
         for (uint32_t spp : {1u, 2u, 3u, 5u, 7u, 16u, 36u, 61u})
             for (int pair : {0, 1, 5})
@@ -387,27 +342,9 @@ TEST_SUITE("sampler: strata") {
                 darts.add(dart(p));
         check_mean(darts, std::numbers::pi, pi_variance, 0.06);
     }
-
-    TEST_CASE("variance: n x n strata have the exact variance for x y") {
-        for (uint32_t n : {2u, 4u, 8u, 16u}) {
-            double n2 = n * n, truth = 1 / (18 * n2 * n2) - 1 / (144 * n2 * n2 * n2);
-            RunningStats s = pixel_estimates(SamplerType::stratified, n * n, 10000, product);
-            check_variance(s, truth, 3);
-            check_mean(s, 0.25, truth, 0.01);
-        }
-    }
 }
 
 TEST_SUITE("sampler: Sobol") {
-    TEST_CASE("truth: the first eight Sobol points") {
-        std::set<std::pair<float, float>> expected{
-            {0, 0},           {0.5f, 0.5f},     {0.75f, 0.25f},   {0.25f, 0.75f},
-            {0.375f, 0.375f}, {0.875f, 0.875f}, {0.625f, 0.125f}, {0.125f, 0.625f}};
-        std::set<std::pair<float, float>> points;
-        for (Vec2 p : plain_sobol(0, 8)) points.emplace(p.x, p.y);
-        CHECK(points == expected);
-    }
-
     TEST_CASE("truth: every dyadic box holds one of the first 2^m Sobol points") {
         for (int m = 1; m <= 10; m++) CHECK(fills_all_dyadic_boxes(plain_sobol(0, 1u << m), m));
     }
@@ -438,12 +375,5 @@ TEST_SUITE("sampler: Sobol") {
             CHECK(std::abs(variance(product) / row.xy - 1) < 0.15);
             CHECK(std::abs(variance(exponential) / row.exponential - 1) < 0.15);
         }
-    }
-
-    TEST_CASE("truth: Owen-scrambled Sobol is unbiased") {
-        RunningStats darts = pixel_estimates(SamplerType::sobol, 16, 20000, dart);
-        check_mean(darts, std::numbers::pi, 4.805e-2, 0.02);
-        RunningStats products = pixel_estimates(SamplerType::sobol, 16, 20000, product);
-        check_mean(products, 0.25, 4.785e-5, 0.001);
     }
 }
