@@ -11,7 +11,7 @@
 #include "common/picture/comparison.h"
 #include "common/picture/film.h"
 #include "common/picture/finite_part.h"
-#include "tests/fuzz/films.h"
+#include "tests/damage/films.h"
 #include "tests/support/scenes.h"
 
 namespace {
