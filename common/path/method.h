@@ -29,8 +29,10 @@ struct Method {
     /// From a function object that has the parameters of trace, or all but the splats.
     template <class Sample>
     requires(!std::is_same_v<Sample, Method>) Method(Sample sample) {
-        splats = std::is_invocable_v<Sample, const Scene&, Ray, Splats&, Sampler&, Recorder&>;
-        if constexpr (std::is_invocable_v<Sample, const Scene&, Ray, Splats&, Sampler&, Recorder&>)
+        constexpr bool adds_splats =
+            std::is_invocable_v<Sample, const Scene&, Ray, Splats&, Sampler&, Recorder&>;
+        splats = adds_splats;
+        if constexpr (adds_splats)
             trace = std::move(sample);
         else
             trace = [=](const Scene& scene, const Ray& ray, Splats&, Sampler& sampler,
