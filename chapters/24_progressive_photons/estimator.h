@@ -35,9 +35,10 @@ inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, in
         bool same_surface = dot(photon.ng, x.ng) > std::numbers::sqrt2_v<float> / 2;
         if (!same_surface || std::abs(dot(v, x.ng)) > r / 8) return;
         if (photon.depth > depth) return;
-        Rgb flux = kernel(dot(v, v) / (r * r)) * photon.flux;
+        float q = dot(v, v) / (r * r);
+        Rgb flux = kernel(q) * photon.flux;
         sum += flux;
-        recorder.photon(flux, maps, photon);
+        recorder.photon(flux, q, maps, photon);
     });
     Rgb scale = x.material->reflectance / (pi * pi * r * r);
     recorder.gathered(scale);

@@ -120,9 +120,10 @@ inline Rgb merge(const Scene& scene, const Merging& merging, const Subpath& eye,
         float back_w = pdf_cosine_hemisphere(std::max(0.0f, dot(y.wi, z.x.n)));
         double from_light = static_cast<double>(back_w) * y.others;
         float mis = static_cast<float>(1 / (1 + from_light + from_eye));
-        Rgb flux = mis * 2 * (1 - dot(v, v) / (r * r)) * photon.flux;
+        float q = dot(v, v) / (r * r);
+        Rgb flux = mis * 2 * (1 - q) * photon.flux;
         sum += flux;
-        recorder.photon(flux, merging.paths, photon);
+        recorder.photon(flux, q, merging.paths, photon);
     });
     Rgb scale = z.x.material->reflectance / (pi * pi * r * r);
     recorder.gathered(scale);

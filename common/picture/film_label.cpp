@@ -76,7 +76,8 @@ bool is_possible(const SampleCounts& c, const FilmShape& shape) {
     bool is_place = c.bad_sample >= 0 && c.bad_y >= 0 && c.bad_x >= 0 && c.bad_y < shape.height &&
                     c.bad_x < shape.width;
     bool is_none = c.bad_seed == 0 && c.bad_sample == 0 && c.bad_y == 0 && c.bad_x == 0;
-    return std::isfinite(c.largest) && c.largest >= 0 && (c.not_finite > 0 ? is_place : is_none);
+    return c.inner_photons <= c.photons && std::isfinite(c.largest) && c.largest >= 0 &&
+           (c.not_finite > 0 ? is_place : is_none);
 }
 
 void parse_line(const std::string& line, FilmLabel& label, FilmShape& shape) {
@@ -97,8 +98,8 @@ void parse_line(const std::string& line, FilmLabel& label, FilmShape& shape) {
     } else if (kind == "counts") {
         SampleCounts& c = label.counts;
         uint64_t largest = 0;
-        words >> c.rays >> c.paths_cut >> c.not_finite >> c.bad_seed >> c.bad_sample >> c.bad_y >>
-            c.bad_x >> largest;
+        words >> c.rays >> c.paths_cut >> c.photons >> c.inner_photons >> c.not_finite >>
+            c.bad_seed >> c.bad_sample >> c.bad_y >> c.bad_x >> largest;
         c.largest = std::bit_cast<double>(largest);
     } else if (kind == "size") {
         words >> shape.width >> shape.height >> shape.kind >> shape.takes_splats;
@@ -124,6 +125,8 @@ void SampleCounts::add_not_finite(uint32_t seed, int sample, int y, int x) {
 void SampleCounts::add(const SampleCounts& other) {
     rays += other.rays;
     paths_cut += other.paths_cut;
+    photons += other.photons;
+    inner_photons += other.inner_photons;
     largest = std::max(largest, other.largest);
     if (other.not_finite == 0) return;
     add_not_finite(other.bad_seed, other.bad_sample, other.bad_y, other.bad_x);
@@ -186,9 +189,9 @@ std::string label_text(const FilmLabel& label, const FilmShape& shape) {
         text << "goal " << goal.samples << ' ' << goal.parts << ' ' << goal.seed << '\n';
     }
     const SampleCounts& c = label.counts;
-    text << "counts " << c.rays << ' ' << c.paths_cut << ' ' << c.not_finite << ' ' << c.bad_seed
-         << ' ' << c.bad_sample << ' ' << c.bad_y << ' ' << c.bad_x << ' '
-         << std::bit_cast<uint64_t>(c.largest) << '\n';
+    text << "counts " << c.rays << ' ' << c.paths_cut << ' ' << c.photons << ' ' << c.inner_photons
+         << ' ' << c.not_finite << ' ' << c.bad_seed << ' ' << c.bad_sample << ' ' << c.bad_y << ' '
+         << c.bad_x << ' ' << std::bit_cast<uint64_t>(c.largest) << '\n';
     text << "size " << shape.width << ' ' << shape.height << ' ' << shape.kind << ' '
          << shape.takes_splats << "\n\n";
     return text.str();

@@ -35,7 +35,8 @@ struct Goal {
 /// Counts besides the sums. Those of two sets of samples add up.
 struct SampleCounts {
     uint64_t rays = 0;
-    uint64_t paths_cut = 0;   // ended by the depth limit
+    uint64_t paths_cut = 0;                   // ended by the depth limit
+    uint64_t photons = 0, inner_photons = 0;  // that were gathered; in the inner half of a disk
     uint64_t not_finite = 0;  // samples that were NaN or infinite, as their pixels are then
     uint32_t bad_seed = 0;    // the first of those
     int bad_sample = 0, bad_y = 0, bad_x = 0;
@@ -75,7 +76,7 @@ struct FilmShape {
 FilmShape shape_of(const Film& film);
 
 /// The line that a film's file begins with, and what of it is the same in all versions.
-inline constexpr const char* film_version = "film of path-by-path, version 5\n";
+inline constexpr const char* film_version = "film of path-by-path, version 6\n";
 inline constexpr const char* film_any_version = "film of path-by-path, version ";
 
 /// The lines of text at the beginning of a film's file, with the empty one that ends them.

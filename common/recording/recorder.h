@@ -85,10 +85,12 @@ public:
     void splat(Rgb L, size_t pixel) {
         connected(L, static_cast<int>(vertices_.size()), 1, 1, pixel);
     }
-    /// A photon near the last vertex contributes this flux. paths.path_of(photon): its path from
-    /// the light to its position.
+    /// A photon near the last vertex contributes this flux. q: the square of its distance, divided
+    /// by that of the radius. paths.path_of(photon): its path from the light to its position.
     template <class Paths, class Photon>
-    void photon(Rgb flux, const Paths& paths, const Photon& photon) {
+    void photon(Rgb flux, float q, const Paths& paths, const Photon& photon) {
+        gathered_++;
+        inner_ += q < 0.5f;
         if (!listening_) return;
         std::string events;
         for (const auto& x : paths.path_of(photon)) events += is_specular(*x.material) ? 'S' : 'D';
@@ -102,6 +104,9 @@ public:
     const std::vector<Contribution>& contributions() const { return contributions_; }
     const std::vector<PathVertex>& vertices() const { return vertices_; }
     uint64_t paths_cut() const { return paths_cut_; }
+    /// The number of photons, and of those in the inner half of the area of their disk.
+    uint64_t photons() const { return gathered_; }
+    uint64_t inner_photons() const { return inner_; }
 
 private:
     void forget();
@@ -127,7 +132,7 @@ private:
 
     bool listening_ = false;
     PathStory* story_ = nullptr;
-    uint64_t paths_cut_ = 0;
+    uint64_t paths_cut_ = 0, gathered_ = 0, inner_ = 0;
     size_t depth_ = 0;        // scattering events before the vertex that the path is at
     std::string scattered_;   // D and S of all vertices left, the first one last
     std::vector<Rgb> beta_;   // behind each of them, the first one first

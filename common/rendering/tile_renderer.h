@@ -61,7 +61,7 @@ public:
         Tools own(scene_, options_), audit = own;
         RenderStats stats;
         PixelSum of_pass;
-        uint64_t rays_before = rays_traced, rays = rays_before, paths_cut = 0;  // of whole samples
+        uint64_t rays_before = rays_traced;
         int taken = 0;
         std::exception_ptr thrown;
         bool in_pilot = has_pilot() && end_ <= allocation_.pilot;
@@ -84,7 +84,10 @@ public:
                     if (audited) result_.film.audit(pixel, again);
                     if (method_.prepare) of_pass.add(total);
                     if (seen) seen->add(L);
-                    rays = rays_traced, paths_cut = own.recorder.paths_cut();
+                    stats.rays = rays_traced - rays_before;  // of whole samples
+                    stats.paths_cut = own.recorder.paths_cut();
+                    stats.photons = own.recorder.photons();
+                    stats.inner_photons = own.recorder.inner_photons();
                 }
                 if (seen) seen->rays += static_cast<uint32_t>(rays_traced - rays_of_others);
             }
@@ -97,7 +100,6 @@ public:
         } catch (...) {
             thrown = std::current_exception();
         }
-        stats.rays = rays - rays_before, stats.paths_cut = paths_cut;
         std::lock_guard lock(mutex_);
         result_.stats.add(stats);
         if (method_.prepare) result_.film.add_to_batch(end_ - 1, of_pass);

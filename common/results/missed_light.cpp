@@ -257,15 +257,7 @@ std::vector<std::string> missed_light(const Scene& scene, const RenderOptions& o
                            [&](const Shape& s) { return is(scene.materials[s.material]); });
     };
     auto is_diffuse = [](const Material& m) { return m.type == MaterialType::diffuse; };
-    auto gathers_photons = [&](const Material& m) { return is_diffuse(m) && is_receiver(m); };
-    const std::string blurred =
-        "photons blur light within their radius: the reported error does not include this bias";
-    if (options.search == LightSearch::photons) {
-        // Light straight from a light is in photons only without final gathering.
-        int fewest = has_own(options, "gather", "direct") ? 1 : 2;  // scattering events
-        if (scene.max_depth >= fewest && any_material(gathers_photons)) lines.push_back(blurred);
-        return lines;
-    }
+    if (options.search == LightSearch::photons) return lines;  // they find all light, but blur it
     auto any_light = [&](auto is) {
         return std::any_of(scene.lights.begin(), scene.lights.end(),
                            [&](const Light& light) { return is(light.type); });
@@ -309,7 +301,6 @@ std::vector<std::string> missed_light(const Scene& scene, const RenderOptions& o
         return type == LightType::point || type == LightType::distant;
     };
     auto is_rough_metal = [&](const Material& m) { return is_receiver(m) && !is_diffuse(m); };
-    if (merges && any_material(gathers_photons)) lines.push_back(blurred);
     if (merges && !any_material(is_rough_metal)) return lines;
     if (options.search == LightSearch::both_ends || merges) {
         if (scene.max_depth < 3) return lines;

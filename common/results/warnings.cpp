@@ -12,6 +12,7 @@ namespace {
 constexpr double too_much = 0.01;     // of a picture, in one sample
 constexpr double negligible = 0.001;  // standard error, of the mean: no noise to warn of
 constexpr double few_samples = 100;   // effective samples: below, intervals are too short
+constexpr double much_blur = 0.1;     // of the standard error
 constexpr double few_pixels = 30, few_audits = 16;  // that the error is estimated from
 
 }  // namespace
@@ -50,6 +51,15 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
     if (film.has_batches() && film.spp() > 1 && film.spp() < few_audits) {
         lines.push_back(
             "the error is estimated from few passes: the true one may be half or twice as large");
+    }
+    // If light is even, half of the photons lie in the inner half of their disk. What is not there
+    // is about the part by which blur changes the light that they bring.
+    double half = static_cast<double>(counts.photons) / 2;
+    double blur = std::abs(static_cast<double>(counts.inner_photons) / half - 1);
+    if (half > 0 && !(blur * film.mean() < much_blur * film.standard_error())) {
+        lines.push_back(
+            "photons blur light within their radius: the reported error does not include this "
+            "bias");
     }
     bool is_told_by_means = film.has_audits() || film.has_halves();
     if (is_told_by_means && basis.squares > 0 && basis.audits < few_audits) {

@@ -231,16 +231,17 @@ TEST_SUITE("film files") {
             {"samples 0 2 1", "samples 0 2 1\ngoal 9 10 1", bad},
             {"samples 0 2 1", "samples 0 2 1\ngoal 9 9 1", none},
             {"samples 0 2 1\n", "", contradiction},
-            {"counts 30 0 0 0 0 0 0", "counts 30 0 31 0 1 2 4", contradiction},
-            {"counts 30 0 0 0 0 0 0", "counts 30 0 1 0 1 3 4", bad},
-            {"counts 30 0 0 0 0 0 0 0", "counts 30 0 0 0 0 0 0 9218868437227405312", bad},
+            {"counts 30 0 0 0 0 0 0 0 0", "counts 30 0 0 0 31 0 1 2 4", contradiction},
+            {"counts 30 0 0 0 0 0 0 0 0", "counts 30 0 0 0 1 0 1 3 4", bad},
+            {"counts 30 0 0 0", "counts 30 0 0 1", bad},
+            {"counts 30 0 0 0 0 0 0 0 0 0", "counts 30 0 0 0 0 0 0 0 0 9218868437227405312", bad},
             {"size 5 3 1 1", "size 3 5 1 1", none},
             {"option paths", "option size 5x3\noption paths", none},
             {"option paths", "option size 5x4\noption paths", bad},
             {"size 5 3 1 1", "size 5 3 5 1", bad},
             {"size 5 3 1", "size 65536 65536 1", bad},
             {"size 5 3 1", "size 60000 3000 1", "the film is cut short"},
-            {"version 5", "version 4", "a film by another version of the program"},
+            {"version 6", "version 5", "a film by another version of the program"},
         };
         for (const auto& c : cases) {
             CAPTURE(c.to);

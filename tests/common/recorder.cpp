@@ -111,10 +111,12 @@ TEST_SUITE("recorder") {
         Recorder recorder(true);
         recorder.start();
         recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {0.5f, 0.5f, 0.5f});
-        recorder.photon({1, 0, 0}, paths, caustic);
-        recorder.photon({0, 1, 0}, paths, direct);
-        recorder.photon({0, 0, 1}, paths, caustic);
+        recorder.photon({1, 0, 0}, 0.25f, paths, caustic);
+        recorder.photon({0, 1, 0}, 0.75f, paths, direct);
+        recorder.photon({0, 0, 1}, 0.5f, paths, caustic);
         recorder.gathered({4, 4, 4});
+        CHECK(recorder.photons() == 3);
+        CHECK(recorder.inner_photons() == 1);
         std::map<std::string, Rgb> found;
         for (const Contribution& part : recorder.contributions()) found[part.path_class] = part.L;
         CHECK(found == std::map<std::string, Rgb>{{"LDSE", {0, 2, 0}}, {"LSDDSE", {2, 0, 2}}});
