@@ -135,12 +135,6 @@ TEST_SUITE("ch02 pictures and slopes") {
         }
     }
 
-    TEST_CASE("identity: the slope of N^-3/4 is -3/4") {
-        CHECK(fitted_slope({16, 64, 256}, {1.0, std::pow(4, -0.75), std::pow(16, -0.75)}) ==
-              doctest::Approx(-0.75).epsilon(1e-12).scale(0));
-        CHECK(std::isnan(fitted_slope({16}, {1})));
-    }
-
     TEST_CASE("variance: the error falls with the slope of theory") {
         auto slopes = [](PointSet set) {
             std::vector<double> n, edge, smooth;

