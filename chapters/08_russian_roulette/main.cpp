@@ -10,6 +10,6 @@ int main(int argc, char** argv) {
         Scene scene = load(options);
         refuse_glossy(scene);
         refuse_delta_lights(scene);
-        return render(scene, options, trace_with<ch08::trace>());
+        return render(scene, options, method_of<ch08::trace>());
     });
 }

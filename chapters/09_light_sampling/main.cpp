@@ -15,6 +15,6 @@ int main(int argc, char** argv) {
                                                      "scenes/cornell.pbrt", {light_by});
         Scene scene = load(options);
         refuse_glossy(scene);
-        return render(scene, options, trace_with<ch09::trace>(measure));
+        return render(scene, options, method_of<ch09::trace>(measure));
     });
 }

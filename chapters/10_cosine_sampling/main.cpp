@@ -8,6 +8,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "10_cosine_sampling", "scenes/cornell.pbrt");
         Scene scene = load(options);
         refuse_glossy(scene);
-        return render(scene, options, trace_with<ch10::trace>());
+        return render(scene, options, method_of<ch10::trace>());
     });
 }

@@ -8,6 +8,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "11_light_importance", "scenes/thousand-lights.pbrt");
         Scene scene = load(options);
         refuse_glossy(scene);
-        return render(scene, options, trace_with<ch11::trace>(ch11::prepare(scene)));
+        return render(scene, options, method_of<ch11::trace>(ch11::prepare(scene)));
     });
 }

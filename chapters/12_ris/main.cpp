@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "12_ris", "scenes/thousand-lights.pbrt", {candidates});
         Scene scene = load(options);
         refuse_glossy(scene);
-        return render(scene, options, trace_with<ch12::trace>(ch12::prepare(scene, M)));
+        return render(scene, options, method_of<ch12::trace>(ch12::prepare(scene, M)));
     });
 }

@@ -19,6 +19,6 @@ int main(int argc, char** argv) {
             refuse_delta_lights(scene);
             options.search = LightSearch::by_chance;
         }
-        return render(scene, options, trace_with<ch13::trace>(ch13::prepare(scene), strategy));
+        return render(scene, options, method_of<ch13::trace>(ch13::prepare(scene), strategy));
     });
 }

@@ -15,6 +15,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "14_mis", "scenes/veach-mis.pbrt", {kind});
         Scene scene = load(options);
         auto lights = ch14::prepare(scene, heuristic);
-        return render(scene, options, trace_with<ch14::trace>(lights));
+        return render(scene, options, method_of<ch14::trace>(lights));
     });
 }

@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
         RenderOptions options = parse_render_options(argc, argv, "15_mis_ris",
                                                      "scenes/thousand-lights.pbrt", {candidates});
         Scene scene = load(options);
-        return render(scene, options, trace_with<ch15::trace>(ch15::prepare(scene, M)));
+        return render(scene, options, method_of<ch15::trace>(ch15::prepare(scene, M)));
     });
 }

@@ -22,6 +22,6 @@ int main(int argc, char** argv) {
                                                      "scenes/bokeh.pbrt", {candidates, pixel});
         Scene scene = load(options, features_of(16));
         scene.camera.pixel_centre = centre;
-        return render(scene, options, trace_with<ch16::trace>(ch16::prepare(scene, M)));
+        return render(scene, options, method_of<ch16::trace>(ch16::prepare(scene, M)));
     });
 }

@@ -22,6 +22,6 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "17_sky_image", "scenes/sky.pbrt", {candidates, sky});
         Scene scene = load(options, features_of(17));
-        return render(scene, options, trace_with<ch17::trace>(ch17::prepare(scene, M, compensate)));
+        return render(scene, options, method_of<ch17::trace>(ch17::prepare(scene, M, compensate)));
     });
 }

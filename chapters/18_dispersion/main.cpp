@@ -15,6 +15,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "18_dispersion", "scenes/prism.pbrt", {candidates});
         Scene scene = load(options, features_of(18));
         return render(scene, options,
-                      trace_with<ch18::trace>(ch18::prepare(scene, M), shares_of_white()));
+                      method_of<ch18::trace>(ch18::prepare(scene, M), shares_of_white()));
     });
 }

@@ -33,8 +33,8 @@ int main(int argc, char** argv) {
         };
         if (!map.empty()) options.pictures = {{map, counts_of}};
         Scene scene = load(options, features_of(19));
-        return render(scene, options,
-                      trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()),
-                      ch19::allocation(densities));
+        Method method = method_of<ch19::trace>(ch19::prepare(scene), shares_of_white());
+        method.allocation = ch19::allocation(densities);
+        return render(scene, options, method);
     });
 }

@@ -8,7 +8,6 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "20_light_tracing", "scenes/caustic.pbrt");
         options.search = LightSearch::from_lights;
         Scene scene = load(options, features_of(20));
-        return render(scene, options,
-                      trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
+        return render(scene, options, method_of<ch20::trace_light>(ch20::endpoints_of(scene)));
     });
 }

@@ -27,7 +27,7 @@ inline Image pyramid(Scene scene, RenderOptions options) {
                 int t = edges + 1 - s;
                 if (t < 1) continue;
                 options.strategy = strategy_name(s, t);
-                auto all = splat_trace_with<trace>(endpoints_of(scene));
+                auto all = method_of<trace>(endpoints_of(scene));
                 tile.image = render_film(scene, options, all).film.image();
                 tile.lines = {options.strategy, weighted ? "weighted" : "alone"};
             }

@@ -27,6 +27,6 @@ int main(int argc, char** argv) {
         if (!sheet.empty())
             write_image(sheet, ch21::pyramid(scene, options),
                         comment_of(notes_of(label_of(scene, options), scene.spp)));
-        return render(scene, options, splat_trace_with<ch21::trace>(endpoints_of(scene)));
+        return render(scene, options, method_of<ch21::trace>(endpoints_of(scene)));
     });
 }

@@ -24,6 +24,6 @@ int main(int argc, char** argv) {
         options.search = LightSearch::both_ends;
         Scene scene = load(options, features_of(22));
         return render(scene, options,
-                      splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, light_sampling)));
+                      method_of<ch22::trace>(ch22::prepare(scene, chances, light_sampling)));
     });
 }

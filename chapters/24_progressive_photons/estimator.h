@@ -7,9 +7,9 @@
 
 #include "common/light/pdf_one_light.h"
 #include "common/path/lens.h"
+#include "common/path/method.h"
 #include "common/path/mis.h"
 #include "common/path/photons.h"
-#include "common/path/trace.h"
 
 namespace ch24 {
 
@@ -154,20 +154,22 @@ inline float radius_of(float first, uint32_t pass) {
 }
 
 /// The chapter's passes: new photons and a smaller radius for each sample of all pixels.
-inline PassTrace photon_passes(const Scene& scene, PhotonSettings settings) {
+inline Method photon_passes(const Scene& scene, PhotonSettings settings) {
     auto endpoints = std::make_shared<Endpoints>(endpoints_of(scene));
     auto maps = std::make_shared<PhotonMaps>();
     settings.radius = choose_radius(scene, *endpoints, settings);
-    auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
+    Method method;
+    method.prepare = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         auto vertices = trace_light_paths(scene, *endpoints, settings, pass, threads, stopped);
         float radius = radius_of(settings.radius, pass);
         *maps = build_maps(std::move(vertices), radius, settings.final_gathering);
     };
-    auto trace_pass = [=](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder)
-        __attribute__((flatten)) {
+    method.trace = [=](const Scene& s, const Ray& ray, Splats&, Sampler& sampler,
+                       Recorder& recorder) __attribute__((flatten)) {
         return trace(s, *endpoints, *maps, ray, sampler, recorder);
     };
-    return {begin, trace_pass, settings.radius};
+    method.first_radius = settings.radius;
+    return method;
 }
 
 }  // namespace ch24

@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "chapters/25_vertex_merging/light_map.h"
+#include "common/path/method.h"
 #include "common/path/photons.h"
 #include "common/path/shrinking_radius.h"
 #include "common/path/stored_subpaths.h"
-#include "common/path/trace.h"
 
 namespace ch25 {
 
@@ -218,18 +218,21 @@ inline PhotonSettings settings_for(const Scene& scene, const Endpoints& endpoint
 }
 
 /// The chapter's passes: new light paths and a smaller radius for each sample of all pixels.
-inline SplatPassTrace merging_passes(const Scene& scene, PhotonSettings settings) {
+inline Method merging_passes(const Scene& scene, PhotonSettings settings) {
     auto merging =
         std::make_shared<Merging>(Merging{endpoints_of(scene), many_lights::prepare(scene)});
     settings = settings_for(scene, merging->endpoints, settings);
-    auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
+    Method method;
+    method.prepare = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         trace_light_paths(scene, settings, pass, threads, stopped, *merging);
     };
-    auto trace_pass = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
-                          Recorder& recorder) __attribute__((flatten)) {
+    method.splats = true;
+    method.trace = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
+                       Recorder& recorder) __attribute__((flatten)) {
         return trace(s, *merging, ray, splats, sampler, recorder);
     };
-    return {begin, trace_pass, settings.radius};
+    method.first_radius = settings.radius;
+    return method;
 }
 
 }  // namespace ch25

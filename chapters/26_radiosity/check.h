@@ -3,7 +3,7 @@
 #include "chapters/26_radiosity/show.h"
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
-#include "common/path/trace.h"
+#include "common/path/method.h"
 #include "common/rendering/render_film.h"
 
 namespace ch26 {
@@ -52,7 +52,7 @@ inline Comparison compare_with_paths(const Scene& scene, const Shown& shown,
     small.width = small.height = 64, small.spp = 16;
     LightTable lights = build_light_table(light_pmf(small, 0.25));
     auto film_of = [&](const auto& value) {
-        Trace trace = [&](const Scene&, Ray ray, Sampler& sampler, Recorder&) {
+        Method trace = [&](const Scene&, Ray ray, Sampler& sampler, Recorder&) {
             std::optional<Hit> x = intersect(small, ray);
             return x ? value(*x, -ray.d, sampler) : Rgb{};
         };

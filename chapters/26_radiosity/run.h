@@ -5,7 +5,7 @@
 #include "chapters/26_radiosity/check.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
-#include "common/path/trace.h"
+#include "common/path/method.h"
 #include "common/rendering/progress.h"
 #include "common/rendering/tile_renderer.h"
 #include "common/results/outputs.h"
@@ -150,7 +150,7 @@ inline int run(const Scene& scene, RenderOptions options, const Settings& settin
     if (options.time > 0) picture.time = std::max(0.5, options.time - seconds);
     if (stopped) picture.time = 0.5;                // a picture soon
     if (picture.time > 0) picture.spp = scene.spp;  // else as many as there is time for
-    Rendering rendering = render_film(scene, picture, trace_with<trace>(shown));
+    Rendering rendering = render_film(scene, picture, method_of<trace>(shown));
     rendering.stats.seconds += seconds;
     if (stopped) rendering.stats.interrupted = true;
     rendering.warnings = warnings;

@@ -7,10 +7,11 @@
 #include "common/base/files.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
+#include "common/base/report.h"
 #include "common/explaining/path_drawing.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
-#include "common/rendering/tile_renderer.h"
+#include "common/rendering/stop.h"
 #include "common/results/outputs.h"
 #include "common/results/table.h"
 
@@ -86,11 +87,25 @@ void warn_of_gaps(const std::vector<Contribution>& additions, Rgb L, const Splat
 
 }  // namespace
 
-int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& trace,
-            bool halves) {
+int explain(const Scene& scene, const RenderOptions& options, const Method& method) {
+    bool halves = method.allocation.pilot > 0;
     check_sample(scene, options, halves);
     int x = options.explain_x, y = options.explain_y, s = std::max(0, options.explain_sample);
     size_t pixel = static_cast<size_t>(y * scene.width + x);
+
+    Limit limit(0);
+    TracingLimit tracing([&] { return limit.overdue(); });
+    if (method.prepare) {
+        try {
+            method.prepare(static_cast<uint32_t>(s), options.threads,
+                           [&] { return limit.reached(); });
+        } catch (const TracingEnds&) {
+        }
+        if (limit.reached()) {
+            tell("stopped before there was a path to explain\n");
+            return 3;
+        }
+    }
 
     // Trace the sample just as render_film does, and record all of it.
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
@@ -101,11 +116,9 @@ int explain(const Scene& scene, const RenderOptions& options, const SplatTrace& 
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     auto [ray, film] = camera_sample(view, x, y, sampler, scene.camera.pixel_centre);
     Splats splats;
-    Limit limit(0);
     std::optional<Rgb> L;  // none: the path took too long
     try {
-        TracingLimit tracing([&] { return limit.overdue(); });
-        L = trace(scene, ray, splats, sampler, recorder);
+        L = method.trace(scene, ray, splats, sampler, recorder);
         story.ends();
     } catch (const TracingEnds&) {
         story.is_given_up();

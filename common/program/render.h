@@ -5,8 +5,4 @@
 
 /// What a chapter's program does with its scene: renders it or explains one path, and writes what
 /// the options ask for. Returns the exit code.
-int render(const Scene& scene, const RenderOptions& options, const Trace& trace,
-           const Allocation& allocation = {});
-int render(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
-int render(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
-int render(const Scene& scene, const RenderOptions& options, const SplatPassTrace& trace);
+int render(const Scene& scene, const RenderOptions& options, const Method& method);

@@ -31,15 +31,14 @@ uint32_t fewest_samples(const Film& film) {
 ///
 /// A pass takes each pixel once, or more often if there are too few pixels to keep all threads
 /// busy; but not more often than all passes before it, so that an early end leaves no pixel empty.
-template <class AnyTrace>
-void take_samples(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
+void take_samples(const Scene& scene, const RenderOptions& options, const Method& method,
                   const Allocation& allocation, const Limit& limit, SampleRange wanted,
                   Rendering& result) {
     bool goes_on = !options.film.empty() && allocation.pilot == 0;
     uint32_t done = goes_on ? fewest_samples(result.film) : 0;
     FilmClock clock(scene, options);
     Progress progress(options.quiet);
-    TileRenderer renderer(scene, options, trace, allocation, limit, clock, result, wanted.first);
+    TileRenderer renderer(scene, options, method, allocation, limit, clock, result, wanted.first);
     uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
     uint32_t most_per_pass = std::max(1u, (1u << 20) / pixels), spp = wanted.last - wanted.first;
     while (done < spp && !limit.reached()) {
@@ -47,11 +46,11 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
         bool in_pilot = wanted.first == 0 && done < allocation.pilot;
         if (in_pilot) next = std::min(next, allocation.pilot);
         uint64_t rays_before = rays_traced, rays_of_preparing = 0;
-        if constexpr (renderer.has_passes) {
+        if (method.prepare) {
             next = done + 1;
             try {
-                trace.prepare(wanted.first + done, options.threads,
-                              [&] { return limit.reached(); });
+                method.prepare(wanted.first + done, options.threads,
+                               [&] { return limit.reached(); });
             } catch (const TracingEnds&) {
             }
             if (limit.reached()) break;
@@ -80,10 +79,11 @@ void take_samples(const Scene& scene, const RenderOptions& options, const AnyTra
     }
 }
 
-template <class AnyTrace>
-Rendering render_into(Film empty, const Scene& scene, const RenderOptions& options,
-                      const AnyTrace& trace, const Allocation& allocation) {
-    Rendering result{std::move(empty), {}, {}};
+}  // namespace
+
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method) {
+    const Allocation& allocation = method.allocation;
+    Rendering result{empty_film(scene, method.splats), {}, {}};
     Limit limit(options.time);
     TracingLimit tracing([&] { return limit.overdue(); });
     if (allocation.pilot > 0) {
@@ -95,9 +95,9 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
         }
         result.film.start_audit();
     }
-    if constexpr (has_passes<AnyTrace>) {
+    if (method.prepare) {
         result.film.start_batches();
-        result.stats.first_radius = double{trace.first_radius};
+        result.stats.first_radius = double{method.first_radius};
     }
     continue_film(scene, options, result);
     SampleRange wanted = wanted_samples(scene, options);
@@ -110,7 +110,7 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
         Rendering again{Film(scene.width, scene.height), {}, {}};
         again.film.start_halves();
         SampleRange pilot = {options.seed, 0, allocation.pilot};
-        take_samples(scene, alone, trace, allocation, limit, pilot, again);
+        take_samples(scene, alone, method, allocation, limit, pilot, again);
         decided.choose_densities = {};
     }
     // The samples that there are outlive what goes wrong.
@@ -119,7 +119,7 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
         result.error = error;
     };
     try {
-        take_samples(scene, options, trace, decided, limit, wanted, result);
+        take_samples(scene, options, method, decided, limit, wanted, result);
     } catch (const InputError& error) {
         keep(error.what());
     } catch (const std::bad_alloc&) {
@@ -132,21 +132,4 @@ Rendering render_into(Film empty, const Scene& scene, const RenderOptions& optio
     result.stats.interrupted =
         (limit.interrupted() || !result.error.empty()) && result.film.samples() < all;
     return result;
-}
-
-}  // namespace
-
-Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
-                      const Allocation& allocation) {
-    return render_into(empty_film(scene, false), scene, options, trace, allocation);
-}
-Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace) {
-    return render_into(empty_film(scene, true), scene, options, trace, {});
-}
-Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace) {
-    return render_into(empty_film(scene, false), scene, options, trace, {});
-}
-Rendering render_film(const Scene& scene, const RenderOptions& options,
-                      const SplatPassTrace& trace) {
-    return render_into(empty_film(scene, true), scene, options, trace, {});
 }

@@ -7,8 +7,8 @@
 
 #include "common/base/files.h"
 #include "common/options/options.h"
-#include "common/path/trace.h"
-#include "common/picture/allocation.h"
+#include "common/path/allocation.h"
+#include "common/path/method.h"
 #include "common/picture/film_file.h"
 #include "common/scene/scene.h"
 
@@ -49,13 +49,6 @@ struct Rendering {
 /// others, or none, if the first pass was not complete. The picture does not depend on the number
 /// of threads. Continues from options.film, and saves it at intervals.
 ///
-/// With an allocation, a render that continues, or is not the first part, repeats the pilot, so
-/// that samples are distributed as in the whole render.
-Rendering render_film(const Scene& scene, const RenderOptions& options, const Trace& trace,
-                      const Allocation& allocation = {});
-/// Renders with an estimator that also splats to other pixels, that prepares something for each
-/// pass, or that does both.
-Rendering render_film(const Scene& scene, const RenderOptions& options, const SplatTrace& trace);
-Rendering render_film(const Scene& scene, const RenderOptions& options, const PassTrace& trace);
-Rendering render_film(const Scene& scene, const RenderOptions& options,
-                      const SplatPassTrace& trace);
+/// With an allocation of the method, a render that continues, or is not the first part, repeats the
+/// pilot, so that samples are distributed as in the whole render.
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method);

@@ -13,53 +13,20 @@
 #include "common/rendering/render_film.h"
 #include "common/rendering/stop.h"
 
-/// When the render has to end before it has all samples.
-class Limit {
-public:
-    explicit Limit(double seconds) : seconds_(seconds) {}
-    bool reached() const { return signal_.requested() || (seconds_ > 0 && elapsed() >= seconds_); }
-    bool interrupted() const { return signal_.requested(); }
-    /// Whether it was interrupted; resets it, since the next render has its own limit.
-    bool take_interruption() { return signal_.take_request(); }
-    /// Whether overdue() has found the limit reached; at most a few rays late.
-    bool seen() const { return reached_at_ != 0; }
-    /// Whether it was reached some time ago. Until then, samples that have started are finished:
-    /// giving up samples would leave out the long ones, a bias.
-    bool overdue() const {
-        if (!reached()) return false;
-        double now = elapsed();
-        if (!seen()) reached_at_ = now;
-        return now - reached_at_ > 0.25;
-    }
-    double elapsed() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    double seconds_;  // 0: no limit
-    StopOnSignal signal_;
-    mutable std::atomic<double> reached_at_ = 0;  // s, when a thread first noticed it; 0: not yet
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Renders the samples of the pixels of one tile, or fewer at the limit. AnyTrace: Trace,
-/// SplatTrace, PassTrace or SplatPassTrace.
-template <class AnyTrace>
+/// Renders the samples of the pixels of one tile, or fewer at the limit.
 class TileRenderer {
 public:
-    static constexpr bool has_splats = adds_splats<AnyTrace>;
-    static constexpr bool has_passes = ::has_passes<AnyTrace>;
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
     static constexpr int between_looks =
         64;  // samples without rays; rays check the limit themselves
 
-    TileRenderer(const Scene& scene, const RenderOptions& options, const AnyTrace& trace,
+    TileRenderer(const Scene& scene, const RenderOptions& options, const Method& method,
                  const Allocation& allocation, const Limit& limit, const FilmClock& clock,
                  Rendering& result, uint32_t first)
         : scene_(scene),
           options_(options),
-          trace_(trace),
+          method_(method),
           chooses_(chooses(options)),
           splits_(!options.split.empty()),
           allocation_(allocation),
@@ -115,7 +82,7 @@ public:
                     if (audited) again = trace(at, 1, audit).total;
                     auto [L, total] = add_sample(at, own, stats);
                     if (audited) result_.film.audit(pixel, again);
-                    if constexpr (has_passes) of_pass.add(total);
+                    if (method_.prepare) of_pass.add(total);
                     if (seen) seen->add(L);
                     rays = rays_traced, paths_cut = own.recorder.paths_cut();
                 }
@@ -133,7 +100,7 @@ public:
         stats.rays = rays - rays_before, stats.paths_cut = paths_cut;
         std::lock_guard lock(mutex_);
         result_.stats.add(stats);
-        if constexpr (has_passes) result_.film.add_to_batch(end_ - 1, of_pass);
+        if (method_.prepare) result_.film.add_to_batch(end_ - 1, of_pass);
         if (thrown) std::rethrow_exception(thrown);
     }
 
@@ -190,25 +157,12 @@ private:
         with.recorder.start();
         bool centre = scene_.camera.pixel_centre;
         Ray ray = camera_sample(view_, at.x, at.y, with.sampler, centre).ray;
-        Rgb L;
-        if constexpr (has_splats) {
-            with.splats.clear();
-            L = function()(scene_, ray, with.splats, with.sampler, with.recorder);
-        } else {
-            L = function()(scene_, ray, with.sampler, with.recorder);
-        }
+        with.splats.clear();
+        Rgb L = method_.trace(scene_, ray, with.splats, with.sampler, with.recorder);
         if (chooses_) L = choose(with);
         Rgb total = L;
-        if constexpr (has_splats)
-            for (const Splat& splat : with.splats) total += splat.L;
+        for (const Splat& splat : with.splats) total += splat.L;
         return {L, total};
-    }
-
-    const auto& function() const {
-        if constexpr (has_passes)
-            return trace_.trace;
-        else
-            return trace_;
     }
 
     static bool chooses(const RenderOptions& options) {
@@ -256,7 +210,7 @@ private:
             stats.add_largest(value, at.x, at.y, number);
         }
         result_.film.add(at.pixel, L, at.half);
-        if constexpr (has_splats) {
+        if (method_.splats) {
             result_.film.add_total(at.pixel, total);
             for (const Splat& splat : with.splats) {
                 std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
@@ -284,13 +238,13 @@ private:
             part.path_class.size() > longest_class ? "longer" : part.path_class;
         std::lock_guard lock(mutex_);
         size_t films = result_.classes.size() + 1;
-        uint64_t bytes = (has_splats ? 3 : 1) * result_.film.pixels().size() * sizeof(PixelSum);
+        uint64_t bytes = (method_.splats ? 3 : 1) * result_.film.pixels().size() * sizeof(PixelSum);
         return needing_memory(
             "--split: " + std::to_string(films) + " classes of paths, a film each,", films * bytes,
             [&]() -> Film& {
                 auto found = result_.classes.find(name);
                 if (found != result_.classes.end()) return found->second;
-                Film empty(scene_.width, scene_.height, has_splats);
+                Film empty(scene_.width, scene_.height, method_.splats);
                 if (result_.film.has_halves()) empty.start_halves();
                 return result_.classes.emplace(name, std::move(empty)).first->second;
             });
@@ -298,7 +252,7 @@ private:
 
     const Scene& scene_;
     const RenderOptions& options_;
-    const AnyTrace& trace_;
+    const Method& method_;
     const bool chooses_, splits_;
     const Allocation& allocation_;
     const Limit& limit_;

@@ -273,8 +273,8 @@ TEST_SUITE("bent normals") {
             Scene scene = world_of("AttributeBegin Translate 0 -1 0 " + leaning_square(0.6, 9) +
                                    "AttributeEnd " + light + ball);
             scene.max_depth = 3;
-            Trace eye = trace_with<ch16::trace>(ch16::prepare(scene));
-            SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
+            Method eye = method_of<ch16::trace>(ch16::prepare(scene));
+            Method walk = method_of<ch20::trace_light>(ch20::endpoints_of(scene));
             CHECK(check_classes(scene, eye, scene, walk, 400000) >= 4);
             BlockMeans a = blocks_of(scene, eye, 16, 32, 8), b = blocks_of(scene, walk, 64, 32, 8);
             check_agreement(hold_against(a, b), 0.02);

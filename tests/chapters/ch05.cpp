@@ -9,7 +9,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
-template Trace trace_with<ch05::trace>();
+template Method method_of<ch05::trace>();
 
 namespace {
 

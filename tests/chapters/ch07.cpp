@@ -8,7 +8,7 @@
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
 
-template Trace trace_with<ch07::trace>();
+template Method method_of<ch07::trace>();
 
 namespace {
 

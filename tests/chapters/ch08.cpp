@@ -6,7 +6,7 @@
 #include "tests/support/estimators.h"
 #include "tests/support/scenes.h"
 
-template Trace trace_with<ch08::trace>();
+template Method method_of<ch08::trace>();
 
 namespace {
 

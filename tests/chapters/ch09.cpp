@@ -8,15 +8,15 @@
 #include "common/results/warnings.h"
 #include "tests/support/estimators.h"
 
-template Trace trace_with<ch09::trace>(ch09::LightMeasure);
+template Method method_of<ch09::trace>(ch09::LightMeasure);
 
 using ch09::LightMeasure;
 
 namespace {
 
-const Trace trace_by_area = trace_with<ch09::trace>(LightMeasure::area);
-const Trace trace_by_angle = trace_with<ch09::trace>(LightMeasure::solid_angle);
-const Trace both_ways[] = {trace_by_area, trace_by_angle};
+const Method trace_by_area = method_of<ch09::trace>(LightMeasure::area);
+const Method trace_by_angle = method_of<ch09::trace>(LightMeasure::solid_angle);
+const Method both_ways[] = {trace_by_area, trace_by_angle};
 
 SquareMoments square_moments(double h) {  // X = h^2 / d^4
     return moments_of([=](double u, double v) {
@@ -66,7 +66,7 @@ TEST_SUITE("ch09 light sampling") {
                   2.184409062828},
                  {unit_square(10), 0.9966782906402 / 100}}) {
             Scene scene = floor_under(shining + light);
-            for (const Trace& trace : both_ways) {
+            for (const Method& trace : both_ways) {
                 check_bounded(irradiance(scene, trace, 100000), E, 0.007);
             }
         }
@@ -182,7 +182,7 @@ TEST_SUITE("ch09 light sampling") {
                 Scene scene = floor_under("AreaLightSource \"diffuse\" \"bool twosided\" " +
                                           std::string(two_sided ? "true" : "false") +
                                           " Translate 0 1 0 Scale 0.5 1 0.5 " + square(0, up));
-                for (const Trace& trace : both_ways) {
+                for (const Method& trace : both_ways) {
                     RunningStats s = irradiance(scene, trace, 10000);
                     if (up && !two_sided) {
                         CHECK(s.mean() == 0);
@@ -223,7 +223,7 @@ TEST_SUITE("ch09 near lights") {
     }
 
     TEST_CASE("failure: in the light's plane, at a point light, without lights: 0, and finite") {
-        for (const Trace& trace : both_ways) {
+        for (const Method& trace : both_ways) {
             Scene level = floor_under(shining + "Translate 5 0 0 " + square(0, false));
             CHECK(irradiance(level, trace, 1000).mean() == 0);
         }

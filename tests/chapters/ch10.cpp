@@ -7,12 +7,12 @@
 #include "tests/traces/10.h"
 #include "tests/support/estimators.h"
 
-template Trace trace_with<ch10::trace>();
+template Method method_of<ch10::trace>();
 
 namespace {
 
 /// Chapter 09 as it is without options.
-const Trace trace_09 = trace_with<ch09::trace>(ch09::LightMeasure::solid_angle);
+const Method trace_09 = method_of<ch09::trace>(ch09::LightMeasure::solid_angle);
 
 constexpr float below_one = 0x1.fffffep-1f;
 

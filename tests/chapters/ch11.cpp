@@ -8,7 +8,7 @@
 #include "common/light/pdf_one_light.h"
 #include "tests/support/estimators.h"
 
-template Trace trace_with<ch11::trace>(ch11::LightTable);
+template Method method_of<ch11::trace>(ch11::LightTable);
 
 namespace {
 
@@ -56,7 +56,7 @@ Scene far_and_near() {
 }
 
 /// Chapter 11 in this scene.
-Trace trace_11(const Scene& scene) { return trace_with<ch11::trace>(ch11::prepare(scene)); }
+Method trace_11(const Scene& scene) { return method_of<ch11::trace>(ch11::prepare(scene)); }
 
 }  // namespace
 
@@ -197,7 +197,7 @@ TEST_SUITE("ch11 light importance") {
             "LightSource \"point\" \"point3 from\" [0 1 0]");
         for (auto [p, variance] : {std::pair{0.5, 0.0}, {0.25, 4.0 / 3}}) {
             auto table = ch11::build_light_table({p, 1 - p});
-            RunningStats s = irradiance(scene, trace_with<ch11::trace>(table), 100000);
+            RunningStats s = irradiance(scene, method_of<ch11::trace>(table), 100000);
             check_mean(s, 2, variance + 1e-8, 0.05);
             if (variance > 0) check_variance(s, variance, (1 - 3 * p * (1 - p)) / (p * (1 - p)));
         }
@@ -207,7 +207,7 @@ TEST_SUITE("ch11 light importance") {
         Scene scene = floor_under(
             "LightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [0 0 1]\n"
             "LightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [1 0 0]");
-        Trace trace = trace_11(scene);
+        Method trace = trace_11(scene);
         Sampler sampler(SamplerType::independent, 1, 1);
         Recorder recorder;
         RunningStats blue;

@@ -10,7 +10,7 @@
 #include "common/base/parallel.h"
 #include "tests/support/estimators.h"
 
-template Trace trace_with<ch12::trace>(ch12::Proposal);
+template Method method_of<ch12::trace>(ch12::Proposal);
 
 namespace {
 
@@ -106,9 +106,9 @@ double mean_of(size_t M, const Choice& choice, const Weight& weight) {
 auto is(double x) { return doctest::Approx(x).epsilon(1e-5).scale(0); }
 
 /// Chapters 11 and 12 in this scene; M as in the program without options.
-Trace trace_11(const Scene& scene) { return trace_with<ch11::trace>(ch11::prepare(scene)); }
-Trace trace_12(const Scene& scene, int M = 16) {
-    return trace_with<ch12::trace>(ch12::prepare(scene, M));
+Method trace_11(const Scene& scene) { return method_of<ch11::trace>(ch11::prepare(scene)); }
+Method trace_12(const Scene& scene, int M = 16) {
+    return method_of<ch12::trace>(ch12::prepare(scene, M));
 }
 
 /// hidden-light.pbrt with this radiance of the lamp in the other room.

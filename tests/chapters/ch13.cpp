@@ -10,15 +10,15 @@
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
 
-template Trace trace_with<ch13::trace>(LightTable, ch13::Strategy);
+template Method method_of<ch13::trace>(LightTable, ch13::Strategy);
 
 using ch13::Strategy;
 
 namespace {
 
 /// The chapter's trace by this way of looking for light.
-Trace by(Strategy strategy, const Scene& scene) {
-    return trace_with<ch13::trace>(ch13::prepare(scene), strategy);
+Method by(Strategy strategy, const Scene& scene) {
+    return method_of<ch13::trace>(ch13::prepare(scene), strategy);
 }
 
 /// A point of rough metal of this roughness that reflects (nearly) all; z is its normal.
@@ -273,7 +273,7 @@ TEST_SUITE("ch13 glossy") {
         for (std::string name : {"cornell-spheres", "two-lights", "thousand-lights"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            Film eleven = film_of(scene, trace_with<ch11::trace>(ch11::prepare(scene)), 4).film;
+            Film eleven = film_of(scene, method_of<ch11::trace>(ch11::prepare(scene)), 4).film;
             Film thirteen = film_of(scene, by(Strategy::light, scene), 4).film;
             for (size_t i = 0; i < eleven.pixels().size(); i++)
                 REQUIRE(eleven.pixels()[i].mean() == thirteen.pixels()[i].mean());

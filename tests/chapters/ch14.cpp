@@ -7,7 +7,7 @@
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
 
-template Trace trace_with<ch14::trace>(ch14::Lights);
+template Method method_of<ch14::trace>(ch14::Lights);
 
 using ch14::balance_heuristic, ch14::power_heuristic;
 
@@ -22,13 +22,13 @@ struct Choice {
     Strategy strategy = Strategy::mis;
     Heuristic heuristic = power_heuristic;
 };
-Trace by(Choice choice, const Scene& scene) {
+Method by(Choice choice, const Scene& scene) {
     LightTable lights = ch13::prepare(scene);
     if (choice.strategy == Strategy::bsdf)
-        return trace_with<ch13::trace>(lights, ch13::Strategy::bsdf);
+        return method_of<ch13::trace>(lights, ch13::Strategy::bsdf);
     if (choice.strategy == Strategy::light)
-        return trace_with<ch13::trace>(lights, ch13::Strategy::light);
-    return trace_with<ch14::trace>(ch14::prepare(scene, choice.heuristic));
+        return method_of<ch13::trace>(lights, ch13::Strategy::light);
+    return method_of<ch14::trace>(ch14::prepare(scene, choice.heuristic));
 }
 
 constexpr Heuristic both_heuristics[] = {balance_heuristic, power_heuristic};
@@ -193,7 +193,7 @@ TEST_SUITE("ch14 mis") {
             for (Strategy strategy : all_strategies)
                 for (Heuristic heuristic : both_heuristics) {
                     bool rare = strategy == Strategy::bsdf;
-                    Trace trace = by({strategy, heuristic}, scene);
+                    Method trace = by({strategy, heuristic}, scene);
                     check_bounded(irradiance(scene, trace, rare ? 60000 : 20000), E, 0.025);
                 }
         }
@@ -237,7 +237,7 @@ TEST_SUITE("ch14 mis") {
                                                       {"horizon-sky", 2},
                                                       {"veach-mis", 6}}) {
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            Trace aimed = trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
+            Method aimed = method_of<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light);
             CHECK(check_classes(scene, aimed, scene, by({}, scene), 20000) >= least);
         }
     }
@@ -245,7 +245,7 @@ TEST_SUITE("ch14 mis") {
     TEST_CASE("agreement: each weight belongs to the last vertex, also after several") {
         for (const std::string& board : boards) {
             Scene scene = board_beside_lamp(board);
-            Trace light = by({Strategy::light}, scene);
+            Method light = by({Strategy::light}, scene);
             CHECK(check_classes(scene, light, scene, by({}, scene), 200000) >= 6);
         }
     }

@@ -12,16 +12,16 @@
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
 
-template Trace trace_with<ch15::trace>(ch15::Lights);
+template Method method_of<ch15::trace>(ch15::Lights);
 
 namespace {
 
-Trace by_twelve(const Scene& scene, int M = 16) {
-    return trace_with<ch12::trace>(ch12::prepare(scene, M));
+Method by_twelve(const Scene& scene, int M = 16) {
+    return method_of<ch12::trace>(ch12::prepare(scene, M));
 }
-Trace by_fourteen(const Scene& scene) { return trace_with<ch14::trace>(ch14::prepare(scene)); }
-Trace by_fifteen(const Scene& scene, int M = 64) {
-    return trace_with<ch15::trace>(ch15::prepare(scene, M));
+Method by_fourteen(const Scene& scene) { return method_of<ch14::trace>(ch14::prepare(scene)); }
+Method by_fifteen(const Scene& scene, int M = 64) {
+    return method_of<ch15::trace>(ch15::prepare(scene, M));
 }
 
 /// Three lights of very unequal power and distance over a floor of rough metal or of paint.
@@ -201,7 +201,7 @@ TEST_SUITE("ch15 two lights") {
         silly.bounds[2].power /= 30;
         auto mean_with = [&](const ch15::Lights& lights, uint32_t seed) {
             RunningStats s =
-                repeat(scene, onto_origin, trace_with<ch15::trace>(lights), 200000, seed);
+                repeat(scene, onto_origin, method_of<ch15::trace>(lights), 200000, seed);
             return std::pair(s.mean(), s.standard_error());
         };
         auto truth = mean_with(honest, 1);

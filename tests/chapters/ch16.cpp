@@ -7,12 +7,12 @@
 #include "tests/traces/16.h"
 #include "tests/support/estimators.h"
 
-template Trace trace_with<ch16::trace>(many_lights::Lights);
+template Method method_of<ch16::trace>(many_lights::Lights);
 
 namespace {
 
-Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
-Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
+Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
+Method by_sixteen(const Scene& scene) { return method_of<ch16::trace>(ch16::prepare(scene)); }
 
 /// A camera at the origin that looks along +z, with a lens of radius 0.1 that is sharp at 2.
 Camera camera_with_lens() {
@@ -36,7 +36,7 @@ double noise_of(Scene scene, bool lens, bool time) {
     const Camera camera = scene.camera;
     CameraView view = camera_view(camera, scene.width, scene.height);
     if (lens) scene.camera.lens_radius = 0;
-    Trace trace = by_sixteen(scene);
+    Method trace = by_sixteen(scene);
     Sampler dimensions = random_numbers(7), sampler = random_numbers(8);
     Recorder recorder;
     constexpr int n = 128;

@@ -5,15 +5,15 @@
 #include "tests/traces/17.h"
 #include "tests/support/estimators.h"
 
-template Trace trace_with<ch17::trace>(ch17::LightsAndSky);
+template Method method_of<ch17::trace>(ch17::LightsAndSky);
 
 namespace {
 
-Trace by_sixteen(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
-Trace by_seventeen(const Scene& scene) { return trace_with<ch17::trace>(ch17::prepare(scene)); }
+Method by_sixteen(const Scene& scene) { return method_of<ch16::trace>(ch16::prepare(scene)); }
+Method by_seventeen(const Scene& scene) { return method_of<ch17::trace>(ch17::prepare(scene)); }
 /// The same with pixels drawn in proportion to all of their light.
-Trace without_compensation(const Scene& scene) {
-    return trace_with<ch17::trace>(ch17::prepare(scene, 64, false));
+Method without_compensation(const Scene& scene) {
+    return method_of<ch17::trace>(ch17::prepare(scene, 64, false));
 }
 
 /// A scene under a picture of the sky of these pixels.
@@ -300,6 +300,6 @@ TEST_SUITE("ch17 sky image") {
                 ray = spawn_ray(*x, b.wi);
             }
         };
-        CHECK(check_classes(scene, Trace(by_chance), scene, by_seventeen(scene), 100000) >= 6);
+        CHECK(check_classes(scene, Method(by_chance), scene, by_seventeen(scene), 100000) >= 6);
     }
 }

@@ -9,14 +9,14 @@
 #include "common/scene_file/spectra.h"
 #include "tests/support/estimators.h"
 
-template Trace trace_with<ch18::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
+template Method method_of<ch18::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
 
 namespace {
 
-Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
-Trace by_seventeen(const Scene& scene) { return trace_with<ch17::trace>(ch17::prepare(scene)); }
-Trace by_eighteen(const Scene& scene) {
-    return trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white());
+Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
+Method by_seventeen(const Scene& scene) { return method_of<ch17::trace>(ch17::prepare(scene)); }
+Method by_eighteen(const Scene& scene) {
+    return method_of<ch18::trace>(ch18::prepare(scene), shares_of_white());
 }
 
 }  // namespace

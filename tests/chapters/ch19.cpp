@@ -13,7 +13,7 @@
 #include "tests/support/run_program.h"
 #include "tests/support/stand_ins.h"
 
-template Trace trace_with<ch19::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
+template Method method_of<ch19::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
 
 namespace {
 
@@ -26,20 +26,25 @@ RenderOptions quiet_options(uint32_t seed = 1) {
     return options;
 }
 
-Rendering adaptive(Scene scene, const Trace& trace, int spp, uint32_t seed = 1,
+Method with_halves(Method method, const ch19::SampleDensities& densities = {}) {
+    method.allocation = ch19::allocation(densities);
+    return method;
+}
+
+Rendering adaptive(Scene scene, const Method& trace, int spp, uint32_t seed = 1,
                    const ch19::SampleDensities& densities = {},
                    SamplerType sampler = SamplerType::independent) {
     scene.spp = spp;
     RenderOptions options = quiet_options(seed);
     options.sampler = sampler;
-    return render_film(scene, options, trace, ch19::allocation(densities));
+    return render_film(scene, options, with_halves(trace, densities));
 }
 
-Trace by_nineteen(const Scene& scene) {
-    return trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white());
+Method by_nineteen(const Scene& scene) {
+    return method_of<ch19::trace>(ch19::prepare(scene), shares_of_white());
 }
-Trace by_eighteen(const Scene& scene) {
-    return trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white());
+Method by_eighteen(const Scene& scene) {
+    return method_of<ch18::trace>(ch18::prepare(scene), shares_of_white());
 }
 
 /// Light in one sample of twenty, of which a path knows nothing before.
@@ -177,7 +182,7 @@ TEST_SUITE("ch19 adaptive") {
     TEST_CASE("consistency: the bias over 200 renders is below its standard error times five" *
               doctest::skip()) {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 8);
-        Trace trace = by_nineteen(scene);
+        Method trace = by_nineteen(scene);
         for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
             RunningStats difference;
             for (uint32_t seed = 1; seed <= 200; seed++) {
@@ -258,12 +263,12 @@ TEST_SUITE("ch19 adaptive") {
         TemporaryFolder folder;
         Scene scene = scene_from("scenes/high-contrast.pbrt", 24, 4);
         scene.spp = 40;
-        Trace trace = by_nineteen(scene);
+        Method trace = with_halves(by_nineteen(scene));
         auto render_to = [&](const std::string& film, int part, int parts, int threads) {
             RenderOptions options = quiet_options();
             options.film = folder / film, options.part = part, options.parts = parts;
             options.threads = threads;
-            Rendering r = render_film(scene, options, trace, ch19::allocation({}));
+            Rendering r = render_film(scene, options, trace);
             save_film(scene, options, r);
             return r.film.image();
         };

@@ -7,13 +7,13 @@
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 
-template SplatTrace trace_light_with<ch20::trace_light>(ch20::Endpoints);
+template Method method_of<ch20::trace_light>(ch20::Endpoints);
 
 namespace {
 
-Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
-SplatTrace by_twenty(const Scene& scene) {
-    return trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
+Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
+Method by_twenty(const Scene& scene) {
+    return method_of<ch20::trace_light>(ch20::endpoints_of(scene));
 }
 
 /// A grey floor of side 2 `half` below a pinhole that looks straight down from height 1.

@@ -10,31 +10,31 @@
 #include "tests/support/light_paths.h"
 #include "tests/support/whole_paths.h"
 
-template SplatTrace splat_trace_with<ch21::trace>(Endpoints);
+template Method method_of<ch21::trace>(Endpoints);
 
 namespace {
 
-Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
+Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
 
-SplatTrace by_21(const Scene& scene) { return splat_trace_with<ch21::trace>(endpoints_of(scene)); }
-SplatTrace by_22(const Scene& scene) { return splat_trace_with<ch22::trace>(ch22::prepare(scene)); }
+Method by_21(const Scene& scene) { return method_of<ch21::trace>(endpoints_of(scene)); }
+Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
 /// What holds for chapter 21 holds for 22 as well.
 struct Form {
     std::string name;
-    SplatTrace (*of)(const Scene&);
+    Method (*of)(const Scene&);
     int share;  // of the paths: 1 / share
-    SplatTrace operator()(const Scene& scene) const { return of(scene); }
+    Method operator()(const Scene& scene) const { return of(scene); }
 };
 const std::vector<Form> forms = {{"21", by_21, 4}, {"22", by_22, 1}};
 
 /// The mean of strategy (s, t) alone, without its weight, over paths of this class.
-Measured of_strategy(const Scene& scene, const SplatTrace& trace, std::pair<int, int> s_t,
+Measured of_strategy(const Scene& scene, const Method& trace, std::pair<int, int> s_t,
                      const std::string& path_class, int paths) {
     std::string way = "s " + std::to_string(s_t.first) + ", t " + std::to_string(s_t.second);
     std::string in_22 = way == "s 1, t 2" ? "light sampled" : way;  // which has that of 15
-    SplatTrace alone = [&](const Scene& its, Ray ray, Splats& splats, Sampler& sampler,
-                           Recorder& recorder) {
-        trace(its, ray, splats, sampler, recorder);
+    Method alone = [&](const Scene& its, Ray ray, Splats& splats, Sampler& sampler,
+                       Recorder& recorder) {
+        trace.trace(its, ray, splats, sampler, recorder);
         splats.clear();
         Rgb sum;
         for (const Contribution& part : recorder.contributions()) {
@@ -255,7 +255,7 @@ TEST_SUITE("ch21 bidirectional") {
         for (std::string name : {"caustic", "cornell-spheres", "light-in-glass"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
+            Method walk = method_of<ch20::trace_light>(ch20::endpoints_of(scene));
             for (const Form& form : forms) {
                 CAPTURE(form.name);
                 CHECK(check_classes(scene, walk, scene, form(scene), 400000 / form.share, 1,

@@ -7,7 +7,7 @@
 #include "tests/traces/22.h"
 #include "tests/support/light_paths.h"
 
-template SplatTrace splat_trace_with<ch22::trace>(ch22::Bidirectional);
+template Method method_of<ch22::trace>(ch22::Bidirectional);
 
 namespace {
 
@@ -17,7 +17,7 @@ struct Sample {
     Splats splats;
     std::vector<Contribution> parts;
 };
-Sample sample_of(const Scene& scene, const SplatTrace& trace, uint32_t i) {
+Sample sample_of(const Scene& scene, const Method& trace, uint32_t i) {
     Sampler sampler(SamplerType::independent, 1, 1);
     sampler.start(0, i);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
@@ -25,7 +25,7 @@ Sample sample_of(const Scene& scene, const SplatTrace& trace, uint32_t i) {
     Vec2 film = {u.x * static_cast<float>(scene.width), u.y * static_cast<float>(scene.height)};
     Recorder recorder(true);
     Sample sample;
-    sample.L = trace(scene, camera_ray(view, film), sample.splats, sampler, recorder);
+    sample.L = trace.trace(scene, camera_ray(view, film), sample.splats, sampler, recorder);
     sample.parts = recorder.contributions();
     return sample;
 }
@@ -37,8 +37,8 @@ double relative(Rgb a, Rgb b) {
     return largest(d) / std::max({largest(a), largest(b), 1e-20});
 }
 
-SplatTrace by_22(const Scene& scene, int chances, bool light_sampling = true) {
-    return splat_trace_with<ch22::trace>(ch22::prepare(scene, chances, light_sampling));
+Method by_22(const Scene& scene, int chances, bool light_sampling = true) {
+    return method_of<ch22::trace>(ch22::prepare(scene, chances, light_sampling));
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ TEST_SUITE("ch22 fast bidirectional") {
             CAPTURE(c.name);
             Scene scene = scene_from("scenes/" + c.name + ".pbrt", 32, 8);
             change(scene, c.how);
-            SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
-            SplatTrace fast = by_22(scene, 0, false);
+            Method lesson = method_of<ch21::trace>(endpoints_of(scene));
+            Method fast = by_22(scene, 0, false);
             int compared = 0, others = 0;
             double worst = 0, worst_mis = 0;
             for (uint32_t i = 0; i < 20000; i++) {
@@ -87,7 +87,7 @@ TEST_SUITE("ch22 fast bidirectional") {
     TEST_CASE("identity: chances replace only paths that no connection can make" *
               doctest::skip()) {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 8);
-        SplatTrace without = by_22(scene, 0), with = by_22(scene, 16);
+        Method without = by_22(scene, 0), with = by_22(scene, 16);
         int replaced = 0, added = 0, others = 0;
         for (uint32_t i = 0; i < 150000; i++) {
             Sample a = sample_of(scene, without, i), b = sample_of(scene, with, i);
@@ -142,7 +142,7 @@ TEST_SUITE("ch22 fast bidirectional") {
                 for (const RunningStats& s : m.blocks) sum += s.variance();
                 return sum;
             };
-            double fifteen = error_of(trace_with<ch15::trace>(ch15::prepare(scene)));
+            double fifteen = error_of(method_of<ch15::trace>(ch15::prepare(scene)));
             CHECK(error_of(by_22(scene, 16)) < 1.3 * fifteen);
         }
     }

@@ -11,7 +11,7 @@
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"
 
-template PassTrace passes_of<ch23::photon_passes>(const Scene&, const ch23::PhotonSettings&);
+template Method passes_of<ch23::photon_passes>(const Scene&, const ch23::PhotonSettings&);
 
 namespace {
 
@@ -97,7 +97,7 @@ Measured mean_over_seeds_of(Scene scene, const AnyTrace& trace, int spp, int see
     }
     return {means.mean(), means.standard_error()};
 }
-Trace by_fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
+Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
 
 /// A flat sheet that pretends to lean away from the sun by 45 degrees, towards (0, 1, -1).
 const std::string bent_sheet =
@@ -350,8 +350,8 @@ TEST_SUITE("ch23 photon mapping") {
             const std::string classes = name == "veach-mis" ? "LDD+E" : "L(D|S)+E";
             PhotonSettings settings{.light_paths = 5000, .radius = 0.01f * scene.radius};
             Measured m = mean_over_seeds(scene, settings, 16, 8, classes);
-            Measured truth = mean_over_seeds_of(
-                scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 32, 8, classes);
+            Measured truth = mean_over_seeds_of(scene, method_of<ch22::trace>(ch22::prepare(scene)),
+                                                32, 8, classes);
             CHECK(std::abs(m.mean - truth.mean) <
                   5 * std::hypot(m.se, truth.se) + 0.01 * truth.mean);
             CHECK(std::hypot(m.se, truth.se) < 0.015 * truth.mean);
@@ -395,7 +395,7 @@ TEST_SUITE("ch23 photon mapping") {
             square(0, true) + "AttributeEnd Material \"dielectric\" Scale 3 1 3\n" +
             square(0.5f, true) + square(0.45f, false));
         scene.max_depth = 12;
-        auto both = splat_trace_with<ch22::trace>(ch22::prepare(scene));
+        auto both = method_of<ch22::trace>(ch22::prepare(scene));
         CHECK(film_of(scene, both, 64).film.mean() == 0);
         // Straight through but for the glass: about I cos^3 / h^2 rho / pi of the light, 12 / 13
         // of it on the way down and on the way up.

@@ -7,7 +7,7 @@
 #include "tests/traces/24.h"
 #include "tests/support/photons.h"
 
-template PassTrace passes_of<ch24::photon_passes>(const Scene&, const PhotonSettings&);
+template Method passes_of<ch24::photon_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
@@ -62,8 +62,8 @@ TEST_SUITE("ch24 progressive photons") {
                     ch23::PhotonSettings of_23{.light_paths = 20000,
                                                .final_gathering = final_gathering,
                                                .radius = ch24::radius_of(first, pass)};
-                    PassTrace a = passes_of<ch23::photon_passes>(scene, of_23);
-                    PassTrace b = passes_of<ch24::photon_passes>(scene, of_24);
+                    Method a = passes_of<ch23::photon_passes>(scene, of_23);
+                    Method b = passes_of<ch24::photon_passes>(scene, of_24);
                     a.prepare(pass, 2, [] { return false; });
                     b.prepare(pass, 2, [] { return false; });
                     int lit = 0;
@@ -74,8 +74,8 @@ TEST_SUITE("ch24 progressive photons") {
                         Ray ray = camera_sample(view, i % 12, i / 12, for_a).ray;
                         camera_sample(view, i % 12, i / 12, for_b);
                         Recorder recorder;
-                        Rgb L = a.trace(scene, ray, for_a, recorder);
-                        CHECK(L == b.trace(scene, ray, for_b, recorder));
+                        Rgb L = a(scene, ray, for_a, recorder);
+                        CHECK(L == b(scene, ray, for_b, recorder));
                         lit += !is_black(L);
                     }
                     CHECK(lit > 20);
@@ -98,7 +98,7 @@ TEST_SUITE("ch24 progressive photons") {
 TEST_SUITE("ch24 progressive photons slow") {
     TEST_CASE("truth: bias and noise together go to 0 as N^(-2/3)") {
         Scene scene = bulb_over_a_floor();
-        Film exact = film_of(scene, trace_with<ch15::trace>(ch15::prepare(scene)), 40000).film;
+        Film exact = film_of(scene, method_of<ch15::trace>(ch15::prepare(scene)), 40000).film;
         PhotonSettings settings{.light_paths = 1000, .final_gathering = false, .radius = 0.4f};
         auto error = [&](int spp) {
             RunningStats mse;

@@ -11,7 +11,7 @@
 #include "tests/support/photons.h"
 #include "tests/support/whole_paths.h"
 
-template SplatPassTrace passes_of<ch25::merging_passes>(const Scene&, const PhotonSettings&);
+template Method passes_of<ch25::merging_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
@@ -190,7 +190,7 @@ TEST_SUITE("ch25 vertex merging") {
             Scene scene = scene_from(std::string("scenes/") + name + ".pbrt", 16, 6);
             scene.spp = 4;
             Film own = film_by(scene, as_usual, 4);
-            auto by_22 = splat_trace_with<ch22::trace>(ch22::prepare(scene, 0));
+            auto by_22 = method_of<ch22::trace>(ch22::prepare(scene, 0));
             Film other = render_film(scene, options_of(1), by_22).film;
             CHECK(own.mean() > 0);
             CHECK(own.image().pixels == other.image().pixels);
@@ -199,7 +199,7 @@ TEST_SUITE("ch25 vertex merging") {
 
     TEST_CASE("agreement: a light in glass with chapter 22, radii near 0" * doctest::skip()) {
         Scene scene = scene_from("scenes/light-in-glass.pbrt", 24, 5);
-        auto by_22 = splat_trace_with<ch22::trace>(ch22::prepare(scene));
+        auto by_22 = method_of<ch22::trace>(ch22::prepare(scene));
         PhotonSettings settings{.light_paths = 2000, .radius = 0.01f * scene.radius};
         BlockMeans own = blocks_by(scene, settings, 16, 12);
         BlockMeans other = blocks_of(scene, by_22, 32, 12, 8);
@@ -252,7 +252,7 @@ TEST_SUITE("ch25 vertex merging") {
             for (const RunningStats& s : m.blocks) sum += s.variance();
             return sum;
         };
-        auto by_22 = splat_trace_with<ch22::trace>(ch22::prepare(scene));
+        auto by_22 = method_of<ch22::trace>(ch22::prepare(scene));
         double own = error(blocks_by(scene, as_usual, 16, 8, "LS+D.*E"));
         double other = error(blocks_of(scene, by_22, 16, 8, 8, "LS+D.*E"));
         CAPTURE(other / own);
@@ -282,7 +282,7 @@ TEST_SUITE("ch25 vertex merging") {
     TEST_CASE("failure: no light, nothing diffuse, nothing but one light path") {
         CHECK(film_by(floor_without_lights(), as_usual, 2).mean() == 0);
         Scene mirror = light_before_mirror();
-        auto by_15 = trace_with<ch15::trace>(ch15::prepare(mirror));
+        auto by_15 = method_of<ch15::trace>(ch15::prepare(mirror));
         CHECK(film_by(mirror, as_usual, 8).mean() ==
               doctest::Approx(film_of(mirror, by_15, 64).film.mean()).epsilon(0.05).scale(0));
         Scene spheres = scene_from("scenes/cornell-spheres.pbrt", 8, 3);

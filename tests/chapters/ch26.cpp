@@ -140,11 +140,11 @@ struct Room {
 };
 
 /// The room as the program shows it.
-Trace by_radiosity(const Scene& scene, size_t wanted, Show how) {
+Method by_radiosity(const Scene& scene, size_t wanted, Show how) {
     Room room(scene, wanted);
     Solution s = solved(room.G, room.patches.patch);
     auto patches = std::make_shared<Patches>(room.patches);
-    return trace_with<ch26::trace>(ch26::show(scene, patches, s, how, all_threads()));
+    return method_of<ch26::trace>(ch26::show(scene, patches, s, how, all_threads()));
 }
 
 /// The program on a scene, small; `more` may say otherwise.
@@ -498,7 +498,7 @@ TEST_SUITE("ch26 radiosity") {
         // The same seed takes the same points of each pixel: edges cancel.
         Scene scene = scene_from("tests/pictures/references/cornell-grey.pbrt", 64, 60);
         constexpr int spp = 64;
-        Film paths = film_of(scene, trace_with<ch15::trace>(ch15::prepare(scene)), spp).film;
+        Film paths = film_of(scene, method_of<ch15::trace>(ch15::prepare(scene)), spp).film;
         double before = 1;
         for (size_t wanted : {size_t{80}, size_t{320}, size_t{1280}}) {
             CAPTURE(wanted);
@@ -629,13 +629,13 @@ TEST_SUITE("ch26 slow") {
         Shown shown = ch26::show(scene, std::make_shared<Patches>(room.patches),
                                  solved(room.G, room.patches.patch), Show::smooth, all_threads());
         LightTable lights = build_light_table(light_pmf(scene, 0.25));
-        Trace by_path = [&](const Scene&, Ray ray, Sampler& sampler, Recorder&) {
+        Method by_path = [&](const Scene&, Ray ray, Sampler& sampler, Recorder&) {
             std::optional<Hit> x = intersect(scene, ray);
             if (!x) return Rgb{};
             return emission(scene, *x) + ch26::by_path(scene, shown, lights, *x, -ray.d, sampler);
         };
         Film film = film_of(scene, by_path, 512, 1).film;
-        Film paths = film_of(scene, trace_with<ch15::trace>(ch15::prepare(scene)), 512, 1).film;
+        Film paths = film_of(scene, method_of<ch15::trace>(ch15::prepare(scene)), 512, 1).film;
         for (int y = 0; y < 32; y += 8)
             for (int x = 0; x < 32; x += 8) {
                 Measured a = block_of(film, x, y, 8), b = block_of(paths, x, y, 8);

@@ -83,7 +83,7 @@ TEST_SUITE("every chapter") {
         std::string overhead = lamp("10", unit_square(1)), aside = lamp("5", tilted);
         std::string sky = "LightSource \"infinite\" \"float scale\" 2\n";
         Scene scene = floor_under(aside);
-        double of_aside = irradiance(scene, trace_with<ch10::trace>(), 400000).mean();
+        double of_aside = irradiance(scene, method_of<ch10::trace>(), 400000).mean();
         REQUIRE(of_aside > 0.1);
         double E = 2 * pi_exact + 8 * irradiance_of_square(1) + of_aside * 3 / 5;
         for (const std::string& lights :
@@ -160,8 +160,8 @@ TEST_SUITE("every chapter") {
             Measured truth = {f * all.mean, f * all.se};
             for (int M : {1, 16, 64}) {
                 CAPTURE(M);
-                for (const Trace& trace : {trace_with<ch12::trace>(ch12::prepare(scene, M)),
-                                           trace_with<ch15::trace>(ch15::prepare(scene, M))}) {
+                for (const Method& trace : {method_of<ch12::trace>(ch12::prepare(scene, M)),
+                                            method_of<ch15::trace>(ch15::prepare(scene, M))}) {
                     RunningStats s = repeat(scene, ray, trace, M == 1 ? 40000 : 10000);
                     CHECK(z_between({s.mean(), s.standard_error()}, truth) < 5);
                     CHECK(std::hypot(s.standard_error(), truth.se) < 0.03 * truth.mean);

@@ -15,13 +15,11 @@
 
 namespace {
 
-Trace by_16(const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); }
-Trace by_17(const Scene& scene) { return trace_with<ch17::trace>(ch17::prepare(scene)); }
-SplatTrace by_20(const Scene& scene) {
-    return trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
-}
-SplatTrace by_21(const Scene& scene) { return splat_trace_with<ch21::trace>(endpoints_of(scene)); }
-SplatTrace by_22(const Scene& scene) { return splat_trace_with<ch22::trace>(ch22::prepare(scene)); }
+Method by_16(const Scene& scene) { return method_of<ch16::trace>(ch16::prepare(scene)); }
+Method by_17(const Scene& scene) { return method_of<ch17::trace>(ch17::prepare(scene)); }
+Method by_20(const Scene& scene) { return method_of<ch20::trace_light>(ch20::endpoints_of(scene)); }
+Method by_21(const Scene& scene) { return method_of<ch21::trace>(endpoints_of(scene)); }
+Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
 
 /// An image of the sky, brighter to one side, with a sun.
 SkyImage sunny_sky() {
@@ -213,7 +211,7 @@ TEST_SUITE("every scene: a lens") {
     TEST_CASE("identity: by the weights alone, chapter 22 gives each way its weight in 21") {
         // Behind a lens and under an image of the sky.
         for (const Scene& scene : {through_a_lens(), under(sunny_sky(), true)}) {
-            auto fast = splat_trace_with<ch22::trace>(ch22::prepare(scene, 0, false));
+            auto fast = method_of<ch22::trace>(ch22::prepare(scene, 0, false));
             PathCensus a = census_of(scene, by_21(scene), 20000, 1);
             PathCensus b = census_of(scene, fast, 20000, 1);
             CHECK(a.all.measured(a.paths).mean ==

@@ -45,7 +45,7 @@ const std::string things =
     thing("\"diffuse\" \"rgb reflectance\" [1 1 1]",
           "Translate 1.4 -1 -1.5 Shape \"sphere\" \"float radius\" 0.5");
 
-void check_is_two(const Scene& scene, const SplatTrace& trace, int paths) {
+void check_is_two(const Scene& scene, const Method& trace, int paths) {
     Measured m = census_of(scene, trace, paths, 1).all.measured(paths);
     CHECK(std::abs(m.mean - 2) < 5 * m.se);
     CHECK(m.se < 0.02);
@@ -61,7 +61,7 @@ TEST_SUITE("furnace of all things") {
             Scene scene = furnace(around, lamps + things);
             std::vector<Chapter> chapters = every_chapter(scene);
             chapters.push_back(
-                {"18", trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white())});
+                {"18", method_of<ch18::trace>(ch18::prepare(scene), shares_of_white())});
             for (const Chapter& chapter : chapters) {
                 CAPTURE(chapter.name);
                 int paths = 25000;
@@ -76,8 +76,8 @@ TEST_SUITE("furnace of all things") {
         for (const std::string& around : {sphere, sky}) {
             CAPTURE(around);
             Scene scene = furnace(around, lamps + things);
-            check_is_two(scene, splat_trace_with<ch21::trace>(endpoints_of(scene)), 15000);
-            check_is_two(scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 30000);
+            check_is_two(scene, method_of<ch21::trace>(endpoints_of(scene)), 15000);
+            check_is_two(scene, method_of<ch22::trace>(ch22::prepare(scene)), 30000);
         }
     }
 
@@ -91,8 +91,8 @@ TEST_SUITE("furnace of all things") {
                         thing("\"conductor\" \"rgb reflectance\" [1 1 1]",
                               "Translate -1 -0.4 -4 Shape \"sphere\" \"float radius\" 0.8"));
         scene.max_depth = 6;
-        CHECK(check_classes(scene, trace_with<ch15::trace>(ch15::prepare(scene)), scene,
-                            splat_trace_with<ch22::trace>(ch22::prepare(scene)), 100000) > 40);
+        CHECK(check_classes(scene, method_of<ch15::trace>(ch15::prepare(scene)), scene,
+                            method_of<ch22::trace>(ch22::prepare(scene)), 100000) > 40);
     }
 
     TEST_CASE("furnace: a sky in mirrors and glass that fill the scene, by paths from both ends") {
@@ -105,8 +105,8 @@ TEST_SUITE("furnace of all things") {
                                    "Translate -0.5 -0.4 0 Shape \"sphere\" \"float radius\" 0.5") +
                              thing("\"dielectric\"",
                                    "Translate 0.5 -0.4 0 Shape \"sphere\" \"float radius\" 0.5"));
-        check_is_two(scene, splat_trace_with<ch21::trace>(endpoints_of(scene)), 15000);
-        check_is_two(scene, splat_trace_with<ch22::trace>(ch22::prepare(scene)), 60000);
+        check_is_two(scene, method_of<ch21::trace>(endpoints_of(scene)), 15000);
+        check_is_two(scene, method_of<ch22::trace>(ch22::prepare(scene)), 60000);
     }
 }
 
@@ -133,8 +133,7 @@ TEST_SUITE("textures in all chapters") {
             " 1 Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
             "[-1 -1 0 -1 1 0 1 1 0 1 -1 0] \"point2 uv\" [0 0 0 1 1 1 1 0]");
         std::vector<Chapter> chapters = every_chapter(scene);
-        chapters.push_back(
-            {"18", trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white())});
+        chapters.push_back({"18", method_of<ch18::trace>(ch18::prepare(scene), shares_of_white())});
         auto check = [&](const auto& trace) {
             int paths = 20000;
             Measured m = census_of(scene, trace, paths, 1).all.measured(paths);
@@ -145,8 +144,8 @@ TEST_SUITE("textures in all chapters") {
             CAPTURE(chapter.name);
             check(chapter.trace);
         }
-        check(splat_trace_with<ch21::trace>(endpoints_of(scene)));
-        check(splat_trace_with<ch22::trace>(ch22::prepare(scene)));
+        check(method_of<ch21::trace>(endpoints_of(scene)));
+        check(method_of<ch22::trace>(ch22::prepare(scene)));
     }
 
     TEST_CASE(
@@ -156,14 +155,14 @@ TEST_SUITE("textures in all chapters") {
         prepare(scene, 1);
         scene.width = scene.height = 32, scene.max_depth = 4;
         REQUIRE(scene.textures.all.size() == 4);
-        Trace by_chapter_10 = trace_with<ch10::trace>();
+        Method by_chapter_10 = method_of<ch10::trace>();
         for (const Chapter& chapter : every_chapter(scene)) {
             CAPTURE(chapter.name);
             check_classes(scene, by_chapter_10, scene, chapter.trace, 20000);
         }
-        check_classes(scene, by_chapter_10, scene,
-                      splat_trace_with<ch21::trace>(endpoints_of(scene)), 20000);
-        check_classes(scene, by_chapter_10, scene,
-                      splat_trace_with<ch22::trace>(ch22::prepare(scene)), 20000);
+        check_classes(scene, by_chapter_10, scene, method_of<ch21::trace>(endpoints_of(scene)),
+                      20000);
+        check_classes(scene, by_chapter_10, scene, method_of<ch22::trace>(ch22::prepare(scene)),
+                      20000);
     }
 }

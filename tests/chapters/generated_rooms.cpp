@@ -130,33 +130,29 @@ Room generated_room(uint32_t seed) {
 }
 
 /// The traces of all chapters from 05 on that report paths, by name.
-std::vector<std::pair<std::string, SplatTrace>> all_traces(const Scene& scene) {
-    std::vector<std::pair<std::string, SplatTrace>> traces;
-    auto add = [&](const std::string& name, const Trace& trace) {
-        traces.emplace_back(
-            name, [=](const Scene& s, Ray ray, Splats&, Sampler& sampler, Recorder& recorder) {
-                return trace(s, ray, sampler, recorder);
-            });
+std::vector<std::pair<std::string, Method>> all_traces(const Scene& scene) {
+    std::vector<std::pair<std::string, Method>> traces;
+    auto add = [&](const std::string& name, const Method& method) {
+        traces.emplace_back(name, method);
     };
-    add("05", trace_with<ch05::trace>());
+    add("05", method_of<ch05::trace>());
     for (const Chapter& chapter : every_chapter(scene)) add(chapter.name, chapter.trace);
-    add("18 and 19", trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()));
-    traces.emplace_back("20", trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
-    traces.emplace_back("21", splat_trace_with<ch21::trace>(endpoints_of(scene)));
-    traces.emplace_back("22", splat_trace_with<ch22::trace>(ch22::prepare(scene)));
-    SplatPassTrace of_25 =
-        passes_of<ch25::merging_passes>(scene, PhotonSettings{.light_paths = 2000});
+    add("18 and 19", method_of<ch19::trace>(ch19::prepare(scene), shares_of_white()));
+    add("20", method_of<ch20::trace_light>(ch20::endpoints_of(scene)));
+    add("21", method_of<ch21::trace>(endpoints_of(scene)));
+    add("22", method_of<ch22::trace>(ch22::prepare(scene)));
+    Method of_25 = passes_of<ch25::merging_passes>(scene, PhotonSettings{.light_paths = 2000});
     of_25.prepare(9, 1, [] { return false; });
-    traces.emplace_back("25", of_25.trace);
+    add("25", of_25);
     for (bool final : {false, true}) {
-        PassTrace of_23 = passes_of<ch23::photon_passes>(
+        Method of_23 = passes_of<ch23::photon_passes>(
             scene, ch23::PhotonSettings{.light_paths = 2000, .final_gathering = final});
-        PassTrace of_24 = passes_of<ch24::photon_passes>(
+        Method of_24 = passes_of<ch24::photon_passes>(
             scene, PhotonSettings{.light_paths = 2000, .final_gathering = final});
         of_23.prepare(0, 1, [] { return false; });
         of_24.prepare(9, 1, [] { return false; });
-        add("23", of_23.trace);
-        add("24", of_24.trace);
+        add("23", of_23);
+        add("24", of_24);
     }
     return traces;
 }
@@ -173,7 +169,7 @@ struct Sample {
         return n == b.splats.size();
     }
 };
-Sample sample_of(const Scene& scene, const SplatTrace& trace, uint32_t i, Recorder& recorder) {
+Sample sample_of(const Scene& scene, const Method& trace, uint32_t i, Recorder& recorder) {
     Sampler sampler(SamplerType::independent, 1, 1);
     sampler.start(0, i);
     Vec2 u = sampler.u2();
@@ -182,7 +178,7 @@ Sample sample_of(const Scene& scene, const SplatTrace& trace, uint32_t i, Record
                          {width * u.x, height * u.y});
     recorder.start();
     Sample sample;
-    Rgb L = trace(scene, ray, sample.splats, sampler, recorder);
+    Rgb L = trace.trace(scene, ray, sample.splats, sampler, recorder);
     sample.splats.push_back({Contribution::own_pixel, L});
     return sample;
 }
@@ -240,11 +236,11 @@ TEST_SUITE("generated rooms") {
             CAPTURE(seed);
             auto [room, has_delta_light] = generated_room(seed);
             const Scene& scene = room;
-            Trace eye = trace_with<ch15::trace>(ch15::prepare(scene));
-            Trace mis = trace_with<ch14::trace>(ch14::prepare(scene));
-            SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
-            SplatTrace fast = splat_trace_with<ch22::trace>(ch22::prepare(scene));
-            SplatTrace walk = trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene));
+            Method eye = method_of<ch15::trace>(ch15::prepare(scene));
+            Method mis = method_of<ch14::trace>(ch14::prepare(scene));
+            Method lesson = method_of<ch21::trace>(endpoints_of(scene));
+            Method fast = method_of<ch22::trace>(ch22::prepare(scene));
+            Method walk = method_of<ch20::trace_light>(ch20::endpoints_of(scene));
             std::string seen = has_delta_light ? "L(D(S|D)*)?E" : "";  // by paths from the camera
             auto compare = [&](const std::string& what, const auto& a, const auto& b, int paths,
                                const std::string& classes) {

@@ -9,17 +9,16 @@ namespace {
 
 /// The chapters that differ where there is one light: it is sampled in the same way by 09 to 13.
 std::vector<Chapter> some_chapters(const Scene& scene) {
-    return {{"09", trace_with<ch09::trace>(ch09::LightMeasure::solid_angle)},
-            {"14", trace_with<ch14::trace>(ch14::prepare(scene))},
-            {"15", trace_with<ch15::trace>(ch15::prepare(scene))}};
+    return {{"09", method_of<ch09::trace>(ch09::LightMeasure::solid_angle)},
+            {"14", method_of<ch14::trace>(ch14::prepare(scene))},
+            {"15", method_of<ch15::trace>(ch15::prepare(scene))}};
 }
 std::vector<Chapter> all_chapters(const Scene& scene) {
     std::vector<Chapter> chapters = some_chapters(scene);
-    chapters.push_back({"10", trace_with<ch10::trace>()});
-    chapters.push_back({"11", trace_with<ch11::trace>(ch11::prepare(scene))});
-    chapters.push_back({"12", trace_with<ch12::trace>(ch12::prepare(scene, 4))});
-    chapters.push_back(
-        {"13", trace_with<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light)});
+    chapters.push_back({"10", method_of<ch10::trace>()});
+    chapters.push_back({"11", method_of<ch11::trace>(ch11::prepare(scene))});
+    chapters.push_back({"12", method_of<ch12::trace>(ch12::prepare(scene, 4))});
+    chapters.push_back({"13", method_of<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light)});
     return chapters;
 }
 
@@ -108,7 +107,7 @@ double irradiance_of_ball(Vec3d c, double r) {
 
 /// The irradiance at the middle of the patch, from Sobol points: its error is what the `scrambles`
 /// of them show, far below that of as many random numbers.
-RunningStats measure(const Scene& scene, const Trace& trace, const Ray& ray, uint32_t scrambles,
+RunningStats measure(const Scene& scene, const Method& trace, const Ray& ray, uint32_t scrambles,
                      uint32_t points) {
     RunningStats stats;
     Sampler sampler(SamplerType::sobol, 1, points);

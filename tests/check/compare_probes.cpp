@@ -18,7 +18,7 @@ constexpr int batches = 16;
 constexpr const char* reference_file = "tests/check/references.tsv";
 
 /// The quantities of one probe, from the spread of several renders.
-std::map<std::string, Quantity> measure(const Method& method, const Probe& probe,
+std::map<std::string, Quantity> measure(const NamedMethod& method, const Probe& probe,
                                         const MeasureOptions& o, int samples, uint32_t seed) {
     Scene scene = parse_scene("probe.pbrt", probe.text, nullptr);
     prepare(scene, o.threads);
@@ -54,13 +54,13 @@ constexpr double times_blurred = 40, times_checked = 3;
 
 /// Photons blur light that is not even. Chapter 25, which makes photons nowhere else, is compared
 /// with its own pictures there, of as many passes: its radius shrinks from pass to pass.
-bool is_blurred(const std::string& probe, const Method& method) {
+bool is_blurred(const std::string& probe, const NamedMethod& method) {
     static const std::set<std::string> uneven = {"bulb", "mirror", "leaning mirror", "wall beside",
                                                  "mirror beside"};
     return method.biased && uneven.contains(probe);
 }
 
-bool fits(const Probe& probe, const Method& method) {
+bool fits(const Probe& probe, const NamedMethod& method) {
     int chapter = std::stoi(method.name.substr(0, 2));
     // From a sky, hardly any path meets what most of these small pictures show.
     bool is_small = probe.name == "sky" || probe.name == "sky picture";
@@ -75,12 +75,13 @@ bool fits(const Probe& probe, const Method& method) {
 }
 
 /// Of chapter 20 what it can see: where the last vertex is no mirror and no glass.
-bool is_seen(const Method& method, const std::string& name) {
+bool is_seen(const NamedMethod& method, const std::string& name) {
     if (!method.name.starts_with("20") || !is_class(name)) return true;
     return name != "longer" && (name == "LE" || name[name.size() - 2] == 'D');
 }
 
-Quantities measure_all(const Method& method, const MeasureOptions& o, double times, uint32_t seed) {
+Quantities measure_all(const NamedMethod& method, const MeasureOptions& o, double times,
+                       uint32_t seed) {
     Quantities found;
     for (const Probe& probe : all_probes()) {
         if (!fits(probe, method)) continue;
@@ -93,7 +94,7 @@ Quantities measure_all(const Method& method, const MeasureOptions& o, double tim
     return found;
 }
 
-Quantities read_references(const Method& method) {
+Quantities read_references(const NamedMethod& method) {
     Quantities expected;
     std::string text = read_file(reference_file);
     for (size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
@@ -114,7 +115,8 @@ Quantities read_references(const Method& method) {
     return expected;
 }
 
-Findings findings_of(const Method& method, const MeasureOptions& o, double times, uint32_t seed) {
+Findings findings_of(const NamedMethod& method, const MeasureOptions& o, double times,
+                     uint32_t seed) {
     Quantities found = measure_all(method, o, times, seed), expected = read_references(method);
     for (auto row = expected.begin(); row != expected.end();)
         row = found.contains(row->first) ? std::next(row) : expected.erase(row);
@@ -228,7 +230,7 @@ struct Answers {
 };
 Answers ask_all(const MeasureOptions& o) {
     Answers answers;
-    for (const Method& method : all_methods()) {
+    for (const NamedMethod& method : all_methods()) {
         bool second = method.name == "09-area" || method.name == "13-bsdf";
         if ((is_variant(method) && !second) || (method.biased && method.name != "25")) continue;
         std::printf("%s\n", method.name.c_str());
@@ -293,14 +295,15 @@ int write_references(const MeasureOptions& o) {
 
 int check(const std::string& chapter, const MeasureOptions& o) {
     const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
-    const Method method = methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0);
+    const NamedMethod method =
+        methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0);
     Findings found = findings_of(method, o, times_checked, 1);
     if (found.black()) {
         std::printf("All pictures are black: trace brings no light at all. Does it return L?\n");
         return 1;
     }
     bool off = print_off(found, "");
-    for (const Method& m : all_methods()) {
+    for (const NamedMethod& m : all_methods()) {
         bool by_area = m.name == chapter + "-area", by_bsdf = m.name == chapter + "-bsdf";
         if (!by_area && !by_bsdf) continue;
         off |= print_off(findings_of(m, o, times_checked, 1),

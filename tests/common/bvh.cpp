@@ -151,7 +151,9 @@ void check_same_hits(const Geometry& g, double least_share, uint32_t rays_of_eac
                 // A ray that ends before the hit does not have it any more, one behind it does.
                 for (float end : {0.999f, 1.001f}) {
                     ray.t_max = end * hit.t;
-                    right = right && agrees(bvh, g, ray, kind, linear_scan(g, ray));
+                    PrimHit within = linear_scan(g, ray);
+                    right = right && agrees(bvh, g, ray, kind, within);
+                    rays++, hits += within.prim != PrimHit::none;
                 }
             }
             if (!right) wrong.emplace(kind, i);
@@ -226,9 +228,11 @@ TEST_SUITE("ch06 bvh hits") {
         flaws.spheres[3].r = flaws.disks[6].r = 0;
         flaws.disks[7].n = {};
         check_same_hits({}, 0);
-        for (const Geometry& g : {sphere, disk, boxes, round, flaws, mixed(200), cornell_box(),
-                                  closed_mesh(3), thin_diagonals(300), random_triangles(40, 2)})
-            check_same_hits(g, 0.1);
+        for (const Geometry& g : {sphere, round, flaws, mixed(200), cornell_box(), closed_mesh(3),
+                                  random_triangles(40, 2)})
+            check_same_hits(g, 0.2);
+        for (const Geometry& g : {disk, thin_diagonals(300)}) check_same_hits(g, 0.1);
+        check_same_hits(boxes, 0.5);
         for (int axis = 0; axis < 3; axis++) {
             for (float at : {0.0f, -1e5f}) {
                 Geometry flat;
@@ -237,16 +241,16 @@ TEST_SUITE("ch06 bvh hits") {
                     p[axis] = at, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
                     return p;
                 });
-                check_same_hits(flat, 0.04, 600);
+                check_same_hits(flat, 0.08, 1000);
             }
         }
         // One less and one more than fit side by side.
         for (uint32_t n : {1u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 32u, 33u})
-            check_same_hits(random_triangles(n, 1), 0.02, 600);
+            check_same_hits(random_triangles(n, 1), 0.05, 600);
         for (size_t n : {2u, 4u, 8u, 10u}) {  // 6, 12, 24 and 30 primitives
             Geometry g = mixed(40);
             g.triangles.resize(n), g.spheres.resize(n), g.disks.resize(n);
-            check_same_hits(g, 0.02, 600);
+            check_same_hits(g, 0.05, 600);
         }
     }
 

@@ -198,8 +198,8 @@ TEST_SUITE("printed") {
         options.explain_x = 1, options.explain_y = 2, options.explain_sample = 5;
         Rgb far = {0, 0, 7}, near = {1, 1, 1}, met = {0.5f, 0.25f, 0}, connected = {1, 2, 4};
         Rgb lost;
-        SplatTrace trace = [&](const Scene&, Ray, Splats& splats, Sampler& sampler,
-                               Recorder& recorder) {
+        Method trace = [&](const Scene&, Ray, Splats& splats, Sampler& sampler,
+                           Recorder& recorder) {
             std::printf("random %.9g\n", double{sampler.u1()});
             recorder.emitted(met);
             recorder.connected(connected, 2, 2, 0.125f);
@@ -208,7 +208,9 @@ TEST_SUITE("printed") {
             return met + connected + lost;
         };
         auto explained = [&](bool halves = false) {
-            return captured([&] { return explain(scene, options, trace, halves); });
+            Method method = trace;
+            method.allocation.pilot = halves ? 1 : 0;
+            return captured([&] { return explain(scene, options, method); });
         };
         const std::string first = "1,2         0  light met     LE      1  0.5  0.25  0\n",
                           second = "1,2         0   s 2, t 2   LDDE  0.125    1     2  4\n",

@@ -53,7 +53,7 @@ bool same_bits(const Image& a, const Image& b) {
 }
 
 /// One sample of one pixel, as the loop must take it.
-Rgb sample_of(const Scene& scene, const RenderOptions& options, const Trace& trace, int x, int y,
+Rgb sample_of(const Scene& scene, const RenderOptions& options, const Method& trace, int x, int y,
               int s) {
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
@@ -71,7 +71,7 @@ Rgb counting(const Scene&, Ray, Sampler&, Recorder&) {
 }
 
 /// Noise; call number `at` raises a signal.
-Trace noise_with_signal(int signal, int at) {
+Method noise_with_signal(int signal, int at) {
     calls = 0;
     std::signal(signal, SIG_DFL);
     return [=](const Scene& scene, Ray ray, Sampler& sampler, Recorder& recorder) {

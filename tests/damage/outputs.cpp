@@ -21,9 +21,12 @@ Words brief(const std::string& scene, const Words& more) {
     return words;
 }
 
+/// Has its first content, which comes after its lock.
 bool comes_to_be(const std::string& path) {
-    for (int i = 0; i < 20000 && !fs::exists(path); i++) ::usleep(1000);
-    return fs::exists(path);
+    std::error_code none;
+    auto has_content = [&] { return fs::exists(path) && fs::file_size(path, none) > 0; };
+    for (int i = 0; i < 20000 && !has_content(); i++) ::usleep(1000);
+    return has_content();
 }
 
 #ifdef __linux__

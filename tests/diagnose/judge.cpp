@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <regex>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -143,28 +142,75 @@ Off compare(const Tiles& should, const Tiles& tiles, double z, double least) {
     return off;
 }
 
+bool is_dark(const std::string& key) { return key.ends_with(" dark"); }
 std::string scene_of(const std::string& key) { return key.substr(0, key.find('/')); }
 
 /// A factor that all non-dark numbers may have: of everything, or of scenes with lamps alone.
 Hypothesis with_factor(const Evidence& evidence, const std::set<std::string>& scenes,
                        const std::set<std::string>& unknown, const char* what) {
     double weights = 0, sum = 0;
-    Hypothesis h{"-", "", {}};
+    Hypothesis h;
     for (const auto& [key, q] : evidence) {
-        if (key.ends_with(" dark") || !scenes.contains(scene_of(key))) continue;
+        if (is_dark(key) || !scenes.contains(scene_of(key))) continue;
         double weight = 1 / (q.se * q.se + 1e-4 * q.mean * q.mean + 1e-8);
         weights += weight, sum += weight * q.mean;
     }
     double factor = weights > 0 ? sum / weights : 1;
     if (std::abs(factor - 1) < 0.02) return h;
     for (const auto& [key, q] : evidence) {
-        if (key.ends_with(" dark")) continue;
+        if (is_dark(key)) continue;
         if (scenes.contains(scene_of(key))) h.predicted[key] = {factor, 0};
         if (unknown.contains(scene_of(key))) h.predicted[key] = q;
     }
     h.text = std::string(what) + " " + times(factor) +
              " times as bright as the reference: units, exposure, or a factor";
     return h;
+}
+
+/// How well a hypothesis predicts the evidence.
+struct Fit {
+    const Hypothesis* hypothesis;
+    double log_likelihood;
+    double worst;  // the largest distance of a prediction, in standard errors
+};
+/// The error of a prediction beside the noise of both measurements.
+double model_error(const std::string& key, double predicted) {
+    return is_dark(key) ? 1e-3 : 0.01 * std::max(std::abs(predicted), 0.3);
+}
+
+Fit fit_of(const Hypothesis& h, const Evidence& evidence) {
+    Fit fit{&h, 0, 0};
+    Evidence numbers = evidence;
+    for (const auto& [key, q] : h.predicted)  // of light that was not found there is none
+        if (is_dark(key)) numbers.insert({key, Quantity{}});
+    for (const auto& [key, q] : numbers) {
+        auto found = h.predicted.find(key);
+        // What is not written down was less than 3 standard errors away, of fewer samples: where
+        // those are large, it may be as far away.
+        Quantity p = {is_dark(key) ? 0.0 : 1.0, q.se > 0.01 ? 2 * q.se : 0};
+        if (found != h.predicted.end()) p = found->second;
+        double error = std::hypot(q.se, p.se, model_error(key, p.mean));
+        double z = std::abs(q.mean - p.mean) / error;
+        fit.worst = std::max(fit.worst, z);
+        fit.log_likelihood -= std::min(z * z, 60.0) / 2 + std::log(error);
+    }
+    return fit;
+}
+
+/// The hypotheses that explain all evidence, to 6 standard errors and a thousand times better than
+/// a right program does; the most likely one first.
+std::vector<Fit> explanations(const std::vector<Hypothesis>& hypotheses, const Evidence& evidence) {
+    // What a mistake must explain better than a right program does: else it explains nothing.
+    const Hypothesis no_mistake;
+    double least = fit_of(no_mistake, evidence).log_likelihood + std::log(1000.0);
+    std::vector<Fit> fits;
+    for (const Hypothesis& h : hypotheses) {
+        Fit fit = fit_of(h, evidence);
+        if (fit.worst < 6 && fit.log_likelihood > least) fits.push_back(fit);
+    }
+    std::sort(fits.begin(), fits.end(),
+              [](const Fit& a, const Fit& b) { return a.log_likelihood > b.log_likelihood; });
+    return fits;
 }
 
 /// Whether a mistake predicts something of each scene that is off, and of each scene the mean and
@@ -178,7 +224,7 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
     std::map<std::string, Sum> scenes;
     std::set<std::string> predicted;
     for (const auto& [key, q] : evidence) {
-        bool dark = key.ends_with(" dark");
+        bool dark = is_dark(key);
         auto found = h.predicted.find(key);
         Quantity p = {dark ? 0.0 : 1.0, 0.005};
         if (found != h.predicted.end()) p = found->second, predicted.insert(scene_of(key));
@@ -204,55 +250,7 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
 Quantity prediction(const Hypothesis& h, const std::string& key) {
     auto found = h.predicted.find(key);
     if (found != h.predicted.end()) return found->second;
-    return {key.ends_with(" dark") ? 0.0 : 1.0, 0.002};
-}
-
-/// For each two known mistakes with the same words, the mixture of both that explains the evidence
-/// best. If they differ in a number of "times", this may be any number.      routine: the words
-std::vector<Hypothesis> mixtures(const std::vector<Hypothesis>& known, const Evidence& evidence) {
-    auto number_of = [](const std::smatch& groups) {
-        return groups[2].length() == 0 ? std::stod(groups[3]) : 1 / std::stod(groups[3]);
-    };
-    const std::regex times("(.* )(1/)?([24])( times.*)");
-    std::vector<std::smatch> words(known.size());
-    for (size_t i = 0; i < known.size(); i++) std::regex_match(known[i].text, words[i], times);
-    std::vector<Hypothesis> all;
-    for (size_t i = 0; i < known.size(); i++)
-        for (size_t j = i + 1; j < known.size(); j++) {
-            std::string text = known[i].text, routine = text;
-            bool numbered = !words[i].empty() && !words[j].empty();
-            if (numbered) routine = words[i].str(1) + words[i].str(4);
-            if (numbered ? routine != words[j].str(1) + words[j].str(4) : text != known[j].text)
-                continue;
-            Evidence both = known[i].predicted;
-            both.insert(known[j].predicted.begin(), known[j].predicted.end());
-            double weights = 0, sum = 0;
-            for (const auto& [key, of_either] : both) {
-                Quantity q = evidence.at(key), p = prediction(known[i], key);
-                double weight = 1 / (q.se * q.se + 1e-4 * q.mean * q.mean + 1e-6);
-                double distance = prediction(known[j], key).mean - p.mean;
-                sum += weight * (q.mean - p.mean) * distance,
-                    weights += weight * distance * distance;
-            }
-            double t = weights > 0 ? sum / weights : 0;
-            if (numbered && text != known[j].text) {
-                double a = number_of(words[i]), b = number_of(words[j]);
-                double number = std::max(a + t * (b - a), 0.0);
-                t = (number - a) / (b - a);
-                text = words[i].str(1) + format("about %.2g", number) + words[i].str(4);
-            } else {
-                t = std::clamp(t, 0.0, 1.0);
-            }
-            Hypothesis h{routine, text, {}};
-            for (const auto& [key, of_either] : both) {
-                Quantity p = prediction(known[i], key), r = prediction(known[j], key);
-                double mean = p.mean + t * (r.mean - p.mean);
-                if (std::abs(mean - (key.ends_with(" dark") ? 0 : 1)) >= 0.004)
-                    h.predicted[key] = {mean, std::hypot((1 - t) * p.se, t * r.se)};
-            }
-            all.push_back(h);
-        }
-    return all;
+    return {is_dark(key) ? 0.0 : 1.0, 0.002};
 }
 
 /// Whether two predictions were not measured precisely enough to tell them apart: neither by a tile
@@ -276,14 +274,6 @@ bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidenc
     return std::none_of(scenes.begin(), scenes.end(), [&](const auto& scene) {
         const Sum& s = scene.second;
         return differ(s.differences, std::sqrt(s.squares), s.model);
-    });
-}
-
-/// Whether the words of all these mistakes begin with the same routine: "Fresnel: ...".
-bool are_of_one_kind(const std::vector<std::string>& names) {
-    std::string kind = names[0].substr(0, names[0].find(':') + 1);
-    return !kind.empty() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-        return name.starts_with(kind);
     });
 }
 
@@ -391,20 +381,10 @@ Diagnosis judge(const Folder& folder, const References& references,
         with_factor(evidence, lamps, mixed, "the light of lamps, not of the sky, is")};
     for (const Hypothesis& h : factors)
         if (!h.text.empty()) hypotheses.push_back(h);
+    std::vector<Fit> fits = explanations(hypotheses, evidence);
+    std::erase_if(fits,
+                  [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });
     std::vector<std::string> best;
-    auto fitting = [&] {
-        std::vector<Fit> fits = explanations(hypotheses, evidence);
-        std::erase_if(fits,
-                      [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });
-        return fits;
-    };
-    std::vector<Fit> fits = fitting();
-    if (fits.empty() && off.size() > 1) {  // one scene is too few for a number that is fitted
-        hypotheses = mixtures(hypotheses, evidence), fits = fitting();
-        std::set<std::string> families;  // the best of each
-        std::erase_if(
-            fits, [&](const Fit& fit) { return !families.insert(fit.hypothesis->routine).second; });
-    }
     for (const Fit& fit : fits) {
         const Hypothesis &h = *fit.hypothesis, &first = *fits[0].hypothesis;
         bool is_less_likely = fit.log_likelihood < fits[0].log_likelihood - std::log(1000);
@@ -417,11 +397,10 @@ Diagnosis judge(const Folder& folder, const References& references,
             "It looks like this mistake: " + d.name + ".\n    This explains all " +
             std::to_string(evidence.size()) +
             " numbers that were measured, a thousand times better than any other known mistake.\n";
-    } else if (best.size() == 2 || (best.size() > 2 && are_of_one_kind(best))) {
-        for (const std::string& name : best) d.name += (d.name.empty() ? "" : "; or ") + name;
-        d.text += std::to_string(best.size()) +
-                  " mistakes explain all numbers about equally well:\n    " +
-                  std::regex_replace(d.name, std::regex("; or "), "; or\n    ") + ".\n";
+    } else if (best.size() == 2) {
+        d.name = best[0] + "; or " + best[1];
+        d.text += "Two mistakes explain all numbers about equally well:\n    " + best[0] +
+                  "; or\n    " + best[1] + ".\n";
     } else {
         d.text += best.empty()
                       ? "No known mistake explains all numbers.\n"

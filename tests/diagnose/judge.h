@@ -31,7 +31,7 @@ struct Diagnosis {
 /// A tile is off if its distance from the reference would happen by chance in one of a thousand
 /// such sets of pictures, and is 0.8 % at least (8 bits: 3 %). A mistake is named only if it
 /// explains all numbers, a thousand times better than every other known one, and predicts something
-/// of each scene that is off; else two that do, or several of one kind. tested by  "truth:
-/// the mistake in another renderer's pictures is named"
+/// of each scene that is off; else two that do.
+/// tested by  "truth: the mistake in another renderer's pictures is named"
 Diagnosis judge(const Folder& folder, const References& references,
                 const std::vector<Hypothesis>& effects);

@@ -92,7 +92,7 @@ std::vector<Hypothesis> read_effects(const References& references) {
     for (const std::string& line : split(read_file(effects_file), '\n')) {
         std::vector<std::string> cells = split(line, '\t');
         if (line[0] == '#' || cells.size() < 3) continue;
-        Hypothesis h{"-", cells[1], {}};
+        Hypothesis h{cells[1], {}};
         for (const std::string& effect : split(cells[2], ';')) {
             size_t equal = effect.find('='), error = effect.find('~');
             std::string scene = effect.substr(0, equal);

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "common/picture/image.h"
-#include "tests/diagnose/explanations.h"
+#include "tests/check/findings.h"
 #include "tests/diagnose/scenes.h"
 
 /// Numbers of one scene: of its 4 x 4 tiles, row by row; of a coloured scene first those of red.
@@ -32,7 +32,16 @@ double scale_of(const Tiles& references, size_t tile);
 /// The name of a tile in evidence.
 std::string key_of(const std::string& scene, const Tiles& references, size_t tile);
 
-/// The effects of mistakes that were planted (effects.tsv): routine "-", text, and prediction.
+/// One number for each tile of each scene: measured over expected; of a tile that should be black,
+/// what it brings. The key is "scene/tile", or "scene/tile dark".
+using Evidence = std::map<std::string, Quantity>;
+/// A mistake, and what it makes of each number. What is not in `predicted` is as it should be.
+struct Hypothesis {
+    std::string text;
+    Evidence predicted;
+};
+
+/// The effects of mistakes that were planted (effects.tsv).
 std::vector<Hypothesis> read_effects(const References& references);
 /// What stands in effects.tsv of one scene; "" where all is as it should be. `tiles` over scale_of.
 std::string effect_text(const std::string& scene, const Tiles& references, const Tiles& tiles);

@@ -3,12 +3,7 @@
 #include <algorithm>
 
 #include "common/base/files.h"
-#include "common/material/optics.h"
-#include "common/path/camera_sample.h"
-#include "common/scene/intersect.h"
-#include "common/scene/prepare.h"
-#include "common/scene_file/reader.h"
-#include "tests/check/probes.h"
+#include "common/path/sampler.h"
 #include "tests/diagnose/judge.h"
 #include "tests/support/folder.h"
 
@@ -62,22 +57,6 @@ TEST_SUITE("diagnose") {
             CHECK((d.name.empty() || d.name.find(effects[i].text) != std::string::npos));
         }
         CHECK(named > tried / 2);
-    }
-
-    TEST_CASE("truth: a mistake is named with a number that is not on the list" * doctest::skip()) {
-        References references = read_references();
-        std::vector<Hypothesis> effects = read_effects(references);
-        auto of = [&](const std::string& text) {
-            return *std::find_if(effects.begin(), effects.end(),
-                                 [&](const Hypothesis& h) { return h.text == text; });
-        };
-        Hypothesis h = of("light that is sampled counts 1/2 times");
-        for (const auto& [key, q] : of("light that is sampled counts 4 times").predicted) {
-            Quantity& p = h.predicted.insert({key, {1, 0}}).first->second;
-            p.mean += (0.3 - 0.5) / (4 - 0.5) * (q.mean - p.mean);  // it is linear in the number
-        }
-        Diagnosis d = judge(pictures_of(references, h, 0.004), references, effects);
-        CHECK(d.name == "light that is sampled counts about 0.3 times");
     }
 
     TEST_CASE("input: pictures that cannot be judged, and why") {

@@ -51,7 +51,7 @@ void add_batch(const Rendering& r, size_t batch, size_t count, Batches& batches)
 }
 
 /// Renders `runs` batches, in about `seconds` together.
-Batches measure(const Method& method, size_t index, Scene& scene, const MeasureOptions& o,
+Batches measure(const NamedMethod& method, size_t index, Scene& scene, const MeasureOptions& o,
                 double seconds) {
     auto seed = [&](int run) {
         return static_cast<uint32_t>(1000 * index) + static_cast<uint32_t>(run);
@@ -70,7 +70,7 @@ Batches measure(const Method& method, size_t index, Scene& scene, const MeasureO
 
 /// What one method found on a scene.
 struct Column {
-    const Method* method;
+    const NamedMethod* method;
     Batches batches;
     std::map<std::string, double> worst = {};  // |z| by kind
     double z_total = NAN, relative_se = NAN;
@@ -155,12 +155,12 @@ std::string cell(const Column& c) {
     return std::isnan(c.z_total) ? "?" : text + std::string(c.relative_se > 0.01 ? "*" : " ");
 }
 
-Table matrix_of(const std::vector<SceneResult>& results, const std::vector<Method>& methods) {
+Table matrix_of(const std::vector<SceneResult>& results, const std::vector<NamedMethod>& methods) {
     Table matrix{{"scene"}, {}};
-    for (const Method& m : methods) matrix.columns.push_back(m.name);
+    for (const NamedMethod& m : methods) matrix.columns.push_back(m.name);
     for (const SceneResult& result : results) {
         matrix.rows.push_back({result.scene});
-        for (const Method& m : methods) {
+        for (const NamedMethod& m : methods) {
             std::string text = "-";
             for (const Column& c : result.columns) {
                 if (c.method->name == m.name) text = cell(c);
@@ -172,7 +172,7 @@ Table matrix_of(const std::vector<SceneResult>& results, const std::vector<Metho
 }
 
 /// Measures one scene with every method that can render it, and judges.
-SceneResult agree_on(const std::string& path, const std::vector<Method>& methods,
+SceneResult agree_on(const std::string& path, const std::vector<NamedMethod>& methods,
                      const MeasureOptions& o, double cell_seconds, Work& work) {
     Scene scene = load_scene_for(path, o);
     SceneResult result{scene_name(path), {}};
@@ -197,9 +197,9 @@ int main(int argc, char** argv) {
         if (o.words.empty()) o.words = all_scenes();
         bool all = o.methods.empty();
         if (all) o.methods = {"all", "13-bsdf"};
-        std::vector<Method> methods = methods_named(o.methods);
+        std::vector<NamedMethod> methods = methods_named(o.methods);
         // Photons blur light: with these few passes their picture is meant to be another one.
-        if (all) std::erase_if(methods, [](const Method& m) { return m.biased; });
+        if (all) std::erase_if(methods, [](const NamedMethod& m) { return m.biased; });
         std::vector<SceneResult> results;
         Table details{{"scene", "chapter", "quantity", "mean", "standard error", "mean of others",
                        "standard error of others", "z"},

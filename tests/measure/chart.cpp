@@ -8,11 +8,11 @@
 namespace {
 
 /// All curves of a scene, each against references made by other methods.
-std::vector<Curve> measure_scene(const std::string& path, const std::vector<Method>& methods,
+std::vector<Curve> measure_scene(const std::string& path, const std::vector<NamedMethod>& methods,
                                  const MeasureOptions& o, double seconds, Work& work) {
     Scene scene = load_scene_for(path, o);
     std::vector<Curve> curves;
-    for (const Method& method : methods) {
+    for (const NamedMethod& method : methods) {
         work.next(scene_name(path) + ", " + method.name);
         if (!can_render(method, scene)) continue;
         Reference reference =
@@ -40,7 +40,7 @@ void add_summary(const std::string& scene, const std::vector<Curve>& curves, Tab
 }
 
 /// Those that are asked for, or all; on some scenes also variants that fail there.
-std::vector<Method> methods_for(const MeasureOptions& o, const std::string& scene) {
+std::vector<NamedMethod> methods_for(const MeasureOptions& o, const std::string& scene) {
     std::vector<std::string> names = o.methods;
     if (names.empty()) {
         names = {"all", "15-sobol"};
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
         Table summary{{"scene", "method", "spp", "seconds", "relMSE", "slope", "times faster"}, {}};
         for (const std::string& word : o.words) {
             std::string path = find_scene(word), name = scene_name(path);
-            std::vector<Method> methods = methods_for(o, name);
+            std::vector<NamedMethod> methods = methods_for(o, name);
             double seconds = o.seconds * o.threads / static_cast<double>(o.words.size()) /
                              static_cast<double>(methods.size());
             std::vector<Curve> curves;

@@ -52,7 +52,7 @@ static double last_slope(const std::vector<CurvePoint>& points) {
     return fitted_slope(spp, rmse);
 }
 
-Curve measure_curve(const Method& method, Scene& scene, const Reference& reference,
+Curve measure_curve(const NamedMethod& method, Scene& scene, const Reference& reference,
                     const MeasureOptions& o, double seconds) {
     Curve curve{&method, {}, NAN};
     double spent = 0, next = 0;

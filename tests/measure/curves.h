@@ -15,7 +15,7 @@ struct CurvePoint {
 };
 
 struct Curve {
-    const Method* method;
+    const NamedMethod* method;
     std::vector<CurvePoint> points;
     double slope = NAN;  // fitted: log RMSE over log spp, last 3 points; in theory -1/2
 
@@ -37,7 +37,7 @@ double mean_of(const std::vector<double>& values);
 
 /// Renders with 1, 4, 16, ... spp, `runs` of each, for about `seconds` of all processors together,
 /// and as long as the error is at least 10 times the reference's own.
-Curve measure_curve(const Method& method, Scene& scene, const Reference& reference,
+Curve measure_curve(const NamedMethod& method, Scene& scene, const Reference& reference,
                     const MeasureOptions& o, double seconds);
 
 /// Writes chart-SCENE.tsv, relMSE over seconds, and draws it: how many times faster than the first

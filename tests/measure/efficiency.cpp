@@ -21,7 +21,7 @@ struct Renders {
 
 /// A method on a scene.
 struct Contender {
-    const Method* method;
+    const NamedMethod* method;
     Scene scene;
     int spp;
     Renders all = {};
@@ -29,19 +29,20 @@ struct Contender {
     bool listed = true;
 };
 
-std::vector<Contender> contenders_on(const std::string& path, const std::vector<Method>& methods,
+std::vector<Contender> contenders_on(const std::string& path,
+                                     const std::vector<NamedMethod>& methods,
                                      const MeasureOptions& o) {
     Scene scene = load_scene_for(path, o);
     std::vector<Contender> contenders;
-    for (const Method& method : methods) {
+    for (const NamedMethod& method : methods) {
         if (can_render(method, scene)) contenders.push_back({&method, scene, o.spp});
     }
     if (contenders.empty()) return contenders;
 
     // The last chapter renders too, though nobody asked for it: where all others are noisy, the
     // truth below would be.
-    const Method* last = nullptr;
-    for (const Method& method : all_methods()) {
+    const NamedMethod* last = nullptr;
+    for (const NamedMethod& method : all_methods()) {
         if (!method.biased && !is_variant(method) && can_render(method, scene)) last = &method;
     }
     bool asked = std::any_of(contenders.begin(), contenders.end(), [&](const Contender& c) {
@@ -123,10 +124,10 @@ Table table_of(const std::string& scene, const std::vector<Contender>& contender
 void expand_chapter(MeasureOptions& o) {
     if (o.words.size() != 1 || o.words[0].size() != 2) return;
     std::string before;
-    for (const Method& m : all_methods()) {
+    for (const NamedMethod& m : all_methods()) {
         if (m.name < o.words[0] && !is_variant(m)) before = m.name;
     }
-    Method chapter = methods_named({o.words[0]})[0];
+    NamedMethod chapter = methods_named({o.words[0]})[0];
     if (o.methods.empty()) {
         if (!before.empty()) o.methods.push_back(before);
         o.methods.push_back(chapter.name + "+");
@@ -150,7 +151,7 @@ int main(int argc, char** argv) {
         expand_chapter(o);
         if (o.words.empty()) o.words = {"cornell"};
         if (o.methods.empty()) o.methods = {"all"};
-        std::vector<Method> methods = methods_named(o.methods);
+        std::vector<NamedMethod> methods = methods_named(o.methods);
         std::printf("%dx%d pixels, %d renders each, %d threads\n", o.width, o.height, o.runs,
                     o.threads);
         double rounds = static_cast<double>(o.words.size()) * (equal_time ? 2 : 1);

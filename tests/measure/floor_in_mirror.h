@@ -70,25 +70,26 @@ Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-2 1 -2  2 1 -2
         of_seed.seed = seed;
         RenderOptions options;
         options.seed = seed, options.threads = 1, options.quiet = true, options.paths = "LSDSE";
-        SplatPassTrace trace =
-            shrinks ? ch25::merging_passes(own, of_seed) : with_one_radius(own, of_seed);
+        Method trace = shrinks ? ch25::merging_passes(own, of_seed) : with_one_radius(own, of_seed);
         Image image = render_film(own, options, trace).film.image();
         return error([&](int i) { return double{image.pixels[static_cast<size_t>(i)].g}; });
     }
 
     /// Chapter 25 whose every pass is a first pass, with light paths of its own.
-    static SplatPassTrace with_one_radius(const Scene& scene, const PhotonSettings& of_seed) {
-        auto now = std::make_shared<SplatPassTrace>();
-        auto begin = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
+    static Method with_one_radius(const Scene& scene, const PhotonSettings& of_seed) {
+        auto now = std::make_shared<Method>();
+        Method method;
+        method.prepare = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
             PhotonSettings own = of_seed;
             own.seed = of_seed.seed * 1000003u + pass;
             *now = ch25::merging_passes(scene, own);
             now->prepare(0, threads, stopped);
         };
-        auto trace = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
-                         Recorder& recorder) {
+        method.splats = true;
+        method.trace = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
+                           Recorder& recorder) {
             return now->trace(s, ray, splats, sampler, recorder);
         };
-        return {begin, trace};
+        return method;
     }
 };

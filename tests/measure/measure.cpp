@@ -74,8 +74,8 @@ Scene load_scene_for(const std::string& path, const MeasureOptions& options) {
     return scene;
 }
 
-Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& options, int spp,
-                      uint32_t seed, bool classes) {
+Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOptions& options,
+                      int spp, uint32_t seed, bool classes) {
     RenderOptions o;
     o.name = method.name;
     o.threads = options.threads;

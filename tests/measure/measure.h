@@ -33,8 +33,8 @@ Scene load_scene_for(const std::string& path, const MeasureOptions& options);
 /// One render, for which scene.spp is set; `classes`: with the films of the classes of path.
 /// stats.seconds is processor time over threads: what a clock shows on a machine with nothing else
 /// to do.
-Rendering render_once(const Method& method, Scene& scene, const MeasureOptions& options, int spp,
-                      uint32_t seed, bool classes = false);
+Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOptions& options,
+                      int spp, uint32_t seed, bool classes = false);
 
 /// Writes the table to FOLDER/NAME.tsv, and makes the folder.
 void write_table(const std::string& folder, const std::string& name, const Table& table);

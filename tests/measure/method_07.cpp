@@ -8,5 +8,5 @@
                 .finds_light = "by chance",
                 .scenes = {"cornell", "color-bleeding"},
                 .refuse = {refuse_glossy, refuse_delta_lights},
-                .render = by_trace([](const Scene&) { return trace_with<ch07::trace>(); })}),
+                .render = by_trace([](const Scene&) { return method_of<ch07::trace>(); })}),
 };

@@ -8,4 +8,4 @@
                 .finds_light = "by chance",
                 .scenes = {"cornell", "closed-sphere"},
                 .refuse = {refuse_glossy, refuse_delta_lights},
-                .render = by_trace([](const Scene&) { return trace_with<ch08::trace>(); })});
+                .render = by_trace([](const Scene&) { return method_of<ch08::trace>(); })});

@@ -11,7 +11,7 @@ static bool add(const char* name, const char* label, const char* color, LightMea
          .finds_light = "by light sampling",
          .scenes = {"cornell", "near-light", "near-disk"},
          .refuse = {refuse_glossy},
-         .render = by_trace([=](const Scene&) { return trace_with<ch09::trace>(measure); })});
+         .render = by_trace([=](const Scene&) { return method_of<ch09::trace>(measure); })});
 }
 [[maybe_unused]] static const bool added[] = {
     add("09", "09 light sampling", "#1f77b4", LightMeasure::solid_angle),

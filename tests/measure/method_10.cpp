@@ -8,4 +8,4 @@
                 .finds_light = "by light sampling",
                 .scenes = {"cornell", "horizon-sky"},
                 .refuse = {refuse_glossy},
-                .render = by_trace([](const Scene&) { return trace_with<ch10::trace>(); })});
+                .render = by_trace([](const Scene&) { return method_of<ch10::trace>(); })});

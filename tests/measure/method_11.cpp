@@ -9,5 +9,5 @@
                 .scenes = {"thousand-lights", "two-lights", "far-and-near"},
                 .refuse = {refuse_glossy},
                 .render = by_trace([](const Scene& scene) {
-                    return trace_with<ch11::trace>(ch11::prepare(scene));
+                    return method_of<ch11::trace>(ch11::prepare(scene));
                 })});

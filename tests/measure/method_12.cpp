@@ -9,7 +9,7 @@ static bool add(const char* name, const char* label, const char* color, int M) {
                        .scenes = {"thousand-lights", "hidden-light"},
                        .refuse = {refuse_glossy},
                        .render = by_trace([=](const Scene& scene) {
-                           return trace_with<ch12::trace>(ch12::prepare(scene, M));
+                           return method_of<ch12::trace>(ch12::prepare(scene, M));
                        })});
 }
 [[maybe_unused]] static const bool added[] = {

@@ -3,21 +3,21 @@
 
 using ch13::Strategy;
 
-static Method method(const char* name, const char* label, const char* color,
-                     const char* finds_light, Strategy strategy) {
+static NamedMethod method(const char* name, const char* label, const char* color,
+                          const char* finds_light, Strategy strategy) {
     return {.name = name,
             .label = label,
             .color = color,
             .finds_light = finds_light,
             .scenes = {"veach-mis"},
             .render = by_trace([=](const Scene& scene) {
-                return trace_with<ch13::trace>(ch13::prepare(scene), strategy);
+                return method_of<ch13::trace>(ch13::prepare(scene), strategy);
             })};
 }
 
 /// Directions of the BSDF alone never meet a point light.
-static Method bsdf_alone() {
-    Method m =
+static NamedMethod bsdf_alone() {
+    NamedMethod m =
         method("13-bsdf", "13 glossy, by the BSDF alone", "#ff0077", "by chance", Strategy::bsdf);
     m.refuse = {refuse_delta_lights};
     return m;

@@ -1,15 +1,15 @@
 #include "chapters/14_mis/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color,
-                     float (*heuristic)(float, float)) {
+static NamedMethod method(const char* name, const char* label, const char* color,
+                          float (*heuristic)(float, float)) {
     return {.name = name,
             .label = label,
             .color = color,
             .finds_light = "both ways",
             .scenes = {"veach-mis", "near-disk", "cornell"},
             .render = by_trace([=](const Scene& scene) {
-                return trace_with<ch14::trace>(ch14::prepare(scene, heuristic));
+                return method_of<ch14::trace>(ch14::prepare(scene, heuristic));
             })};
 }
 

@@ -1,11 +1,11 @@
 #include "chapters/15_mis_ris/estimator.h"
 #include "tests/measure/methods.h"
 
-static Trace with_candidates(const Scene& scene, int M) {
-    return trace_with<ch15::trace>(ch15::prepare(scene, M));
+static Method with_candidates(const Scene& scene, int M) {
+    return method_of<ch15::trace>(ch15::prepare(scene, M));
 }
 
-static Method method(const char* name, const char* label, const char* color, int M = 64) {
+static NamedMethod method(const char* name, const char* label, const char* color, int M = 64) {
     return {.name = name,
             .label = label,
             .color = color,
@@ -14,8 +14,8 @@ static Method method(const char* name, const char* label, const char* color, int
             .render = by_trace([=](const Scene& scene) { return with_candidates(scene, M); })};
 }
 
-static Method with_sobol() {
-    Method m = method("15-sobol", "15 MIS with RIS, Sobol", "#393b79");
+static NamedMethod with_sobol() {
+    NamedMethod m = method("15-sobol", "15 MIS with RIS, Sobol", "#393b79");
     m.render = [render = m.render](const Scene& scene, RenderOptions options) {
         options.sampler = SamplerType::sobol;
         return render(scene, options);

@@ -1,9 +1,10 @@
 #include "chapters/16_lens_and_shutter/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
+static NamedMethod method(const char* name, const char* label, const char* color,
+                          SamplerType sampler) {
     auto render =
-        by_trace([](const Scene& scene) { return trace_with<ch16::trace>(ch16::prepare(scene)); });
+        by_trace([](const Scene& scene) { return method_of<ch16::trace>(ch16::prepare(scene)); });
     return {.name = name,
             .label = label,
             .color = color,

@@ -1,10 +1,10 @@
 #include "chapters/17_sky_image/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color,
-                     SamplerType sampler = SamplerType::independent, bool compensate = true) {
+static NamedMethod method(const char* name, const char* label, const char* color,
+                          SamplerType sampler = SamplerType::independent, bool compensate = true) {
     auto render = by_trace([=](const Scene& scene) {
-        return trace_with<ch17::trace>(ch17::prepare(scene, 64, compensate));
+        return method_of<ch17::trace>(ch17::prepare(scene, 64, compensate));
     });
     return {.name = name,
             .label = label,

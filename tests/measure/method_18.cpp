@@ -1,9 +1,10 @@
 #include "chapters/18_dispersion/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, SamplerType sampler) {
+static NamedMethod method(const char* name, const char* label, const char* color,
+                          SamplerType sampler) {
     auto render = by_trace([](const Scene& scene) {
-        return trace_with<ch18::trace>(ch18::prepare(scene), shares_of_white());
+        return method_of<ch18::trace>(ch18::prepare(scene), shares_of_white());
     });
     return {.name = name,
             .label = label,

@@ -1,7 +1,7 @@
 #include "chapters/19_adaptive/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color) {
+static NamedMethod method(const char* name, const char* label, const char* color) {
     return {.name = name,
             .label = label,
             .color = color,
@@ -10,10 +10,10 @@ static Method method(const char* name, const char* label, const char* color) {
             .render =
                 [](const Scene& scene, const RenderOptions& options) {
                     ch19::SampleDensities densities;
-                    return render_film(
-                        scene, options,
-                        trace_with<ch19::trace>(ch19::prepare(scene), shares_of_white()),
-                        ch19::allocation(densities));
+                    Method adaptive =
+                        method_of<ch19::trace>(ch19::prepare(scene), shares_of_white());
+                    adaptive.allocation = ch19::allocation(densities);
+                    return render_film(scene, options, adaptive);
                 },
             .features = features_of(19)};
 }

@@ -11,8 +11,7 @@ static void refuse_seen_mirrors(const Scene& scene) {
 }
 
 static Rendering by_light(const Scene& scene, const RenderOptions& options) {
-    return render_film(scene, options,
-                       trace_light_with<ch20::trace_light>(ch20::endpoints_of(scene)));
+    return render_film(scene, options, method_of<ch20::trace_light>(ch20::endpoints_of(scene)));
 }
 
 [[maybe_unused]] static const bool added = add_method({.name = "20",

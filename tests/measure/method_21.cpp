@@ -9,6 +9,6 @@
      .scenes = {"cornell-spheres", "cornell", "lamp"},
      .render =
          [](const Scene& scene, const RenderOptions& options) {
-             return render_film(scene, options, splat_trace_with<ch21::trace>(endpoints_of(scene)));
+             return render_film(scene, options, method_of<ch21::trace>(endpoints_of(scene)));
          },
      .search = LightSearch::both_ends});

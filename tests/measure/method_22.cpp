@@ -1,8 +1,8 @@
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "tests/measure/methods.h"
 
-static Method method(const char* name, const char* label, const char* color, int chances,
-                     bool light_sampling) {
+static NamedMethod method(const char* name, const char* label, const char* color, int chances,
+                          bool light_sampling) {
     return {.name = name,
             .label = label,
             .color = color,
@@ -10,9 +10,9 @@ static Method method(const char* name, const char* label, const char* color, int
             .scenes = {"cornell-spheres", "cornell", "lamp"},
             .render =
                 [=](const Scene& scene, const RenderOptions& options) {
-                    return render_film(scene, options,
-                                       splat_trace_with<ch22::trace>(
-                                           ch22::prepare(scene, chances, light_sampling)));
+                    return render_film(
+                        scene, options,
+                        method_of<ch22::trace>(ch22::prepare(scene, chances, light_sampling)));
                 },
             .search = LightSearch::both_ends};
 }

@@ -8,8 +8,8 @@
 
 namespace {
 
-std::vector<Method>& registry() {
-    static std::vector<Method> methods;
+std::vector<NamedMethod>& registry() {
+    static std::vector<NamedMethod> methods;
     return methods;
 }
 
@@ -24,29 +24,29 @@ std::vector<std::string> scenes_in(const char* folder) {
 
 }  // namespace
 
-bool add_method(const Method& method) {
+bool add_method(const NamedMethod& method) {
     auto& methods = registry();
-    auto before = [](const Method& a, const Method& b) { return a.name < b.name; };
+    auto before = [](const NamedMethod& a, const NamedMethod& b) { return a.name < b.name; };
     methods.insert(std::upper_bound(methods.begin(), methods.end(), method, before), method);
     return true;
 }
 
-const std::vector<Method>& all_methods() { return registry(); }
+const std::vector<NamedMethod>& all_methods() { return registry(); }
 
 std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
-    const std::function<Trace(const Scene&)>& make_trace) {
+    const std::function<Method(const Scene&)>& make_trace) {
     return [=](const Scene& scene, const RenderOptions& options) {
         return render_film(scene, options, make_trace(scene));
     };
 }
 
-std::vector<Method> methods_named(const std::vector<std::string>& names) {
-    std::vector<Method> found;
+std::vector<NamedMethod> methods_named(const std::vector<std::string>& names) {
+    std::vector<NamedMethod> found;
     std::vector<std::string> known;
-    for (const Method& m : all_methods()) known.push_back(m.name);
+    for (const NamedMethod& m : all_methods()) known.push_back(m.name);
     for (const std::string& name : names) {
         size_t before = found.size();
-        for (const Method& m : all_methods()) {
+        for (const NamedMethod& m : all_methods()) {
             bool plus = name.size() == 3 && name[2] == '+';
             bool wanted = plus            ? m.name.substr(0, 2) == name.substr(0, 2)
                           : name == "all" ? !is_variant(m)
@@ -58,12 +58,12 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
     return found;
 }
 
-void refuse(const Method& method, const Scene& scene) {
+void refuse(const NamedMethod& method, const Scene& scene) {
     refuse_features(scene, method.features);
     for (auto check : method.refuse) check(scene);
 }
 
-bool can_render(const Method& method, const Scene& scene) {
+bool can_render(const NamedMethod& method, const Scene& scene) {
     try {
         refuse(method, scene);
     } catch (const InputError&) {

@@ -14,7 +14,7 @@
 
 #include "common/program/render.h"
 
-struct Method {
+struct NamedMethod {
     std::string name;                      // "09"; with an option of the chapter, "09-area"
     std::string label = {};                // in legends
     std::string color = {};                // "#rrggbb"
@@ -28,27 +28,27 @@ struct Method {
 };
 
 /// Whether the method is a chapter with an option, and not the chapter as it is.
-inline bool is_variant(const Method& method) { return method.name.size() > 2; }
+inline bool is_variant(const NamedMethod& method) { return method.name.size() > 2; }
 
 /// Adds to all_methods(); returns true.
-bool add_method(const Method& method);
+bool add_method(const NamedMethod& method);
 
 /// render for a chapter that has nothing but trace(): `make_trace` hands it what it needs of the
 /// scene.
 std::function<Rendering(const Scene&, const RenderOptions&)> by_trace(
-    const std::function<Trace(const Scene&)>& make_trace);
+    const std::function<Method(const Scene&)>& make_trace);
 
 /// All methods, sorted by name.
-const std::vector<Method>& all_methods();
+const std::vector<NamedMethod>& all_methods();
 
 /// The methods of these names, or UsageError. "all": every chapter; "09+": chapter 09 and its
 /// variants.
-std::vector<Method> methods_named(const std::vector<std::string>& names);
+std::vector<NamedMethod> methods_named(const std::vector<std::string>& names);
 
 /// Throws InputError when the method cannot render the scene.
-void refuse(const Method& method, const Scene& scene);
+void refuse(const NamedMethod& method, const Scene& scene);
 /// Whether the method can render the scene.
-bool can_render(const Method& method, const Scene& scene);
+bool can_render(const NamedMethod& method, const Scene& scene);
 
 /// The scenes of scenes/, as paths; and those with the ones of tests/pictures/references/.
 std::vector<std::string> own_scenes();

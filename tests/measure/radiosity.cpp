@@ -34,9 +34,9 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
     Solved result{patch.size(), watch.seconds() / threads, 0, 0};
     auto error = [&](Show how) {
         Shown shown = ch26::show(scene, patches, s, how, threads);
-        Method method{.name = "26", .render = by_trace([&](const Scene&) {
-                                        return trace_with<ch26::trace>(shown);
-                                    })};
+        NamedMethod method{.name = "26", .render = by_trace([&](const Scene&) {
+                                             return method_of<ch26::trace>(shown);
+                                         })};
         return compare(render_once(method, scene, o, o.spp, 0).film.image(), reference).rel_mse;
     };
     result.constant = error(Show::constant), result.smooth = error(Show::smooth);
@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
         Scene scene = load_scene_for(path, o);
         refuse(scene);
         tessellate(scene, o.threads);
-        Method fifteen = methods_named({"15"})[0];
+        NamedMethod fifteen = methods_named({"15"})[0];
         Work work("radiosity: patches of chapter 26 beside paths of 15, " + name, 10);
         work.next("reference");
         Image reference = render_once(fifteen, scene, o, o.spp, 0).film.image();

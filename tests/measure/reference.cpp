@@ -11,23 +11,23 @@ std::string reference_path(const std::string& scene, const std::string& method) 
     return std::string(reference_folder) + "/" + file_name(scene) + "." + method;
 }
 
-Reference reference_for(const std::string& scene, const Method& under_test, int width, int height,
-                        int max_depth) {
+Reference reference_for(const std::string& scene, const NamedMethod& under_test, int width,
+                        int height, int max_depth) {
     Reference reference;
     reference.image = Image(width, height);
     // Take those that find light another way; else of other chapters; else of other options.
-    auto made = [&](const Method& method) {
+    auto made = [&](const NamedMethod& method) {
         return std::filesystem::exists(reference_path(scene, method.name) + ".pfm");
     };
-    auto difference = [&](const Method& method) {
+    auto difference = [&](const NamedMethod& method) {
         if (!made(method) || method.name == under_test.name) return 0;
         if (method.name.substr(0, 2) == under_test.name.substr(0, 2)) return 1;
         return method.finds_light == under_test.finds_light ? 2 : 3;
     };
     int most = 1;
-    for (const Method& method : all_methods()) most = std::max(most, difference(method));
+    for (const NamedMethod& method : all_methods()) most = std::max(most, difference(method));
     double weights = 0, rel_weights = 0;
-    for (const Method& method : all_methods()) {
+    for (const NamedMethod& method : all_methods()) {
         if (difference(method) < most) continue;
         std::string path = reference_path(scene, method.name);
         Image image = read_image(path + ".pfm");

@@ -20,5 +20,5 @@ std::string reference_path(const std::string& scene, const std::string& method);
 /// The references of a scene (by scene_name) that were made by methods as different as can be from
 /// the one under test, weighed by their errors. Throws InputError when there is none of this size
 /// and depth.
-Reference reference_for(const std::string& scene, const Method& under_test, int width, int height,
-                        int max_depth);
+Reference reference_for(const std::string& scene, const NamedMethod& under_test, int width,
+                        int height, int max_depth);

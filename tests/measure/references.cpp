@@ -14,13 +14,14 @@
 
 namespace {
 
-std::string part_path(const Method& method, const Scene& scene, const MeasureOptions& o, int seed) {
+std::string part_path(const NamedMethod& method, const Scene& scene, const MeasureOptions& o,
+                      int seed) {
     std::filesystem::path name = reference_path(scene_name(scene.file), method.name);
     return o.out + "/" + name.filename().string() + "." + std::to_string(seed) + film_ending;
 }
 
 /// One part, from the folder when it was rendered before.
-LabeledFilm render_part(const Method& method, const Scene& scene, const MeasureOptions& o,
+LabeledFilm render_part(const NamedMethod& method, const Scene& scene, const MeasureOptions& o,
                         int seed) {
     RenderOptions options;
     options.name = method.name;
@@ -36,7 +37,7 @@ LabeledFilm render_part(const Method& method, const Scene& scene, const MeasureO
 }
 
 /// How many samples a part takes: a power of two, as the parts before it, or what o.seconds allow.
-int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int first_seed) {
+int part_samples(const NamedMethod& method, Scene scene, const MeasureOptions& o, int first_seed) {
     std::string first = part_path(method, scene, o, first_seed);
     if (std::filesystem::exists(first)) return static_cast<int>(read_film(first).film.spp());
     constexpr int trial = 16;
@@ -48,7 +49,7 @@ int part_samples(const Method& method, Scene scene, const MeasureOptions& o, int
 /// The two methods whose references of this scene are there.
 std::vector<std::string> made_for(const std::string& scene) {
     std::vector<std::string> names;
-    for (const Method& method : all_methods())
+    for (const NamedMethod& method : all_methods())
         if (std::filesystem::exists(reference_path(scene, method.name) + ".pfm"))
             names.push_back(method.name);
     if (names.empty())
@@ -59,7 +60,7 @@ std::vector<std::string> made_for(const std::string& scene) {
 /// Merges the parts; how far they lie apart says how sure the whole is.
 ///
 /// first_seed  other for each method: the same numbers would make the same errors
-void make_reference(const Method& method, const Scene& scene, const MeasureOptions& o,
+void make_reference(const NamedMethod& method, const Scene& scene, const MeasureOptions& o,
                     const std::string& command, int first_seed) {
     LabeledFilm sum = render_part(method, scene, o, first_seed);
     Spread spread;
@@ -93,7 +94,7 @@ void make_reference(const Method& method, const Scene& scene, const MeasureOptio
 
 /// Those of methods that were chosen some other time.
 void remove_references(const std::string& scene) {
-    for (const Method& method : all_methods()) {
+    for (const NamedMethod& method : all_methods()) {
         for (const char* ending : {".pfm", ".json"}) {
             std::filesystem::remove(reference_path(scene, method.name) + ending);
         }
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
                 o.methods.empty() ? made_for(scene_name(scene.file)) : o.methods;
             remove_references(scene_name(scene.file));
             int first_seed = 1;
-            for (const Method& method : methods_named(names)) {
+            for (const NamedMethod& method : methods_named(names)) {
                 refuse(method, scene);
                 scene.spp = o.spp > 0 ? o.spp : part_samples(method, scene, o, first_seed);
                 make_reference(method, scene, o, command_line(argc, argv), first_seed);

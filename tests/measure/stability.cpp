@@ -23,7 +23,7 @@ struct Observed {
 
 constexpr double rounding = 1e-5;  // relative, of float
 
-Observed observe(const Method& method, Scene& scene, const StabilityCase& c,
+Observed observe(const NamedMethod& method, Scene& scene, const StabilityCase& c,
                  const MeasureOptions& o) {
     Observed seen;
     for (int run = 0; run < o.runs; run++) {
@@ -116,8 +116,8 @@ Verdict judge(const Observed& seen, const StabilityCase& c,
     return v;
 }
 
-std::vector<std::string> row_of(const StabilityCase& c, const Method& method, const Observed& seen,
-                                const Verdict& verdict) {
+std::vector<std::string> row_of(const StabilityCase& c, const NamedMethod& method,
+                                const Observed& seen, const Verdict& verdict) {
     double se = seen.mean.standard_error(), away = seen.mean.mean() - c.truth;
     auto percent = [](double share) { return short_number(100 * share); };
     return {c.name,
@@ -137,7 +137,7 @@ struct Verdicts {
     std::map<std::string, std::map<std::string, std::string>> words;  // by scene and method
     int failures = 0;
 
-    void add(const StabilityCase& c, const Method& method, const Verdict& verdict,
+    void add(const StabilityCase& c, const NamedMethod& method, const Verdict& verdict,
              std::vector<std::string> row) {
         rows.rows.push_back(std::move(row));
         if (scenes.empty() || scenes.back() != c.name) scenes.push_back(c.name);
@@ -170,7 +170,7 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdi
     Scene scene = parse_scene(c.name, c.scene, nullptr);
     prepare(scene, 1);
     for (const StabilityCase::Expected& expected : c.expected) {
-        for (const Method& method : methods_named(expected.methods)) {
+        for (const NamedMethod& method : methods_named(expected.methods)) {
             if (!can_render(method, scene))
                 throw InputError("error: " + method.name + " refuses " + c.name);
             Observed seen = observe(method, scene, c, o);
@@ -178,7 +178,7 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Verdicts& verdi
             verdicts.add(c, method, verdict, row_of(c, method, seen, verdict));
         }
     }
-    for (const Method& method : methods_named(c.refuse)) {
+    for (const NamedMethod& method : methods_named(c.refuse)) {
         Verdict verdict{can_render(method, scene) ? "FAILS" : "refuses"};
         verdicts.add(c, method, verdict, {c.name, method.name, "-", "-", "-", "-", verdict.text()});
     }

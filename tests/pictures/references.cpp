@@ -53,9 +53,9 @@ Agreement hold_against_reference(const std::string& name, const MakeTrace& make_
 }
 
 // Each chapter's trace, from the scene.
-Trace seven(const Scene&) { return trace_with<ch07::trace>(); }
-Trace eight(const Scene&) { return trace_with<ch08::trace>(); }
-Trace fifteen(const Scene& scene) { return trace_with<ch15::trace>(ch15::prepare(scene)); }
+Method seven(const Scene&) { return method_of<ch07::trace>(); }
+Method eight(const Scene&) { return method_of<ch08::trace>(); }
+Method fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
 
 }  // namespace
 
@@ -118,9 +118,9 @@ TEST_SUITE("references slow") {
             CAPTURE(name);
             Reference reference("references/" + name);
             Scene scene = scene_from("tests/pictures/references/" + name + ".pbrt", 128, 100);
-            SplatTrace lesson = splat_trace_with<ch21::trace>(endpoints_of(scene));
-            SplatTrace fast = splat_trace_with<ch22::trace>(ch22::prepare(scene));
-            for (const SplatTrace& trace : {lesson, fast}) {
+            Method lesson = method_of<ch21::trace>(endpoints_of(scene));
+            Method fast = method_of<ch22::trace>(ch22::prepare(scene));
+            for (const Method& trace : {lesson, fast}) {
                 BlockMeans means = blocks_of(scene, trace, 8, 32, 32);
                 check_agreement(
                     hold_against(

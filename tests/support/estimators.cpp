@@ -20,7 +20,7 @@ std::string disk(double R, double h, double x) {
            " 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" " + std::to_string(R) + "\n";
 }
 
-RunningStats repeat(const Scene& scene, const Ray& ray, const Trace& trace, int paths,
+RunningStats repeat(const Scene& scene, const Ray& ray, const Method& trace, int paths,
                     uint32_t seed, double scale) {
     return in_blocks<RunningStats>(paths, [&](int first, int last) {
         RunningStats stats;
@@ -34,7 +34,7 @@ RunningStats repeat(const Scene& scene, const Ray& ray, const Trace& trace, int 
     });
 }
 
-RunningStats irradiance(const Scene& scene, const Trace& trace, int paths, uint32_t seed) {
+RunningStats irradiance(const Scene& scene, const Method& trace, int paths, uint32_t seed) {
     return repeat(scene, onto_origin, trace, paths, seed, pi_exact);
 }
 

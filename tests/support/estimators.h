@@ -26,11 +26,11 @@ std::string unit_square(double h, double x = 0, double z = 0);
 std::string disk(double R, double h, double x = 0);
 
 /// The green channel of one ray, over and over.
-RunningStats repeat(const Scene& scene, const Ray& ray, const Trace& trace, int paths,
+RunningStats repeat(const Scene& scene, const Ray& ray, const Method& trace, int paths,
                     uint32_t seed = 1, double scale = 1);
 
 /// Samples of the irradiance at the origin of floor_under().
-RunningStats irradiance(const Scene& scene, const Trace& trace, int paths, uint32_t seed = 1);
+RunningStats irradiance(const Scene& scene, const Method& trace, int paths, uint32_t seed = 1);
 
 /// The mean is within 5 of its own standard errors, and those are at most a share `relative_se`:
 /// for estimators whose samples are bounded by a few times their mean.

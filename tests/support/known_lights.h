@@ -43,7 +43,7 @@ inline Scene light_before_mirror() {
     return world_of("Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] Shape \"sphere\"\n" +
                     shining + "Translate 0 0 -9 Rotate -90 1 0 0 Scale 9 1 9 " + square(0, false));
 }
-inline void check_light_before_mirror(const Scene& mirror, const Trace& trace) {
+inline void check_light_before_mirror(const Scene& mirror, const Method& trace) {
     RunningStats s = repeat(mirror, {{0, 0, -4}, {0, 0, 1}}, trace, 100);
     CHECK(s.mean() == doctest::Approx(0.9).epsilon(1e-5).scale(0));
     CHECK(s.variance() < 1e-10);

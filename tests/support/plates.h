@@ -27,7 +27,7 @@ struct PlateAndLamp {
         REQUIRE(intersect(scene, ray)->material->alpha == alpha[plate]);
     }
 
-    RunningStats sample(const Trace& trace, int paths, uint32_t seed = 1) const {
+    RunningStats sample(const Method& trace, int paths, uint32_t seed = 1) const {
         return repeat(scene, ray, trace, paths, seed);
     }
 };

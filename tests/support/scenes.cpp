@@ -51,9 +51,8 @@ std::string square(float y, bool up) {
            " -1  -1 " + h + " 1  1 " + h + " 1  1 " + h + " -1]\n";
 }
 
-template <class AnyTrace>
-Rendering render_with(const Scene& scene, const AnyTrace& trace, int spp, uint32_t seed,
-                      SamplerType sampler) {
+Rendering film_of(const Scene& scene, const Method& method, int spp, uint32_t seed,
+                  SamplerType sampler) {
     Scene of_spp = scene;
     of_spp.spp = spp;
     RenderOptions options;
@@ -61,25 +60,9 @@ Rendering render_with(const Scene& scene, const AnyTrace& trace, int spp, uint32
     options.sampler = sampler;
     options.threads = static_cast<int>(std::thread::hardware_concurrency());
     options.quiet = true;
-    Rendering r = render_film(of_spp, options, trace);
+    Rendering r = render_film(of_spp, options, method);
     REQUIRE(r.stats.not_finite == 0);
     return r;
-}
-Rendering film_of(const Scene& scene, const Trace& trace, int spp, uint32_t seed,
-                  SamplerType sampler) {
-    return render_with(scene, trace, spp, seed, sampler);
-}
-Rendering film_of(const Scene& scene, const SplatTrace& trace, int spp, uint32_t seed,
-                  SamplerType sampler) {
-    return render_with(scene, trace, spp, seed, sampler);
-}
-Rendering film_of(const Scene& scene, const PassTrace& trace, int spp, uint32_t seed,
-                  SamplerType sampler) {
-    return render_with(scene, trace, spp, seed, sampler);
-}
-Rendering film_of(const Scene& scene, const SplatPassTrace& trace, int spp, uint32_t seed,
-                  SamplerType sampler) {
-    return render_with(scene, trace, spp, seed, sampler);
 }
 
 double z_between(Measured a, Measured b) {
@@ -118,7 +101,7 @@ void check_agreement(const Agreement& a, double relative_se) {
     CHECK(a.relative_se <= relative_se);
 }
 
-PathCensus part_of_census(const Scene& scene, const SplatTrace& trace, int first, int last,
+PathCensus part_of_census(const Scene& scene, const Method& method, int first, int last,
                           uint32_t seed, const std::string& filter) {
     PathCensus census;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
@@ -132,7 +115,7 @@ PathCensus part_of_census(const Scene& scene, const SplatTrace& trace, int first
         splats.clear();
         Vec2 u = sampler.u2();
         Vec2 film = {u.x * static_cast<float>(scene.width), u.y * static_cast<float>(scene.height)};
-        Rgb L = trace(scene, camera_ray(view, film), splats, sampler, recorder);
+        Rgb L = method.trace(scene, camera_ray(view, film), splats, sampler, recorder);
         for (const Splat& splat : splats) L += splat.L;
         std::map<std::string, double> by_class;
         std::map<size_t, double> by_length;
@@ -153,20 +136,11 @@ PathCensus part_of_census(const Scene& scene, const SplatTrace& trace, int first
     return census;
 }
 
-PathCensus census_of(const Scene& scene, const SplatTrace& trace, int paths, uint32_t seed,
+PathCensus census_of(const Scene& scene, const Method& method, int paths, uint32_t seed,
                      const std::string& filter) {
     PathCensus census = in_blocks<PathCensus>(paths, [&](int first, int last) {
-        return part_of_census(scene, trace, first, last, seed, filter);
+        return part_of_census(scene, method, first, last, seed, filter);
     });
     census.paths = paths;
     return census;
-}
-
-PathCensus census_of(const Scene& scene, const Trace& trace, int paths, uint32_t seed,
-                     const std::string& filter) {
-    SplatTrace without_splats = [&](const Scene& s, Ray ray, Splats&, Sampler& sampler,
-                                    Recorder& recorder) {
-        return trace(s, ray, sampler, recorder);
-    };
-    return census_of(scene, without_splats, paths, seed, filter);
 }

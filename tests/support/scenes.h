@@ -35,13 +35,7 @@ Scene scene_from(const std::string& path, int size, int max_depth);
 /// A square of side 2 at height y (before the transforms in front of it), facing +y or -y.
 std::string square(float y, bool up);
 
-Rendering film_of(const Scene& scene, const Trace& trace, int spp, uint32_t seed = 1,
-                  SamplerType sampler = SamplerType::independent);
-Rendering film_of(const Scene& scene, const SplatTrace& trace, int spp, uint32_t seed = 1,
-                  SamplerType sampler = SamplerType::independent);
-Rendering film_of(const Scene& scene, const PassTrace& trace, int spp, uint32_t seed = 1,
-                  SamplerType sampler = SamplerType::independent);
-Rendering film_of(const Scene& scene, const SplatPassTrace& trace, int spp, uint32_t seed = 1,
+Rendering film_of(const Scene& scene, const Method& method, int spp, uint32_t seed = 1,
                   SamplerType sampler = SamplerType::independent);
 
 /// A measured mean and its standard error.
@@ -138,10 +132,8 @@ Result in_blocks(int count, const Part& part_of) {
 }
 
 /// The paths [first, last) of a census; of those whose class the filter matches.
-PathCensus part_of_census(const Scene& scene, const SplatTrace& trace, int first, int last,
+PathCensus part_of_census(const Scene& scene, const Method& trace, int first, int last,
                           uint32_t seed, const std::string& filter);
 
-PathCensus census_of(const Scene& scene, const SplatTrace& trace, int paths, uint32_t seed,
-                     const std::string& filter = "");
-PathCensus census_of(const Scene& scene, const Trace& trace, int paths, uint32_t seed,
+PathCensus census_of(const Scene& scene, const Method& method, int paths, uint32_t seed,
                      const std::string& filter = "");

@@ -1,8 +1,8 @@
 // Chapter 16 for tests: tests/chapters/ch16.cpp compiles its trace() for all of them.
 #pragma once
 #include "chapters/16_lens_and_shutter/estimator.h"
-#include "common/path/trace.h"
+#include "common/path/method.h"
 
 #ifdef ALL_TESTS
-extern template Trace trace_with<ch16::trace>(many_lights::Lights);
+extern template Method method_of<ch16::trace>(many_lights::Lights);
 #endif

@@ -1,8 +1,8 @@
 // Chapter 19 for tests: tests/chapters/ch19.cpp compiles its trace() for all of them.
 #pragma once
 #include "chapters/19_adaptive/estimator.h"
-#include "common/path/trace.h"
+#include "common/path/method.h"
 
 #ifdef ALL_TESTS
-extern template Trace trace_with<ch19::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
+extern template Method method_of<ch19::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
 #endif

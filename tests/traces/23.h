@@ -4,5 +4,5 @@
 #include "chapters/23_photon_mapping/estimator.h"
 
 #ifdef ALL_TESTS
-extern template PassTrace passes_of<ch23::photon_passes>(const Scene&, const ch23::PhotonSettings&);
+extern template Method passes_of<ch23::photon_passes>(const Scene&, const ch23::PhotonSettings&);
 #endif

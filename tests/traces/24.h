@@ -4,5 +4,5 @@
 #include "chapters/24_progressive_photons/estimator.h"
 
 #ifdef ALL_TESTS
-extern template PassTrace passes_of<ch24::photon_passes>(const Scene&, const PhotonSettings&);
+extern template Method passes_of<ch24::photon_passes>(const Scene&, const PhotonSettings&);
 #endif

@@ -4,5 +4,5 @@
 #include "chapters/25_vertex_merging/estimator.h"
 
 #ifdef ALL_TESTS
-extern template SplatPassTrace passes_of<ch25::merging_passes>(const Scene&, const PhotonSettings&);
+extern template Method passes_of<ch25::merging_passes>(const Scene&, const PhotonSettings&);
 #endif

@@ -22,8 +22,8 @@ namespace {
 
 using Change = std::function<void(Scene&)>;
 
-Image picture_of(const std::string& text, const Method& method, const MeasureOptions& o, int spp,
-                 uint32_t seed, const Change& change = {}) {
+Image picture_of(const std::string& text, const NamedMethod& method, const MeasureOptions& o,
+                 int spp, uint32_t seed, const Change& change = {}) {
     bool shines = text.find("rgb L") != std::string::npos;  // a scene must have a light
     std::string dim = shines ? "" : "LightSource \"infinite\" \"rgb L\" [1e-9 1e-9 1e-9]\n";
     Scene scene = parse_scene("small.pbrt", text + dim, nullptr);
@@ -201,7 +201,7 @@ int write_effects(const MeasureOptions& o, const std::string& rows) {
         for (char name : cells[1]) {
             bool is_code = ways.contains(name);
             const Way& way = ways.at(is_code ? name : 'm');
-            const Method method = methods_named({way.method}).at(0);
+            const NamedMethod method = methods_named({way.method}).at(0);
             planted::cosine = way.cosine, planted::sky = way.sky;
             std::string effects;
             std::map<std::string, Tiles> all;

@@ -1,0 +1,82 @@
+// A chapter's estimator, as the renderer calls it, with what the chapter has prepared bound to it.
+#pragma once
+#include <functional>
+#include <type_traits>
+
+#include "common/base/parallel.h"
+#include "common/path/allocation.h"
+#include "common/path/sampler.h"
+#include "common/path/splats.h"
+#include "common/recording/recorder.h"
+
+/// What a chapter hands to the renderer.
+struct Method {
+    /// One sample of the radiance that arrives along the ray. Paths that start at lights add
+    /// contributions to other pixels to the splats.
+    std::function<Rgb(const Scene&, const Ray&, Splats&, Sampler&, Recorder&)> trace;
+    bool splats = false;  // whether it adds any
+
+    /// Prepares something for each pass, such as photons. A pass is one sample of every pixel; its
+    /// samples depend on each other, since they share what was prepared. What is prepared for one
+    /// pass must not depend on what is prepared for another. Called before sample number `pass` of
+    /// any pixel; if `stopped()`, it returns early, and the pass does not start. Empty: nothing.
+    std::function<void(uint32_t pass, int threads, const Stopped& stopped)> prepare = {};
+    float first_radius = 0;  // m, in which photons of the first pass count; 0: there are none
+
+    Allocation allocation = {};  // of samples to pixels
+
+    Method() = default;
+    /// From a function object that has the parameters of trace, or all but the splats.
+    template <class Sample>
+    requires(!std::is_same_v<Sample, Method>) Method(Sample sample) {
+        constexpr bool adds_splats =
+            std::is_invocable_v<Sample, const Scene&, Ray, Splats&, Sampler&, Recorder&>;
+        splats = adds_splats;
+        if constexpr (adds_splats)
+            trace = std::move(sample);
+        else
+            trace = [=](const Scene& scene, const Ray& ray, Splats&, Sampler& sampler,
+                        Recorder& recorder) { return sample(scene, ray, sampler, recorder); };
+    }
+    /// One sample, without what it adds to other pixels.
+    Rgb operator()(const Scene& scene, const Ray& ray, Sampler& sampler, Recorder& recorder) const {
+        Splats none;
+        return trace(scene, ray, none, sampler, recorder);
+    }
+};
+
+/// Copies number by number: `volatile` forbids wider loads, which would have to wait until the
+/// numbers just written have reached the cache.
+inline Ray copy_of(const volatile Ray& ray) {
+    return {
+        {ray.o.x, ray.o.y, ray.o.z}, {ray.d.x, ray.d.y, ray.d.z}, ray.t_max, ray.time, ray.from};
+}
+
+/// A chapter's trace(), with what the chapter has prepared as its arguments after the scene. It may
+/// have splats, as in chapter 22; in chapter 20 it has these alone, and no ray.
+///
+/// gnu::flatten inlines all that trace() calls, which makes it a fifth faster.
+template <auto trace, class... Own>
+Method method_of(Own... own) {
+    using Function = decltype(trace);
+    constexpr bool has_ray =
+        std::is_invocable_v<Function, const Scene&, const Own&..., Ray, Sampler&, Recorder&>;
+    constexpr bool has_splats =
+        std::is_invocable_v<Function, const Scene&, const Own&..., Splats&, Sampler&, Recorder&>;
+    Method method;
+    method.splats = !has_ray;
+    method.trace = [... own = std::move(own)](const Scene& scene, [[maybe_unused]] const Ray& ray,
+                                              [[maybe_unused]] Splats& splats, Sampler& sampler,
+                                              Recorder& recorder) __attribute__((flatten))
+                       ->Rgb {
+        if constexpr (has_ray) {
+            return trace(scene, own..., copy_of(ray), sampler, recorder);
+        } else if constexpr (has_splats) {
+            trace(scene, own..., splats, sampler, recorder);
+            return {};
+        } else {
+            return trace(scene, own..., ray, splats, sampler, recorder);
+        }
+    };
+    return method;
+}
