@@ -40,7 +40,7 @@ inline double by_centres(const Patch& p, const Patch& q, Vec3 x, Vec3 y) {
 /// The part of the polygon below the horizon of x is cut off; 0 for a polygon seen from behind. In
 /// double: the terms of a far polygon nearly cancel.
 /// source  Lambert 1760; Hottel, Sarofim 1967
-/// tested by  "truth: form factors by contour of squares and disks", within 1e-4
+/// tested by  "truth: form factors by contour of squares", within 1e-4
 inline double point_to_polygon(Vec3 x, Vec3 n, std::span<const Vec3> polygon) {
     Vec3d normal = Vec3d(n), o = Vec3d(x), above[8];
     size_t count = 0;
@@ -90,7 +90,7 @@ inline std::array<std::array<Vec3, 2>, 4> pairs_of_points(const Patch& p, const 
 /// What two patches exchange: G, m^2. It is the fraction of four rays between them that nothing
 /// stops, times G without walls. The latter is computed from points of the smaller patch: the few
 /// points of the larger one may all be far from the smaller. key: of the random numbers.
-/// tested by  "truth: form factors by contour of squares and disks", within 1e-4
+/// tested by  "truth: form factors by contour of squares", within 1e-4
 /// tested by  "truth: a small patch and a large one at decades of size and distance", to 1e-3
 inline double exchange(const Scene& scene, const Patch& p, const Patch& q, uint32_t key) {
     if (!faces(p, q) || !faces(q, p)) return 0;

@@ -89,21 +89,6 @@ double form_factor(const std::vector<Patch>& from, const std::vector<Patch>& to)
     return sum / area;
 }
 
-/// A regular polygon around (0, 0, z) with the area of a disk, facing up or down.
-std::vector<Vec3> disk_at(double z, double r, bool up, int sides = 48) {
-    double turn = 2 * pi_exact / sides, R = r * std::sqrt(turn / std::sin(turn));
-    auto at = [&](int i) {
-        return Vec3{static_cast<float>(R * std::cos(turn * i)),
-                    static_cast<float>(R * std::sin(turn * i)), static_cast<float>(z)};
-    };
-    std::vector<Vec3> corners;
-    for (int i = 0; i < sides; i++) {
-        Vec3 centre = {0, 0, static_cast<float>(z)};
-        for (Vec3 p : {centre, at(up ? i : i + 1), at(up ? i + 1 : i)}) corners.push_back(p);
-    }
-    return corners;
-}
-
 /// The room of TRUTHS' cube: six patches of area 1, the first of which emits 1.
 struct SixPatches {
     Matrix G;
@@ -152,17 +137,6 @@ struct Room {
         if (repaired) ch26::repair(G, patches.patch, patches.closed);
     }
     double row_sum(size_t i) const { return ch26::row_sum(G[i], patches.patch[i]); }
-    /// The mean radiosity of the patches that fit.
-    template <class Fits>
-    double mean_B(const Solution& s, const Fits& fits) const {
-        double sum = 0, area = 0;
-        for (size_t i = 0; i < patches.patch.size(); i++) {
-            const Patch& p = patches.patch[i];
-            if (!fits(p)) continue;
-            sum += double{p.area} * B_of(p, s, i), area += double{p.area};
-        }
-        return sum / area;
-    }
 };
 
 /// The room as the program shows it.
@@ -199,7 +173,7 @@ std::string even_cube(double W, double rho) {
 }  // namespace
 
 TEST_SUITE("ch26 form factors") {
-    TEST_CASE("truth: form factors by contour of squares and disks" * doctest::skip()) {
+    TEST_CASE("truth: form factors by contour of squares" * doctest::skip()) {
         Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
         auto floor = patches_of(quad({}, x, y));
         for (auto [d, F] :
@@ -209,12 +183,6 @@ TEST_SUITE("ch26 form factors") {
         }
         auto wall = patches_of(quad({}, y, z));
         CHECK(std::abs(form_factor(floor, wall) - beside) < 1e-6);
-        for (auto [r1, r2, h, F] : {std::array{1.0, 2.0, 1.0, 0.7639320225002},
-                                    {2, 1, 1, 0.1909830056251},
-                                    {1, 1, 0.1, 0.9048750780275}}) {
-            auto low = patches_of(disk_at(0, r1, true)), high = patches_of(disk_at(h, r2, false));
-            CHECK(std::abs(form_factor(low, high) - F) < 1e-4);
-        }
     }
 
     TEST_CASE(
@@ -228,9 +196,8 @@ TEST_SUITE("ch26 form factors") {
         }
         high.n = {-1, 0, 0};
         double G = ch26::by_centres(low, high, {}, {0.5f, 0, 0.5f});
-        CHECK(G == doctest::Approx(0.3183098861838).epsilon(1e-6).scale(0));
         // Six such faces: rows sum to 1.59, and light grows where more than 0.628 is reflected.
-        CHECK(5 * G == doctest::Approx(1.59).epsilon(1e-2).scale(0));
+        CHECK(5 * G == doctest::Approx(1.5915494309).epsilon(1e-6).scale(0));
     }
 
     TEST_CASE("truth: a small patch and a large one at decades of size and distance") {
@@ -583,22 +550,6 @@ TEST_SUITE("ch26 radiosity") {
         }
         CHECK(inner > 100);
         CHECK(right > 100);
-        // Between the corners it is linear, and constant patches have one value.
-        Shown constant = ch26::make_shown(scene, patches, B, Show::constant, 2);
-        for (size_t i = 0; i < patch.size(); i += 5) {
-            Vec3 weights = {0.2f, 0.3f, 0.5f}, p;
-            Rgb expected;
-            for (int c = 0; c < 3; c++) {
-                p = p + weights[c] * patch[i].p[static_cast<size_t>(c)];
-                expected += weights[c] * shown.B[i][static_cast<size_t>(c)];
-            }
-            auto x = intersect(scene, {p + 0.1f * patch[i].n, -patch[i].n});
-            REQUIRE(x);
-            CHECK(double{ch26::radiosity_at(shown, *x).g} ==
-                  doctest::Approx(double{expected.g}).epsilon(1e-3).scale(0));
-            CHECK(double{ch26::radiosity_at(constant, *x).g} ==
-                  doctest::Approx(double{B[i].g}).epsilon(1e-5).scale(0));
-        }
     }
 }
 

@@ -5,7 +5,6 @@
 #include "chapters/02_stratification/figure.h"
 #include "chapters/03_point_sets/figure.h"
 #include "chapters/04_importance/figure.h"
-#include "chapters/21_bidirectional/figure.h"
 #include "tests/support/scenes.h"
 
 namespace {
