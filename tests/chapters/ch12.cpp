@@ -5,7 +5,7 @@
 
 #include "tests/traces/11.h"
 #include "tests/traces/12.h"
-#include "tests/support/estimators.h"
+#include "tests/support/known_lights.h"
 
 template Method method_of<ch12::trace>(ch12::Proposal);
 
@@ -143,6 +143,26 @@ TEST_SUITE("ch12 reservoir") {
 }
 
 TEST_SUITE("ch12 target") {
+    TEST_CASE("identity: targets without a branch are those of the four formulas") {
+        for (const Scene& scene : {all_kinds(), scene_from("scenes/thousand-lights.pbrt", 16, 1)}) {
+            Sampler random = random_numbers(1);
+            int gave = 0, off = 0;
+            for (size_t k = 0; k < 20000; k++) {
+                Hit x = somewhere(scene, random);
+                size_t i = k % scene.lights.size();
+                ch12::LightBounds y = ch12::light_bounds(scene, i);
+                double expected = p_hat_by_type(scene, i, x), found = double{ch12::target(y, x)};
+                float d = std::max(length(y.centre - y.has_place * x.p), y.radius);
+                double facing = double{y.power / (d * d)};
+                // Where a light is about to be hidden, the last bits of a cosine decide.
+                off += std::abs(found - expected) > 1e-4 * expected + 1e-6 * facing;
+                gave += expected > 0;
+            }
+            CHECK(off < 3);
+            CHECK(gave > 5000);
+        }
+    }
+
     TEST_CASE("identity: wherever any point of a light gives something, the target is not 0") {
         for (const std::string& shape :
              {square(0, false), std::string("Shape \"disk\""), std::string("Shape \"sphere\""),

@@ -43,26 +43,6 @@ Scene only(size_t light, Scene scene) {
     return scene;
 }
 
-/// Lights of every type above and below the origin, two of them two-sided.
-Scene all_kinds() {
-    return world_of(square(0, false) + "LightSource \"point\" \"point3 from\" [1 2 0]" +
-                    "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
-                    "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
-                    "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
-                    "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
-                    square(0, false));
-}
-
-/// A point of a diffuse surface anywhere in the scene.
-Hit somewhere(const Scene& scene, Sampler& random) {
-    static const Material paint_all{};
-    Hit x{};
-    x.p = scene.radius * random.u1() * uniform_direction(random.u2());
-    x.n = x.ng = uniform_direction(random.u2());
-    x.material = &paint_all;
-    return x;
-}
-
 template <class Number>
 double sum_of(const std::vector<Number>& numbers) {
     return std::accumulate(numbers.begin(), numbers.end(), 0.0);
@@ -88,29 +68,6 @@ std::vector<double> inclusions(const std::vector<double>& w) {
 }  // namespace
 
 TEST_SUITE("ch15 two lights") {
-    TEST_CASE("identity: targets without a branch are those of the four formulas") {
-        for (const Scene& scene : {all_kinds(), scene_from("scenes/thousand-lights.pbrt", 16, 1)}) {
-            Sampler random = random_numbers(1);
-            int gave = 0;
-            for (int k = 0; k < 20000; k++) {
-                Hit x = somewhere(scene, random);
-                size_t i = static_cast<size_t>(k) % scene.lights.size();
-                double expected = p_hat_by_type(scene, i, x);
-                double found = double{target(light_bounds(scene, i), x)};
-                // Where a light is about to be hidden, the last bits of a cosine decide.
-                LightBounds y = light_bounds(scene, i);
-                Vec3 to_y = y.centre - y.has_place * x.p;
-                float d = std::max({length(to_y), y.radius, 1e-5f}), least = y.radius / d;
-                if (std::abs(dot(to_y, x.n) / d + least) < 1e-4f) continue;
-                if (std::abs(std::abs(dot(to_y, y.n) / d) - least) < 1e-4f) continue;
-                double facing = double{y.power / (d * d)};
-                REQUIRE(std::abs(found - expected) <= 1e-4 * expected + 1e-6 * facing);
-                if (expected > 0) gave++;
-            }
-            CHECK(gave > 5000);
-        }
-    }
-
     TEST_CASE("identity: inclusions are min(1, c (w + mean w / 9)), and sum to 2") {
         const std::string far =
             shining + "Translate 9 9 9 Shape \"sphere\" \"float radius\" 1e-3\n";
@@ -234,14 +191,11 @@ TEST_SUITE("ch15 mis ris") {
         }
     }
 
-    TEST_CASE("agreement: pictures, lengths and classes of paths with chapter 14 on plates") {
+    TEST_CASE("agreement: lengths and classes of paths with chapter 14 on plates") {
         Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
         for (int M : {1, 4})
             CHECK(check_classes(scene, by_fourteen(scene), scene, by_fifteen(scene, M), 60000) >=
                   6);
-        Film a = film_of(scene, by_fourteen(scene), 128).film;
-        Film b = film_of(scene, by_fifteen(scene), 128, 2).film;
-        check_agreement(hold_against(a, b, 16), 0.1);
     }
 
     TEST_CASE(

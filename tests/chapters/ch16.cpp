@@ -90,34 +90,29 @@ TEST_SUITE("ch16 lens and shutter") {
 }
 
 TEST_SUITE("ch16 pixel") {
-    constexpr int size = 128;
-
-    Image zone_plate(int spp, bool centre) {
-        Scene scene = scene_from("scenes/zone-plate.pbrt", size, 0);
+    Film zone_plate(int spp, bool centre) {
+        Scene scene = scene_from("scenes/zone-plate.pbrt", 128, 0);
         scene.camera.pixel_centre = centre;
-        return film_of(scene, by_sixteen(scene), spp, 0, SamplerType::sobol).film.image();
+        return film_of(scene, by_sixteen(scene), spp, 0, SamplerType::sobol).film;
     }
 
     TEST_CASE("failure: the middles of pixels alone see rings that are not there" *
               doctest::skip()) {
         // Where rings are narrower than a pixel, the mean of 4 x 4 pixels is nearly one half.
-        Image area = zone_plate(64, false);
-        Image centre = zone_plate(1, true);
-        auto off = [](const Image& image) {
+        auto off = [](const Film& film) {
             double worst = 0;
-            for (int y = 0; y < size; y += 4)
-                for (int x = 0; x < size; x += 4) {
+            for (int y = 0; y < 128; y += 4)
+                for (int x = 0; x < 128; x += 4) {
                     if (std::hypot(x - 62, y - 62) < 20) continue;
-                    double sum = 0;
-                    for (int i = 0; i < 16; i++) sum += double{image.at(x + i % 4, y + i / 4).g};
-                    worst = std::max(worst, std::abs(sum / 16 - 0.5));
+                    worst = std::max(worst, std::abs(block_of(film, x, y, 4).mean - 0.5));
                 }
             return worst;
         };
-        CHECK(off(area) < 0.1);
+        Film centre = zone_plate(1, true);
+        CHECK(off(zone_plate(64, false)) < 0.1);
         CHECK(off(centre) > 0.4);
         // More samples of the same point change nothing.
-        CHECK(zone_plate(4, true).pixels == centre.pixels);
+        CHECK(zone_plate(4, true).image().pixels == centre.image().pixels);
     }
 }
 

@@ -47,6 +47,26 @@ inline double p_hat_by_type(const Scene& scene, size_t i, const Hit& x) {
     return L * double{shape.area} * std::max(least, cos_x) * std::max(least, cos_y) / (d * d);
 }
 
+/// Lights of every type above and below the origin, two of them two-sided.
+inline Scene all_kinds() {
+    return world_of(square(0, false) + "LightSource \"point\" \"point3 from\" [1 2 0]" +
+                    "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
+                    "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
+                    "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
+                    "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
+                    square(0, false));
+}
+
+/// A point of a diffuse surface anywhere in the scene.
+inline Hit somewhere(const Scene& scene, Sampler& random) {
+    static const Material paint_all{};
+    Hit x{};
+    x.p = scene.radius * random.u1() * uniform_direction(random.u2());
+    x.n = x.ng = uniform_direction(random.u2());
+    x.material = &paint_all;
+    return x;
+}
+
 /// A mirror ball of 0.9 that shows a light behind the camera; without noise by every way.
 inline Scene light_before_mirror() {
     return world_of("Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] Shape \"sphere\"\n" +
