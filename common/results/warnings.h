@@ -8,7 +8,7 @@
 /// One line for each reason why the error of the picture may exceed its standard error: most light
 /// comes from a few samples, the error is unknown, or this method misses light or rarely finds it.
 /// Empty if there is none.
-/// tested by  "failure: where intervals do not cover the truth, a warning says so"
+/// tested by  "truth: what a film says of its own error"
 std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
                                      const Rendering& rendering);
 

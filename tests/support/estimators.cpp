@@ -20,6 +20,17 @@ std::string disk(double R, double h, double x) {
            " 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" " + std::to_string(R) + "\n";
 }
 
+Scene closed_sphere(double a, int max_depth) {
+    std::string albedo = std::to_string(a) + " ";
+    Scene scene = world_of(
+        "ReverseOrientation AreaLightSource \"diffuse\"\n"
+        "Material \"diffuse\" \"rgb reflectance\" [" +
+        albedo + albedo + albedo + "] Shape \"sphere\"");
+    scene.camera.o = {0, 0, 0};
+    scene.max_depth = max_depth;
+    return scene;
+}
+
 RunningStats repeat(const Scene& scene, const Ray& ray, const Method& trace, int paths,
                     uint32_t seed, double scale) {
     return in_blocks<RunningStats>(paths, [&](int first, int last) {
@@ -45,19 +56,6 @@ void check_bounded(const RunningStats& s, double truth, double relative_se) {
     CHECK(std::isfinite(s.mean()));
     CHECK(std::abs(s.mean() - truth) <= 5 * s.standard_error() + 2e-6 * truth);
     CHECK(s.standard_error() <= relative_se * truth);
-}
-
-SquareMoments moments_of(const std::function<double(double, double)>& f, int n) {
-    double m[5] = {};
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            double x = f((i + 0.5) / n, (j + 0.5) / n), power = 1;
-            for (double& moment : m) moment += power, power *= x;
-        }
-    for (double& moment : m) moment /= static_cast<double>(n) * n;
-    double variance = m[2] - m[1] * m[1];
-    double fourth = m[4] - 4 * m[1] * m[3] + 6 * m[1] * m[1] * m[2] - 3 * std::pow(m[1], 4);
-    return {m[1], variance, fourth / (variance * variance)};
 }
 
 double rel_mse(const Film& film) {

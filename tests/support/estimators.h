@@ -1,8 +1,6 @@
 // What the chapters that sample lights (09 to 13) are compared with: a floor under lights whose
 // irradiance is known, and paths of one chapter against those of another, class by class.
 #pragma once
-#include <functional>
-
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
 
@@ -25,9 +23,15 @@ std::string unit_square(double h, double x = 0, double z = 0);
 /// The disk of radius R at height h, facing down; x: where its middle is.
 std::string disk(double R, double h, double x = 0);
 
+/// The inside of a ball whose wall emits 1 and reflects the share a.
+Scene closed_sphere(double a, int max_depth);
+inline const Ray from_inside = {{0, 0, 0}, {0, 0, 1}};
+
 /// The green channel of one ray, over and over.
 RunningStats repeat(const Scene& scene, const Ray& ray, const Method& trace, int paths,
                     uint32_t seed = 1, double scale = 1);
+
+inline Measured measured(const RunningStats& s) { return {s.mean(), s.standard_error()}; }
 
 /// Samples of the irradiance at the origin of floor_under().
 RunningStats irradiance(const Scene& scene, const Method& trace, int paths, uint32_t seed = 1);
@@ -35,12 +39,6 @@ RunningStats irradiance(const Scene& scene, const Method& trace, int paths, uint
 /// The mean is within 5 of its own standard errors, and those are at most a share `relative_se`:
 /// for estimators whose samples are bounded by a few times their mean.
 void check_bounded(const RunningStats& s, double truth, double relative_se);
-
-/// Mean, variance and kurtosis of f over the unit square, by the midpoint rule.
-struct SquareMoments {
-    double mean = 0, variance = 0, kurtosis = 0;
-};
-SquareMoments moments_of(const std::function<double(double, double)>& f, int n = 1000);
 
 /// Two chapters bring the same: in all, by length of path, and by class (those that both saw 100
 /// times); of the classes that the filter matches. The log's parts make up the whole. Returns how
@@ -77,3 +75,6 @@ int check_classes(const Scene& scene_a, const TraceA& trace_a, const Scene& scen
 /// relMSE of one sample for each pixel: the mean over the film of variance / (mean^2 + 0.01), with
 /// the means of blocks of 8 x 8 pixels: those of single pixels are too noisy to be divided by.
 double rel_mse(const Film& film);
+inline double rel_mse(const Scene& scene, const Method& trace, int spp) {
+    return rel_mse(film_of(scene, trace, spp).film);
+}

@@ -35,6 +35,11 @@ inline void check_variance(const RunningStats& s, double truth, double kurtosis)
     CHECK(relative_se <= 0.05);
 }
 
+/// x, to this relative error.
+inline doctest::Approx nearly(double x, double error = 1e-6) {
+    return doctest::Approx(x).epsilon(error).scale(0);
+}
+
 /// sum (count - expected)^2 / expected
 inline double chi_square(std::span<const double> counts, std::span<const double> expected) {
     double sum = 0;

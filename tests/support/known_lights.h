@@ -1,6 +1,15 @@
 // Lights whose effect is known, for the chapters that look for light in several ways (13 to 15).
 #pragma once
+#include <array>
+
+#include "common/light/light_shapes.h"
 #include "tests/support/estimators.h"
+
+/// A black lamp of this radiance.
+inline std::string black_lamp(const std::string& L, const std::string& shape) {
+    return "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [" + L + " " + L + " " + L +
+           "] Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + shape + "AttributeEnd\n";
+}
 
 /// Lights, and their irradiance at the origin of floor_under().
 inline const std::vector<std::pair<std::string, double>> lights_of_known_irradiance = {
@@ -38,6 +47,26 @@ inline double p_hat_by_type(const Scene& scene, size_t i, const Hit& x) {
     return L * double{shape.area} * std::max(least, cos_x) * std::max(least, cos_y) / (d * d);
 }
 
+/// Lights of every type above and below the origin, two of them two-sided.
+inline Scene all_kinds() {
+    return world_of(square(0, false) + "LightSource \"point\" \"point3 from\" [1 2 0]" +
+                    "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
+                    "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
+                    "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
+                    "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
+                    square(0, false));
+}
+
+/// A point of a diffuse surface anywhere in the scene.
+inline Hit somewhere(const Scene& scene, Sampler& random) {
+    static const Material paint_all{};
+    Hit x{};
+    x.p = scene.radius * random.u1() * uniform_direction(random.u2());
+    x.n = x.ng = uniform_direction(random.u2());
+    x.material = &paint_all;
+    return x;
+}
+
 /// A mirror ball of 0.9 that shows a light behind the camera; without noise by every way.
 inline Scene light_before_mirror() {
     return world_of("Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] Shape \"sphere\"\n" +
@@ -45,11 +74,42 @@ inline Scene light_before_mirror() {
 }
 inline void check_light_before_mirror(const Scene& mirror, const Method& trace) {
     RunningStats s = repeat(mirror, {{0, 0, -4}, {0, 0, 1}}, trace, 100);
-    CHECK(s.mean() == doctest::Approx(0.9).epsilon(1e-5).scale(0));
+    CHECK(s.mean() == nearly(0.9, 1e-5));
     CHECK(s.variance() < 1e-10);
     s = repeat(mirror, {{0, 0, -4}, {0, 0, -1}}, trace, 100);
     CHECK(s.mean() == 1);
     CHECK(s.variance() == 0);
+}
+
+/// Black lamps of the same size in a row, far above a floor; the radiance of number i is i + 1.
+inline Scene ten_lamps() {
+    std::string lamps = "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+    for (int i = 0; i < 10; i++)
+        lamps += "AttributeBegin AreaLightSource \"diffuse\" \"float scale\" " +
+                 std::to_string(i + 1) + " " + unit_square(9, 2 * i) + " AttributeEnd\n";
+    return floor_under(lamps);
+}
+/// Each of the ten lamps is chosen as often as its pmf says, and has the density of its point times
+/// this pmf. A sample's Le says whose it is.
+template <class Sample>
+void check_choice(const std::array<double, 10>& pmf, const Sample& sample) {
+    Scene scene = ten_lamps();
+    Hit x = origin_of(scene);
+    std::array<double, 10> counts{}, expected{};
+    for (size_t i = 0; i < 10; i++) expected[i] = 100000 * pmf[i];
+    Sampler random = random_numbers(1);
+    for (int i = 0; i < 100000; i++) {
+        auto y = sample(scene, x, random);
+        REQUIRE(y.pdf_w > 0);
+        size_t light = static_cast<size_t>(std::lround(y.Le.g)) - 1;
+        counts[light]++;
+        if (i >= 100) continue;
+        Hit hit = *intersect(scene, spawn_ray(x, y.wi));
+        CHECK(hit.light == static_cast<int>(light));
+        double pdf_one = static_cast<double>(pdf_solid_angle(scene, light, x.p, hit));
+        CHECK(y.pdf_w == nearly(pmf[light] * pdf_one, 1e-4));
+    }
+    CHECK(chi_square_tail(chi_square(counts, expected), 9) > 1e-6);
 }
 
 /// floor_under() a shape that does not shine.
@@ -64,18 +124,14 @@ inline Scene floor_without_lights() {
 /// the floor both strategies have about the same density, at the board other ones: weights that
 /// belong to another vertex than the last one show in the light of two bounces and more.
 inline Scene board_beside_lamp(const std::string& material) {
-    auto lamp = [](const char* L, const std::string& square) {
-        return std::string("AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [") + L +
-               "] Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + square + "AttributeEnd\n";
-    };
     Scene scene = scene_of(
         "LookAt -0.4 0.1 0  1 0.1 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
         "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n"
         "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Scale 20 1 20 " +
         square(0, true) + "AttributeEnd\nAttributeBegin " + material +
         " Translate 0.7 0.5 0 Rotate 90 0 0 1 Scale 0.5 0.5 0.5 " + square(0, true) +
-        "AttributeEnd\n" + lamp("1 1 1", unit_square(0.2)) +
-        lamp(".3 .3 .3", unit_square(1.5, 0, 1.2)) + lamp(".1 .1 .1", unit_square(1.5, 0, -1.2)));
+        "AttributeEnd\n" + black_lamp("1", unit_square(0.2)) +
+        black_lamp(".3", unit_square(1.5, 0, 1.2)) + black_lamp(".1", unit_square(1.5, 0, -1.2)));
     scene.max_depth = 4;
     return scene;
 }
