@@ -35,6 +35,17 @@ struct BlockMeans {
         }
         whole.add(all / (size * size));
     }
+    /// Sums over the blocks: of their variance, and of this over the squared mean.
+    double variance() const {
+        double sum = 0;
+        for (const RunningStats& s : blocks) sum += s.variance();
+        return sum;
+    }
+    double relative_variance() const {
+        double sum = 0;
+        for (const RunningStats& s : blocks) sum += s.variance() / (s.mean() * s.mean() + 1e-4);
+        return sum;
+    }
     Measured block(int x0, int y0, int block_side) const {
         const RunningStats& s =
             block_side == size ? whole
