@@ -36,9 +36,7 @@ TEST_SUITE("ch18 dispersion") {
             }
         }
     }
-}
 
-TEST_SUITE("ch18 dispersion") {
     TEST_CASE("identity: all wavelengths together are white") {
         std::vector<Rgb> white = shares_of_white();
         Rgb sum;

@@ -3,6 +3,17 @@
 #pragma once
 #include "tests/support/estimators.h"
 
+/// A picture's mean and its error; of the classes of path that the filter matches.
+inline Measured picture_of(Scene scene, const Method& method, int spp,
+                           const std::string& paths = "", uint32_t seed = 1) {
+    scene.spp = spp;
+    RenderOptions options;
+    options.threads = static_cast<int>(std::thread::hardware_concurrency());
+    options.seed = seed, options.quiet = true, options.paths = paths;
+    Film film = render_film(scene, options, method).film;
+    return {film.mean(), film.standard_error()};
+}
+
 /// The means of blocks of pixels, over renders with different seeds.
 struct BlockMeans {
     int size = 0, side = 0;
@@ -23,6 +34,17 @@ struct BlockMeans {
             all += sum;
         }
         whole.add(all / (size * size));
+    }
+    /// Sums over the blocks: of their variance, and of this over the squared mean.
+    double variance() const {
+        double sum = 0;
+        for (const RunningStats& s : blocks) sum += s.variance();
+        return sum;
+    }
+    double relative_variance() const {
+        double sum = 0;
+        for (const RunningStats& s : blocks) sum += s.variance() / (s.mean() * s.mean() + 1e-4);
+        return sum;
     }
     Measured block(int x0, int y0, int block_side) const {
         const RunningStats& s =
