@@ -131,6 +131,12 @@ TEST_SUITE("reader: language") {
         described("Shape 'cylinder'", &notes);
         CHECK(notes.at(0).starts_with("scene.pbrt:2:1: note: "));
         CHECK(notes.at(1).starts_with("scene.pbrt: note: no PixelFilter"));
+        // What is too small is left out, and nothing that is empty moves.
+        notes.clear();
+        const std::string tiny =
+            "Scale 1e-10 1e-10 1e-10 ActiveTransform EndTime Translate 1 0 0\n";
+        CHECK(read_world(tiny + triangle, &notes).movers.empty());
+        CHECK(notes[0].find(":3:1: note: left out triangles") != std::string::npos);
     }
 
     TEST_CASE("input: every transform directive does what pbrt's does") {
