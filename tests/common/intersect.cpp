@@ -6,6 +6,7 @@
 #include "tests/traces/07.h"
 #include "common/geometry/bvh_build.h"
 #include "common/geometry/shapes.h"
+#include "common/scene/smooth_normal.h"
 #include "tests/support/gates.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
@@ -129,19 +130,18 @@ TEST_SUITE("intersect shapes") {
 
     TEST_CASE("truth: edges and corners belong to the triangle, and what is edge-on is not hit") {
         Vec3 p0 = {0, 0, 0}, p1 = {1, 0, 0}, p2 = {0, 1, 0};
-        auto hit = [&](Vec3 o, Vec3 d) {
+        auto hit = [&](Vec3 o, Vec3 d = {0, 0, 1}) {
             return intersect_triangle({o, d}, shear_to_ray(d), p0, p1, p2).has_value();
         };
-        for (Vec3 p : {p0, p1, p2, 0.5f * (p0 + p1), 0.5f * (p1 + p2), 0.5f * (p2 + p0)}) {
-            CHECK(hit({p.x, p.y, -1}, {0, 0, 1}));
-        }
-        CHECK_FALSE(hit({-0.001f, 0.5f, -1}, {0, 0, 1}));
-        CHECK_FALSE(hit({0.51f, 0.5f, -1}, {0, 0, 1}));
+        const Vec3 ahead = {0, 0, 1};
+        for (Vec3 p : {p0, p1, p2, 0.5f * (p0 + p1), 0.5f * (p1 + p2), 0.5f * (p2 + p0)})
+            CHECK(hit(p - ahead));
+        for (Vec3 p : {Vec3{-0.001f, 0.5f, 0}, {0.51f, 0.5f, 0}}) CHECK_FALSE(hit(p - ahead));
         CHECK_FALSE(hit({-1, 0.2f, 0}, {1, 0, 0}));
-        p2 = {0.5f, 0, 0};  // no area
-        CHECK_FALSE(hit({0.2f, 0, -1}, {0, 0, 1}));
-        p2 = {0, std::nanf(""), 0};
-        CHECK_FALSE(hit({0.2f, 0.2f, -1}, {0, 0, 1}));
+        for (Vec3 flat : {Vec3{0.5f, 0, 0}, {0, std::nanf(""), 0}}) {  // no area
+            p2 = flat;
+            CHECK_FALSE(hit(Vec3{0.2f, 0, 0} - ahead));
+        }
     }
 
     TEST_CASE("brute: no ray leaks through a closed mesh") {
@@ -177,26 +177,22 @@ TEST_SUITE("intersect shapes") {
 
 TEST_SUITE("intersect hits") {
     TEST_CASE("identity: normals face where the ray came from, and front is the shining side") {
-        for (bool reverse : {false, true}) {
-            std::string turn = reverse ? "ReverseOrientation\n" : "";
+        for (bool reverse : {false, true})
             for (const std::string& shape :
                  {std::string("Shape \"sphere\""), std::string("Shape \"disk\""),
-                  "Rotate 90 1 0 0\n" + square(0, true)}) {
-                Scene scene = world_of("LightSource \"infinite\"\n" + turn + shape);
-                for (float side : {1.0f, -1.0f}) {
-                    Ray ray = {{0.1f, 0.2f, 4 * side}, {0, 0, -side}};
+                  "Rotate 90 1 0 0\n" + square(0, true)})
+                for (float side : {1.0f, -1.0f, 0.1f}) {
+                    Scene scene =
+                        world_of("LightSource \"infinite\"\n" +
+                                 std::string(reverse ? "ReverseOrientation\n" : "") + shape);
+                    Ray ray = {{0.1f, 0.2f, 4 * side}, {0, 0, std::copysign(1.0f, -side)}};
                     auto x = intersect(scene, ray);
                     REQUIRE(x);
                     CHECK(dot(x->n, ray.d) < 0);
                     CHECK(dot(x->ng, ray.d) < 0);
-                    bool ball = !scene.geometry.spheres.empty();
-                    CHECK(x->front == (ball ? !reverse : (side > 0) != reverse));
-                    Ray inside = {x->p - 0.5f * ray.d, ray.d};
-                    if (ball) inside.o = {0, 0, 0};
-                    if (ball) CHECK(intersect(scene, inside)->front == reverse);
+                    bool ball = !scene.geometry.spheres.empty(), inside = side == 0.1f;
+                    CHECK(x->front == ((ball ? !inside : side > 0) != reverse));
                 }
-            }
-        }
     }
 
     TEST_CASE(
@@ -216,21 +212,23 @@ TEST_SUITE("intersect hits") {
             "LightSource \"infinite\"\n"
             "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0] \"integer indices\" [0 1 2]"
             " \"normal N\" [-2 0 1  2 0 1  0 0 1]");
-        auto look = [&](Vec3 p, Vec3 d) { return *intersect(scene, {p - d, d}); };
-        Hit x = look({0.25f, 0.25f, 0}, {0, 0, -1});
-        CHECK(length(x.n - normalize({-0.5f, 0, 1})) < 1e-6f);
-        CHECK(x.ng == Vec3{0, 0, 1});
-        // Where no two weights are alike, each normal has its own.
-        x = look({0.5f, 0.2f, 0}, {0, 0, -1});
-        CHECK(length(x.n - normalize({0.4f, 0, 1})) < 1e-6f);
-        x = look({0.2f, 0.5f, 0}, {0, 0, -1});
-        CHECK(length(x.n - normalize({-0.2f, 0, 1})) < 1e-6f);
-        x = look({0.25f, 0.25f, 0}, {0, 0, 1});  // from behind
-        CHECK(length(x.n - normalize({0.5f, 0, -1})) < 1e-6f);
-        CHECK(x.ng == Vec3{0, 0, -1});
-        // From far to the right, the normal that leans left would look away.
-        x = look({0.01f, 0.01f, 0}, normalize({-1, 0, -0.3f}));
-        CHECK(x.n == x.ng);
+        const Vec3 down = {0, 0, -1}, grazing = normalize({-1, 0, -0.3f});
+        struct {
+            float x, y;
+            Vec3 d, n;
+        } cases[] = {
+            {0.25f, 0.25f, down, {-0.5f, 0, 1}},  {0.5f, 0.2f, down, {0.4f, 0, 1}},
+            {0.2f, 0.5f, down, {-0.2f, 0, 1}},    {0.25f, 0.25f, -down, {0.5f, 0, -1}},
+            {0.01f, 0.01f, down, {-1.94f, 0, 1}}, {0.01f, 0.01f, grazing, {0, 0, 1}},
+        };
+        for (const auto& c : cases) {
+            Hit x = *intersect(scene, {Vec3{c.x, c.y, 0} - c.d, c.d});
+            CHECK(length(x.n - normalize(c.n)) < 1e-6f);
+            CHECK(x.ng == Vec3{0, 0, c.d.z < 0 ? 1.0f : -1.0f});
+            // As who sees the point from another side than its ray has it.
+            Vec3 smooth = c.d == grazing ? Vec3{-1.94f, 0, 1} : c.n;
+            CHECK(length(smooth_normal(scene, x) - normalize(smooth)) < 1e-5f);
+        }
     }
 
     TEST_CASE("identity: a ray leaves on the side of the surface to which it goes") {
