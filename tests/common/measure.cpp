@@ -10,6 +10,7 @@
 #include "common/picture/comparison.h"
 #include "common/picture/stats_file.h"
 #include "common/picture/verdict.h"
+#include "tests/measure/agreement.h"
 #include "tests/measure/finding.h"
 #include "tests/measure/spread.h"
 #include "tests/support/folder.h"
@@ -252,6 +253,18 @@ TEST_SUITE("measuring") {
               doctest::Approx(0.5 / 4.01 / 2).epsilon(1e-12).scale(0));
         // One bright and rare pixel: a better mean makes it count for what it is.
         CHECK(spread.rel_mse(grey(2, 1, 0)) == doctest::Approx(25).epsilon(1e-6).scale(0));
+    }
+
+    TEST_CASE("truth: z of three estimates") {
+        // The others: (1/4 * 10 + 1 * 12) / (5/4), with variance 4/5.
+        std::vector<Estimate> e = {{13, 1, 0}, {10, 2, 0}, {12, 1, 0}, {99, 0.1, 5}};
+        Verdict v = judge(e, 0);
+        CHECK(v.known);
+        CHECK(v.others_mean == doctest::Approx(11.6).epsilon(1e-12).scale(0));
+        CHECK(v.z == doctest::Approx(1.4 / std::sqrt(1.8)).epsilon(1e-12).scale(0));
+        CHECK(!judge(e, 3).known);                          // too few lucky samples
+        CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);     // nothing to compare it with
+        CHECK(!judge({{1, 1, 0}, {1, 1, 0, 2}}, 0).known);  // they missed more than their error
     }
 
     TEST_CASE("truth: times faster at equal error") {
