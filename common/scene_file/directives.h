@@ -20,8 +20,6 @@ public:
     bool in_world() const { return in_world_; }
     /// How many blocks are open.
     size_t depth() const { return saved_.size(); }
-    /// The memory that the scene takes, about.
-    uint64_t bytes() const;
     /// The scene, once all directives are read; throws for what is missing.
     Scene finish();
 
@@ -91,6 +89,8 @@ private:
         Position first_use;
     };
 
+    void not_supported(Lexer& lexer, const Token& word, const std::string& what,
+                       const std::string& stand_in);
     Params read_params(Lexer& lexer, const Token& word, const std::string& target);
     void place(Params& params, const State& where);
     void place_object(const Object& object, const Position& at, const State& state);

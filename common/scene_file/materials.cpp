@@ -8,7 +8,7 @@
 
 namespace {
 
-constexpr const char* unknown_name = "a spectrum of unknown name, or without its file";
+constexpr const char* unknown_name = "a spectrum of unknown name";
 constexpr float smooth_below = 1e-3f;  // the alpha under which pbrt takes a surface for smooth
 
 Rgb read_rgb(const Param& param) {
@@ -95,10 +95,6 @@ Material read_conductor(Params& params, TextureReader& textures, const std::stri
 
 // "spectrum eta" of a dielectric, the name of a measured glass.
 void read_glass(Params& params, Material& material) {
-    if (const Param* rgb = params.find_exactly("rgb", "eta", 3)) {
-        params.stand_in(rgb->at, "an index of refraction as a list", "\"eta\" must be a float");
-        material.ior = average(read_rgb(*rgb));
-    }
     const Param* spectrum = params.find("spectrum", "eta");
     if (!spectrum) return;
     if (spectrum->strings.size() != 1) {

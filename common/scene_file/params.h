@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/base/vec.h"
-#include "common/scene_file/named_files.h"
 #include "common/scene_file/param.h"
 #include "common/scene_file/spectra.h"
 #include "common/scene_file/stand_ins.h"
@@ -29,8 +28,6 @@ public:
 
     const std::string& type() const { return type_; }
     const std::vector<Param>& all() const { return params_; }
-    /// Puts pairs of a wavelength and a value in the place of the names of files with such pairs.
-    void read_spectra(NamedFiles& files);
     /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
     void read_type();
     /// Whether the type has a stand-in that is to be taken, which is remembered.

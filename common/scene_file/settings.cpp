@@ -4,26 +4,19 @@
 
 namespace {
 
-// The kinds of a directive, and the parameters of each that we read over.
-struct Kind {
-    std::string name;
-    std::vector<std::string> integers, floats, strings, bools;
-};
-
-// Finds the kind, reads over its parameters, and refuses what is left.
-void accept(Params& params, const std::vector<Kind>& kinds) {
-    std::vector<std::string> known;
-    for (const Kind& kind : kinds) {
-        known.push_back(kind.name);
-        if (kind.name != params.type()) continue;
-        params.ignore("integer", kind.integers);
-        params.ignore("float", kind.floats);
-        params.ignore("string", kind.strings);
-        params.ignore("bool", kind.bools);
-        params.finish();
-        return;
-    }
-    params.fail_type(known);
+// Finds the kind, and reads over the parameters of pbrt's own ways to render.
+void accept(Params& params, const std::vector<std::string>& kinds) {
+    if (std::find(kinds.begin(), kinds.end(), params.type()) == kinds.end())
+        params.fail_type(kinds);
+    params.ignore("integer", {"bootstrapsamples", "chains", "intersectcost", "maxdepth",
+                              "maxnodeprims", "maxprims", "mutationsperpixel",
+                              "photonsperiteration", "seed", "traversalcost"});
+    params.ignore("float", {"B", "C", "emptybonus", "largestepprobability", "maxdistance", "radius",
+                            "rrthreshold", "sigma", "tau", "xradius", "yradius"});
+    params.ignore("string", {"lightsampler", "randomization", "splitmethod"});
+    params.ignore("bool", {"cossample", "jitter", "regularize", "samplebsdf", "samplelights",
+                           "visualizestrategies", "visualizeweights"});
+    params.finish();
 }
 
 void note(SceneNotes& notes, const Params& params, const std::string& text) {
@@ -169,16 +162,10 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& not
 }
 
 void read_pixel_filter(Params& params, SceneNotes& notes) {
-    float radius = params.type() == "box" ? 0.5f : 0;
-    if (params.type() == "box") {
-        radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
-    }
-    accept(params, {{"box", {}, {"xradius", "yradius"}, {}, {}},
-                    {"gaussian", {}, {"xradius", "yradius", "sigma"}, {}, {}},
-                    {"mitchell", {}, {"xradius", "yradius", "B", "C"}, {}, {}},
-                    {"sinc", {}, {"xradius", "yradius", "tau"}, {}, {}},
-                    {"triangle", {}, {"xradius", "yradius"}, {}, {}}});
-    if (radius != 0.5f) note(notes, params, "is replaced by the box of one pixel");
+    float radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
+    accept(params, {"box", "gaussian", "mitchell", "sinc", "triangle"});
+    if (params.type() != "box" || radius != 0.5f)
+        note(notes, params, "is replaced by the box of one pixel");
 }
 
 void read_sampler(Params& params, Scene& scene, SceneNotes& notes) {
@@ -190,70 +177,20 @@ void read_sampler(Params& params, Scene& scene, SceneNotes& notes) {
         scene.spp =
             params.integer("pixelsamples", params.type() == "independent" ? 4 : 16, 1, most);
     }
-    accept(params, {{"halton", {"seed"}, {}, {"randomization"}, {}},
-                    {"independent", {"seed"}, {}, {}, {}},
-                    {"paddedsobol", {"seed"}, {}, {"randomization"}, {}},
-                    {"pmj02bn", {"seed"}, {}, {}, {}},
-                    {"sobol", {"seed"}, {}, {"randomization"}, {}},
-                    {"stratified", {"seed"}, {}, {}, {"jitter"}},
-                    {"zsobol", {"seed"}, {}, {"randomization"}, {}}});
+    accept(params,
+           {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"});
     if (params.type() != "independent") note(notes, params, "only sets the samples per pixel");
 }
 
 void read_integrator(Params& params, Scene& scene, SceneNotes& notes) {
-    bool has_depth = params.type() != "ambientocclusion";
-    scene.max_depth = has_depth ? params.integer("maxdepth", 5, 0, 1 << 30) : 5;
-    accept(params, {{"ambientocclusion", {}, {"maxdistance"}, {}, {"cossample"}},
-                    {"bdpt",
-                     {},
-                     {},
-                     {"lightsampler"},
-                     {"regularize", "visualizestrategies", "visualizeweights"}},
-                    {"lightpath", {}, {}, {}, {}},
-                    {"mlt",
-                     {"bootstrapsamples", "chains", "mutationsperpixel"},
-                     {"sigma", "largestepprobability"},
-                     {},
-                     {"regularize"}},
-                    {"path", {}, {"rrthreshold"}, {"lightsampler"}, {"regularize"}},
-                    {"randomwalk", {}, {}, {}, {}},
-                    {"simplepath", {}, {}, {}, {"samplelights", "samplebsdf"}},
-                    {"simplevolpath", {}, {}, {}, {}},
-                    {"sppm", {"photonsperiteration", "seed"}, {"radius"}, {}, {"regularize"}},
-                    {"volpath", {}, {"rrthreshold"}, {"lightsampler"}, {"regularize"}}});
+    scene.max_depth = params.integer("maxdepth", 5, 0, 1 << 30);
+    accept(params, {"ambientocclusion", "bdpt", "lightpath", "mlt", "path", "randomwalk",
+                    "simplepath", "simplevolpath", "sppm", "volpath"});
     if (params.type() != "path")
         note(notes, params, "only sets the depth: the program is the integrator");
 }
 
 void read_accelerator(Params& params, SceneNotes& notes) {
-    accept(params, {{"bvh", {"maxnodeprims"}, {}, {"splitmethod"}, {}},
-                    {"kdtree",
-                     {"intersectcost", "traversalcost", "maxprims", "maxdepth"},
-                     {"emptybonus"},
-                     {},
-                     {}}});
+    accept(params, {"bvh", "kdtree"});
     if (params.type() != "bvh") note(notes, params, "is ignored: all programs use a BVH");
-}
-
-void read_option(const Position& at, const std::string& name, SceneNotes& notes) {
-    // Compare as pbrt does, without regard to case, dashes and underscores.
-    std::string plain;
-    for (char c : name) {
-        if (c != '-' && c != '_') plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    }
-    const std::vector<std::string> known = {"disablepixeljitter",
-                                            "disabletexturefiltering",
-                                            "disablewavelengthjitter",
-                                            "displacementedgescale",
-                                            "forcediffuse",
-                                            "msereferenceimage",
-                                            "msereferenceout",
-                                            "pixelstats",
-                                            "rendercoordsys",
-                                            "seed",
-                                            "wavefront"};
-    if (std::find(known.begin(), known.end(), plain) == known.end()) {
-        fail_unknown(at, "Option", name, known);
-    }
-    notes.add(at, "Option " + quote(name) + " is ignored");
 }

@@ -16,5 +16,3 @@ void read_pixel_filter(Params& params, SceneNotes& notes);
 void read_sampler(Params& params, Scene& scene, SceneNotes& notes);
 void read_integrator(Params& params, Scene& scene, SceneNotes& notes);
 void read_accelerator(Params& params, SceneNotes& notes);
-/// `Option "disablepixeljitter" true`: all are ignored, with a note.
-void read_option(const Position& at, const std::string& name, SceneNotes& notes);

@@ -78,7 +78,7 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
     const Param* param = params.find_exactly("rgb", name, 3);
     if (const Param* listed = params.find("spectrum", name)) {
         if (listed->strings.size() == 1) {
-            params.stand_in(listed->at, "a spectrum of unknown name, or without its file",
+            params.stand_in(listed->at, "a spectrum of unknown name",
                             unknown("spectrum", listed->strings[0], {}));
             return {};
         }
@@ -86,18 +86,6 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
         for (const auto& [nm, value] : spectrum) {
             if (value > 1) fail(listed->at, quote(name) + " must be from 0 to 1");
         }
-        return reflectance_rgb(spectrum);
-    }
-    if (const Param* black = params.find_exactly("blackbody", name, 1)) {
-        // As pbrt, with the value 1 at the maximum: 2898 um K (Wien).
-        double T = black->numbers[0];
-        if (T < 500 || T > 1e6) fail(black->at, "blackbody needs 500 to 1e6 kelvin");
-        auto planck = [T](double nm) {
-            return std::pow(nm, -5) / std::expm1(1.438776877e7 / (nm * T));
-        };
-        Spectrum spectrum;
-        double most = planck(2.897771955e6 / T);
-        for (double nm = 360; nm <= 830; nm += 5) spectrum.push_back({nm, planck(nm) / most});
         return reflectance_rgb(spectrum);
     }
     if (!param) return {};
@@ -118,7 +106,6 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
     }
     std::string name = lexer.unescape(name_token);
     Params params(lexer, word, notes_, true, defaults);
-    params.read_spectra(files_);
     if (type.text != "spectrum" && type.text != "float") {
         fail_unknown(lexer.at(type), "type of texture", std::string(type.text),
                      {"float", "spectrum"});
@@ -127,7 +114,6 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
     if (is_float ? floats_.contains(name) : known_.contains(name)) {
         fail(lexer.at(name_token), "a second texture " + quote(name));
     }
-    auto early = unknown_.find(name);
     try {
         if (is_float) floats_.insert({name, {params, {}}});
         if (!is_float) known_[name] = read_spectrum(params);
@@ -135,15 +121,10 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
         known_[name] = NamedTexture{};  // so that who names it is not wrong too
         throw;
     }
-    if (early == unknown_.end()) return;
-    fail(lexer.at(name_token), "the texture " + quote(name) + " must be defined above line " +
-                                   std::to_string(early->second.line) + " of " +
-                                   quote_file(early->second.file) + ", which names it");
 }
 
 template <class Map>
 void TextureReader::fail_unknown_texture(const Param& param, const Map& known) {
-    unknown_.try_emplace(param.strings[0], param.at);
     std::vector<std::string> names;
     for (const auto& [name, texture] : known) names.push_back(name);
     fail_unknown(param.at, "texture", param.strings[0], names);

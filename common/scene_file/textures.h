@@ -31,7 +31,6 @@ public:
 
     /// What the texture of this number is on average.
     Rgb mean(uint32_t texture) const { return means_[texture]; }
-    const Textures& textures() const { return textures_; }
     Textures take() { return std::move(textures_); }
 
 private:
@@ -60,7 +59,6 @@ private:
         std::optional<float> mean;  // once it was asked for
     };
     std::map<std::string, NamedTexture> known_;
-    std::map<std::string, Position> unknown_;  // who named a texture that was not known yet
     std::map<std::string, FloatTexture> floats_;
     std::map<std::pair<std::string, float>, Picture> pictures_;  // by canonical name and gamma
     uint64_t texels_ = 0;

@@ -111,8 +111,8 @@ TEST_SUITE("reader: malformed input") {
         CHECK(refuse(scene) == "");
     }
 
-    TEST_CASE("input: after twenty different errors only missing files are named") {
-        std::string text, missing = "Camera \"perspective\" WorldBegin\n";
+    TEST_CASE("input: after twenty different errors the rest is not read") {
+        std::string text;
         for (size_t i = 0; i < 50; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
         std::string said = refuse(text);
         CHECK(std::count(said.begin(), said.end(), '\n') == 20);
@@ -120,15 +120,6 @@ TEST_SUITE("reader: malformed input") {
         // The same one counts once.
         CHECK(refuse(repeated("Textur\n", 50) + "Shap").find("\nscene.pbrt:51:1: error: ") !=
               std::string::npos);
-        for (int i = 0; i < 40; i++) {
-            std::string name = "\"" + std::to_string(i);
-            missing += "Shape \"plymesh\" \"string filename\" " + name + ".ply\"\nInclude " + name +
-                       ".pbrt\"\nInclude \"0.pbrt\"\n";
-        }
-        said = refuse(missing + "Shap");
-        CHECK(std::count(said.begin(), said.end(), '\n') == 80);
-        for (const char* name : {"\"0.ply", "\"0.pbrt", "\"39.ply", "\"39.pbrt"})
-            CHECK(said.find(name) != std::string::npos);
     }
 
     TEST_CASE("files: errors name the included file, and files that include each other end") {
