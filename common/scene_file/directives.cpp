@@ -122,11 +122,6 @@ void Directives::not_supported(Lexer& lexer, const Token& word, const std::strin
     notes_.stand_in(lexer.at(word), stand_in);
 }
 
-void Directives::accelerator(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
-    read_accelerator(params, notes_);
-}
-
 void Directives::camera(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
     const Transform& camera_from_world = still_transform(params);
@@ -141,11 +136,6 @@ void Directives::film(Lexer& lexer, const Token& word) {
     read_film(params, scene_, exposure_, notes_);
 }
 
-void Directives::integrator(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
-    read_integrator(params, scene_, notes_);
-}
-
 void Directives::option(Lexer& lexer, const Token& word) {
     Token name = expect_string(lexer, word, "a name");
     Token value = lexer.next();
@@ -155,15 +145,10 @@ void Directives::option(Lexer& lexer, const Token& word) {
     notes_.add(lexer.at(name), "Option " + quote(lexer.unescape(name)) + " is ignored");
 }
 
-void Directives::pixel_filter(Lexer& lexer, const Token& word) {
+void Directives::setting(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
-    read_pixel_filter(params, notes_);
-    has_filter_ = true;
-}
-
-void Directives::sampler(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
-    read_sampler(params, scene_, notes_);
+    read_setting(std::string(word.text), params, scene_, notes_);
+    if (word.text == "PixelFilter") has_filter_ = true;
 }
 
 void Directives::world_begin(Lexer&, const Token&) {
@@ -427,10 +412,6 @@ void Directives::check_names() const {
     }
     std::vector<std::string> lines;
     for (const auto& [at, what] : wrong) {
-        if (lines.size() == most_errors) {
-            lines.push_back(message_at({scene_.file}, "error", too_much_is_wrong));
-            break;
-        }
         const auto& [kind, name] = what;
         lines.push_back(message_at(at, "error", unknown(kind, name, known[kind])));
     }

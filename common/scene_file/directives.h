@@ -34,13 +34,10 @@ public:
     void medium_interface(Lexer& lexer, const Token& word);
     void transform_times(Lexer& lexer, const Token& word);
     // Before WorldBegin.
-    void accelerator(Lexer& lexer, const Token& word);
     void camera(Lexer& lexer, const Token& word);
     void film(Lexer& lexer, const Token& word);
-    void integrator(Lexer& lexer, const Token& word);
     void option(Lexer& lexer, const Token& word);
-    void pixel_filter(Lexer& lexer, const Token& word);
-    void sampler(Lexer& lexer, const Token& word);
+    void setting(Lexer& lexer, const Token& word);
     void world_begin(Lexer& lexer, const Token& word);
     // After WorldBegin.
     void area_light_source(Lexer& lexer, const Token& word);

@@ -215,10 +215,7 @@ std::optional<Material> read_material(Params& params, TextureReader& textures) {
 
 AreaEmission read_area_light(Params& params) {
     if (params.type() != "diffuse") params.fail_type({"diffuse"});
-    if (params.find("string", "filename")) {
-        params.stand_in(params.at("filename"), "an image on an area light",
-                        "an image on an area light is not supported");
-    }
+    params.replace("string", "filename", "an image on an area light");
     AreaEmission emission;
     emission.L = params.illuminant("L", {1, 1, 1}) * read_scale(params);
     emission.two_sided = params.boolean("twosided", false);
@@ -243,10 +240,8 @@ std::optional<SkyImage> read_sky_image(Params& params, const Transform& world_fr
     Position at = params.at("filename");
     std::string path = files.find(at, params.string("filename", ""));
     Image image;
-    if (params.number("illuminance", 0) > 0) {
-        params.stand_in(params.at("illuminance"), "the illuminance of a picture of the sky",
-                        "\"illuminance\" of a picture of the sky is not supported");
-    }
+    if (params.number("illuminance", 0) > 0)
+        params.replace("float", "illuminance", "the illuminance of a picture of the sky");
     bool is_read = params.read([&] { image = decode_image(path, files.read(path, at)); },
                                "a picture that cannot be read");
     params.finish();

@@ -74,7 +74,7 @@ const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at
     if (!is_new) return known.mesh;
     if (report_) report_("reading " + path, 0);
     try {
-        known.mesh = parse_ply(path, read(path, at), limits_, report_);
+        known.mesh = parse_ply(path, read(path, at), limits_);
         return known.mesh;
     } catch (const InputError& error) {
         known.error = error.what();

@@ -232,6 +232,11 @@ void Params::stand_in(const Position& at, const std::string& what, const std::st
     }
 }
 
+void Params::replace(const std::string& type, const std::string& name, const std::string& what) {
+    const Param* param = find(type, name);
+    if (param) stand_in(param->at, what, quote(name) + " is not supported");
+}
+
 bool Params::read(const std::function<void()>& reader, const std::string& stand_in) {
     try {
         reader();

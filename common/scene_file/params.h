@@ -61,6 +61,8 @@ public:
     /// Remembers something that we have not, but have a stand-in for, named as in the table. It is
     /// an error for finish() to throw only where stand-ins are not allowed.
     void stand_in(const Position& at, const std::string& what, const std::string& text);
+    /// The same for a parameter, where it is given.
+    void replace(const std::string& type, const std::string& name, const std::string& what);
     /// Whether stand-ins are allowed.
     bool may_stand_in() const { return notes_->stand_ins(); }
     /// Reads something, such as a file that a parameter names, and returns whether that worked.

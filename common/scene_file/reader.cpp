@@ -17,7 +17,7 @@ struct Directive {
 // All but Include and Import, which are read here.
 using D = Directives;
 const std::map<std::string, Directive, std::less<>> known_directives = {
-    {"Accelerator", {Block::options, &D::accelerator}},
+    {"Accelerator", {Block::options, &D::setting}},
     {"ActiveTransform", {Block::both, &D::active_transform}},
     {"AreaLightSource", {Block::world, &D::area_light_source}},
     {"Attribute", {Block::both, &D::attribute}},
@@ -30,7 +30,7 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"CoordinateSystem", {Block::both, &D::coordinate_system}},
     {"Film", {Block::options, &D::film}},
     {"Identity", {Block::both, &D::move}},
-    {"Integrator", {Block::options, &D::integrator}},
+    {"Integrator", {Block::options, &D::setting}},
     {"LightSource", {Block::world, &D::light_source}},
     {"LookAt", {Block::both, &D::move}},
     {"MakeNamedMaterial", {Block::world, &D::make_named_material}},
@@ -42,10 +42,10 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"ObjectEnd", {Block::world, &D::object_end}},
     {"ObjectInstance", {Block::world, &D::object_instance}},
     {"Option", {Block::options, &D::option}},
-    {"PixelFilter", {Block::options, &D::pixel_filter}},
+    {"PixelFilter", {Block::options, &D::setting}},
     {"ReverseOrientation", {Block::world, &D::reverse_orientation}},
     {"Rotate", {Block::both, &D::move}},
-    {"Sampler", {Block::options, &D::sampler}},
+    {"Sampler", {Block::options, &D::setting}},
     {"Scale", {Block::both, &D::move}},
     {"Shape", {Block::world, &D::shape}},
     {"Texture", {Block::world, &D::texture}},

@@ -134,23 +134,15 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& not
     exposure.iso = params.number("iso", 100);
     if (!(exposure.iso > 0)) fail(params.at("iso"), "iso must be greater than 0");
 
-    if (params.find_exactly("float", "cropwindow", 4)) {
-        params.stand_in(params.at("cropwindow"), "a part of the film",
-                        "cropwindow is not supported");
-    }
-    if (params.find_exactly("integer", "pixelbounds", 4)) {
-        params.stand_in(params.at("pixelbounds"), "a part of the film",
-                        "pixelbounds is not supported");
-    }
+    params.replace("float", "cropwindow", "a part of the film");
+    params.replace("integer", "pixelbounds", "a part of the film");
     std::string sensor = params.string("sensor", "cie1931");
     if (sensor != "cie1931") {
         params.stand_in(params.at("sensor"), "a sensor or white balance",
                         unknown("sensor", sensor, {"cie1931"}));
     }
-    if (params.number("whitebalance", 0) != 0) {
-        params.stand_in(params.at("whitebalance"), "a sensor or white balance",
-                        "whitebalance is not supported");
-    }
+    if (params.number("whitebalance", 0) != 0)
+        params.replace("float", "whitebalance", "a sensor or white balance");
     if (params.find("float", "maxcomponentvalue")) {
         note(notes, params, "maxcomponentvalue is ignored: nothing is clamped");
     }
@@ -161,36 +153,30 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& not
     params.finish();
 }
 
-void read_pixel_filter(Params& params, SceneNotes& notes) {
-    float radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
-    accept(params, {"box", "gaussian", "mitchell", "sinc", "triangle"});
-    if (params.type() != "box" || radius != 0.5f)
-        note(notes, params, "is replaced by the box of one pixel");
-}
-
-void read_sampler(Params& params, Scene& scene, SceneNotes& notes) {
-    constexpr int most = 1 << 24;
-    if (params.type() == "stratified") {
-        int x = params.integer("xsamples", 4, 1, 4096), y = params.integer("ysamples", 4, 1, 4096);
-        scene.spp = x * y;
+void read_setting(const std::string& directive, Params& params, Scene& scene, SceneNotes& notes) {
+    const std::string& type = params.type();
+    if (directive == "PixelFilter") {
+        float radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
+        accept(params, {"box", "gaussian", "mitchell", "sinc", "triangle"});
+        if (type != "box" || radius != 0.5f)
+            note(notes, params, "is replaced by the box of one pixel");
+    } else if (directive == "Sampler") {
+        constexpr int most = 1 << 24, most_strata = 1 << 12;  // along one axis
+        scene.spp = type == "stratified"
+                        ? params.integer("xsamples", 4, 1, most_strata) *
+                              params.integer("ysamples", 4, 1, most_strata)
+                        : params.integer("pixelsamples", type == "independent" ? 4 : 16, 1, most);
+        accept(params, {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified",
+                        "zsobol"});
+        if (type != "independent") note(notes, params, "only sets the samples per pixel");
+    } else if (directive == "Integrator") {
+        scene.max_depth = params.integer("maxdepth", 5, 0, 1 << 30);
+        accept(params, {"ambientocclusion", "bdpt", "lightpath", "mlt", "path", "randomwalk",
+                        "simplepath", "simplevolpath", "sppm", "volpath"});
+        if (type != "path")
+            note(notes, params, "only sets the depth: the program is the integrator");
     } else {
-        scene.spp =
-            params.integer("pixelsamples", params.type() == "independent" ? 4 : 16, 1, most);
+        accept(params, {"bvh", "kdtree"});
+        if (type != "bvh") note(notes, params, "is ignored: all programs use a BVH");
     }
-    accept(params,
-           {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"});
-    if (params.type() != "independent") note(notes, params, "only sets the samples per pixel");
-}
-
-void read_integrator(Params& params, Scene& scene, SceneNotes& notes) {
-    scene.max_depth = params.integer("maxdepth", 5, 0, 1 << 30);
-    accept(params, {"ambientocclusion", "bdpt", "lightpath", "mlt", "path", "randomwalk",
-                    "simplepath", "simplevolpath", "sppm", "volpath"});
-    if (params.type() != "path")
-        note(notes, params, "only sets the depth: the program is the integrator");
-}
-
-void read_accelerator(Params& params, SceneNotes& notes) {
-    accept(params, {"bvh", "kdtree"});
-    if (params.type() != "bvh") note(notes, params, "is ignored: all programs use a BVH");
 }
