@@ -41,11 +41,6 @@ std::string repeated(const std::string& text, int times) {
 
 const std::string world = "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n";
 
-/// A square of two triangles, as text.
-const std::string square_ply =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 const std::string with_mesh = "Shape \"plymesh\" \"string filename\" \"a.ply\"\n";
 
 }  // namespace
@@ -146,55 +141,52 @@ TEST_SUITE("reader: large scenes") {
                               "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 1 1 0 0 1 0] "
                               "'integer indices' [0 1 2 0 2 3]\n");
         Limits primitives, vertices, directives;
-        primitives.primitives = 3;
-        vertices.vertices = 3;
-        directives.directives = 5;
-        const std::string shapes = "more than 3 triangles, spheres and disks";
+        primitives.primitives = 3, vertices.vertices = 3, directives.directives = 5;
+        std::string parameters = "Shape \"sphere\"";
+        for (int i = 0; i < 100; i++) parameters += " \"float x" + std::to_string(i) + "\" 1";
         struct {
             Limits limits;
-            std::string last_one, one_more, place, message;
+            std::string begin, one_more, place, message;
         } cases[] = {
-            {primitives, sphere + sphere + disk, sphere, "5:1", shapes},
-            {primitives, sphere + triangles, sphere, "4:1", shapes},
-            {primitives, sphere, triangles + triangles, "4:1", shapes},
+            {primitives, sphere + sphere + disk, sphere, "5:1", "3 triangles, spheres and disks"},
+            {primitives, sphere + triangles, sphere, "4:1", "3 triangles, spheres and disks"},
+            {primitives, sphere, triangles + triangles, "4:1", "3 triangles, spheres and disks"},
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
             {{}, sphere, repeated("AttributeBegin ", 1001), "3:15001", "more than 1000 deep"},
+            {{}, sphere, parameters + " \"float x\" 1", "3:1406", "has more than 100 parameters"},
         };
         for (const auto& c : cases) {
-            CHECK(refuse(world + c.last_one, c.limits) == "");
-            std::string said = refuse(world + c.last_one + c.one_more, c.limits);
+            CHECK(refuse(world + c.begin, c.limits) == "");
+            std::string said = refuse(world + c.begin + c.one_more, c.limits);
             CHECK(said.starts_with("scene.pbrt:" + c.place + ": error: "));
             CHECK(said.ends_with(c.message));
         }
-        std::string many = "Shape \"sphere\"";
-        for (int i = 0; i <= 100; i++) many += " \"float x" + std::to_string(i) + "\" 1";
-        CHECK(refuse(world + many).ends_with("has more than 100 parameters"));
     }
 
     TEST_CASE("files: all files together end at their limit; a mesh named often is read once") {
         TemporaryFolder folder;
-        const std::string beside = folder.path() + "/";
+        const std::string beside = folder.path() + "/", include = "Include \"part.pbrt\"\n",
+                          place = folder / "scene.pbrt";
         write(folder, "part.pbrt", "Shape \"sphere\"" + std::string(986, ' '));
-        std::string include = "Include \"part.pbrt\"\n";
         Limits limits;
         limits.file_bytes = 3000;
         CHECK(refuse(world + repeated(include, 3), limits, beside) == "");
         CHECK(refuse(world + repeated(include, 4), limits, beside)
-                  .starts_with(folder / "scene.pbrt" + ":5:9: error: more than 3000 bytes"));
+                  .starts_with(place + ":5:9: error: more than 3000 bytes"));
 
-        write(folder, "a.ply", square_ply);
-        limits.file_bytes = square_ply.size();
-        std::string often = world + repeated("Translate 0 0 1 " + with_mesh, 100);
-        Scene scene = parse_scene(folder / "scene.pbrt", often, nullptr, {}, limits);
-        REQUIRE(scene.geometry.positions.size() == 400);
-        for (size_t i = 0; i < 400; i++)
-            CHECK(scene.geometry.positions[i].z == 1 + static_cast<float>(i / 4));
-        // Too many are refused where they are, before any of the last one is stored.
+        const std::string mesh = read_file("tests/support/includes/triangle.ply");
+        write(folder, "a.ply", mesh);
+        limits.file_bytes = mesh.size();
         limits.primitives = 100;
-        CHECK(
-            refuse(often, limits, beside)
-                .starts_with(folder / "scene.pbrt" + ":52:17: error: the scene has more than 100"));
+        std::string often = world + repeated("Translate 0 0 1 " + with_mesh, 100);
+        Scene scene = parse_scene(place, often, nullptr, {}, limits);
+        REQUIRE(scene.geometry.positions.size() == 300);
+        for (size_t i = 0; i < 300; i++)
+            CHECK(scene.geometry.positions[i].z == 1 + static_cast<float>(i / 3));
+        // Too many are refused where they are.
+        CHECK(refuse(often + with_mesh, limits, beside)
+                  .starts_with(place + ":102:1: error: the scene has more than 100"));
     }
 
     TEST_CASE("truth: reading and building tell what they are at, and how far") {
