@@ -232,7 +232,7 @@ std::optional<Material> Directives::read_any_material(Params& params) {
 std::optional<Material> Directives::read_mix(Params& params) {
     const Param* names = params.find_exactly("string", "materials", 2);
     if (!names) fail(params.at(), params.owner() + " needs \"string materials\"");
-    bool is_second = textures_.number(params, "amount", 0.5f) > 0.5f;
+    bool is_second = textures_.number(params, "amount", 0.5f, infinity) > 0.5f;
     const std::string& name = names->strings[is_second];
     params.ignore_rest();
     params.finish();

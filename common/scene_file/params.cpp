@@ -37,6 +37,25 @@ std::string list(const std::vector<std::string>& words) {
 
 }  // namespace
 
+void check_range(const Param& param, double value, float low, float high) {
+    float number = static_cast<float>(value);
+    if (number >= low && number <= high) return;
+    auto text = [](float x) {
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "%g", double{x});
+        return std::string(digits);
+    };
+    fail(param.at, quote(param.name) + " must be " +
+                       (high < infinity ? "from " + text(low) + " to " + text(high)
+                                        : "at least " + text(low)));
+}
+
+Rgb read_rgb(const Param& param, float low, float high) {
+    for (double x : param.numbers) check_range(param, x, low, high);
+    return {static_cast<float>(param.numbers[0]), static_cast<float>(param.numbers[1]),
+            static_cast<float>(param.numbers[2])};
+}
+
 Spectrum read_spectrum(const Param& param) {
     const std::vector<double>& numbers = param.numbers;
     if (!param.strings.empty() || numbers.size() % 2 != 0) {
@@ -47,7 +66,7 @@ Spectrum read_spectrum(const Param& param) {
         if (i > 0 && numbers[i] <= numbers[i - 2]) {
             fail(param.at, "wavelengths of " + quote(param.name) + " must be in ascending order");
         }
-        if (!(numbers[i + 1] >= 0)) fail(param.at, quote(param.name) + " must not be negative");
+        check_range(param, numbers[i + 1], 0, infinity);
         spectrum.push_back({numbers[i], numbers[i + 1]});
     }
     return spectrum;
@@ -157,9 +176,11 @@ const Param* Params::find_exactly(const std::string& type, const std::string& na
     return found;
 }
 
-float Params::number(const std::string& name, float fallback) {
+float Params::number(const std::string& name, float fallback, float low, float high) {
     const Param* param = find_exactly("float", name, 1);
-    return param ? static_cast<float>(param->numbers[0]) : fallback;
+    if (!param) return fallback;
+    check_range(*param, param->numbers[0], low, high);
+    return static_cast<float>(param->numbers[0]);
 }
 
 int Params::integer(const std::string& name, int fallback, int low, int high) {
@@ -209,10 +230,7 @@ Rgb Params::illuminant(const std::string& name, Rgb fallback) {
     }
     const Param* param = find_exactly("rgb", name, 3);
     if (!param) return fallback;
-    Rgb L = {static_cast<float>(param->numbers[0]), static_cast<float>(param->numbers[1]),
-             static_cast<float>(param->numbers[2])};
-    if (L.r < 0 || L.g < 0 || L.b < 0) fail(param->at, quote(name) + " must not be negative");
-    return L;
+    return read_rgb(*param, 0, infinity);
 }
 
 void Params::ignore(const std::string& type, const std::vector<std::string>& names) {

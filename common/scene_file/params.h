@@ -9,6 +9,10 @@
 #include "common/scene_file/spectra.h"
 #include "common/scene_file/stand_ins.h"
 
+/// The colour of a parameter, or one of its numbers; throws for one that is not in the range.
+Rgb read_rgb(const Param& param, float low, float high);
+void check_range(const Param& param, double value, float low, float high);
+
 /// The spectrum that a parameter lists; throws for one that is not in order, or negative.
 Spectrum read_spectrum(const Param& param);
 
@@ -41,8 +45,9 @@ public:
     /// The directive and its type, for messages.
     std::string owner() const;
 
-    /// The one value of a parameter; `fallback` where it is not given.
-    float number(const std::string& name, float fallback);
+    /// The one value of a parameter, from `low` to `high`; `fallback` where it is not given.
+    float number(const std::string& name, float fallback, float low = -infinity,
+                 float high = infinity);
     int integer(const std::string& name, int fallback, int low, int high);
     bool boolean(const std::string& name, bool fallback);
     std::string string(const std::string& name, const std::string& fallback);

@@ -42,16 +42,9 @@ constexpr float narrowest = 0.001f;
 
 // Reads what part of the plane in front of the camera is seen.
 void read_screen(Params& params, Camera& camera) {
-    camera.fov = params.number("fov", 90);
-    if (!(camera.fov >= narrowest && camera.fov < 180)) {
-        fail(params.at("fov"), "fov must be at least 0.001 and less than 180 degrees");
-    }
-    if (const Param* aspect = params.find_exactly("float", "frameaspectratio", 1)) {
-        camera.frame_aspect = static_cast<float>(aspect->numbers[0]);
-        if (!(*camera.frame_aspect >= 1e-4f && *camera.frame_aspect <= 1e4f)) {
-            fail(aspect->at, "frameaspectratio must be from 1e-4 to 1e4");
-        }
-    }
+    camera.fov = params.number("fov", 90, narrowest, 180 - narrowest);
+    if (params.find("float", "frameaspectratio"))
+        camera.frame_aspect = params.number("frameaspectratio", 1, 1e-4f, 1e4f);
     if (const Param* window = params.find_exactly("float", "screenwindow", 4)) {
         auto& w = camera.screen_window.emplace();
         std::transform(window->numbers.begin(), window->numbers.end(), w.begin(),
@@ -80,15 +73,10 @@ void stand_in_for(const std::string& type, Camera& camera) {
 }
 
 void read_lens(Params& params, Camera& camera) {
-    camera.lens_radius = params.number("lensradius", 0);
-    camera.focal_distance = params.number("focaldistance", 1e6f);
-    if (!(camera.lens_radius >= 0 && camera.lens_radius <= 1e6f)) {
-        fail(params.at("lensradius"), "lensradius must be from 0 to 1e6");
-    }
-    if (camera.lens_radius == 0) camera.focal_distance = 1e6f;  // of a pinhole it means nothing
-    if (!(camera.focal_distance >= 1e-6f && camera.focal_distance <= 1e9f)) {
-        fail(params.at("focaldistance"), "focaldistance must be from 1e-6 to 1e9");
-    }
+    camera.lens_radius = params.number("lensradius", 0, 0, 1e6f);
+    bool is_pinhole = camera.lens_radius == 0;  // of which a focal distance means nothing
+    if (is_pinhole) params.ignore("float", {"focaldistance"});
+    camera.focal_distance = is_pinhole ? 1e6f : params.number("focaldistance", 1e6f, 1e-6f, 1e9f);
     camera.at = kept(params.at());
 }
 
@@ -131,8 +119,7 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& not
     if (int64_t{scene.width} * scene.height > most_pixels) {
         fail(params.at(), "more than 2^28 pixels");
     }
-    exposure.iso = params.number("iso", 100);
-    if (!(exposure.iso > 0)) fail(params.at("iso"), "iso must be greater than 0");
+    exposure.iso = params.number("iso", 100, 1e-30f);
 
     params.replace("float", "cropwindow", "a part of the film");
     params.replace("integer", "pixelbounds", "a part of the film");

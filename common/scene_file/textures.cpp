@@ -11,14 +11,6 @@ namespace {
 constexpr const char* unreadable_picture = "a picture that cannot be read";
 constexpr int deepest = 100;  // textures made of textures
 
-// A number of the mapping from (u, v) to the picture.
-float read_mapping(Params& params, const std::string& name, float fallback) {
-    constexpr float largest = 1e9f;
-    float value = params.number(name, fallback);
-    if (std::abs(value) <= largest) return value;
-    fail(params.at(name), quote(name) + " must be from -1e9 to 1e9");
-}
-
 // Returns whether the mapping is "uv", not one that the mean of the texture stands in for.
 bool read_mapping(Params& params, Texture& texture) {
     bool is_uv = params.string("mapping", "uv") == "uv";
@@ -27,8 +19,11 @@ bool read_mapping(Params& params, Texture& texture) {
         params.stand_in(params.at("mapping"), "a mapping other than \"uv\"",
                         "only the mapping \"uv\" is supported");
     }
-    texture.scale = {read_mapping(params, "uscale", 1), read_mapping(params, "vscale", 1)};
-    texture.shift = {read_mapping(params, "udelta", 0), read_mapping(params, "vdelta", 0)};
+    auto number = [&](const char* name, float fallback) {
+        return params.number(name, fallback, -1e9f, 1e9f);
+    };
+    texture.scale = {number("uscale", 1), number("vscale", 1)};
+    texture.shift = {number("udelta", 0), number("vdelta", 0)};
     return is_uv;
 }
 
@@ -83,18 +78,11 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
             return {};
         }
         Spectrum spectrum = read_spectrum(*listed);
-        for (const auto& [nm, value] : spectrum) {
-            if (value > 1) fail(listed->at, quote(name) + " must be from 0 to 1");
-        }
+        for (const auto& [nm, value] : spectrum) check_range(*listed, value, 0, 1);
         return reflectance_rgb(spectrum);
     }
     if (!param) return {};
-    Rgb r = {static_cast<float>(param->numbers[0]), static_cast<float>(param->numbers[1]),
-             static_cast<float>(param->numbers[2])};
-    if (std::min({r.r, r.g, r.b}) < 0 || max_component(r) > 1) {
-        fail(param->at, quote(name) + " must be from 0 to 1");
-    }
-    return r;
+    return read_rgb(*param, 0, 1);
 }
 
 void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults) {
@@ -142,9 +130,9 @@ std::optional<NamedTexture> TextureReader::find(Params& params, const std::strin
     fail_unknown_texture(*param, known_);
 }
 
-float TextureReader::number(Params& params, const std::string& name, float fallback) {
+float TextureReader::number(Params& params, const std::string& name, float fallback, float high) {
     const Param* texture = params.may_stand_in() ? params.find("texture", name) : nullptr;
-    if (!texture) return params.number(name, fallback);
+    if (!texture) return params.number(name, fallback, 0, high);
     params.stand_in(texture->at, "a texture that is no reflectance", "");
     return mean_input(params, name, fallback, true).r;
 }
@@ -212,10 +200,7 @@ NamedTexture TextureReader::read_spectrum(Params& params) {
         result.most = result.mean = texture.value;
     } else if (params.type() == "scale") {
         NamedTexture input = read_input(params, "tex", {1, 1, 1});
-        float scale = number(params, "scale", 1);
-        if (!(scale >= 0 && scale <= 1e9f)) {
-            fail(params.at("scale"), "\"scale\" must be from 0 to 1e9");
-        }
+        float scale = number(params, "scale", 1, 1e9f);
         texture.kind = Texture::Kind::product;
         texture.value = {scale, scale, scale};
         texture.inputs = {input.index, input.index};
@@ -269,8 +254,7 @@ NamedTexture TextureReader::read_picture(Params& params) {
     texture.wrap = read_wrap(params);
     texture.nearest = read_filter(params, notes_);
     texture.inverted = params.boolean("invert", false);
-    float scale = params.number("scale", 1), gamma = read_encoding(params);
-    if (!(scale >= 0 && scale <= 1e9f)) fail(params.at("scale"), "\"scale\" must be from 0 to 1e9");
+    float scale = params.number("scale", 1, 0, 1e9f), gamma = read_encoding(params);
     texture.value = {scale, scale, scale};
     const Param* name = params.find_exactly("string", "filename", 1);
     if (name) texture.picture = picture(params, name->at, gamma);

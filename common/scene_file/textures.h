@@ -26,8 +26,9 @@ public:
     void read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults);
     /// The texture that a parameter "texture NAME" names; nothing where it is not given.
     std::optional<NamedTexture> find(Params& params, const std::string& name);
-    /// A number, or the mean of the texture that a parameter "texture NAME" names, as a stand-in.
-    float number(Params& params, const std::string& name, float fallback);
+    /// A number up to `high`, or the mean of the texture that a parameter "texture NAME" names, as
+    /// a stand-in.
+    float number(Params& params, const std::string& name, float fallback, float high);
 
     /// What the texture of this number is on average.
     Rgb mean(uint32_t texture) const { return means_[texture]; }
