@@ -60,7 +60,6 @@ Params Directives::read_params(Lexer& lexer, const Token& word, const std::strin
     auto defaults = state_.defaults.find(target);
     bool has_some = defaults != state_.defaults.end();
     Params params(lexer, word, notes_, true, has_some ? defaults->second : std::vector<Param>{});
-    params.read_spectra(files_);
     return params;
 }
 
@@ -105,27 +104,22 @@ void Directives::make_named_medium(Lexer& lexer, const Token& word) {
 void Directives::medium_interface(Lexer& lexer, const Token& word) {
     bool is_empty = expect_string(lexer, word, "the name of a medium").text.empty();
     if (lexer.peek().type == Token::string) is_empty &= lexer.next().text.empty();
-    if (is_empty) return;
-    if (!notes_.stand_ins()) {
-        fail(lexer.at(word), "MediumInterface is not supported" + or_stand_in("a medium"));
-    }
-    notes_.stand_in(lexer.at(word), "a medium");
+    if (!is_empty) not_supported(lexer, word, "MediumInterface", "a medium");
 }
 
 void Directives::transform_times(Lexer& lexer, const Token& word) {
     double start = lexer.number(lexer.next(), "TransformTimes");
     double end = lexer.number(lexer.next(), "TransformTimes");
     if (start == 0 && end == 1) return;
-    if (!notes_.stand_ins()) {
-        fail(lexer.at(word),
-             "TransformTimes other than 0 1 is not supported" + or_stand_in("TransformTimes"));
-    }
-    notes_.stand_in(lexer.at(word), "TransformTimes");
+    not_supported(lexer, word, "TransformTimes other than 0 1", "TransformTimes");
 }
 
-void Directives::accelerator(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
-    read_accelerator(params, notes_);
+void Directives::not_supported(Lexer& lexer, const Token& word, const std::string& what,
+                               const std::string& stand_in) {
+    if (!notes_.stand_ins()) {
+        fail(lexer.at(word), what + " is not supported" + or_stand_in(stand_in));
+    }
+    notes_.stand_in(lexer.at(word), stand_in);
 }
 
 void Directives::camera(Lexer& lexer, const Token& word) {
@@ -142,29 +136,19 @@ void Directives::film(Lexer& lexer, const Token& word) {
     read_film(params, scene_, exposure_, notes_);
 }
 
-void Directives::integrator(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
-    read_integrator(params, scene_, notes_);
-}
-
 void Directives::option(Lexer& lexer, const Token& word) {
     Token name = expect_string(lexer, word, "a name");
     Token value = lexer.next();
     if (value.type != Token::word && value.type != Token::string) {
         fail(lexer.at(value), "Option needs a value, not " + Lexer::describe(value));
     }
-    read_option(lexer.at(name), lexer.unescape(name), notes_);
+    notes_.add(lexer.at(name), "Option " + quote(lexer.unescape(name)) + " is ignored");
 }
 
-void Directives::pixel_filter(Lexer& lexer, const Token& word) {
+void Directives::setting(Lexer& lexer, const Token& word) {
     Params params(lexer, word, notes_);
-    read_pixel_filter(params, notes_);
-    has_filter_ = true;
-}
-
-void Directives::sampler(Lexer& lexer, const Token& word) {
-    Params params(lexer, word, notes_);
-    read_sampler(params, scene_, notes_);
+    read_setting(std::string(word.text), params, scene_, notes_);
+    if (word.text == "PixelFilter") has_filter_ = true;
 }
 
 void Directives::world_begin(Lexer&, const Token&) {
@@ -221,7 +205,6 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     std::string name = lexer.unescape(token);
     Params params(lexer, word, notes_, false);
-    params.read_spectra(files_);
     params.read_type();
     uint32_t index = find_material(name, lexer.at(token));
     NamedMaterial& named = named_materials_[name];
@@ -249,7 +232,7 @@ std::optional<Material> Directives::read_any_material(Params& params) {
 std::optional<Material> Directives::read_mix(Params& params) {
     const Param* names = params.find_exactly("string", "materials", 2);
     if (!names) fail(params.at(), params.owner() + " needs \"string materials\"");
-    bool is_second = textures_.number(params, "amount", 0.5f) > 0.5f;
+    bool is_second = textures_.number(params, "amount", 0.5f, infinity) > 0.5f;
     const std::string& name = names->strings[is_second];
     params.ignore_rest();
     params.finish();
@@ -370,23 +353,6 @@ void Directives::texture(Lexer& lexer, const Token& word) {
     textures_.read(lexer, word, state_.defaults["texture"]);
 }
 
-uint64_t Directives::bytes() const {
-    uint64_t sum = scene_.shapes.size() * sizeof(Shape) + scene_.lights.size() * sizeof(Light) +
-                   scene_.materials.size() * sizeof(Material);
-    auto add = [&](const Geometry& g) {
-        sum += (g.positions.size() + g.normals.size()) * sizeof(Vec3) +
-               g.uvs.size() * sizeof(Vec2) + g.triangles.size() * sizeof(Triangle) +
-               g.spheres.size() * sizeof(Sphere) + g.disks.size() * sizeof(Disk);
-    };
-    add(scene_.geometry);
-    for (const Mover& mover : scene_.movers) add(mover.geometry);
-    if (scene_.sky_image) sum += scene_.sky_image->pixels.size() * sizeof(Rgb);
-    for (const TexturePicture& picture : textures_.textures().pictures) {
-        sum += picture.texels.size() * sizeof(Rgb);
-    }
-    return sum;
-}
-
 bool Directives::read_mover(Params& params, const State& where, ShapeState& state) {
     if (state.emission) {
         params.stand_in(params.at(), "a light or camera that moves",
@@ -446,10 +412,6 @@ void Directives::check_names() const {
     }
     std::vector<std::string> lines;
     for (const auto& [at, what] : wrong) {
-        if (lines.size() == most_errors) {
-            lines.push_back(message_at({scene_.file}, "error", too_much_is_wrong));
-            break;
-        }
         const auto& [kind, name] = what;
         lines.push_back(message_at(at, "error", unknown(kind, name, known[kind])));
     }

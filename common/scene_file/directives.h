@@ -20,8 +20,6 @@ public:
     bool in_world() const { return in_world_; }
     /// How many blocks are open.
     size_t depth() const { return saved_.size(); }
-    /// The memory that the scene takes, about.
-    uint64_t bytes() const;
     /// The scene, once all directives are read; throws for what is missing.
     Scene finish();
 
@@ -36,13 +34,10 @@ public:
     void medium_interface(Lexer& lexer, const Token& word);
     void transform_times(Lexer& lexer, const Token& word);
     // Before WorldBegin.
-    void accelerator(Lexer& lexer, const Token& word);
     void camera(Lexer& lexer, const Token& word);
     void film(Lexer& lexer, const Token& word);
-    void integrator(Lexer& lexer, const Token& word);
     void option(Lexer& lexer, const Token& word);
-    void pixel_filter(Lexer& lexer, const Token& word);
-    void sampler(Lexer& lexer, const Token& word);
+    void setting(Lexer& lexer, const Token& word);
     void world_begin(Lexer& lexer, const Token& word);
     // After WorldBegin.
     void area_light_source(Lexer& lexer, const Token& word);
@@ -91,6 +86,8 @@ private:
         Position first_use;
     };
 
+    void not_supported(Lexer& lexer, const Token& word, const std::string& what,
+                       const std::string& stand_in);
     Params read_params(Lexer& lexer, const Token& word, const std::string& target);
     void place(Params& params, const State& where);
     void place_object(const Object& object, const Position& at, const State& state);

@@ -115,11 +115,9 @@ TriangleMesh read_triangle_mesh(Params& params, size_t corners) {
 
 TriangleMesh read_cylinder(Params& params) {
     constexpr int sides = 128;
-    float radius = params.number("radius", 1),
-          turn = std::min(360.0f, params.number("phimax", 360));
+    float radius = params.number("radius", 1, least_radius);
+    float turn = std::min(360.0f, params.number("phimax", 360, 1e-3f));
     float z0 = params.number("zmin", -1), z1 = params.number("zmax", 1);
-    if (!(radius > 0)) fail(params.at("radius"), "\"radius\" must be greater than 0");
-    if (!(turn > 0)) fail(params.at("phimax"), "\"phimax\" must be greater than 0");
     TriangleMesh mesh;
     for (int i = 0; i <= sides; i++) {
         float u = static_cast<float>(i) / sides;

@@ -4,6 +4,9 @@
 #include "common/scene_file/ply.h"
 #include "common/scene_file/settings.h"
 
+/// Of a sphere, disk or cylinder: the square of a smaller one is no float.
+inline constexpr float least_radius = 1.1e-19f;
+
 /// Throws for a point so far out that squares of areas would overflow a float.
 void check_extent(const Params& params, Vec3 p);
 

@@ -25,11 +25,6 @@ void Messages::add(const InputError& error) {
     }
 }
 
-std::string whole_megabytes(uint64_t bytes) {
-    constexpr uint64_t mega = 1'000'000;
-    return std::to_string((bytes + mega - 1) / mega) + " MB";
-}
-
 std::string join_lines(const std::vector<std::string>& lines) {
     std::string text;
     for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;

@@ -1,6 +1,5 @@
 // What the reader of a scene has to say: notes, and errors of which one run finds many.
 #pragma once
-#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -33,9 +32,6 @@ private:
     std::vector<std::string>& lines_;
     std::set<std::string> texts_;
 };
-
-/// As messages give sizes: "12 MB".
-std::string whole_megabytes(uint64_t bytes);
 
 /// All lines as one text, one below the other.
 std::string join_lines(const std::vector<std::string>& lines);

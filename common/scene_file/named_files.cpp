@@ -12,18 +12,10 @@ namespace fs = std::filesystem;
 
 std::string read_scene_file(const std::string& path) {
     std::error_code none;
-    fs::file_type type = fs::status(file_path(path), none).type();
-    bool is_device = type == fs::file_type::character || type == fs::file_type::block;
-    bool is_pipe = type == fs::file_type::fifo || type == fs::file_type::socket;
-    if (is_device) fail({path}, "cannot read: a device and no file");
-    if (is_pipe) fail({path}, "cannot read: a pipe and no file");
-    try {
-        std::string bytes = read_file(path);
-        return is_gzip(bytes) ? unpack_gzip(path, bytes) : bytes;
-    } catch (const std::bad_alloc&) {
-        uintmax_t bytes = fs::file_size(file_path(path), none);
-        fail({path}, "out of memory: the file has " + whole_megabytes(none ? 0 : bytes));
-    }
+    fs::file_status status = fs::status(file_path(path), none);
+    if (fs::is_other(status)) fail({path}, "cannot read: a device or a pipe and no file");
+    std::string bytes = read_file(path);
+    return is_gzip(bytes) ? unpack_gzip(path, bytes) : bytes;
 }
 
 std::string canonical(const std::string& path) {
@@ -48,7 +40,6 @@ std::string NamedFiles::read(const std::string& path, const Position& at) {
         bytes = read_scene_file(path);
     } catch (const InputError& error) {
         // Name the place that asks for the file, before what is wrong with it.
-        missing_.insert(path);
         std::string text = error.what(), why = text.substr(text.rfind(": error: ") + 9);
         auto is_windows = [](char c) { return c == '\\' || (c >= '\b' && c <= '\r'); };
         if (std::any_of(path.begin(), path.end(), is_windows)) why += "; write / between folders";
@@ -82,16 +73,11 @@ const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at
     if (!known.error.empty()) throw InputError(known.error);
     if (!is_new) return known.mesh;
     if (report_) report_("reading " + path, 0);
-    std::string bytes;
     try {
-        bytes = read(path, at);
-        known.mesh = parse_ply(path, bytes, limits_, report_);
+        known.mesh = parse_ply(path, read(path, at), limits_);
         return known.mesh;
     } catch (const InputError& error) {
         known.error = error.what();
         throw;
-    } catch (const std::bad_alloc&) {
-        stop_reading(at, quote_file(path) + ": out of memory: a mesh from a file of " +
-                             whole_megabytes(bytes.size()));
     }
 }

@@ -42,9 +42,6 @@ public:
     /// no mesh, of which each place that names it is told the same.
     const TriangleMesh& mesh(const std::string& path, const Position& at);
 
-    /// How many files could not be read.
-    size_t missing() const { return missing_.size(); }
-
 private:
     struct Mesh {
         TriangleMesh mesh;
@@ -59,5 +56,4 @@ private:
     uint64_t bytes_read_ = 0;
     Checksum checksum_;
     std::map<std::string, Mesh> meshes_;  // by the canonical names of their files
-    std::set<std::string> missing_;       // the paths
 };

@@ -7,39 +7,14 @@
 
 namespace {
 
-// Types that pbrt has and we do not.
-const std::vector<std::string> pbrt_only = {"coatedconductor",
-                                            "coateddiffuse",
-                                            "curve",
-                                            "diffusetransmission",
-                                            "gbuffer",
-                                            "goniometric",
-                                            "hair",
-                                            "interface",
-                                            "loopsubdiv",
-                                            "measured",
-                                            "mix",
-                                            "orthographic",
-                                            "projection",
-                                            "realistic",
-                                            "spectral",
-                                            "spherical",
-                                            "spot",
-                                            "subsurface",
-                                            "thindielectric"};
-const std::vector<std::string> pbrt_only_textures = {"bilerp", "directionmix", "dots",  "fbm",
-                                                     "marble", "ptex",         "windy", "wrinkled"};
-// Types of its third edition that the fourth does not have.
-const std::map<std::string, std::vector<std::string>> pbrt_v3 = {
-    {"AreaLightSource", {"area"}},
-    {"Camera", {"environment"}},
-    {"Film", {"image"}},
-    {"Integrator", {"ao", "directlighting", "whitted"}},
-    {"Material",
-     {"disney", "fourier", "glass", "kdsubsurface", "matte", "metal", "mirror", "plastic",
-      "substrate", "translucent", "uber"}},
-    {"Sampler", {"02sequence", "lowdiscrepancy", "maxmindist", "random"}},
-    {"Shape", {"cone", "heightfield", "hyperboloid", "nurbs", "paraboloid"}}};
+// Types of pbrt's third edition that the fourth does not have.
+const std::vector<std::string> pbrt_v3 = {
+    "02sequence",  "ao",          "area",         "cone",           "directlighting",
+    "disney",      "environment", "fourier",      "glass",          "heightfield",
+    "hyperboloid", "image",       "kdsubsurface", "lowdiscrepancy", "matte",
+    "maxmindist",  "metal",       "mirror",       "nurbs",          "paraboloid",
+    "plastic",     "random",      "substrate",    "translucent",    "uber",
+    "whitted"};
 // Parameters that pbrt has and we do not, with the names of their stand-ins.
 const std::map<std::string, std::string> pbrt_only_params = {
     {"alpha", "alpha"},
@@ -62,6 +37,25 @@ std::string list(const std::vector<std::string>& words) {
 
 }  // namespace
 
+void check_range(const Param& param, double value, float low, float high) {
+    float number = static_cast<float>(value);
+    if (number >= low && number <= high) return;
+    auto text = [](float x) {
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "%g", double{x});
+        return std::string(digits);
+    };
+    fail(param.at, quote(param.name) + " must be " +
+                       (high < infinity ? "from " + text(low) + " to " + text(high)
+                                        : "at least " + text(low)));
+}
+
+Rgb read_rgb(const Param& param, float low, float high) {
+    for (double x : param.numbers) check_range(param, x, low, high);
+    return {static_cast<float>(param.numbers[0]), static_cast<float>(param.numbers[1]),
+            static_cast<float>(param.numbers[2])};
+}
+
 Spectrum read_spectrum(const Param& param) {
     const std::vector<double>& numbers = param.numbers;
     if (!param.strings.empty() || numbers.size() % 2 != 0) {
@@ -72,7 +66,7 @@ Spectrum read_spectrum(const Param& param) {
         if (i > 0 && numbers[i] <= numbers[i - 2]) {
             fail(param.at, "wavelengths of " + quote(param.name) + " must be in ascending order");
         }
-        if (!(numbers[i + 1] >= 0)) fail(param.at, quote(param.name) + " must not be negative");
+        check_range(param, numbers[i + 1], 0, infinity);
         spectrum.push_back({numbers[i], numbers[i + 1]});
     }
     return spectrum;
@@ -116,28 +110,6 @@ void Params::add(Param param) {
     params_.push_back(std::move(param));
 }
 
-void Params::read_spectra(NamedFiles& files) {
-    for (Param& param : params_) {
-        if (param.type != "spectrum" || param.strings.size() != 1) continue;
-        if (param.strings[0].find_first_of("./\\") == std::string::npos) continue;
-        std::string path = files.find(param.at, param.strings[0]), bytes;
-        try {
-            bytes = files.read(path, param.at);
-        } catch (const ReadingEnds&) {
-            throw;
-        } catch (const InputError& error) {
-            if (may_stand_in()) continue;
-            throw InputError(error.what() +
-                             or_stand_in("a spectrum of unknown name, or without its file"));
-        }
-        Lexer lexer(path, std::move(bytes));
-        param.strings.clear();
-        while (lexer.peek().type != Token::end) {
-            param.numbers.push_back(lexer.number(lexer.next(), "a spectrum"));
-        }
-    }
-}
-
 void Params::read_type() {
     const Param* param = find_exactly("string", "type", 1);
     if (!param) fail(at_, directive_ + " needs a \"string type\"");
@@ -148,8 +120,7 @@ void Params::read_type() {
 
 // One message about a scene of pbrt-v3 is enough: nearly every line of it has to change.
 void Params::refuse_old_type() const {
-    auto old = pbrt_v3.find(directive_ == "MakeNamedMaterial" ? "Material" : directive_);
-    if (old == pbrt_v3.end() || !contains(old->second, type_)) return;
+    if (!contains(pbrt_v3, type_)) return;
     stop_reading(type_at_, owner() + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
                                "pbrt --upgrade old.pbrt > new.pbrt");
 }
@@ -161,7 +132,7 @@ bool Params::stands_in() {
 }
 
 void Params::fail_type(const std::vector<std::string>& known) const {
-    if (contains(pbrt_only, type_) || contains(pbrt_only_textures, type_)) {
+    if (has_stand_in(table_name())) {
         fail(type_at_, owner() + " is not supported (known: " + list(known) + ')' +
                            or_stand_in(table_name()));
     }
@@ -205,9 +176,11 @@ const Param* Params::find_exactly(const std::string& type, const std::string& na
     return found;
 }
 
-float Params::number(const std::string& name, float fallback) {
+float Params::number(const std::string& name, float fallback, float low, float high) {
     const Param* param = find_exactly("float", name, 1);
-    return param ? static_cast<float>(param->numbers[0]) : fallback;
+    if (!param) return fallback;
+    check_range(*param, param->numbers[0], low, high);
+    return static_cast<float>(param->numbers[0]);
 }
 
 int Params::integer(const std::string& name, int fallback, int low, int high) {
@@ -251,16 +224,13 @@ Rgb Params::illuminant(const std::string& name, Rgb fallback) {
             return L;
         }
         if (std::optional<Rgb> L = illuminant_rgb(param->strings[0])) return *L;
-        stand_in(param->at, "a spectrum of unknown name, or without its file",
+        stand_in(param->at, "a spectrum of unknown name",
                  unknown("spectrum", param->strings[0], illuminant_names()));
         return fallback;
     }
     const Param* param = find_exactly("rgb", name, 3);
     if (!param) return fallback;
-    Rgb L = {static_cast<float>(param->numbers[0]), static_cast<float>(param->numbers[1]),
-             static_cast<float>(param->numbers[2])};
-    if (L.r < 0 || L.g < 0 || L.b < 0) fail(param->at, quote(name) + " must not be negative");
-    return L;
+    return read_rgb(*param, 0, infinity);
 }
 
 void Params::ignore(const std::string& type, const std::vector<std::string>& names) {
@@ -278,6 +248,11 @@ void Params::stand_in(const Position& at, const std::string& what, const std::st
         std::string hint = or_stand_in(what);
         not_supported(at, text + (text.ends_with('?') ? hint.substr(1) : hint));
     }
+}
+
+void Params::replace(const std::string& type, const std::string& name, const std::string& what) {
+    const Param* param = find(type, name);
+    if (param) stand_in(param->at, what, quote(name) + " is not supported");
 }
 
 bool Params::read(const std::function<void()>& reader, const std::string& stand_in) {

@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "common/base/vec.h"
-#include "common/scene_file/named_files.h"
 #include "common/scene_file/param.h"
 #include "common/scene_file/spectra.h"
 #include "common/scene_file/stand_ins.h"
+
+/// The colour of a parameter, or one of its numbers; throws for one that is not in the range.
+Rgb read_rgb(const Param& param, float low, float high);
+void check_range(const Param& param, double value, float low, float high);
 
 /// The spectrum that a parameter lists; throws for one that is not in order, or negative.
 Spectrum read_spectrum(const Param& param);
@@ -29,8 +32,6 @@ public:
 
     const std::string& type() const { return type_; }
     const std::vector<Param>& all() const { return params_; }
-    /// Puts pairs of a wavelength and a value in the place of the names of files with such pairs.
-    void read_spectra(NamedFiles& files);
     /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
     void read_type();
     /// Whether the type has a stand-in that is to be taken, which is remembered.
@@ -44,8 +45,9 @@ public:
     /// The directive and its type, for messages.
     std::string owner() const;
 
-    /// The one value of a parameter; `fallback` where it is not given.
-    float number(const std::string& name, float fallback);
+    /// The one value of a parameter, from `low` to `high`; `fallback` where it is not given.
+    float number(const std::string& name, float fallback, float low = -infinity,
+                 float high = infinity);
     int integer(const std::string& name, int fallback, int low, int high);
     bool boolean(const std::string& name, bool fallback);
     std::string string(const std::string& name, const std::string& fallback);
@@ -64,6 +66,8 @@ public:
     /// Remembers something that we have not, but have a stand-in for, named as in the table. It is
     /// an error for finish() to throw only where stand-ins are not allowed.
     void stand_in(const Position& at, const std::string& what, const std::string& text);
+    /// The same for a parameter, where it is given.
+    void replace(const std::string& type, const std::string& name, const std::string& what);
     /// Whether stand-ins are allowed.
     bool may_stand_in() const { return notes_->stand_ins(); }
     /// Reads something, such as a file that a parameter names, and returns whether that worked.

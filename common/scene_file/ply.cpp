@@ -164,7 +164,6 @@ void read_vertices(PlyBytes& reader, const Element& element, TriangleMesh& mesh)
 
     mesh.positions.reserve(element.count);
     for (uint64_t n = 0; n < element.count; n++) {
-        reader.report(n);
         std::array<float, count> v = {};
         for (const Property& property : element.properties) {
             size_t slot = 0;
@@ -190,7 +189,6 @@ void read_faces(PlyBytes& reader, const Element& element, size_t vertices, Trian
         fail(element.at, "face has no list of whole numbers \"vertex_indices\"");
     }
     for (uint64_t n = 0; n < element.count; n++) {
-        reader.report(n);
         for (const Property& property : element.properties) {
             if (&property != corners) {
                 skip(reader, property);
@@ -227,13 +225,12 @@ bool are_usable(const std::vector<Vec2>& uvs) {
     });
 }
 
-TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits,
-                       const Report& report) {
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits) {
     if (bytes.empty()) fail({file}, "the file is empty");
     if (bytes.starts_with("\x1f\x8b")) {
         fail({file}, "compressed by gzip: unpack it first");
     }
-    PlyBytes reader(file, bytes, report);
+    PlyBytes reader(file, bytes);
     std::vector<Element> elements = read_header(reader);
 
     // Know how many vertices there will be, since faces may come before them.

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "common/base/report.h"
 #include "common/base/vec.h"
 #include "common/scene_file/limits.h"
 
@@ -28,9 +27,8 @@ bool are_usable(const std::vector<Vec2>& uvs);
 ///
 /// file    its name, for messages
 /// limits  a mesh beyond them is refused before there is memory for it
-/// report  hears how far it is
 /// errors  InputError "file:line:column: error: ..." for the header and an ASCII body,
 ///         "file: error: ... at byte N" for a binary one
 /// source  Turk 1994, "The PLY Polygon File Format"      tested by  "input: PLY ..."
-TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits = {},
-                       const Report& report = {});
+TriangleMesh parse_ply(const std::string& file, const std::string& bytes,
+                       const Limits& limits = {});

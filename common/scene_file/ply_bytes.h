@@ -7,7 +7,6 @@
 
 #include "common/base/numbers.h"
 #include "common/base/position.h"
-#include "common/base/report.h"
 
 enum class PlyFormat { ascii, little, big };
 
@@ -28,8 +27,7 @@ inline constexpr std::array<PlyScalar, 8> ply_scalars = {{{"char", "int8", 1, fa
 /// The bytes of the file and how far they are read, in words or in binary values.
 class PlyBytes {
 public:
-    PlyBytes(const std::string& file, std::string_view bytes, const Report& report = {})
-        : file_(file), bytes_(bytes), report_(report) {}
+    PlyBytes(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
     PlyFormat format = PlyFormat::ascii;
     size_t left() const { return bytes_.size() - position_; }
@@ -61,13 +59,6 @@ public:
         if (line_feed && !cr_alone_) step();
         line_++;
         column_ = 1;
-    }
-
-    /// Says how far reading is, now and then: once in 65536 elements.
-    void report(uint64_t element) const {
-        if (element % 65536 != 0 || !report_) return;
-        report_("reading " + file_,
-                static_cast<double>(position_) / static_cast<double>(bytes_.size()));
     }
 
     double value(const PlyScalar& type) {
@@ -117,7 +108,6 @@ private:
 
     std::string file_;
     std::string_view bytes_;
-    Report report_;
     size_t position_ = 0;
     int line_ = 1, column_ = 1, word_column_ = 1;
     bool cr_alone_ = false;  // ends lines

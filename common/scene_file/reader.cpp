@@ -17,7 +17,7 @@ struct Directive {
 // All but Include and Import, which are read here.
 using D = Directives;
 const std::map<std::string, Directive, std::less<>> known_directives = {
-    {"Accelerator", {Block::options, &D::accelerator}},
+    {"Accelerator", {Block::options, &D::setting}},
     {"ActiveTransform", {Block::both, &D::active_transform}},
     {"AreaLightSource", {Block::world, &D::area_light_source}},
     {"Attribute", {Block::both, &D::attribute}},
@@ -30,7 +30,7 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"CoordinateSystem", {Block::both, &D::coordinate_system}},
     {"Film", {Block::options, &D::film}},
     {"Identity", {Block::both, &D::move}},
-    {"Integrator", {Block::options, &D::integrator}},
+    {"Integrator", {Block::options, &D::setting}},
     {"LightSource", {Block::world, &D::light_source}},
     {"LookAt", {Block::both, &D::move}},
     {"MakeNamedMaterial", {Block::world, &D::make_named_material}},
@@ -42,10 +42,10 @@ const std::map<std::string, Directive, std::less<>> known_directives = {
     {"ObjectEnd", {Block::world, &D::object_end}},
     {"ObjectInstance", {Block::world, &D::object_instance}},
     {"Option", {Block::options, &D::option}},
-    {"PixelFilter", {Block::options, &D::pixel_filter}},
+    {"PixelFilter", {Block::options, &D::setting}},
     {"ReverseOrientation", {Block::world, &D::reverse_orientation}},
     {"Rotate", {Block::both, &D::move}},
-    {"Sampler", {Block::options, &D::sampler}},
+    {"Sampler", {Block::options, &D::setting}},
     {"Scale", {Block::both, &D::move}},
     {"Shape", {Block::world, &D::shape}},
     {"Texture", {Block::world, &D::texture}},
@@ -74,7 +74,6 @@ public:
 private:
     void read(const std::string& path, std::string text);
     void read_directive(Lexer& lexer, const Token& word);
-    void begin_block(Lexer& lexer, const Token& word, const std::string& meant);
     void include(Lexer& lexer, const Token& word);
 
     const std::string main_file_;
@@ -121,7 +120,6 @@ Scene Reader::read_scene(std::string text) {
 }
 
 void Reader::read(const std::string& path, std::string text) {
-    constexpr size_t most_missing = 1000;
     Lexer lexer(path, std::move(text), report_);
     open_files_.push_back(canonical(path));
     for (Token token = lexer.next(); token.type != Token::end; token = lexer.next()) {
@@ -131,9 +129,7 @@ void Reader::read(const std::string& path, std::string text) {
             throw;
         } catch (const InputError& error) {
             errors_.add(error);
-            // Name each file that is missing, though there may be more.
-            size_t missing = directives_.files().missing();
-            if (error_lines_.size() >= most_errors + missing || missing >= most_missing) {
+            if (error_lines_.size() >= most_errors) {
                 stop_reading({main_file_}, too_much_is_wrong);
             }
             skip_arguments(lexer);
@@ -157,7 +153,9 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
         if (name == "WorldEnd") fail(at, "WorldEnd is not part of pbrt-v4: leave it out");
         std::vector<std::string> known = {"Import", "Include"};
         for (const auto& [directive, how] : known_directives) known.push_back(directive);
-        begin_block(lexer, word, nearest_word(name, known));
+        // Else each directive of the block would be wrong too.
+        bool is_block = nearest_word(name, known).ends_with("Begin");
+        if (is_block) stop_reading(at, unknown("directive", name, known));
         fail_unknown(at, "directive", name, known);
     }
     auto [block, read] = found->second;
@@ -168,23 +166,7 @@ void Reader::read_directive(Lexer& lexer, const Token& word) {
     if (block == Block::options && name != "Option" && !options_read_.insert(name).second) {
         notes_.add(at, "a second " + name + ": the last one counts");
     }
-    try {
-        (directives_.*read)(lexer, word);
-    } catch (const std::bad_alloc&) {
-        stop_reading(at, "out of memory: " + name + " needs more, and what was read before takes " +
-                             whole_megabytes(directives_.bytes()));
-    }
-}
-
-// Where an unknown directive was meant to begin a block, begins it: else each directive of the
-// block and its end would be wrong too.
-void Reader::begin_block(Lexer& lexer, const Token& word, const std::string& meant) {
-    bool is_world = meant == "WorldBegin", in_world = directives_.in_world();
-    if (!meant.ends_with("Begin") || is_world == in_world) return;
-    const auto& [name, directive] = *known_directives.find(meant);
-    Token token = word;
-    token.text = name;
-    (directives_.*directive.read)(lexer, token);
+    (directives_.*read)(lexer, word);
 }
 
 void Reader::include(Lexer& lexer, const Token& word) {
@@ -208,14 +190,7 @@ void Reader::include(Lexer& lexer, const Token& word) {
     } catch (const InputError&) {
         if (!notes_.stand_ins()) throw;
         notes_.stand_in(at, "a scene file that cannot be read");
-        skip_arguments(lexer);
         return;
-    }
-    // As in pbrt, parameters behind Include belong to the last directive of the file.
-    while (is_argument(lexer.peek())) {
-        Token part = lexer.next();
-        const char* quotes = part.type == Token::string ? "\"" : "";
-        text += '\n' + (quotes + std::string(part.text)) + quotes;
     }
     if (word.text == "Include") return read(path, std::move(text));
     // What Import changes, it changes for the file alone.

@@ -4,26 +4,19 @@
 
 namespace {
 
-// The kinds of a directive, and the parameters of each that we read over.
-struct Kind {
-    std::string name;
-    std::vector<std::string> integers, floats, strings, bools;
-};
-
-// Finds the kind, reads over its parameters, and refuses what is left.
-void accept(Params& params, const std::vector<Kind>& kinds) {
-    std::vector<std::string> known;
-    for (const Kind& kind : kinds) {
-        known.push_back(kind.name);
-        if (kind.name != params.type()) continue;
-        params.ignore("integer", kind.integers);
-        params.ignore("float", kind.floats);
-        params.ignore("string", kind.strings);
-        params.ignore("bool", kind.bools);
-        params.finish();
-        return;
-    }
-    params.fail_type(known);
+// Finds the kind, and reads over the parameters of pbrt's own ways to render.
+void accept(Params& params, const std::vector<std::string>& kinds) {
+    if (std::find(kinds.begin(), kinds.end(), params.type()) == kinds.end())
+        params.fail_type(kinds);
+    params.ignore("integer", {"bootstrapsamples", "chains", "intersectcost", "maxdepth",
+                              "maxnodeprims", "maxprims", "mutationsperpixel",
+                              "photonsperiteration", "seed", "traversalcost"});
+    params.ignore("float", {"B", "C", "emptybonus", "largestepprobability", "maxdistance", "radius",
+                            "rrthreshold", "sigma", "tau", "xradius", "yradius"});
+    params.ignore("string", {"lightsampler", "randomization", "splitmethod"});
+    params.ignore("bool", {"cossample", "jitter", "regularize", "samplebsdf", "samplelights",
+                           "visualizestrategies", "visualizeweights"});
+    params.finish();
 }
 
 void note(SceneNotes& notes, const Params& params, const std::string& text) {
@@ -49,16 +42,9 @@ constexpr float narrowest = 0.001f;
 
 // Reads what part of the plane in front of the camera is seen.
 void read_screen(Params& params, Camera& camera) {
-    camera.fov = params.number("fov", 90);
-    if (!(camera.fov >= narrowest && camera.fov < 180)) {
-        fail(params.at("fov"), "fov must be at least 0.001 and less than 180 degrees");
-    }
-    if (const Param* aspect = params.find_exactly("float", "frameaspectratio", 1)) {
-        camera.frame_aspect = static_cast<float>(aspect->numbers[0]);
-        if (!(*camera.frame_aspect >= 1e-4f && *camera.frame_aspect <= 1e4f)) {
-            fail(aspect->at, "frameaspectratio must be from 1e-4 to 1e4");
-        }
-    }
+    camera.fov = params.number("fov", 90, narrowest, 180 - narrowest);
+    if (params.find("float", "frameaspectratio"))
+        camera.frame_aspect = params.number("frameaspectratio", 1, 1e-4f, 1e4f);
     if (const Param* window = params.find_exactly("float", "screenwindow", 4)) {
         auto& w = camera.screen_window.emplace();
         std::transform(window->numbers.begin(), window->numbers.end(), w.begin(),
@@ -87,15 +73,10 @@ void stand_in_for(const std::string& type, Camera& camera) {
 }
 
 void read_lens(Params& params, Camera& camera) {
-    camera.lens_radius = params.number("lensradius", 0);
-    camera.focal_distance = params.number("focaldistance", 1e6f);
-    if (!(camera.lens_radius >= 0 && camera.lens_radius <= 1e6f)) {
-        fail(params.at("lensradius"), "lensradius must be from 0 to 1e6");
-    }
-    if (camera.lens_radius == 0) camera.focal_distance = 1e6f;  // of a pinhole it means nothing
-    if (!(camera.focal_distance >= 1e-6f && camera.focal_distance <= 1e9f)) {
-        fail(params.at("focaldistance"), "focaldistance must be from 1e-6 to 1e9");
-    }
+    camera.lens_radius = params.number("lensradius", 0, 0, 1e6f);
+    bool is_pinhole = camera.lens_radius == 0;  // of which a focal distance means nothing
+    if (is_pinhole) params.ignore("float", {"focaldistance"});
+    camera.focal_distance = is_pinhole ? 1e6f : params.number("focaldistance", 1e6f, 1e-6f, 1e9f);
     camera.at = kept(params.at());
 }
 
@@ -138,26 +119,17 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& not
     if (int64_t{scene.width} * scene.height > most_pixels) {
         fail(params.at(), "more than 2^28 pixels");
     }
-    exposure.iso = params.number("iso", 100);
-    if (!(exposure.iso > 0)) fail(params.at("iso"), "iso must be greater than 0");
+    exposure.iso = params.number("iso", 100, 1e-30f);
 
-    if (params.find_exactly("float", "cropwindow", 4)) {
-        params.stand_in(params.at("cropwindow"), "a part of the film",
-                        "cropwindow is not supported");
-    }
-    if (params.find_exactly("integer", "pixelbounds", 4)) {
-        params.stand_in(params.at("pixelbounds"), "a part of the film",
-                        "pixelbounds is not supported");
-    }
+    params.replace("float", "cropwindow", "a part of the film");
+    params.replace("integer", "pixelbounds", "a part of the film");
     std::string sensor = params.string("sensor", "cie1931");
     if (sensor != "cie1931") {
         params.stand_in(params.at("sensor"), "a sensor or white balance",
                         unknown("sensor", sensor, {"cie1931"}));
     }
-    if (params.number("whitebalance", 0) != 0) {
-        params.stand_in(params.at("whitebalance"), "a sensor or white balance",
-                        "whitebalance is not supported");
-    }
+    if (params.number("whitebalance", 0) != 0)
+        params.replace("float", "whitebalance", "a sensor or white balance");
     if (params.find("float", "maxcomponentvalue")) {
         note(notes, params, "maxcomponentvalue is ignored: nothing is clamped");
     }
@@ -168,92 +140,30 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& not
     params.finish();
 }
 
-void read_pixel_filter(Params& params, SceneNotes& notes) {
-    float radius = params.type() == "box" ? 0.5f : 0;
-    if (params.type() == "box") {
-        radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
-    }
-    accept(params, {{"box", {}, {"xradius", "yradius"}, {}, {}},
-                    {"gaussian", {}, {"xradius", "yradius", "sigma"}, {}, {}},
-                    {"mitchell", {}, {"xradius", "yradius", "B", "C"}, {}, {}},
-                    {"sinc", {}, {"xradius", "yradius", "tau"}, {}, {}},
-                    {"triangle", {}, {"xradius", "yradius"}, {}, {}}});
-    if (radius != 0.5f) note(notes, params, "is replaced by the box of one pixel");
-}
-
-void read_sampler(Params& params, Scene& scene, SceneNotes& notes) {
-    constexpr int most = 1 << 24;
-    if (params.type() == "stratified") {
-        int x = params.integer("xsamples", 4, 1, 4096), y = params.integer("ysamples", 4, 1, 4096);
-        scene.spp = x * y;
+void read_setting(const std::string& directive, Params& params, Scene& scene, SceneNotes& notes) {
+    const std::string& type = params.type();
+    if (directive == "PixelFilter") {
+        float radius = std::max(params.number("xradius", 0.5f), params.number("yradius", 0.5f));
+        accept(params, {"box", "gaussian", "mitchell", "sinc", "triangle"});
+        if (type != "box" || radius != 0.5f)
+            note(notes, params, "is replaced by the box of one pixel");
+    } else if (directive == "Sampler") {
+        constexpr int most = 1 << 24, most_strata = 1 << 12;  // along one axis
+        scene.spp = type == "stratified"
+                        ? params.integer("xsamples", 4, 1, most_strata) *
+                              params.integer("ysamples", 4, 1, most_strata)
+                        : params.integer("pixelsamples", type == "independent" ? 4 : 16, 1, most);
+        accept(params, {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified",
+                        "zsobol"});
+        if (type != "independent") note(notes, params, "only sets the samples per pixel");
+    } else if (directive == "Integrator") {
+        scene.max_depth = params.integer("maxdepth", 5, 0, 1 << 30);
+        accept(params, {"ambientocclusion", "bdpt", "lightpath", "mlt", "path", "randomwalk",
+                        "simplepath", "simplevolpath", "sppm", "volpath"});
+        if (type != "path")
+            note(notes, params, "only sets the depth: the program is the integrator");
     } else {
-        scene.spp =
-            params.integer("pixelsamples", params.type() == "independent" ? 4 : 16, 1, most);
+        accept(params, {"bvh", "kdtree"});
+        if (type != "bvh") note(notes, params, "is ignored: all programs use a BVH");
     }
-    accept(params, {{"halton", {"seed"}, {}, {"randomization"}, {}},
-                    {"independent", {"seed"}, {}, {}, {}},
-                    {"paddedsobol", {"seed"}, {}, {"randomization"}, {}},
-                    {"pmj02bn", {"seed"}, {}, {}, {}},
-                    {"sobol", {"seed"}, {}, {"randomization"}, {}},
-                    {"stratified", {"seed"}, {}, {}, {"jitter"}},
-                    {"zsobol", {"seed"}, {}, {"randomization"}, {}}});
-    if (params.type() != "independent") note(notes, params, "only sets the samples per pixel");
-}
-
-void read_integrator(Params& params, Scene& scene, SceneNotes& notes) {
-    bool has_depth = params.type() != "ambientocclusion";
-    scene.max_depth = has_depth ? params.integer("maxdepth", 5, 0, 1 << 30) : 5;
-    accept(params, {{"ambientocclusion", {}, {"maxdistance"}, {}, {"cossample"}},
-                    {"bdpt",
-                     {},
-                     {},
-                     {"lightsampler"},
-                     {"regularize", "visualizestrategies", "visualizeweights"}},
-                    {"lightpath", {}, {}, {}, {}},
-                    {"mlt",
-                     {"bootstrapsamples", "chains", "mutationsperpixel"},
-                     {"sigma", "largestepprobability"},
-                     {},
-                     {"regularize"}},
-                    {"path", {}, {"rrthreshold"}, {"lightsampler"}, {"regularize"}},
-                    {"randomwalk", {}, {}, {}, {}},
-                    {"simplepath", {}, {}, {}, {"samplelights", "samplebsdf"}},
-                    {"simplevolpath", {}, {}, {}, {}},
-                    {"sppm", {"photonsperiteration", "seed"}, {"radius"}, {}, {"regularize"}},
-                    {"volpath", {}, {"rrthreshold"}, {"lightsampler"}, {"regularize"}}});
-    if (params.type() != "path")
-        note(notes, params, "only sets the depth: the program is the integrator");
-}
-
-void read_accelerator(Params& params, SceneNotes& notes) {
-    accept(params, {{"bvh", {"maxnodeprims"}, {}, {"splitmethod"}, {}},
-                    {"kdtree",
-                     {"intersectcost", "traversalcost", "maxprims", "maxdepth"},
-                     {"emptybonus"},
-                     {},
-                     {}}});
-    if (params.type() != "bvh") note(notes, params, "is ignored: all programs use a BVH");
-}
-
-void read_option(const Position& at, const std::string& name, SceneNotes& notes) {
-    // Compare as pbrt does, without regard to case, dashes and underscores.
-    std::string plain;
-    for (char c : name) {
-        if (c != '-' && c != '_') plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    }
-    const std::vector<std::string> known = {"disablepixeljitter",
-                                            "disabletexturefiltering",
-                                            "disablewavelengthjitter",
-                                            "displacementedgescale",
-                                            "forcediffuse",
-                                            "msereferenceimage",
-                                            "msereferenceout",
-                                            "pixelstats",
-                                            "rendercoordsys",
-                                            "seed",
-                                            "wavefront"};
-    if (std::find(known.begin(), known.end(), plain) == known.end()) {
-        fail_unknown(at, "Option", name, known);
-    }
-    notes.add(at, "Option " + quote(name) + " is ignored");
 }

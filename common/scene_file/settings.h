@@ -12,9 +12,5 @@ struct Exposure {
 void read_camera(Params& params, const Transform& camera_from_world, Camera& camera,
                  Exposure& exposure);
 void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& notes);
-void read_pixel_filter(Params& params, SceneNotes& notes);
-void read_sampler(Params& params, Scene& scene, SceneNotes& notes);
-void read_integrator(Params& params, Scene& scene, SceneNotes& notes);
-void read_accelerator(Params& params, SceneNotes& notes);
-/// `Option "disablepixeljitter" true`: all are ignored, with a note.
-void read_option(const Position& at, const std::string& name, SceneNotes& notes);
+/// PixelFilter, Sampler, Integrator and Accelerator: how pbrt renders, of which little counts here.
+void read_setting(const std::string& directive, Params& params, Scene& scene, SceneNotes& notes);

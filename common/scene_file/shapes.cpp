@@ -32,12 +32,6 @@ double uniform_scale(Params& params, const std::vector<Vec3d>& axes, const std::
     return scale;
 }
 
-float read_radius(Params& params) {
-    float radius = params.number("radius", 1);
-    if (!(radius > 0)) fail(params.at("radius"), "\"radius\" must be greater than 0");
-    return radius;
-}
-
 // Parts are not supported. pbrt clamps an angle above 360 degrees.
 void require_whole(Params& params, const std::string& name, bool is_whole) {
     if (params.number("phimax", 360) >= 360 && is_whole) return;
@@ -55,7 +49,7 @@ int add_axes(const Transform& t, Scene& scene) {
 }
 
 int add_sphere(Params& params, const ShapeState& state, Scene& scene) {
-    float radius = read_radius(params);
+    float radius = params.number("radius", 1, least_radius);
     // In either order, and clamped to the sphere, as in pbrt.
     float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
     bool is_cut = std::min(z0, z1) > -radius || std::max(z0, z1) < radius;
@@ -71,7 +65,7 @@ int add_sphere(Params& params, const ShapeState& state, Scene& scene) {
 }
 
 int add_disk(Params& params, const ShapeState& state, Scene& scene) {
-    float radius = read_radius(params);
+    float radius = params.number("radius", 1, least_radius);
     require_whole(params, "innerradius", params.number("innerradius", 0) == 0);
     const Transform& t = state.world_from_object;
     double scale = uniform_scale(params, {t.x, t.y},

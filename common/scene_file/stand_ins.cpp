@@ -15,7 +15,7 @@ const std::vector<StandIn>& all_stand_ins() {
         {"rough glass", "smooth glass"},
         {"a roughness that differs between u and v", "their geometric mean"},
         {"an index of refraction as a list", "its mean"},
-        {"a spectrum of unknown name, or without its file", "the default of its parameter"},
+        {"a spectrum of unknown name", "the default of its parameter"},
         {"a bump or normal map", "none"},
         {"alpha", "1, or nothing where it is 0 everywhere"},
         {"a texture that is no reflectance", "its mean, or the default of its parameter"},

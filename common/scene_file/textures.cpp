@@ -11,14 +11,6 @@ namespace {
 constexpr const char* unreadable_picture = "a picture that cannot be read";
 constexpr int deepest = 100;  // textures made of textures
 
-// A number of the mapping from (u, v) to the picture.
-float read_mapping(Params& params, const std::string& name, float fallback) {
-    constexpr float largest = 1e9f;
-    float value = params.number(name, fallback);
-    if (std::abs(value) <= largest) return value;
-    fail(params.at(name), quote(name) + " must be from -1e9 to 1e9");
-}
-
 // Returns whether the mapping is "uv", not one that the mean of the texture stands in for.
 bool read_mapping(Params& params, Texture& texture) {
     bool is_uv = params.string("mapping", "uv") == "uv";
@@ -27,8 +19,11 @@ bool read_mapping(Params& params, Texture& texture) {
         params.stand_in(params.at("mapping"), "a mapping other than \"uv\"",
                         "only the mapping \"uv\" is supported");
     }
-    texture.scale = {read_mapping(params, "uscale", 1), read_mapping(params, "vscale", 1)};
-    texture.shift = {read_mapping(params, "udelta", 0), read_mapping(params, "vdelta", 0)};
+    auto number = [&](const char* name, float fallback) {
+        return params.number(name, fallback, -1e9f, 1e9f);
+    };
+    texture.scale = {number("uscale", 1), number("vscale", 1)};
+    texture.shift = {number("udelta", 0), number("vdelta", 0)};
     return is_uv;
 }
 
@@ -78,35 +73,16 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
     const Param* param = params.find_exactly("rgb", name, 3);
     if (const Param* listed = params.find("spectrum", name)) {
         if (listed->strings.size() == 1) {
-            params.stand_in(listed->at, "a spectrum of unknown name, or without its file",
+            params.stand_in(listed->at, "a spectrum of unknown name",
                             unknown("spectrum", listed->strings[0], {}));
             return {};
         }
         Spectrum spectrum = read_spectrum(*listed);
-        for (const auto& [nm, value] : spectrum) {
-            if (value > 1) fail(listed->at, quote(name) + " must be from 0 to 1");
-        }
-        return reflectance_rgb(spectrum);
-    }
-    if (const Param* black = params.find_exactly("blackbody", name, 1)) {
-        // As pbrt, with the value 1 at the maximum: 2898 um K (Wien).
-        double T = black->numbers[0];
-        if (T < 500 || T > 1e6) fail(black->at, "blackbody needs 500 to 1e6 kelvin");
-        auto planck = [T](double nm) {
-            return std::pow(nm, -5) / std::expm1(1.438776877e7 / (nm * T));
-        };
-        Spectrum spectrum;
-        double most = planck(2.897771955e6 / T);
-        for (double nm = 360; nm <= 830; nm += 5) spectrum.push_back({nm, planck(nm) / most});
+        for (const auto& [nm, value] : spectrum) check_range(*listed, value, 0, 1);
         return reflectance_rgb(spectrum);
     }
     if (!param) return {};
-    Rgb r = {static_cast<float>(param->numbers[0]), static_cast<float>(param->numbers[1]),
-             static_cast<float>(param->numbers[2])};
-    if (std::min({r.r, r.g, r.b}) < 0 || max_component(r) > 1) {
-        fail(param->at, quote(name) + " must be from 0 to 1");
-    }
-    return r;
+    return read_rgb(*param, 0, 1);
 }
 
 void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults) {
@@ -118,7 +94,6 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
     }
     std::string name = lexer.unescape(name_token);
     Params params(lexer, word, notes_, true, defaults);
-    params.read_spectra(files_);
     if (type.text != "spectrum" && type.text != "float") {
         fail_unknown(lexer.at(type), "type of texture", std::string(type.text),
                      {"float", "spectrum"});
@@ -127,7 +102,6 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
     if (is_float ? floats_.contains(name) : known_.contains(name)) {
         fail(lexer.at(name_token), "a second texture " + quote(name));
     }
-    auto early = unknown_.find(name);
     try {
         if (is_float) floats_.insert({name, {params, {}}});
         if (!is_float) known_[name] = read_spectrum(params);
@@ -135,15 +109,10 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
         known_[name] = NamedTexture{};  // so that who names it is not wrong too
         throw;
     }
-    if (early == unknown_.end()) return;
-    fail(lexer.at(name_token), "the texture " + quote(name) + " must be defined above line " +
-                                   std::to_string(early->second.line) + " of " +
-                                   quote_file(early->second.file) + ", which names it");
 }
 
 template <class Map>
 void TextureReader::fail_unknown_texture(const Param& param, const Map& known) {
-    unknown_.try_emplace(param.strings[0], param.at);
     std::vector<std::string> names;
     for (const auto& [name, texture] : known) names.push_back(name);
     fail_unknown(param.at, "texture", param.strings[0], names);
@@ -161,9 +130,9 @@ std::optional<NamedTexture> TextureReader::find(Params& params, const std::strin
     fail_unknown_texture(*param, known_);
 }
 
-float TextureReader::number(Params& params, const std::string& name, float fallback) {
+float TextureReader::number(Params& params, const std::string& name, float fallback, float high) {
     const Param* texture = params.may_stand_in() ? params.find("texture", name) : nullptr;
-    if (!texture) return params.number(name, fallback);
+    if (!texture) return params.number(name, fallback, 0, high);
     params.stand_in(texture->at, "a texture that is no reflectance", "");
     return mean_input(params, name, fallback, true).r;
 }
@@ -231,10 +200,7 @@ NamedTexture TextureReader::read_spectrum(Params& params) {
         result.most = result.mean = texture.value;
     } else if (params.type() == "scale") {
         NamedTexture input = read_input(params, "tex", {1, 1, 1});
-        float scale = number(params, "scale", 1);
-        if (!(scale >= 0 && scale <= 1e9f)) {
-            fail(params.at("scale"), "\"scale\" must be from 0 to 1e9");
-        }
+        float scale = number(params, "scale", 1, 1e9f);
         texture.kind = Texture::Kind::product;
         texture.value = {scale, scale, scale};
         texture.inputs = {input.index, input.index};
@@ -288,8 +254,7 @@ NamedTexture TextureReader::read_picture(Params& params) {
     texture.wrap = read_wrap(params);
     texture.nearest = read_filter(params, notes_);
     texture.inverted = params.boolean("invert", false);
-    float scale = params.number("scale", 1), gamma = read_encoding(params);
-    if (!(scale >= 0 && scale <= 1e9f)) fail(params.at("scale"), "\"scale\" must be from 0 to 1e9");
+    float scale = params.number("scale", 1, 0, 1e9f), gamma = read_encoding(params);
     texture.value = {scale, scale, scale};
     const Param* name = params.find_exactly("string", "filename", 1);
     if (name) texture.picture = picture(params, name->at, gamma);

@@ -26,12 +26,12 @@ public:
     void read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults);
     /// The texture that a parameter "texture NAME" names; nothing where it is not given.
     std::optional<NamedTexture> find(Params& params, const std::string& name);
-    /// A number, or the mean of the texture that a parameter "texture NAME" names, as a stand-in.
-    float number(Params& params, const std::string& name, float fallback);
+    /// A number up to `high`, or the mean of the texture that a parameter "texture NAME" names, as
+    /// a stand-in.
+    float number(Params& params, const std::string& name, float fallback, float high);
 
     /// What the texture of this number is on average.
     Rgb mean(uint32_t texture) const { return means_[texture]; }
-    const Textures& textures() const { return textures_; }
     Textures take() { return std::move(textures_); }
 
 private:
@@ -60,7 +60,6 @@ private:
         std::optional<float> mean;  // once it was asked for
     };
     std::map<std::string, NamedTexture> known_;
-    std::map<std::string, Position> unknown_;  // who named a texture that was not known yet
     std::map<std::string, FloatTexture> floats_;
     std::map<std::pair<std::string, float>, Picture> pictures_;  // by canonical name and gamma
     uint64_t texels_ = 0;

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <set>
 
 #include "common/light/solid_angle.h"
 #include "tests/support/gates.h"
@@ -78,50 +77,27 @@ const std::vector<std::pair<std::string, std::string>> shapes = {
 
 const std::vector<Vec3> places = {{0, 0, 0}, {0.4f, 0.2f, -0.3f}, {0.1f, 0.9f, 0}, {3, -4, 2}};
 
-/// What the light gives a receiver at x with normal n.
-double irradiance(const Scene& scene, Vec3 x, Vec3 n) {
-    RunningStats stats;
-    Sampler random = random_numbers(1);
-    for (int i = 0; i < 1000; i++) {
-        LightPoint y = sample_solid_angle(scene, 0, x, random.u2());
-        Vec3 wi = normalize(y.p - x);
-        bool seen = y.pdf > 0 && dot(wi, n) > 0 && dot(wi, y.n) < 0;
-        stats.add(seen ? static_cast<double>(dot(wi, n) / y.pdf) : 0);
-    }
-    return stats.mean();
-}
-
 double off(Vec3 a, Vec3 b) { return static_cast<double>(length(a - b)); }
 
 }  // namespace
 
 TEST_SUITE("solid angle") {
     TEST_CASE("truth: solid angles of triangles and rectangles") {
-        CHECK(relative_error(triangle_angle({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), pi_exact / 2) <
-              1e-12);
-        CHECK(relative_error(triangle_angle({0, 0, 1}, {1, 0, 1}, {0, 1, 1}), 0.3398369094541) <
-              1e-12);
-        CHECK(relative_error(triangle_angle({-1, -1, 2}, {1, -1, 2}, {0, 1, 2}), 0.4252343249688) <
-              1e-12);
-        CHECK(relative_error(triangle_angle({0, 0, 1}, {1, 0, 1}, {1, 1e-3f, 1}),
-                             0.000292893180108) < 1e-7);
-        CHECK(relative_error(rectangle_angle(1, 1, 1), 0.8054316831613) < 1e-12);
-        CHECK(relative_error(rectangle_angle(1, 1, 0.5f), 2.094395102393) < 1e-12);  // 4 pi / 6
-        CHECK(relative_error(rectangle_angle(1, 1, 0.001f), 6.271871617537) < 1e-9);
-        // Around the viewer: half of all.
-        CHECK(relative_error(triangle_angle({1, 0, 0}, {0, 1, 0}, {-1, -1, 0}), 2 * pi_exact) <
-              1e-12);
+        struct {
+            double found, truth, error = 1e-12;
+        } cases[] = {
+            {triangle_angle({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), pi_exact / 2},
+            {triangle_angle({0, 0, 1}, {1, 0, 1}, {0, 1, 1}), 0.3398369094541},
+            {triangle_angle({-1, -1, 2}, {1, -1, 2}, {0, 1, 2}), 0.4252343249688},
+            {triangle_angle({0, 0, 1}, {1, 0, 1}, {1, 1e-3f, 1}), 0.000292893180108, 1e-7},
+            // Around the viewer: half of all.
+            {triangle_angle({1, 0, 0}, {0, 1, 0}, {-1, -1, 0}), 2 * pi_exact},
+            {rectangle_angle(1, 1, 1), 0.8054316831613},
+            {rectangle_angle(1, 1, 0.5f), 2.094395102393},  // 4 pi / 6
+            {rectangle_angle(1, 1, 0.001f), 6.271871617537, 1e-9},
+        };
+        for (const auto& c : cases) CHECK(relative_error(c.found, c.truth) < c.error);
         CHECK(triangle_angle({1, 0, 0}, {2, 1, 0}, {1, 1, 0}) == 0);  // edge-on
-    }
-
-    TEST_CASE("truth: solid angle of a sphere, near and far") {
-        for (auto [distance, omega] : {std::pair{2.0f, 0.8417872144769},
-                                       {10.0f, 0.031494861523},
-                                       {1000.0f, 3.141593438988e-6},
-                                       {10000.0f, pi_exact * 1e-8}}) {
-            double cone = 1 / static_cast<double>(pdf_cone(1 / (distance * distance)));
-            CHECK(relative_error(cone, omega) < 1e-6);
-        }
     }
 
     TEST_CASE("density: directions in cones and triangles, and the way back to their numbers") {
@@ -155,17 +131,6 @@ TEST_SUITE("solid angle") {
 }
 
 TEST_SUITE("light shapes") {
-    TEST_CASE("identity: rounding errors on a light are the same along each axis") {
-        std::set<float> errors;
-        for (const char* at : {"50 1 0", "0 50 1", "1 0 50", "-50 1 0", "0 1 -50"}) {
-            Scene scene = world_of(std::string("AreaLightSource \"diffuse\" Translate ") + at +
-                                   " Shape \"sphere\" \"float radius\" 10");
-            errors.insert(emitter_of(scene, 0).eps);
-        }
-        CHECK(errors.size() == 1);
-        CHECK(*errors.begin() == rounding_error(60));
-    }
-
     TEST_CASE("identity: areas, and which two triangles make one piece") {
         std::vector<double> areas = {1, 4, pi_exact, pi_exact / 4};
         for (size_t i = 0; i < areas.size(); i++) {
@@ -238,36 +203,28 @@ TEST_SUITE("light shapes") {
             }
         }
     }
-}
 
-TEST_SUITE("light shapes irradiance") {
-    TEST_CASE(
-        "failure: on the light, in its plane, inside a ball: finite, and nothing from edge-on") {
+    TEST_CASE("failure: on the light, in its plane, inside a ball: finite") {
         for (const auto& [name_of, shape] : shapes) {
             const std::string& name = name_of;
+            CAPTURE(name);
             Scene scene = light_of(shape);
             Vec3 on = sample_area(scene, 0, {0.3f, 0.4f}).p;
-            Vec3 beside = on + Vec3{5, 0, 0};
-            for (Vec3 x : {on, beside, scene.light_shapes[0].centre}) {
+            for (Vec3 x : {on, on + Vec3{5, 0, 0}, scene.light_shapes[0].centre}) {
                 Sampler random = random_numbers(1);
                 for (int i = 0; i < 1000; i++) {
                     Vec2 u = i == 0   ? Vec2{0, 0}
                              : i == 1 ? Vec2{below_one, below_one}
                                       : random.u2();
                     LightPoint y = sample_solid_angle(scene, 0, x, u);
-                    CAPTURE(name);
                     REQUIRE(std::isfinite(y.pdf));
                     REQUIRE(y.pdf >= 0);
                     if (y.pdf > 0) REQUIRE(is_finite(y.p));
                 }
             }
         }
-        Scene scene = light_of(quad);
-        for (float x : {2.0f, 100.0f}) {
-            CHECK(irradiance(scene, {x, 1, 0}, {0, 1, 0}) == 0);
-            CHECK(irradiance(scene, {x, 1, 0}, {-1, 0, 0}) == 0);
-        }
         // A light without area gives no point.
+        Scene scene = light_of(quad);
         scene.geometry.positions.assign(scene.geometry.positions.size(), {0, 1, 0});
         prepare(scene, 1);
         CHECK(sample_area(scene, 0, {0.5f, 0.5f}).pdf == 0);

@@ -69,18 +69,12 @@ TEST_SUITE("optics") {
             REQUIRE(wi);
             CHECK(std::abs(length(*wi) - 1) < 1e-6f);
             CHECK(dot(*wi, n) < 0);
-            CHECK(std::abs(length(cross(*wi, n)) * eta - length(cross(wo, n))) < 2e-6f);
-            CHECK(std::abs(dot(*wi, cross(wo, n))) < 1e-6f);
+            CHECK(length(eta * cross(*wi, n) + cross(wo, n)) < 2e-6f);
             auto back = refract(*wi, -n, 1 / eta);
             if (dot(wo, n) > 0.05f) CHECK(length(*back - wo) < 2e-5f);
-            Vec3 mirrored = reflect(wo, n);
-            CHECK(std::abs(dot(mirrored, n) - dot(wo, n)) < 1e-6f);
-            CHECK(length(mirrored + wo - 2 * dot(wo, n) * n) < 1e-6f);
+            CHECK(length(reflect(wo, n) + wo - 2 * dot(wo, n) * n) < 1e-6f);
         }
         float a = 50 * pi / 180;
-        auto wi = refract({std::sin(a), 0, std::cos(a)}, {0, 0, 1}, 1.5f);
-        CHECK(std::asin(-wi->x) * 180 / pi ==
-              doctest::Approx(30.7102207661).epsilon(1e-6).scale(0));
         CHECK_FALSE(refract({std::sin(a), 0, std::cos(a)}, {0, 0, 1}, 1 / 1.5f));
         CHECK_FALSE(refract({1, 0, 0}, {0, 0, 1}, 1 / 1.5f));
     }

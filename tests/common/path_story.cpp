@@ -11,12 +11,11 @@
 
 namespace {
 
-/// Three numbers of a line, behind `word`.
+/// Three numbers of a line, behind `word`, or one.
 bool read(const std::string& line, const std::string& word, Vec3d& v) {
     size_t at = line.find(word);
-    if (at == std::string::npos) return false;
-    return std::sscanf(line.c_str() + at + word.size(), " (%lf, %lf, %lf)", &v[0], &v[1], &v[2]) ==
-           3;
+    return at != std::string::npos && std::sscanf(line.c_str() + at + word.size(),
+                                                  " (%lf, %lf, %lf)", &v[0], &v[1], &v[2]) == 3;
 }
 bool read(const std::string& line, const std::string& word, double& x) {
     size_t at = line.find(word);
@@ -28,46 +27,38 @@ struct Checked {
     int edges = 0, survivals = 0, lights = 0, met = 0;
 
     void check(const std::string& story) {
-        Vec3d p = {}, n = {}, wi = {}, beta = {1, 1, 1}, v;
-        double x = 0, pdf_l = 0, pdf_b = 0, pdf_w = 0, mis = 0;
+        auto is = [](double x) { return doctest::Approx(x).epsilon(1e-4).scale(0); };
+        Vec3d p = {}, n = {}, wi = {}, beta = {1, 1, 1}, v, f;
+        double x = 0, pdf_l = 0, pdf_b = 0, pdf_w = 0;
         bool first = true, aimed = false;
         std::istringstream lines(story);
         for (std::string line; std::getline(lines, line);) {
             if (line.starts_with("vertex ")) {
                 Vec3d before = p;
-                REQUIRE(read(line, " at", p));
-                REQUIRE(read(line, ", n", n));
+                REQUIRE((read(line, " at", p) && read(line, ", n", n)));
                 REQUIRE(read(line, "distance", x));
-                CHECK(std::abs(length(n) - 1) < 1e-5);
-                if (!first) {  // it lies along the direction in which the path went on
-                    CHECK(std::abs(length(p - before) - x) < 1e-4 * (x + length(p)));
-                    CHECK(length(before + x * wi - p) < 1e-4 * (x + length(p)));
-                    edges++;
-                }
-                first = false;
+                CHECK(length(n) == is(1));
+                // It lies along the direction in which the path went on.
+                CHECK((first || length(before + x * wi - p) < 1e-4 * (x + length(p))));
+                edges += !first, first = false;
             } else if (line.find("samples a light") != std::string::npos) {
                 REQUIRE(read(line, "along wi", v));
-                REQUIRE(read(line, "pdf_l", pdf_l));
-                REQUIRE(read(line, "pdf_b", pdf_b));
-                CHECK(std::abs(length(v) - 1) < 1e-5);
+                REQUIRE((read(line, "pdf_l", pdf_l) && read(line, "pdf_b", pdf_b)));
+                CHECK(length(v) == is(1));
                 aimed = true;
             } else if (line.find(": adds ") != std::string::npos) {
-                REQUIRE(read(line, ", mis", mis));
-                CHECK(mis <= 1);
+                REQUIRE(read(line, ", mis", x));
+                CHECK(x <= 1);
                 bool of_light = line.find("light sampled") != std::string::npos;
                 if (of_light && aimed) {  // the power heuristic
-                    double mis_l = pdf_l * pdf_l / (pdf_l * pdf_l + pdf_b * pdf_b);
-                    CHECK(mis == doctest::Approx(mis_l).epsilon(1e-4).scale(0));
+                    CHECK(x == is(pdf_l * pdf_l / (pdf_l * pdf_l + pdf_b * pdf_b)));
                     lights++;
                 }
                 met += !of_light;
             } else if (line.find("goes on along") != std::string::npos) {
-                Vec3d f;
-                REQUIRE(read(line, "along wi", wi));
-                REQUIRE(read(line, ": f", f));
-                REQUIRE(read(line, "pdf_w", pdf_w));
-                REQUIRE(read(line, ", beta", v));
-                CHECK(std::abs(length(wi) - 1) < 1e-5);
+                REQUIRE((read(line, "along wi", wi) && read(line, ": f", f)));
+                REQUIRE((read(line, "pdf_w", pdf_w) && read(line, ", beta", v)));
+                CHECK(length(wi) == is(1));
                 double cos = std::abs(dot(wi, n));
                 for (size_t k = 0; k < 3; k++) {
                     double expected = beta[k] * f[k] * cos / pdf_w;
@@ -75,12 +66,9 @@ struct Checked {
                 }
                 beta = v, aimed = false;
             } else if (line.find("survives roulette") != std::string::npos) {
-                REQUIRE(read(line, ", q", x));
-                REQUIRE(read(line, ", beta", v));
+                REQUIRE((read(line, ", q", x) && read(line, ", beta", v)));
                 CHECK(x > 0);
-                for (size_t k = 0; k < 3; k++) {
-                    CHECK(v[k] == doctest::Approx(beta[k] / x).epsilon(1e-4).scale(0));
-                }
+                for (size_t k = 0; k < 3; k++) CHECK(v[k] == is(beta[k] / x));
                 beta = v, survivals++;
             }
         }

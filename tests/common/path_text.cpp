@@ -33,42 +33,33 @@ void trace_miss() { intersect(ball(), {{0, 0, 0}, {0, 1, 0}}); }
 void shadow_hit() { occluded(ball(), {{0, 0, 0}, {1, 0, 0}}); }
 void shadow_miss() { occluded(ball(), {{0, 0, 0}, {0, 1, 0}}); }
 
-/// The story of events: tell(recorder, story).
-template <class Tell>
-std::string story_of(const Tell& tell) {
-    PathStory story(5, false);
-    Recorder recorder(true, &story);
-    recorder.start();
-    tell(recorder, story);
-    return story.text();
-}
-
 }  // namespace
 
 TEST_SUITE("path text") {
     TEST_CASE("truth: the story of a path from the eye, word by word") {
         Materials m;
-        std::string text = story_of([&](Recorder& recorder, PathStory& story) {
-            trace_hit();
-            recorder.vertex(hit_at({1, 2, 3}, m.glass, false));
-            CHECK_FALSE(story.has_left());
-            recorder.emitted({1, 0.5f, 0.25f}, 0.5f);
-            recorder.scatter({0, 0.6f, 0.8f}, {2, 4, 8}, 1, true, {0.5f, 0.25f, 0.125f});
-            recorder.roulette(1, {0.5f, 0.25f, 0.125f});
-            trace_hit();
-            recorder.vertex(hit_at({1, 2, 4}, m.wall));
-            shadow_miss();
-            recorder.direct({1, 2, 4}, {0, 1, 0}, 0.75f, 0.125f, 0.25f);
-            shadow_hit();
-            recorder.scatter({0, 0, -1}, {0.5f, 0.25f, 0.125f}, 0.375f, false, {1, 2, 3});
-            recorder.roulette(0.5f, {2, 4, 6});
-            trace_miss();
-            CHECK(story.has_left());
-            recorder.vertex({});
-            recorder.emitted({3, 2, 1});
-            story.ends();
-        });
-        CHECK(text ==
+        PathStory story(5, false);
+        Recorder recorder(true, &story);
+        recorder.start();
+        trace_hit();
+        recorder.vertex(hit_at({1, 2, 3}, m.glass, false));
+        CHECK_FALSE(story.has_left());
+        recorder.emitted({1, 0.5f, 0.25f}, 0.5f);
+        recorder.scatter({0, 0.6f, 0.8f}, {2, 4, 8}, 1, true, {0.5f, 0.25f, 0.125f});
+        recorder.roulette(1, {0.5f, 0.25f, 0.125f});
+        trace_hit();
+        recorder.vertex(hit_at({1, 2, 4}, m.wall));
+        shadow_miss();
+        recorder.direct({1, 2, 4}, {0, 1, 0}, 0.75f, 0.125f, 0.25f);
+        shadow_hit();
+        recorder.scatter({0, 0, -1}, {0.5f, 0.25f, 0.125f}, 0.375f, false, {1, 2, 3});
+        recorder.roulette(0.5f, {2, 4, 6});
+        trace_miss();
+        CHECK(story.has_left());
+        recorder.vertex({});
+        recorder.emitted({3, 2, 1});
+        story.ends();
+        CHECK(story.text() ==
               "vertex 1  dielectric at (1, 2, 3), n (0, 0, -1), back, distance 2.5\n"
               "    light met: adds (0.5, 0.25, 0.125), mis 0.5, class LE\n"
               "    goes on along wi (0, 0.6, 0.8): f (2, 4, 8) sr^-1, pdf_w 1 (delta), beta (0.5, "
@@ -89,23 +80,29 @@ TEST_SUITE("path text") {
         Materials m;
         Material soot = m.wall;
         soot.reflectance = {0, 0, 0};
-        auto end_at = [](const Material& material, bool counts_photons, bool goes_on = false) {
-            PathStory story(1, counts_photons);
+        const std::string below =
+            "absorbed at vertex 1: the direction drawn lies below the surface";
+        struct {
+            const Material& material;
+            bool counts_photons, goes_on;
+            std::string why;
+        } cases[] = {
+            {m.wall, false, false, below},
+            {m.wall, true, false, "photons around vertex 1 tell the rest"},
+            {m.mirror, true, false, below},
+            {soot, true, false, "vertex 1 is black: it absorbs all"},
+            {m.wall, false, true, "roulette stops it"},
+        };
+        for (const auto& c : cases) {
+            PathStory story(1, c.counts_photons);
             Recorder recorder(true, &story);
             recorder.start();
             trace_hit();
-            recorder.vertex(hit_at({}, material));
-            if (goes_on) recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
+            recorder.vertex(hit_at({}, c.material));
+            if (c.goes_on) recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
             story.ends();
-            return story.text().substr(story.text().find("    ends: ") + 10);
-        };
-        const std::string below =
-            "absorbed at vertex 1: the direction drawn lies below the surface\n";
-        CHECK(end_at(m.wall, false) == below);
-        CHECK(end_at(m.wall, true) == "photons around vertex 1 tell the rest\n");
-        CHECK(end_at(m.mirror, true) == below);
-        CHECK(end_at(soot, true) == "vertex 1 is black: it absorbs all\n");
-        CHECK(end_at(m.wall, false, true) == "roulette stops it\n");
+            CHECK(story.text().ends_with("    ends: " + c.why + "\n"));
+        }
     }
 
     TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {

@@ -1,12 +1,15 @@
 // Textures: their values, where they lie on each shape, and what the reader makes of them.
 #include <doctest/doctest.h>
 
+#include <sstream>
+
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/geometry/shapes.h"
 #include "common/material/metal.h"
 #include "common/picture/image.h"
 #include "common/scene/intersect.h"
+#include "tests/support/described.h"
 #include "tests/support/folder.h"
 #include "tests/support/scenes.h"
 
@@ -47,47 +50,31 @@ Image four_corners() {
     return image;
 }
 
+const std::string start = "Camera 'perspective' WorldBegin LightSource 'infinite'\n";
+
 /// A scene in a folder of its own, with a picture beside it.
 struct Gallery {
     TemporaryFolder folder;
-    std::vector<std::string> notes;
 
     explicit Gallery(const Image& image = four_corners()) {
         write_image(folder / "a.pfm", image, "");
         write_image(folder / "a.png", image, "");
     }
     /// World directives behind the texture "t": the picture, with these parameters.
-    Scene scene(const std::string& world,
-                const std::string& texture = "\"string filter\" \"point\"",
-                const std::string& file = "a.pfm") {
-        Scene scene =
-            parse_scene(folder / "scene.pbrt",
-                        "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
-                        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" +
-                            file + "\" " + texture +
-                            "\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\n" + world,
-                        &notes);
+    Scene scene(const std::string& world, const std::string& texture = "'string filter' 'point'",
+                const std::string& file = "a.pfm", const Limits& limits = {}) const {
+        std::string text = start + "Texture 't' 'spectrum' 'imagemap' 'string filename' '" + file +
+                           "' " + texture + "\nMaterial 'diffuse' 'texture reflectance' 't'\n" +
+                           world;
+        Scene scene = parse_scene(folder / "scene.pbrt", unquoted(text), nullptr, {}, limits);
         prepare(scene, 1);
         return scene;
-    }
-    std::string error(const std::string& world, const std::string& texture,
-                      const std::string& file = "a.pfm") {
-        try {
-            scene(world, texture, file);
-        } catch (const InputError& error) {
-            std::string text = error.what(), path = folder / "";
-            for (size_t at; (at = text.find(path)) != std::string::npos;) {
-                text.erase(at, path.size());
-            }
-            return text;
-        }
-        return "no error";
     }
 };
 
 const std::string square_with_uv =
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point2 uv\" [0 0 1 0 1 1 0 1] "
-    "\"point3 P\" [0 0 0  1 0 0  1 1 0  0 1 0] ";
+    "Shape 'trianglemesh' 'integer indices' [0 1 2 0 2 3] 'point2 uv' [0 0 1 0 1 1 0 1] "
+    "'point3 P' [0 0 0  1 0 0  1 1 0  0 1 0] ";
 
 /// A hit keeps reflectances to 2e-5.
 bool near(double a, double b) { return std::abs(a - b) < 2e-5; }
@@ -152,12 +139,10 @@ TEST_SUITE("textures") {
         check(plain, 0.25f, 0.75f, red), check(plain, 0.75f, 0.75f, green);
         check(plain, 0.25f, 0.25f, blue), check(plain, 0.75f, 0.25f, white);
         Scene moved = gallery.scene(square_with_uv,
-                                    "\"string filter\" \"point\" \"float uscale\" 2 "
-                                    "\"float udelta\" 0.5");
+                                    "'string filter' 'point' 'float uscale' 2 'float udelta' 0.5");
         check(moved, 0.1f, 0.75f, green), check(moved, 0.3f, 0.75f, red);
-        Scene inverted = gallery.scene(square_with_uv,
-                                       "\"string filter\" \"point\" \"bool invert\" true "
-                                       "\"float scale\" 0.5");
+        Scene inverted = gallery.scene(
+            square_with_uv, "'string filter' 'point' 'bool invert' true 'float scale' 0.5");
         check(inverted, 0.25f, 0.75f, {0.5f, 1, 1});
         // The way of chapter 05.
         Ray ray = {{0.25f, 0.75f, -1}, {0, 0, 1}};
@@ -174,45 +159,38 @@ TEST_SUITE("textures") {
         CHECK(x->material->reflectance == red);
     }
 
-    TEST_CASE(
-        "truth: the picture on a sphere goes around z, and from the lower pole to the upper") {
+    TEST_CASE("truth: the picture on a sphere goes around z, on a disk around its middle") {
+        // On a sphere from the lower pole to the upper, on a disk from the rim inwards.
         Gallery gallery;
-        auto check = [&](const std::string& turn, Vec3 x, Vec3 y, Vec3 z) {
-            CAPTURE(turn);
-            Scene scene =
-                gallery.scene("Translate 1 2 3 " + turn + " Shape \"sphere\" \"float radius\" 2");
-            auto at = [&](float a, float b, float c) {
-                Vec3 d = a * x + b * y + c * z, centre = {1, 2, 3};
-                return seen(scene, centre + 20 * d, centre);
-            };
-            CHECK(at(0.1f, 1, 0.5f) == red);
-            CHECK(at(0.1f, -1, 0.5f) == green);
-            CHECK(at(-0.1f, 1, -0.5f) == blue);
-            CHECK(at(-0.1f, -1, -0.5f) == white);
+        const Rgb colors[] = {red, green, blue, white};
+        const Vec3 on_sphere[] = {
+            {0.1f, 1, 0.5f}, {0.1f, -1, 0.5f}, {-0.1f, 1, -0.5f}, {-0.1f, -1, -0.5f}};
+        const Vec3 on_disk[] = {
+            {0.1f, 0.7f, 0}, {0.1f, -0.7f, 0}, {0.1f, 1.5f, 0}, {-0.1f, -1.5f, 0}};
+        struct {
+            const char *turn, *shape;
+            Vec3 x, y, z;
+        } cases[] = {
+            {"", "sphere", {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+            {"Rotate 90 0 1 0", "sphere", {0, 0, -1}, {0, 1, 0}, {1, 0, 0}},
+            {"Scale 1 -1 1", "sphere", {1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+            {"Scale 3 3 3", "sphere", {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+            {"", "disk", {1, 0, 0}, {0, 1, 0}, {}},
+            {"Rotate 90 0 0 1", "disk", {0, 1, 0}, {-1, 0, 0}, {}},
+            {"ReverseOrientation Rotate 90 1 0 0", "disk", {1, 0, 0}, {0, 0, 1}, {}},
         };
-        check("", {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-        check("Rotate 90 0 1 0", {0, 0, -1}, {0, 1, 0}, {1, 0, 0});
-        check("Scale 1 -1 1", {1, 0, 0}, {0, -1, 0}, {0, 0, 1});
-        check("Scale 3 3 3", {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    }
-
-    TEST_CASE("truth: the picture on a disk goes around its middle, and from the rim inwards") {
-        Gallery gallery;
-        auto check = [&](const std::string& turn, Vec3 x, Vec3 y) {
-            CAPTURE(turn);
-            Scene scene = gallery.scene(turn + " Shape \"disk\" \"float radius\" 2");
-            auto at = [&](float a, float b) {
-                Vec3 p = a * x + b * y, n = cross(x, y);
-                return seen(scene, p + n, p);
-            };
-            CHECK(at(0.1f, 0.7f) == red);
-            CHECK(at(0.1f, -0.7f) == green);
-            CHECK(at(0.1f, 1.5f) == blue);
-            CHECK(at(-0.1f, -1.5f) == white);
-        };
-        check("", {1, 0, 0}, {0, 1, 0});
-        check("Rotate 90 0 0 1 ", {0, 1, 0}, {-1, 0, 0});
-        check("ReverseOrientation Rotate 90 1 0 0 ", {1, 0, 0}, {0, 0, 1});
+        for (const auto& c : cases) {
+            CAPTURE(c.turn);
+            Scene scene = gallery.scene("Translate 1 2 3 " + std::string(c.turn) + " Shape '" +
+                                        c.shape + "' 'float radius' 2");
+            bool sphere = c.z != Vec3{};
+            for (size_t i = 0; i < 4; i++) {
+                Vec3 at = sphere ? on_sphere[i] : on_disk[i], centre = {1, 2, 3};
+                Vec3 d = at.x * c.x + at.y * c.y + at.z * c.z;
+                Vec3 from = sphere ? 20 * d : d + cross(c.x, c.y);
+                CHECK(seen(scene, centre + from, sphere ? centre : centre + d) == colors[i]);
+            }
+        }
     }
 
     TEST_CASE("truth: codes of a .png are sRGB, linear, or a power, and a .pfm has none") {
@@ -220,7 +198,7 @@ TEST_SUITE("textures") {
         grey.pixels = {{0.5f, 0.5f, 0.5f}};
         Gallery gallery(grey);
         auto value = [&](const std::string& encoding, const std::string& file) {
-            std::string texture = encoding.empty() ? "" : "\"string encoding\" \"" + encoding + '"';
+            std::string texture = encoding.empty() ? "" : "'string encoding' '" + encoding + "'";
             Scene scene = gallery.scene(square_with_uv, texture, file);
             return double{seen(scene, {0.5f, 0.5f, -1}, {0.5f, 0.5f, 0}).g};
         };
@@ -233,18 +211,14 @@ TEST_SUITE("textures") {
     }
 
     TEST_CASE("truth: checkerboards, scaled and constant textures, and metal") {
-        Gallery gallery;
-        Scene scene = gallery.scene(
-            "Texture \"half\" \"spectrum\" \"constant\" \"rgb value\" [.5 .5 0]\n"
-            "Texture \"twice\" \"spectrum\" \"scale\" \"texture tex\" \"half\" \"float scale\" "
-            "1.5\n"
-            "Texture \"board\" \"spectrum\" \"checkerboard\" \"texture tex1\" \"twice\"\n"
-            "    \"rgb tex2\" [0 1 0] \"float uscale\" 4 \"float vscale\" 2\n"
-            "Material \"diffuse\" \"texture reflectance\" \"board\" " +
-            square_with_uv +
-            "Translate 2 0 0 Material \"diffuse\" \"texture reflectance\" \"twice\" " +
-            square_with_uv +
-            "Translate 2 0 0 Material \"conductor\" \"texture reflectance\" \"board\" " +
+        Scene scene = Gallery().scene(
+            "Texture 'half' 'spectrum' 'constant' 'rgb value' [.5 .5 0]\n"
+            "Texture 'twice' 'spectrum' 'scale' 'texture tex' 'half' 'float scale' 1.5\n"
+            "Texture 'board' 'spectrum' 'checkerboard' 'texture tex1' 'twice' "
+            "'rgb tex2' [0 1 0] 'float uscale' 4 'float vscale' 2\n"
+            "Material 'diffuse' 'texture reflectance' 'board' " +
+            square_with_uv + "Translate 2 0 0 Material 'diffuse' 'texture reflectance' 'twice' " +
+            square_with_uv + "Translate 2 0 0 Material 'conductor' 'texture reflectance' 'board' " +
             square_with_uv);
         auto at = [&](float x, float y) { return seen(scene, {x, y, -1}, {x, y, 0}); };
         const Rgb first = {0.75f, 0.75f, 0};
@@ -263,33 +237,25 @@ TEST_SUITE("textures") {
 
     TEST_CASE("input: uv of a mesh in a PLY file, by all the names that they have") {
         Gallery gallery;
-        for (auto [u, v] :
-             {std::pair("u", "v"), std::pair("s", "t"), std::pair("texture_u", "texture_v"),
-              std::pair("texture_s", "texture_t")}) {
-            std::string header = "ply\nformat ascii 1.0\nelement vertex 3\n";
-            for (const char* name : {"x", "y", "z", u, v}) {
-                header += std::string("property float ") + name + '\n';
-            }
+        for (const char* names : {"u v", "s t", "texture_u texture_v", "texture_s texture_t"}) {
+            std::string header = "ply\nformat ascii 1.0\nelement vertex 3\n", name;
+            for (std::istringstream words("x y z " + std::string(names)); words >> name;)
+                header += "property float " + name + '\n';
             write_file_atomically(gallery.folder / "a.ply",
                                   header +
                                       "element face 1\nproperty list uchar int vertex_indices\n"
                                       "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
-            Scene scene = gallery.scene("Shape \"plymesh\" \"string filename\" \"a.ply\"");
+            Scene scene = gallery.scene("Shape 'plymesh' 'string filename' 'a.ply'");
             CHECK(seen(scene, {0.2f, 0.7f, -1}, {0.2f, 0.7f, 0}) == red);
             CHECK(seen(scene, {0.7f, 0.2f, -1}, {0.7f, 0.2f, 0}) == white);
         }
     }
 
     TEST_CASE("input: a scene without textures keeps no uv; a picture is read once") {
-        Scene none = parse_scene(
-            "a.pbrt",
-            "Camera \"perspective\" WorldBegin LightSource \"infinite\" " + square_with_uv,
-            nullptr);
-        CHECK(none.geometry.uvs.empty());
-        Gallery gallery;
-        Scene twice = gallery.scene(
-            "Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"./a.pfm\" " +
-            square_with_uv);
+        CHECK(
+            parse_scene("a.pbrt", unquoted(start + square_with_uv), nullptr).geometry.uvs.empty());
+        Scene twice = Gallery().scene(
+            "Texture 'a' 'spectrum' 'imagemap' 'string filename' './a.pfm' " + square_with_uv);
         CHECK(twice.textures.all.size() == 2);
         CHECK(twice.textures.pictures.size() == 1);
         CHECK(twice.geometry.uvs.size() == 4);
@@ -299,20 +265,17 @@ TEST_SUITE("textures") {
         Image image = four_corners();
         image.pixels[0].g = NAN;
         Gallery gallery(image);
-        CHECK(gallery.error(square_with_uv, "", "b.png") ==
-              "scene.pbrt:2:35: error: \"b.png\": cannot read: No such file or directory");
-        CHECK(gallery.error(square_with_uv, "") ==
-              "scene.pbrt:2:35: error: \"a.pfm\" has a pixel that is negative or not a number");
-        CHECK(
-            gallery.error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]", "", "a.png") ==
-            "scene.pbrt:4:1: error: Shape \"trianglemesh\" has no "
-            "usable uv, which its texture needs; --stand-in renders it as the mean of the texture");
         Limits limits;
         limits.texels = 3;
-        CHECK_THROWS_WITH(parse_scene(gallery.folder / "scene.pbrt",
-                                      "Camera \"perspective\" WorldBegin Texture \"t\" "
-                                      "\"spectrum\" \"imagemap\" \"string filename\" \"a.png\"",
-                                      nullptr, {}, limits),
-                          doctest::Contains("the textures have more than 3 pixels together"));
+        auto refused = [&](const std::string& file, const std::string& place,
+                           const Limits& limits = {}) {
+            std::string world = "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]";
+            return error_of([&] { gallery.scene(world, "", file, limits); })
+                .starts_with(gallery.folder / "scene.pbrt:" + place + ": error: ");
+        };
+        CHECK(refused("b.png", "2:35"));
+        CHECK(refused("a.pfm", "2:35"));  // not a number
+        CHECK(refused("a.png", "4:1"));   // the mesh has no uv
+        CHECK(refused("a.png", "2:35", limits));
     }
 }

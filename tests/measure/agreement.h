@@ -38,7 +38,7 @@ struct Verdict {
 
 /// Verdict number i: estimate i against the reliable ones among the rest.
 ///
-/// tested by  "truth: z of three estimates", "teeth: a bias of ten standard errors is seen"
+/// tested by  "truth: z of three estimates"
 inline Verdict judge(const std::vector<Estimate>& estimates, size_t i) {
     Verdict v;
     double weights = 0;

@@ -77,8 +77,18 @@ inline std::string in_words(const Scene& scene) {
     return text;
 }
 
-/// The size, samples, depth and field of view.
+/// The size, samples, depth, field of view, place and axes; lens, frame and window where they are.
 inline std::string settings_of(const Scene& s) {
-    return std::to_string(s.width) + 'x' + std::to_string(s.height) + ' ' + std::to_string(s.spp) +
-           ' ' + std::to_string(s.max_depth) + ' ' + digits(double{s.camera.fov});
+    const Camera& c = s.camera;
+    std::string text = std::to_string(s.width) + 'x' + std::to_string(s.height) + ' ' +
+                       in_words({double(s.spp), double(s.max_depth), double{c.fov}}) + " at " +
+                       in_words(c.o) + ", " + in_words(c.right) + ", " + in_words(c.up) + ", " +
+                       in_words(c.forward);
+    if (c.lens_radius > 0) text += ", lens " + in_words({c.lens_radius, c.focal_distance});
+    if (c.frame_aspect) text += ", frame " + in_words({*c.frame_aspect});
+    if (c.screen_window) {
+        auto [x0, x1, y0, y1] = *c.screen_window;
+        text += ", window " + in_words({x0, x1, y0, y1});
+    }
+    return text;
 }
