@@ -21,14 +21,6 @@ Words brief(const std::string& scene, const Words& more) {
     return words;
 }
 
-/// Has its first content, which comes after its lock.
-bool comes_to_be(const std::string& path) {
-    std::error_code none;
-    auto has_content = [&] { return fs::exists(path) && fs::file_size(path, none) > 0; };
-    for (int i = 0; i < 20000 && !has_content(); i++) ::usleep(1000);
-    return has_content();
-}
-
 #ifdef __linux__
 /// Runs `work` in a process whose mounts are its own, if that may be.
 template <typename Work>

@@ -33,6 +33,15 @@ void append(Words& words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());
 }
 
+bool comes_to_be(const std::string& path) {
+    std::error_code none;
+    auto has_content = [&] {
+        return std::filesystem::file_size(file_path(path), none) > 0 && !none;
+    };
+    for (int i = 0; i < 20000 && !has_content(); i++) ::usleep(1000);
+    return has_content();
+}
+
 Words few_photons(const std::string& program) {
     if (program.find("photon") == std::string::npos) return {};
     return {"--photons", "2000"};

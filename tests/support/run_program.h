@@ -28,5 +28,8 @@ std::vector<std::string> programs(bool render);
 
 void append(Words& words, const Words& more);
 
+/// Waits until the file has its first content, which comes after its lock.
+bool comes_to_be(const std::string& path);
+
 /// For programs that trace photons: few, since these take most of the time of a brief render.
 Words few_photons(const std::string& program);
