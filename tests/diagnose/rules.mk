@@ -1,5 +1,5 @@
 # Pictures of small scenes by any renderer: what is wrong with them?
-diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge check/probes)
+diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge known/scenes)
 measuring_small := $(diagnosing) $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/programs/measure measure/measure measure/methods)
 planted_methods := 07 09 14
 # They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
+#include "common/base/error.h"
+#include "common/base/files.h"
 #include "common/scene_file/reader.h"
-#include "tests/check/probes.h"
 
 namespace {
 
@@ -108,12 +110,12 @@ void add_object(const Scene& scene, const Object& o, SmallScene& to) {
     to.coloured |= (light && !is_grey(light->L)) || !is_grey(m.reflectance);
 }
 
-/// The scene of a pbrt text, in the plain form.
-SmallScene plain(const std::string& name, const std::string& what, const std::string& text) {
+/// A known scene in the plain form.
+SmallScene plain(const KnownScene& known) {
+    const std::string &name = known.name, &text = known.text;
     Scene s = parse_scene(name, text, nullptr);
     const Camera& c = s.camera;
-    SmallScene small = {.name = name, .what = what, .pbrt = "", .words = ""};
-    small.depth = s.max_depth;
+    SmallScene small = {.name = name, .what = known.what, .width = s.width};
     char words[600];
     std::snprintf(words, sizeof words,
                   "Film \"rgb\" \"integer xresolution\" %d \"integer yresolution\" %d "
@@ -121,7 +123,7 @@ SmallScene plain(const std::string& name, const std::string& what, const std::st
                   "\"integer pixelsamples\" 1024\nIntegrator \"path\" \"integer maxdepth\" %d\n",
                   s.width, s.height, name.c_str(), s.max_depth);
     size_t look_at = text.find("LookAt "), until = text.find("Camera", look_at);
-    small.pbrt = "# " + what + "\n" + words + text.substr(look_at, until - look_at - 1) +
+    small.pbrt = "# " + known.what + "\n" + words + text.substr(look_at, until - look_at - 1) +
                  "\nCamera \"perspective\" \"float fov\" " + number(double{c.fov}) +
                  "\nWorldBegin\n";
     small.words = "- camera at (" + triple(c.o, ", ") + "), looking in the direction (" +
@@ -140,109 +142,38 @@ SmallScene plain(const std::string& name, const std::string& what, const std::st
         if (s.lights[i].type == LightType::infinite) {
             small.pbrt += "LightSource \"infinite\" \"rgb L\" [" + triple(s.lights[i].L) + "]\n";
             small.words += "- a sky with radiance " + value(s.lights[i].L) + " from everywhere\n";
-            small.has.insert("a sky");
+            small.has_sky = true;
         }
         add_where(static_cast<int>(i));
     }
     add_where(-1);
-    if (s.lights.size() > 1) small.has.insert("more than one light");
+    small.lights = s.lights.size();
     return small;
 }
 
-std::string view(const std::string& look_at, double fov, int depth = 1, int width = 16) {
-    return "Film \"rgb\" \"integer xresolution\" " + number(width) +
-           " \"integer yresolution\" 16 Integrator \"path\" \"integer maxdepth\" " + number(depth) +
-           " LookAt " + look_at + " Camera \"perspective\" \"float fov\" " + number(fov) +
-           " WorldBegin\n";
-}
-std::string object(const std::string& material, const std::string& shape) {
-    return "AttributeBegin Material " + material + " " + shape + " AttributeEnd\n";
-}
-std::string shining(const std::string& L) {
-    return "\"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [" + L +
-           "]";
-}
-std::string quad(const std::string& corners) {
-    return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [" + corners +
-           "]";
-}
-/// Lamps that fill the middle of some of the 4 x 4 tiles of a picture of a field of view of 90.
-std::string pattern(int width) {
-    struct Lamp {
-        int x, y;
-        double L;
-    };
-    std::string text;
-    for (Lamp lamp : {Lamp{0, 0, 3}, {1, 0, 1}, {0, 2, 0.5}, {3, 3, 2}, {2, 1, 0.25}}) {
-        double w = 2 * width / 16.0, x = w * (lamp.x - 2) + w / 4, y = 2.0 * (2 - lamp.y) - 0.5;
-        std::string x0 = number(x) + " ", x1 = number(x + w / 2) + " ", z = " 4 ";
-        std::string top = number(y) + z, low = number(y - 1) + z, L = number(lamp.L) + " ";
-        text += object(shining(L + L + L), quad(x0 + low + x0 + top + x1 + top + x1 + low));
+std::vector<SmallScene> read_small_scenes() {
+    std::vector<SmallScene> all;
+    std::istringstream lines(read_file("tests/known/tiles.tsv"));
+    for (std::string line; std::getline(lines, line);) {
+        if (line[0] == '#') continue;
+        std::istringstream cells(line);
+        std::string name, numbers;
+        std::getline(cells, name, '\t');
+        std::getline(cells, numbers, '\t');
+        double se = 0, mean = 0;
+        cells >> se;
+        SmallScene scene = plain(known_scene(name));
+        std::istringstream tiles(numbers);
+        while (tiles >> mean) scene.should.push_back({mean, se});
+        all.push_back(scene);
     }
-    return text;
+    return all;
 }
 
 }  // namespace
 
-std::vector<SmallScene> small_scenes() {
-    static const std::vector<std::string> chosen = {
-        "floor",    "slant",       "turned",        "far",       "large",     "near", "three",
-        "unequal",  "sizes",       "front",         "behind",    "half",      "gap",  "horizon",
-        "sky",      "wall beside", "mirror beside", "sky, lamp", "lamp, sky", "room", "sphere",
-        "corridor", "pane",        "bulb",          "mirror"};
-    std::vector<SmallScene> all;
-    auto add = [&](const std::string& title, const std::string& what, const std::string& text) {
-        std::string name;
-        for (char c : title)
-            if (c != ',') name += c == ' ' ? '-' : c;
-        all.push_back(plain(name, what, text));
-    };
-    std::string above = view("0 1.2 0  0 0 0  0 0 1", 40);
-    std::string ground = quad("-20 0 -20  -20 0 20  20 0 20  20 0 -20");
-    std::string floor_here = object("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]", ground);
-    std::string ahead = "0 0 0  0 0 1  0 1 0", sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
-    std::string sphere = "Shape \"sphere\" \"float radius\" ";
-    add("frame", "lamps that the camera sees", view(ahead, 90) + pattern(16));
-    add("wide", "the same in a wide picture", view(ahead, 90, 1, 32) + pattern(32));
-    add("paint", "a coloured floor under a coloured lamp",
-        above + object("\"diffuse\" \"rgb reflectance\" [.8 .4 .2]", ground) +
-            object(shining("1 2 6"), quad("-.5 2 -.5  .5 2 -.5  .5 2 .5  -.5 2 .5")));
-    add("ball", "a floor under a shining ball",
-        above + floor_here + object(shining("1 1 1"), "Translate 0 2 0 " + sphere + ".5"));
-    add("reflection", "a lamp behind the camera, in a mirror",
-        view(ahead, 20) + object(shining("1 1 1"), quad("-9 -9 -3  9 -9 -3  9 9 -3  -9 9 -3")) +
-            object("\"conductor\" \"rgb reflectance\" [.9 .9 .9]",
-                   quad("-1 -1 2  -1 1 2  1 1 2  1 -1 2")));
-    std::string wall;
-    for (int i = 0; i < 4; i++) {
-        std::string L = number(2.0 / (1 << i)) + " ", z = " 3  ";
-        std::string x0 = i % 2 ? "0 " : "-20 ", x1 = i % 2 ? "20 " : "0 ";
-        std::string y0 = i < 2 ? "0" : "-20", y1 = i < 2 ? "20" : "0";
-        wall +=
-            object(shining(L + L + L), quad(x0 + y0 + z + x0 + y1 + z + x1 + y1 + z + x1 + y0 + z));
-    }
-    add("lens", "a wall of four lamps, seen through a ball of glass",
-        view("0 0 -4  .1 .1 0  0 1 0", 24, 8) + object("\"dielectric\"", sphere + "1") + wall);
-    add("tilted", "a square that faces away from the camera, seen from above at an angle",
-        view("0 3 -3  0 0 0  0 1 0", 40) +
-            object("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]",
-                   quad("-1.2 0 -.6  1.2 0 -.6  1.2 0 .9  -1.2 0 .9")) +
-            object(shining("1 1 1"), quad("-2 4 -2  2 4 -2  2 4 2  -2 4 2")));
-    add("pearl", "a grey ball in a ball of glass, under a sky",
-        view("0 0 -4  0 0 0  0 1 0", 16, 20) + sky + object("\"dielectric\"", sphere + "1") +
-            object("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]",
-                   "Translate .1 0 -.4 " + sphere + ".5"));
-    for (const Probe& probe : all_probes()) {
-        if (std::find(chosen.begin(), chosen.end(), probe.name) == chosen.end()) continue;
-        add(probe.name, probe.what, probe.text);
-        size_t at = probe.text.find("maxdepth\" ") + 10;
-        bool is_room = probe.name == "room";
-        if (!is_room && probe.name != "sphere") continue;
-        for (int depth : {1, 2})
-            if (is_room || depth == 2)
-                add(probe.name + "-" + number(depth), probe.what + ", with shorter paths",
-                    std::string(probe.text).replace(at, 1, number(depth)));
-    }
+const std::vector<SmallScene>& small_scenes() {
+    static const std::vector<SmallScene> all = read_small_scenes();
     return all;
 }
 

@@ -38,8 +38,7 @@ int main(int argc, char** argv) {
             throw InputError(
                 words[0] +
                 ": error: no picture that can be judged, such as floor.pfm with floor.2.pfm");
-        References references = read_references();
-        Diagnosis d = judge(folder, references, read_effects(references));
+        Diagnosis d = judge(folder, read_effects());
         bool open = d.noisy > 0 || !folder.notes.empty();
         std::printf("%sverdict: %s\n", d.text.c_str(),
                     d.off  ? "wrong"

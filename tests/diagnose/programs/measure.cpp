@@ -131,15 +131,15 @@ struct Pair {
 };
 /// The tiles of a picture with a mistake over those of one without, with errors from the pixels; or
 /// from a second pair, where a mistake moves edges.
-Tiles effects_on(const SmallScene& scene, const Tiles& should, const Pair& one, const Pair* two) {
+Tiles effects_on(const SmallScene& scene, const Pair& one, const Pair* two) {
     Tiles tiles;
     auto of = [&](const Image Pair::*which, int x, int y, int c) {
         double first = channel((one.*which).at(x, y), c);
         return two ? (first + channel((two->*which).at(x, y), c)) / 2 : first;
     };
-    for (size_t i = 0; i < should.size(); i++) {
-        double sum_p = 0, sum_b = 0, squares = 0, n = 0, scale = scale_of(should, i);
-        bool dark = key_of(scene.name, should, i).ends_with(" dark");
+    for (size_t i = 0; i < scene.should.size(); i++) {
+        double sum_p = 0, sum_b = 0, squares = 0, n = 0, scale = scale_of(scene, i);
+        bool dark = key_of(scene, i).ends_with(" dark");
         visit_tile(i, scene.coloured, one.right.width, one.right.height, [&](int x, int y, int c) {
             sum_p += of(&Pair::wrong, x, y, c), sum_b += of(&Pair::right, x, y, c), n++;
         });
@@ -179,7 +179,6 @@ int write_effects(const MeasureOptions& o, const std::string& rows) {
         {'n', {"09-area", false, false, 1}}, {'a', {"09-area", true, false, 1}},
         {'k', {"09-area", true, true, 1}},   {'m', {"14", true, false, 1}},
         {'b', {"14-balance", true, true, 1}}};
-    const References references = read_references();
     std::map<std::string, Image> right, again, briefly;  // by way and scene; again: another seed
     std::string text =
         "# What planted mistakes do to the tiles of the small scenes, over what these should be: "
@@ -206,9 +205,9 @@ int write_effects(const MeasureOptions& o, const std::string& rows) {
             std::string effects;
             std::map<std::string, Tiles> all;
             for (const SmallScene& scene : small_scenes()) {
-                if (name == 'k' && !scene.has.contains("a sky") && !with_uniform_sky.empty()) {
+                if (name == 'k' && !scene.has_sky && !with_uniform_sky.empty()) {
                     const Tiles& tiles = all[scene.name] = with_uniform_sky[scene.name];
-                    std::string effect = effect_text(scene.name, references.at(scene.name), tiles);
+                    std::string effect = effect_text(scene, tiles);
                     if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
                     continue;
                 }
@@ -247,10 +246,9 @@ int write_effects(const MeasureOptions& o, const std::string& rows) {
                     };
                     p = with(b, 1), second = {with(again[key], 2), again[key]};
                 }
-                const Tiles& should = references.at(scene.name);
-                Tiles tiles = effects_on(scene, should, {p, b}, second ? &*second : nullptr);
+                Tiles tiles = effects_on(scene, {p, b}, second ? &*second : nullptr);
                 all[scene.name] = tiles;
-                std::string effect = effect_text(scene.name, should, tiles);
+                std::string effect = effect_text(scene, tiles);
                 if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
             }
             if (name == 'a') with_uniform_sky = all;
