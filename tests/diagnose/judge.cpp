@@ -124,25 +124,28 @@ Off compare(const SmallScene& scene, const Tiles& tiles, double z) {
 bool is_dark(const std::string& key) { return key.ends_with(" dark"); }
 std::string scene_of(const std::string& key) { return key.substr(0, key.find('/')); }
 
-/// A factor that all non-dark numbers may have: of everything, or of scenes with lamps alone.
-Hypothesis with_factor(const Evidence& evidence, const std::set<std::string>& scenes,
-                       const std::set<std::string>& unknown, const char* what) {
+/// What a mistake makes of a number that was measured. What is not written down has this error.
+Quantity prediction(const Hypothesis& h, const std::string& key, double unwritten_se) {
+    auto found = h.predicted.find(key);
+    if (found != h.predicted.end()) return found->second;
+    return {is_dark(key) ? 0.0 : 1.0, unwritten_se};
+}
+
+/// A factor of all numbers that are not dark, if there may be one.
+std::optional<Hypothesis> with_factor(const Evidence& evidence) {
     double weights = 0, sum = 0;
-    Hypothesis h;
     for (const auto& [key, q] : evidence) {
-        if (is_dark(key) || !scenes.contains(scene_of(key))) continue;
+        if (is_dark(key)) continue;
         double weight = 1 / (q.se * q.se + 1e-4 * q.mean * q.mean + 1e-8);
         weights += weight, sum += weight * q.mean;
     }
     double factor = weights > 0 ? sum / weights : 1;
-    if (std::abs(factor - 1) < 0.02) return h;
-    for (const auto& [key, q] : evidence) {
-        if (is_dark(key)) continue;
-        if (scenes.contains(scene_of(key))) h.predicted[key] = {factor, 0};
-        if (unknown.contains(scene_of(key))) h.predicted[key] = q;
-    }
-    h.text = std::string(what) + " " + times(factor) +
-             " times as bright as the reference: units, exposure, or a factor";
+    if (std::abs(factor - 1) < 0.02) return {};
+    Hypothesis h{"everything is " + times(factor) +
+                     " times as bright as the reference: units, exposure, or a factor",
+                 {}};
+    for (const auto& [key, q] : evidence)
+        if (!is_dark(key)) h.predicted[key] = {factor, 0};
     return h;
 }
 
@@ -163,11 +166,9 @@ Fit fit_of(const Hypothesis& h, const Evidence& evidence) {
     for (const auto& [key, q] : h.predicted)  // of light that was not found there is none
         if (is_dark(key)) numbers.insert({key, Quantity{}});
     for (const auto& [key, q] : numbers) {
-        auto found = h.predicted.find(key);
         // What is not written down was less than 3 standard errors away, of fewer samples: where
         // those are large, it may be as far away.
-        Quantity p = {is_dark(key) ? 0.0 : 1.0, q.se > 0.01 ? 2 * q.se : 0};
-        if (found != h.predicted.end()) p = found->second;
+        Quantity p = prediction(h, key, q.se > 0.01 ? 2 * q.se : 0);
         double error = std::hypot(q.se, p.se, model_error(key, p.mean));
         double z = std::abs(q.mean - p.mean) / error;
         fit.worst = std::max(fit.worst, z);
@@ -204,9 +205,8 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
     std::set<std::string> predicted;
     for (const auto& [key, q] : evidence) {
         bool dark = is_dark(key);
-        auto found = h.predicted.find(key);
-        Quantity p = {dark ? 0.0 : 1.0, 0.005};
-        if (found != h.predicted.end()) p = found->second, predicted.insert(scene_of(key));
+        Quantity p = prediction(h, key, 0.005);
+        if (h.predicted.contains(key)) predicted.insert(scene_of(key));
         Sum& s = scenes[scene_of(key) + (dark ? " dark" : "")];
         double weight = 1 / (q.se * q.se + 1e-6);
         s.weights += weight, s.differences += weight * (q.mean - p.mean);
@@ -225,13 +225,6 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
                        [&](const std::string& name) { return predicted.contains(name); });
 }
 
-/// What a mistake makes of a number that was measured.
-Quantity prediction(const Hypothesis& h, const std::string& key) {
-    auto found = h.predicted.find(key);
-    if (found != h.predicted.end()) return found->second;
-    return {is_dark(key) ? 0.0 : 1.0, 0.002};
-}
-
 /// Whether two predictions were not measured precisely enough to tell them apart: neither by a tile
 /// nor by the mean of a scene.
 bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {
@@ -243,7 +236,7 @@ bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidenc
         return std::abs(distance) > std::hypot(4 * error, model) + 1e-3;
     };
     for (const auto& [key, q] : evidence) {
-        Quantity p = prediction(a, key), r = prediction(b, key);
+        Quantity p = prediction(a, key, 0.002), r = prediction(b, key, 0.002);
         double error = std::hypot(p.se, r.se);
         if (differ(p.mean - r.mean, error, 0.01 * p.mean)) return false;
         Sum& s = scenes[scene_of(key)];
@@ -290,7 +283,6 @@ namespace {
 struct Evaluation {
     Evidence evidence;
     std::vector<std::string> off;
-    std::set<std::string> all, lamps, mixed;  // scenes; lit by lamps alone, by these and a sky
 };
 
 Evaluation evaluate(const Folder& folder, Diagnosis& d) {
@@ -312,15 +304,12 @@ Evaluation evaluate(const Folder& folder, Diagnosis& d) {
                    : result.noisy ? "cannot be judged: too noisy"
                                   : "holds") +
                   "\n";
-        e.all.insert(scene.name);
-        if (!scene.has_sky) e.lamps.insert(scene.name);
-        if (scene.has_sky && scene.lights > 1) e.mixed.insert(scene.name);
     }
     d.off = static_cast<int>(e.off.size());
     d.text += format(
         "\n%zu of %zu scenes hold, %d are off, %d cannot be judged. By %zu comparisons: "
         "chance alone would make one of a thousand such sets off.\n",
-        held, e.all.size(), d.off, d.noisy, comparisons);
+        held, folder.scenes.size(), d.off, d.noisy, comparisons);
     if (!folder.missing.empty()) d.text += "Not there, and not judged:";
     for (const std::string& name : folder.missing) d.text += " " + name;
     d.text += folder.missing.empty() ? "" : "\n";
@@ -331,17 +320,14 @@ Evaluation evaluate(const Folder& folder, Diagnosis& d) {
 
 Diagnosis judge(const Folder& folder, const std::vector<Hypothesis>& effects) {
     Diagnosis d;
-    const auto [evidence, off, all, lamps, mixed] = evaluate(folder, d);
+    const auto [evidence, off] = evaluate(folder, d);
     if (off.empty()) return d;
 
     std::vector<Hypothesis> hypotheses = effects;
     for (Hypothesis& h : hypotheses)
         std::erase_if(h.predicted,
                       [&](const auto& cell) { return !evidence.contains(cell.first); });
-    for (const Hypothesis& h :
-         {with_factor(evidence, all, {}, "everything is"),
-          with_factor(evidence, lamps, mixed, "the light of lamps, not of the sky, is")})
-        if (!h.text.empty()) hypotheses.push_back(h);
+    if (std::optional<Hypothesis> factor = with_factor(evidence)) hypotheses.push_back(*factor);
     std::vector<Fit> fits = explanations(hypotheses, evidence);
     std::erase_if(fits,
                   [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });

@@ -11,11 +11,11 @@ probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-#: maintaining: make effects      measure anew what mistakes do to the small scenes (6 minutes)
+#: maintaining: make effects      measure anew what mistakes do to the small scenes (12 minutes)
 effects: $(BUILD)/diagnose_effects
-	@$< $(BUILD)/diagnosed/rows.tsv --spp 256
-$(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.tsv tests/diagnose/plant tests/diagnose/planted.h
-	@tests/diagnose/plant $(BUILD)/diagnosed
+	@$< $(BUILD)/diagnosed --spp 256
+$(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.tsv tests/diagnose/plant tests/diagnose/planted.h | probes
+	@rm -rf $(BUILD)/diagnosed; tests/diagnose/plant $(BUILD)/diagnosed $(BUILD)/probes
 	@for chapter in $(planted_methods); do echo "compile chapter $$chapter with mistakes"; \
 	  CCACHE_NODIRECT=1 $(CXX) $(filter-out -I.,$(CXXFLAGS)) -w -I$(BUILD)/diagnosed -I. -include tests/diagnose/planted.h \
 	    -c tests/measure/method_$$chapter.cpp -o $(BUILD)/diagnosed/$$chapter.o || exit 1; done
