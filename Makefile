@@ -25,7 +25,7 @@ tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)/*/*.cpp)))
 common    := $(call objects,common,common/tools/% common/book/%)
 tests     := $(call objects,tests,tests/measure/% \
-             tests/damage/fuzz_reader.cpp tests/check/compare_probes.cpp)
+             tests/damage/fuzz_reader.cpp tests/check/compare_scenes.cpp)
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
 # Programs that tests start: see tests/*/rules.mk.
 started    =

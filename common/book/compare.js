@@ -50,9 +50,8 @@ function race(live) {
 /// are compared with it; else the error is the one that each film tells of itself.
 async function run_race({live, viewer, chart, said, seconds}, methods) {
     const scene = live.sceneName(), {files} = live.data, isChanged = live.editing.value !== textOf(files[scene]);
-    const file = Object.keys(files).find(name => name.startsWith(scene.replace('scenes/', 'tests/measure/references/')
-        .replace('pbrt', '')));
-    const reference = file && !isChanged && {...readPnm(files[file]), name: 'reference'};
+    const file = scene.replace('scenes/', 'tests/measure/references/').replace('pbrt', 'pfm');
+    const reference = files[file] && !isChanged && {...readPnm(files[file]), name: 'reference'};
     const shown = [], size = reference ? ['--size', `${reference.width}x${reference.height}`] : [];
     const what = reference ? 'relMSE' : '(standard error of the mean / mean)²';
     for (const method of methods) method.points = [];

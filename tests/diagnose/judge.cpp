@@ -5,9 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/picture/comparison.h"
+#include "tests/check/findings.h"
 
 namespace {
 
@@ -18,56 +21,32 @@ std::string format(const char* pattern, Args... args) {
     return text;
 }
 
-/// The picture FOLDER/STEM.pfm or .png, if it is there and can be used; else a note says why not.
-std::optional<Image> read_picture(const std::string& stem, const SmallScene& scene, Folder& to,
-                                  bool& coarse) {
-    for (const char* kind : {".pfm", ".png"}) {
-        std::string path = stem + kind;
-        if (!std::filesystem::exists(path)) continue;
-        coarse |= kind[2] == 'n';
-        try {
-            Image image = read_image(path);
-            int width = scene.name == "wide" ? 32 : 16;
-            if (image.width != width || image.height != 16)
-                throw InputError(format("%s: error: %d x %d pixels, not %d x 16", path.c_str(),
-                                        image.width, image.height, width));
-            auto bad = std::find_if(image.pixels.begin(), image.pixels.end(),
-                                    [](Rgb c) { return !is_finite(c); });
-            if (bad != image.pixels.end()) {
-                int at = static_cast<int>(bad - image.pixels.begin());
-                throw InputError(
-                    format("%s: error: a pixel is not finite, column %d of row %d from the top",
-                           path.c_str(), at % width + 1, at / width + 1));
-            }
-            return image;
-        } catch (const InputError& e) {
-            to.notes.push_back(e.what());
-            return {};
-        }
+/// The picture of a scene, if it is there and can be used; else a note says why not.
+std::optional<Image> read_picture(const std::string& path, const SmallScene& scene, Folder& to) {
+    if (!std::filesystem::exists(path)) return {};
+    try {
+        Image image = read_image(path);
+        check_comparable(Image(scene.width, 16), "the scene", image, path);
+        return image;
+    } catch (const InputError& e) {
+        to.notes.push_back(e.what());
+        return {};
     }
-    return {};
 }
 
-/// The tiles of a picture and another one: a second render, or the errors of the pixels.
-SmallPicture measure(const SmallScene& scene, const Image& a, const Image& b, bool is_error,
-                     bool coarse) {
-    SmallPicture m;
-    m.coarse = coarse;
-    for (size_t i = 0; i < count_tiles(scene); i++) {
-        double sum = 0, noise = 0, n = 0, step = 0, pixel = 0;
-        bool clipped = false;
+/// The tiles of a picture and of one with another seed.
+Tiles measure(const SmallScene& scene, const Image& a, const Image& b) {
+    Tiles tiles;
+    for (size_t i = 0; i < scene.should.size(); i++) {
+        double sum = 0, noise = 0, n = 0, pixel = 0;
         visit_tile(i, scene.coloured, a.width, a.height, [&](int x, int y, int c) {
             double p = channel(a.at(x, y), c), q = channel(b.at(x, y), c);
-            sum += is_error ? p : (p + q) / 2, pixel += is_error ? q : (p - q) / 2, n++;
+            sum += (p + q) / 2, pixel += (p - q) / 2, n++;
             if (scene.coloured || c == 2) noise += pixel * pixel, pixel = 0;
-            clipped |= coarse && std::max(p, is_error ? 0 : q) >= 1;
-            // The width of an 8-bit code, whose derivative is that of the sRGB curve.
-            step += (p <= 0.0031308 ? 1 / 12.92 : 2.4 / 1.055 * std::pow(p, 1 - 1 / 2.4)) / 255;
         });
-        double se2 = noise / (n * n) + (coarse ? std::pow(0.29 * step / n, 2) : 0);
-        m.tiles.push_back({sum / n, clipped ? INFINITY : std::sqrt(se2)});
+        tiles.push_back({sum / n, std::sqrt(noise) / n});
     }
-    return m;
+    return tiles;
 }
 
 /// The distance, in standard errors, that one of so many comparisons has with probability 1/1000.
@@ -77,17 +56,19 @@ double threshold(size_t comparisons) {
     return z;
 }
 
-/// No tile has a smaller error than all together: where light is found rarely, both renders may
-/// have found none of it.
-void use_common_noise(Tiles& tiles, const Tiles& should) {
+/// The tiles over what they should be. None has a smaller error than all together: where light is
+/// found rarely, both renders may have found none of it.
+Tiles over_reference(const SmallScene& scene, Tiles tiles) {
     double squares = 0, n = 0;
-    auto counts = [&](size_t i) {
-        return should[i].mean == scale_of(should, i) && std::isfinite(tiles[i].se);
-    };
+    auto is_lit = [&](size_t i) { return scene.should[i].mean == scale_of(scene, i); };
+    for (size_t i = 0; i < tiles.size(); i++) {
+        double scale = scale_of(scene, i);
+        tiles[i] = {tiles[i].mean / scale, std::hypot(tiles[i].se, scene.should[i].se) / scale};
+        if (is_lit(i)) squares += tiles[i].se * tiles[i].se, n++;
+    }
     for (size_t i = 0; i < tiles.size(); i++)
-        if (counts(i)) squares += tiles[i].se * tiles[i].se, n++;
-    for (size_t i = 0; i < tiles.size(); i++)
-        if (counts(i)) tiles[i].se = std::max(tiles[i].se, std::sqrt(squares / n));
+        if (is_lit(i)) tiles[i].se = std::max(tiles[i].se, std::sqrt(squares / n));
+    return tiles;
 }
 
 struct Off {
@@ -104,66 +85,67 @@ std::string times(double ratio) {
     std::string factor = name_factor(ratio);
     return format("%.3g", ratio) + (factor.empty() ? "" : " (" + factor + ")");
 }
-/// Whether the tiles of a scene are as they should be; `tiles` over scale_of.
-Off compare(const Tiles& should, const Tiles& tiles, double z, double least) {
+/// Whether the tiles of a scene, over what they should be, are off by z standard errors.
+Off compare(const SmallScene& scene, const Tiles& tiles, double z) {
+    constexpr double least = 0.008;
     double weights = 0, sum = 0, worst = 0, low = INFINITY, high = -INFINITY;
     size_t at_low = 0, at_high = 0, leak = tiles.size();
-    bool uneven = false;
     for (size_t i = 0; i < tiles.size(); i++) {
-        bool dark = should[i].mean < scale_of(should, i) / 2;
-        if (dark && tiles[i].mean > std::max(z * tiles[i].se, 4e-3)) leak = i;
-        if (dark || !std::isfinite(tiles[i].se)) continue;
-        double weight = 1 / (tiles[i].se * tiles[i].se + 1e-6), r = tiles[i].mean;
+        double r = tiles[i].mean, se = tiles[i].se;
+        if (scene.should[i].mean < scale_of(scene, i) / 2) {  // it should be black
+            if (r > std::max(z * se, 4e-3)) leak = i;
+            continue;
+        }
+        double weight = 1 / (se * se + 1e-6);
         weights += weight, sum += weight * r;
-        if (std::abs(r - 1) > least)
-            worst = std::max(worst, std::abs(r - 1) / std::max(tiles[i].se, 1e-3));
+        if (std::abs(r - 1) > least) worst = std::max(worst, std::abs(r - 1) / std::max(se, 1e-3));
         if (r < low) low = r, at_low = i;
         if (r > high) high = r, at_high = i;
     }
     Off off;
-    if (weights == 0) {
-        off.noisy = std::none_of(tiles.begin(), tiles.end(),
-                                 [](Quantity q) { return std::isfinite(q.se); });
-        if (leak < tiles.size()) off.words = "light where there should be none " + place(leak);
-        return off;
+    if (weights > 0) {
+        double mean = sum / weights, se = 1 / std::sqrt(weights);
+        if (std::abs(mean - 1) > least) worst = std::max(worst, std::abs(mean - 1) / se);
+        bool even = true;
+        for (size_t i : {at_low, at_high})
+            even &= std::abs(tiles[i].mean - mean) <= std::max(4 * tiles[i].se, 0.02 * mean);
+        if (worst > z && even) off.words = times(mean) + " of what it should be, everywhere";
+        if (worst > z && !even)
+            off.words = format("from %.3g %s to %.3g %s of what it should be", low,
+                               place(at_low).c_str(), high, place(at_high).c_str());
+        off.noisy = worst <= z && leak == tiles.size() && se > 0.05;
     }
-    double mean = sum / weights, se = 1 / std::sqrt(weights);
-    if (std::abs(mean - 1) > least) worst = std::max(worst, std::abs(mean - 1) / se);
-    for (size_t i : {at_low, at_high})
-        uneven |= std::abs(tiles[i].mean - mean) > std::max(4 * tiles[i].se, 0.02 * mean);
-    if (worst > z && !uneven) off.words = times(mean) + " of what it should be, everywhere";
-    if (worst > z && uneven)
-        off.words = format("from %.3g %s to %.3g %s of what it should be", low,
-                           place(at_low).c_str(), high, place(at_high).c_str());
     if (leak < tiles.size())
         off.words += (off.words.empty() ? "" : "; ") +
                      std::string("light where there should be none ") + place(leak);
-    off.noisy = off.words.empty() && se > 0.05;
     return off;
 }
 
 bool is_dark(const std::string& key) { return key.ends_with(" dark"); }
 std::string scene_of(const std::string& key) { return key.substr(0, key.find('/')); }
 
-/// A factor that all non-dark numbers may have: of everything, or of scenes with lamps alone.
-Hypothesis with_factor(const Evidence& evidence, const std::set<std::string>& scenes,
-                       const std::set<std::string>& unknown, const char* what) {
+/// What a mistake makes of a number that was measured. What is not written down has this error.
+Quantity prediction(const Hypothesis& h, const std::string& key, double unwritten_se) {
+    auto found = h.predicted.find(key);
+    if (found != h.predicted.end()) return found->second;
+    return {is_dark(key) ? 0.0 : 1.0, unwritten_se};
+}
+
+/// A factor of all numbers that are not dark, if there may be one.
+std::optional<Hypothesis> with_factor(const Evidence& evidence) {
     double weights = 0, sum = 0;
-    Hypothesis h;
     for (const auto& [key, q] : evidence) {
-        if (is_dark(key) || !scenes.contains(scene_of(key))) continue;
+        if (is_dark(key)) continue;
         double weight = 1 / (q.se * q.se + 1e-4 * q.mean * q.mean + 1e-8);
         weights += weight, sum += weight * q.mean;
     }
     double factor = weights > 0 ? sum / weights : 1;
-    if (std::abs(factor - 1) < 0.02) return h;
-    for (const auto& [key, q] : evidence) {
-        if (is_dark(key)) continue;
-        if (scenes.contains(scene_of(key))) h.predicted[key] = {factor, 0};
-        if (unknown.contains(scene_of(key))) h.predicted[key] = q;
-    }
-    h.text = std::string(what) + " " + times(factor) +
-             " times as bright as the reference: units, exposure, or a factor";
+    if (std::abs(factor - 1) < 0.02) return {};
+    Hypothesis h{"everything is " + times(factor) +
+                     " times as bright as the reference: units, exposure, or a factor",
+                 {}};
+    for (const auto& [key, q] : evidence)
+        if (!is_dark(key)) h.predicted[key] = {factor, 0};
     return h;
 }
 
@@ -184,11 +166,9 @@ Fit fit_of(const Hypothesis& h, const Evidence& evidence) {
     for (const auto& [key, q] : h.predicted)  // of light that was not found there is none
         if (is_dark(key)) numbers.insert({key, Quantity{}});
     for (const auto& [key, q] : numbers) {
-        auto found = h.predicted.find(key);
         // What is not written down was less than 3 standard errors away, of fewer samples: where
         // those are large, it may be as far away.
-        Quantity p = {is_dark(key) ? 0.0 : 1.0, q.se > 0.01 ? 2 * q.se : 0};
-        if (found != h.predicted.end()) p = found->second;
+        Quantity p = prediction(h, key, q.se > 0.01 ? 2 * q.se : 0);
         double error = std::hypot(q.se, p.se, model_error(key, p.mean));
         double z = std::abs(q.mean - p.mean) / error;
         fit.worst = std::max(fit.worst, z);
@@ -225,9 +205,8 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
     std::set<std::string> predicted;
     for (const auto& [key, q] : evidence) {
         bool dark = is_dark(key);
-        auto found = h.predicted.find(key);
-        Quantity p = {dark ? 0.0 : 1.0, 0.005};
-        if (found != h.predicted.end()) p = found->second, predicted.insert(scene_of(key));
+        Quantity p = prediction(h, key, 0.005);
+        if (h.predicted.contains(key)) predicted.insert(scene_of(key));
         Sum& s = scenes[scene_of(key) + (dark ? " dark" : "")];
         double weight = 1 / (q.se * q.se + 1e-6);
         s.weights += weight, s.differences += weight * (q.mean - p.mean);
@@ -246,13 +225,6 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
                        [&](const std::string& name) { return predicted.contains(name); });
 }
 
-/// What a mistake makes of a number that was measured.
-Quantity prediction(const Hypothesis& h, const std::string& key) {
-    auto found = h.predicted.find(key);
-    if (found != h.predicted.end()) return found->second;
-    return {is_dark(key) ? 0.0 : 1.0, 0.002};
-}
-
 /// Whether two predictions were not measured precisely enough to tell them apart: neither by a tile
 /// nor by the mean of a scene.
 bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {
@@ -264,7 +236,7 @@ bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidenc
         return std::abs(distance) > std::hypot(4 * error, model) + 1e-3;
     };
     for (const auto& [key, q] : evidence) {
-        Quantity p = prediction(a, key), r = prediction(b, key);
+        Quantity p = prediction(a, key, 0.002), r = prediction(b, key, 0.002);
         double error = std::hypot(p.se, r.se);
         if (differ(p.mean - r.mean, error, 0.01 * p.mean)) return false;
         Sum& s = scenes[scene_of(key)];
@@ -284,103 +256,78 @@ Folder read_folder(const std::string& folder) {
     size_t same = 0, pairs = 0;
     for (const SmallScene& scene : small_scenes()) {
         std::string stem = folder + "/" + scene.name;
-        bool coarse = false;
         size_t notes = to.notes.size();
-        std::optional<Image> a = read_picture(stem, scene, to, coarse);
-        std::optional<Image> b = read_picture(stem + ".2", scene, to, coarse);
-        bool is_error = !b;
-        if (!b) b = read_picture(stem + ".err", scene, to, coarse);
-        if (!a && to.notes.size() == notes) {
-            to.missing.push_back(scene.name);
-            if (std::filesystem::exists(stem + ".exr"))
-                to.notes.push_back(stem +
-                                   ".exr: error: this format is not read; the page shows how to "
-                                   "make a .pfm of it");
-        }
+        std::optional<Image> a = read_picture(stem + ".pfm", scene, to);
+        std::optional<Image> b = read_picture(stem + ".2.pfm", scene, to);
+        if (!a && to.notes.size() == notes) to.missing.push_back(scene.name);
         if (a && !b && to.notes.size() == notes)
-            to.notes.push_back(stem + ": error: how noisy is it? There is neither " + scene.name +
-                               ".2.pfm (another seed) nor " + scene.name + ".err.pfm");
-        if (!a || !b || to.notes.size() > notes) continue;
+            to.notes.push_back(stem + ": error: how noisy is it? There is no " + scene.name +
+                               ".2.pfm (another seed)");
+        if (!a || !b) continue;
         bool flat = std::count(a->pixels.begin(), a->pixels.end(), a->pixels[0]) ==
                     static_cast<std::ptrdiff_t>(a->pixels.size());
-        if (!is_error && !flat) pairs++, same += a->pixels == b->pixels;
-        to.scenes[scene.name] = measure(scene, *a, *b, is_error, coarse);
+        if (!flat) pairs++, same += a->pixels == b->pixels;
+        to.scenes[scene.name] = measure(scene, *a, *b);
     }
     if (pairs > 8 && same > pairs * 2 / 3) {
         to.notes.push_back(
             folder + ": error: NAME.pfm and NAME.2.pfm are the same: they need different seeds");
         to.scenes.clear();
     }
-    bool coarse = std::any_of(to.scenes.begin(), to.scenes.end(),
-                              [](const auto& s) { return s.second.coarse; });
-    if (coarse)
-        to.notes.push_back(folder +
-                           ": warning: pictures of 8 bits are coarse, are taken as sRGB, and end "
-                           "at 1: a .pfm tells more");
     return to;
 }
 
-Diagnosis judge(const Folder& folder, const References& references,
-                const std::vector<Hypothesis>& effects) {
-    Diagnosis d;
+namespace {
+
+/// What is off, scene by scene, and the numbers by which mistakes are told apart.
+struct Evaluation {
     Evidence evidence;
-    std::vector<std::string> off, held;
-    std::set<std::string> all, lamps, mixed;
-    size_t comparisons = 0;
-    for (const auto& [name, m] : folder.scenes) comparisons += m.tiles.size() + 1;
+    std::vector<std::string> off;
+};
+
+Evaluation evaluate(const Folder& folder, Diagnosis& d) {
+    Evaluation e;
+    size_t comparisons = 0, held = 0;
+    for (const auto& [name, tiles] : folder.scenes) comparisons += tiles.size() + 1;
     double z = threshold(comparisons);
     for (const SmallScene& scene : small_scenes()) {
         auto found = folder.scenes.find(scene.name);
         if (found == folder.scenes.end()) continue;
-        const Tiles& should = references.at(scene.name);
-        Tiles tiles = found->second.tiles;
-        for (size_t i = 0; i < tiles.size(); i++) {
-            double scale = scale_of(should, i);
-            tiles[i] = {tiles[i].mean / scale, std::hypot(tiles[i].se, should[i].se) / scale};
-            if (found->second.coarse) tiles[i].se = std::hypot(tiles[i].se, 0.005);
-        }
-        use_common_noise(tiles, should);
-        for (size_t i = 0; i < tiles.size(); i++)
-            if (std::isfinite(tiles[i].se)) evidence[key_of(scene.name, should, i)] = tiles[i];
-        Off result = compare(should, tiles, z, found->second.coarse ? 0.03 : 0.008);
-        if (!result.words.empty()) off.push_back(scene.name);
-        if (result.words.empty() && !result.noisy) held.push_back(scene.name);
-        d.noisy += result.noisy;
+        Tiles tiles = over_reference(scene, found->second);
+        for (size_t i = 0; i < tiles.size(); i++) e.evidence[key_of(scene, i)] = tiles[i];
+        Off result = compare(scene, tiles, z);
+        bool is_off = !result.words.empty();
+        if (is_off) e.off.push_back(scene.name);
+        held += !is_off && !result.noisy, d.noisy += result.noisy;
         d.text += format("%-14s ", scene.name.c_str()) +
-                  (!result.words.empty() ? "OFF    " + result.words
-                   : result.noisy        ? "cannot be judged: too noisy, or above 1 in 8 bits"
-                                         : "holds") +
+                  (is_off         ? "OFF    " + result.words
+                   : result.noisy ? "cannot be judged: too noisy"
+                                  : "holds") +
                   "\n";
-        all.insert(scene.name);
-        if (!scene.has.contains("a sky"))
-            lamps.insert(scene.name);
-        else if (scene.has.contains("more than one light"))
-            mixed.insert(scene.name);
     }
-    d.off = static_cast<int>(off.size()), d.held = static_cast<int>(held.size());
-    d.text += format("\n%d of %zu scenes hold, %d are off%s. ", d.held, all.size(), d.off,
-                     d.noisy ? format(", %d cannot be judged", d.noisy).c_str() : "");
-    d.text +=
-        format("By %zu comparisons: chance alone would make one of a thousand such sets off.\n",
-               comparisons);
-    if (!folder.missing.empty()) {
-        d.text += "Not there, and not judged:";
-        for (const std::string& name : folder.missing) d.text += " " + name;
-        d.text += "\n";
-    }
+    d.off = static_cast<int>(e.off.size());
+    d.text += format(
+        "\n%zu of %zu scenes hold, %d are off, %d cannot be judged. By %zu comparisons: "
+        "chance alone would make one of a thousand such sets off.\n",
+        held, folder.scenes.size(), d.off, d.noisy, comparisons);
+    if (!folder.missing.empty()) d.text += "Not there, and not judged:";
+    for (const std::string& name : folder.missing) d.text += " " + name;
+    d.text += folder.missing.empty() ? "" : "\n";
+    return e;
+}
+
+}  // namespace
+
+Diagnosis judge(const Folder& folder, const std::vector<Hypothesis>& effects) {
+    Diagnosis d;
+    const auto [evidence, off] = evaluate(folder, d);
     if (off.empty()) return d;
 
-    std::vector<Hypothesis> hypotheses;
-    for (Hypothesis h : effects) {
+    std::vector<Hypothesis> hypotheses = effects;
+    for (Hypothesis& h : hypotheses)
         std::erase_if(h.predicted,
                       [&](const auto& cell) { return !evidence.contains(cell.first); });
-        hypotheses.push_back(h);
-    }
-    Hypothesis factors[] = {
-        with_factor(evidence, all, {}, "everything is"),
-        with_factor(evidence, lamps, mixed, "the light of lamps, not of the sky, is")};
-    for (const Hypothesis& h : factors)
-        if (!h.text.empty()) hypotheses.push_back(h);
+    if (std::optional<Hypothesis> factor = with_factor(evidence)) hypotheses.push_back(*factor);
     std::vector<Fit> fits = explanations(hypotheses, evidence);
     std::erase_if(fits,
                   [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });

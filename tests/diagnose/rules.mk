@@ -1,5 +1,5 @@
 # Pictures of small scenes by any renderer: what is wrong with them?
-diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge check/probes)
+diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge known/scenes)
 measuring_small := $(diagnosing) $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/programs/measure measure/measure measure/methods)
 planted_methods := 07 09 14
 # They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
@@ -11,11 +11,11 @@ probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
-#: maintaining: make effects      measure anew what mistakes do to the small scenes (6 minutes)
+#: maintaining: make effects      measure anew what mistakes do to the small scenes (12 minutes)
 effects: $(BUILD)/diagnose_effects
-	@$< $(BUILD)/diagnosed/rows.tsv --spp 256
-$(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.tsv tests/diagnose/plant tests/diagnose/planted.h
-	@tests/diagnose/plant $(BUILD)/diagnosed
+	@$< $(BUILD)/diagnosed --spp 256
+$(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.tsv tests/diagnose/plant tests/diagnose/planted.h | probes
+	@rm -rf $(BUILD)/diagnosed; tests/diagnose/plant $(BUILD)/diagnosed $(BUILD)/probes
 	@for chapter in $(planted_methods); do echo "compile chapter $$chapter with mistakes"; \
 	  CCACHE_NODIRECT=1 $(CXX) $(filter-out -I.,$(CXXFLAGS)) -w -I$(BUILD)/diagnosed -I. -include tests/diagnose/planted.h \
 	    -c tests/measure/method_$$chapter.cpp -o $(BUILD)/diagnosed/$$chapter.o || exit 1; done

@@ -14,41 +14,35 @@ std::vector<std::string> split(const std::string& text, char at) {
     for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
     return parts;
 }
-bool is_dark(const Tiles& references, size_t tile) {
-    return references[tile].mean < std::max(1e-3 * mean_of(references), 1e-4);
-}
-
-}  // namespace
-
 double mean_of(const Tiles& tiles) {
     double sum = 0;
     for (Quantity q : tiles) sum += q.mean;
     return sum / static_cast<double>(tiles.size());
 }
-double scale_of(const Tiles& references, size_t tile) {
-    return is_dark(references, tile) ? std::max(mean_of(references), 0.01) : references[tile].mean;
+bool is_dark(const SmallScene& scene, size_t tile) {
+    return scene.should[tile].mean < std::max(1e-3 * mean_of(scene.should), 1e-4);
 }
-std::string key_of(const std::string& scene, const Tiles& references, size_t tile) {
-    return scene + "/" + std::to_string(tile) + (is_dark(references, tile) ? " dark" : "");
-}
-
-References read_references() {
-    References references;
-    for (const std::string& line : split(read_file(references_file), '\n')) {
-        std::vector<std::string> cells = split(line, '\t');
-        if (line[0] == '#' || cells.size() < 3) continue;
-        for (const std::string& number : split(cells[1], ' '))
-            references[cells[0]].push_back({std::stod(number), std::stod(cells[2])});
-    }
-    return references;
+/// Whether a mistake shows here in all renderers, but not to the same extent: it depends on what
+/// one of their samples holds.
+bool depends_on_style(const std::string& mistake, const std::string& scene) {
+    return mistake.starts_with("each sample is clamped") && scene != "frame" && scene != "wide";
 }
 
-std::string effect_text(const std::string& scene, const Tiles& references, const Tiles& tiles) {
+}  // namespace
+
+double scale_of(const SmallScene& scene, size_t tile) {
+    return is_dark(scene, tile) ? std::max(mean_of(scene.should), 0.01) : scene.should[tile].mean;
+}
+std::string key_of(const SmallScene& scene, size_t tile) {
+    return scene.name + "/" + std::to_string(tile) + (is_dark(scene, tile) ? " dark" : "");
+}
+
+std::string effect_text(const SmallScene& scene, const Tiles& tiles) {
     double weights = 0, sum = 0, squares = 0, most = 0, chi2 = 0, n = 0;
     double all_off = 0, dark = 0;
     bool is_off = false, is_even = true;
     for (size_t i = 0; i < tiles.size(); i++) {
-        double should = is_dark(references, i) ? 0 : 1, off = std::abs(tiles[i].mean - should);
+        double should = is_dark(scene, i) ? 0 : 1, off = std::abs(tiles[i].mean - should);
         is_off |= off > std::max(3.5 * tiles[i].se, should > 0 ? 0.005 : 2e-3);
         all_off += std::pow(off / (tiles[i].se + 0.003), 2), dark += should == 0;
         squares += tiles[i].se * tiles[i].se;
@@ -62,12 +56,12 @@ std::string effect_text(const std::string& scene, const Tiles& references, const
     if (!is_off) return "";
     double mean = sum / weights;
     for (size_t i = 0; i < tiles.size(); i++) {
-        if (is_dark(references, i)) continue;
+        if (is_dark(scene, i)) continue;
         double z = std::abs(tiles[i].mean - mean) / (tiles[i].se + 5e-4 * mean + 1e-6);
         most = std::max(most, z), chi2 += z * z, n++;
     }
     is_even &= most < 4 && chi2 < n + 3 * std::sqrt(2 * n);
-    std::string text = scene + "=";
+    std::string text = scene.name + "=";
     char number[40];
     for (size_t i = 0; i < (is_even ? 1 : tiles.size()); i++) {
         std::snprintf(number, sizeof number, "%s%.3g", i == 0 ? "" : " ",
@@ -79,15 +73,9 @@ std::string effect_text(const std::string& scene, const Tiles& references, const
     return text + number;
 }
 
-/// Whether a mistake shows here in all renderers, but not to the same extent: it depends on what
-/// they round, or on what one of their samples holds.
-static bool depends_on_style(const std::string& mistake, const std::string& scene) {
-    if (mistake.starts_with("by rounding")) return true;
-    if (mistake.starts_with("camera rays go through")) return scene == "frame" || scene == "wide";
-    return mistake.starts_with("each sample is clamped") && scene != "frame" && scene != "wide";
-}
-
-std::vector<Hypothesis> read_effects(const References& references) {
+std::vector<Hypothesis> read_effects() {
+    std::map<std::string, const SmallScene*> scenes;
+    for (const SmallScene& scene : small_scenes()) scenes[scene.name] = &scene;
     std::vector<Hypothesis> effects;
     for (const std::string& line : split(read_file(effects_file), '\n')) {
         std::vector<std::string> cells = split(line, '\t');
@@ -95,21 +83,20 @@ std::vector<Hypothesis> read_effects(const References& references) {
         Hypothesis h{cells[1], {}};
         for (const std::string& effect : split(cells[2], ';')) {
             size_t equal = effect.find('='), error = effect.find('~');
-            std::string scene = effect.substr(0, equal);
+            const SmallScene& scene = *scenes.at(effect.substr(0, equal));
             std::vector<std::string> numbers =
                 split(effect.substr(equal + 1, error - equal - 1), ' ');
-            const Tiles& should = references.at(scene);
             // One number: each tile was as uncertain as that, not only their mean.
             double alike = 0;
-            for (size_t i = 0; i < should.size(); i++) alike += !is_dark(should, i);
+            for (size_t i = 0; i < scene.should.size(); i++) alike += !is_dark(scene, i);
             if (numbers.size() > 1) alike = 1;
-            for (size_t i = 0; i < should.size(); i++) {
-                if (numbers.size() == 1 && is_dark(should, i)) continue;
+            for (size_t i = 0; i < scene.should.size(); i++) {
+                if (numbers.size() == 1 && is_dark(scene, i)) continue;
                 double mean = std::stod(numbers.size() == 1 ? numbers[0] : numbers.at(i));
                 double se = std::stod(effect.substr(error + 1)) * std::sqrt(alike);
-                if (depends_on_style(cells[1], scene))
+                if (depends_on_style(cells[1], scene.name))
                     se = std::max(se, 0.2 + 0.5 * std::abs(mean - 1));
-                h.predicted[key_of(scene, should, i)] = {mean, se};
+                h.predicted[key_of(scene, i)] = {mean, se};
             }
         }
         effects.push_back(h);

@@ -1,14 +1,7 @@
-// The small scenes' pictures as numbers: the means of their tiles, and tables of these in files.
+// The small scenes' pictures as numbers: the means of their tiles, and what mistakes make of these.
 #pragma once
-#include <map>
-
 #include "common/picture/image.h"
-#include "tests/check/findings.h"
 #include "tests/diagnose/scenes.h"
-
-/// Numbers of one scene: of its 4 x 4 tiles, row by row; of a coloured scene first those of red.
-using Tiles = std::vector<Quantity>;
-inline size_t count_tiles(const SmallScene& scene) { return scene.coloured ? 48 : 16; }
 
 /// Calls visit(x, y, channel) for each number of a picture of this size that belongs to a tile.
 template <typename Visit>
@@ -21,16 +14,11 @@ void visit_tile(size_t tile, bool coloured, int width, int height, const Visit& 
 }
 inline double channel(Rgb c, int i) { return double{i == 0 ? c.r : i == 1 ? c.g : c.b}; }
 
-/// What the tiles should be, by name of the scene.
-using References = std::map<std::string, Tiles>;
-References read_references();
-/// The mean of a scene's tiles.
-double mean_of(const Tiles& tiles);
-/// What a tile is compared with: its reference, or where that is almost nothing (such a tile's
+/// What a tile is compared with: what it should be, or where that is almost nothing (such a tile's
 /// evidence is "dark") the mean of all, or 0.01.
-double scale_of(const Tiles& references, size_t tile);
+double scale_of(const SmallScene& scene, size_t tile);
 /// The name of a tile in evidence.
-std::string key_of(const std::string& scene, const Tiles& references, size_t tile);
+std::string key_of(const SmallScene& scene, size_t tile);
 
 /// One number for each tile of each scene: measured over expected; of a tile that should be black,
 /// what it brings. The key is "scene/tile", or "scene/tile dark".
@@ -42,9 +30,8 @@ struct Hypothesis {
 };
 
 /// The effects of mistakes that were planted (effects.tsv).
-std::vector<Hypothesis> read_effects(const References& references);
+std::vector<Hypothesis> read_effects();
 /// What stands in effects.tsv of one scene; "" where all is as it should be. `tiles` over scale_of.
-std::string effect_text(const std::string& scene, const Tiles& references, const Tiles& tiles);
+std::string effect_text(const SmallScene& scene, const Tiles& tiles);
 
-inline constexpr const char* references_file = "tests/diagnose/references.tsv";
 inline constexpr const char* effects_file = "tests/diagnose/effects.tsv";

@@ -1,23 +1,150 @@
 // Error against time for every method and scene: charts, and a table.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "common/base/error.h"
-#include "tests/measure/curves.h"
+#include "common/picture/comparison.h"
+#include "tests/measure/finding.h"
+#include "tests/measure/lines.h"
+#include "tests/measure/measure.h"
+#include "tests/measure/reference.h"
 #include "tests/support/work.h"
 
 namespace {
 
-/// All curves of a scene, each against references made by other methods.
+double root_mean_square(const std::vector<double>& values) {
+    RunningStats squares;
+    for (double x : values) squares.add(x * x);
+    return std::sqrt(squares.mean());
+}
+
+double mean_of(const std::vector<double>& values) {
+    RunningStats mean;
+    for (double x : values) mean.add(x);
+    return mean.mean();
+}
+
+/// The renders with one number of samples.
+struct CurvePoint {
+    int spp;
+    double seconds;                     // of one render: processor time over threads
+    std::vector<double> rmse, rel_mse;  // of each run, against the reference
+};
+
+struct Curve {
+    const NamedMethod* method;
+    std::vector<CurvePoint> points;
+    double slope = NAN;  // fitted: log RMSE over log spp, last 3 points; in theory -1/2
+
+    ErrorLine rel_mse_over_time() const {
+        ErrorLine line;
+        for (const CurvePoint& p : points) {
+            line.seconds.push_back(p.seconds);
+            line.error.push_back(mean_of(p.rel_mse));
+        }
+        return line;
+    }
+    bool flat() const { return slope > -0.25; }
+    bool falls() const { return !points.empty() && !flat(); }
+};
+
+/// What all methods are compared with.
+struct Truth {
+    Image image;
+    double rmse = 0;  // expected of it
+};
+Truth truth_of(const Scene& scene) {
+    std::string name = file_name(scene_name(scene.file));
+    auto references = read_references();
+    auto found = references.find(name);
+    if (found == references.end() || found->second.max_depth != scene.max_depth)
+        throw InputError(name + ": error: no reference of this depth; run: make references");
+    Image image = read_image(reference_folder + name + ".pfm");
+    if (image.width != scene.width || image.height != scene.height)
+        throw InputError(name + ": error: no reference of this size; run: make references");
+    return {image, found->second.rmse};
+}
+
+/// The first of those whose error falls: the measure of the others; null: none.
+const Curve* measure_of_all(const std::vector<Curve>& curves) {
+    for (const Curve& c : curves)
+        if (c.falls()) return &c;
+    return nullptr;
+}
+
+/// How many times faster than `first` at equal error; "never" for one that stays at its bias, "-"
+/// for one that is exact from the first sample on.
+std::string times_faster(const Curve& curve, const Curve* first) {
+    if (curve.points.empty() || !first) return "-";
+    double ratio = times_faster(curve.rel_mse_over_time(), first->rel_mse_over_time());
+    return curve.flat() ? "never" : two_digits(ratio);
+}
+
+/// Of log RMSE over log samples, from the last three points; NaN for one.
+double last_slope(const std::vector<CurvePoint>& points) {
+    std::vector<double> spp, rmse;
+    for (size_t i = points.size() - std::min<size_t>(3, points.size()); i < points.size(); i++) {
+        spp.push_back(points[i].spp);
+        rmse.push_back(root_mean_square(points[i].rmse));
+    }
+    return fitted_slope(spp, rmse);
+}
+
+/// Renders with 1, 4, 16, ... spp, `runs` of each, for about `seconds` of all processors together,
+/// and as long as the error is at least 10 times the reference's own.
+Curve measure_curve(const NamedMethod& method, Scene& scene, const Truth& truth,
+                    const MeasureOptions& o, double seconds) {
+    Curve curve{&method, {}, NAN};
+    double spent = 0, next = 0;
+    // What is biased gets longer, until chance is small beside its bias.
+    auto time_left = [&] {
+        return spent + next < (method.biased && !curve.flat() ? 16 * seconds : seconds);
+    };
+    for (int spp = 1; spp <= 1 << 20 && (spp <= 16 || time_left()); spp *= 4) {
+        CurvePoint point{spp, 0, {}, {}};
+        for (int run = 0; run < o.runs; run++) {
+            uint32_t seed = 0x10000u * static_cast<uint32_t>(run + 1) + static_cast<uint32_t>(spp);
+            Rendering r = render_once(method, scene, o, spp, seed);
+            Comparison c = compare(r.film.image(), truth.image);
+            point.rmse.push_back(c.rmse);
+            point.rel_mse.push_back(c.rel_mse);
+            point.seconds += r.stats.seconds / o.runs;
+        }
+        double cost = point.seconds * o.runs * o.threads;
+        spent += cost;
+        next = 4 * cost;
+        if (!method.biased && root_mean_square(point.rmse) < 10 * truth.rmse) break;
+        curve.points.push_back(point);
+        curve.slope = last_slope(curve.points);
+    }
+    return curve;
+}
+
+/// Writes chart-SCENE.tsv, relMSE over seconds, and draws it: how many times faster than the first
+/// each method is stands behind its name.
+void draw_curves(const std::string& folder, const std::string& scene,
+                 const std::vector<Curve>& curves) {
+    const Curve* first = measure_of_all(curves);
+    std::vector<Line> lines;
+    for (const Curve& c : curves) {
+        ErrorLine line = c.rel_mse_over_time();
+        std::string than = first ? ", times faster: " + times_faster(c, first) : "";
+        lines.push_back({scene, c.method->label + than, c.method->color, line.seconds, line.error});
+    }
+    write_lines(folder, "chart-" + file_name(scene), scene + ": error against time",
+                "seconds of one render", "relMSE", lines);
+}
+/// All curves of a scene.
 std::vector<Curve> measure_scene(const std::string& path, const std::vector<NamedMethod>& methods,
                                  const MeasureOptions& o, double seconds, Work& work) {
     Scene scene = load_scene_for(path, o);
+    Truth truth = truth_of(scene);
     std::vector<Curve> curves;
     for (const NamedMethod& method : methods) {
         work.next(scene_name(path) + ", " + method.name);
         if (!can_render(method, scene)) continue;
-        Reference reference =
-            reference_for(scene_name(path), method, scene.width, scene.height, scene.max_depth);
-        curves.push_back(measure_curve(method, scene, reference, o, seconds));
+        curves.push_back(measure_curve(method, scene, truth, o, seconds));
     }
     return curves;
 }

@@ -1,24 +1,32 @@
-// Pictures so exact that the charts can take them for the truth.
+// Pictures so exact that the charts can take them for the truth: one of each scene.
 #pragma once
+#include <map>
+#include <sstream>
 #include <string>
 
-#include "common/picture/image.h"
-#include "tests/measure/methods.h"
+#include "common/base/files.h"
 
-/// The mean of a scene's references, of how little it is sure, and by which methods it was made.
+/// How a scene's picture was made, and the error that is expected of it.
 struct Reference {
-    Image image;
-    double rmse = 0, rel_mse = 0;  // expected, against the truth
-    std::string made_by;
+    std::string method;
+    int spp = 0, max_depth = 0;
+    double rmse = 0;
 };
 
-inline constexpr const char* reference_folder = "tests/measure/references";
+inline const std::string reference_folder = "tests/measure/references/";
+inline const std::string reference_table = reference_folder + "table.tsv";
 
-/// The file of the reference of `scene` that a method made, without its ending.
-std::string reference_path(const std::string& scene, const std::string& method);
-
-/// The references of a scene (by scene_name) that were made by methods as different as can be from
-/// the one under test, weighed by their errors. Throws InputError when there is none of this size
-/// and depth.
-Reference reference_for(const std::string& scene, const NamedMethod& under_test, int width,
-                        int height, int max_depth);
+/// The table of all references, by file_name(scene_name) of the scene: the picture's name.
+inline std::map<std::string, Reference> read_references() {
+    std::map<std::string, Reference> all;
+    std::istringstream lines(read_file(reference_table));
+    std::string line, scene;
+    std::getline(lines, line);  // the names of the columns
+    while (std::getline(lines, line)) {
+        std::istringstream cells(line);
+        Reference r;
+        cells >> scene >> r.method >> r.spp >> r.max_depth >> r.rmse;
+        all[scene] = r;
+    }
+    return all;
+}

@@ -1,5 +1,5 @@
 // diagnose FOLDER: says what is wrong with a renderer, from its pictures of the small scenes.
-// diagnose --write FOLDER: writes these scenes, and the page that states them.
+// diagnose --write FOLDER: writes these scenes.
 #include <cstdio>
 
 #include "common/base/error.h"
@@ -13,9 +13,7 @@ int write_scenes(const std::string& folder) {
     make_folder(folder);
     for (const SmallScene& scene : small_scenes())
         write_file_atomically(folder + "/" + scene.name + ".pbrt", scene.pbrt);
-    write_file_atomically(folder + "/PROBES.md", small_scenes_page());
-    std::printf("wrote %zu scenes, and %s/PROBES.md, which states them in words and numbers\n",
-                small_scenes().size(), folder.c_str());
+    std::printf("wrote %zu scenes\n", small_scenes().size());
     return 0;
 }
 
@@ -27,7 +25,7 @@ int main(int argc, char** argv) {
         std::vector<std::string> words;
         parse_options(argc, argv, "FOLDER",
                       "Says what is wrong with a renderer, from its pictures of the small scenes.",
-                      {{"write", "DIR", "write the scenes, and the page that states them",
+                      {{"write", "DIR", "write the scenes",
                         [&](const std::string& text) { to = text; }}},
                       [&](const std::string& word) { words.push_back(word); });
         if (!to.empty()) return write_scenes(to);
@@ -38,8 +36,7 @@ int main(int argc, char** argv) {
             throw InputError(
                 words[0] +
                 ": error: no picture that can be judged, such as floor.pfm with floor.2.pfm");
-        References references = read_references();
-        Diagnosis d = judge(folder, references, read_effects(references));
+        Diagnosis d = judge(folder, read_effects());
         bool open = d.noisy > 0 || !folder.notes.empty();
         std::printf("%sverdict: %s\n", d.text.c_str(),
                     d.off  ? "wrong"

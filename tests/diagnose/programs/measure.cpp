@@ -3,16 +3,14 @@
 #include "tests/measure/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <functional>
-#include <regex>
-#include <set>
+#include <filesystem>
 #include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/stats.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/diagnose/planted.h"
@@ -20,19 +18,39 @@
 
 namespace {
 
-using Change = std::function<void(Scene&)>;
+/// Pictures of a scene, of two seeds.
+using Pair = std::array<Image, 2>;
 
-Image picture_of(const std::string& text, const NamedMethod& method, const MeasureOptions& o,
-                 int spp, uint32_t seed, const Change& change = {}) {
-    bool shines = text.find("rgb L") != std::string::npos;  // a scene must have a light
-    std::string dim = shines ? "" : "LightSource \"infinite\" \"rgb L\" [1e-9 1e-9 1e-9]\n";
-    Scene scene = parse_scene("small.pbrt", text + dim, nullptr);
-    if (change) change(scene);
+/// A way of finding light: its method, how it samples directions and the sky, and how many times as
+/// many samples it takes.
+struct Way {
+    const char* method;
+    bool cosine, sky;
+    int times;
+};
+const std::map<char, Way> ways = {
+    {'u', {"07", false, false, 2}},      {'c', {"07", true, false, 2}},
+    {'n', {"09-area", false, false, 1}}, {'a', {"09-area", true, false, 1}},
+    {'k', {"09-area", true, true, 1}},   {'m', {"14", true, false, 1}},
+    {'b', {"14-balance", true, true, 1}}};
+
+Image picture_of(std::string text, const Way& way, const MeasureOptions& o, int mistake, int spp,
+                 uint32_t seed) {
+    planted::cosine = way.cosine, planted::sky = way.sky, planted::mistake = mistake;
+    if (text.find("rgb L") == std::string::npos)  // a scene must have a light
+        text += "LightSource \"infinite\" \"rgb L\" [1e-9 1e-9 1e-9]\n";
+    Scene scene = parse_scene("small.pbrt", text, nullptr);
     prepare(scene, o.threads);
-    return render_once(method, scene, o, spp, seed).film.image();
+    const NamedMethod method = methods_named({way.method}).at(0);
+    return render_once(method, scene, o, spp * way.times, seed).film.image();
+}
+Pair pair_of(const std::string& text, const Way& way, const MeasureOptions& o, int mistake,
+             int times = 1) {
+    return {picture_of(text, way, o, mistake, o.spp * times, 1),
+            picture_of(text, way, o, mistake, o.spp * times, 2)};
 }
 
-/// What a row that is no code does to a picture that is right.
+/// What a mistake in the picture alone does to it.
 Image changed(const Image& right, const std::string& how) {
     Image image = right;
     double power = how.starts_with("power ") ? std::stod(how.substr(6)) : 1;
@@ -60,102 +78,35 @@ Image changed(const Image& right, const std::string& how) {
     return image;
 }
 
-/// What such a row does to a scene.
-Change change_of(const std::string& how) {
-    std::istringstream words(how);
-    std::string what, argument, then;
-    words >> what >> argument >> then;
-    return [=](Scene& s) {
-        double half = double{s.camera.fov} * std::numbers::pi / 360;
-        double aspect = static_cast<double>(s.width) / s.height, tangent = std::tan(half);
-        if (argument == "half") tangent /= 2;
-        if (argument == "radians") tangent = half;
-        if (argument == "longer") tangent /= aspect;
-        if (argument == "2") tangent = std::tan(2 * half);  // below 0: turned by half a turn
-        if (argument == "degrees") tangent = std::tan(double{s.camera.fov} / 2);
-        if (argument == "whole") tangent = std::tan(double{s.camera.fov});
-        if (what == "fov")
-            s.camera.fov = static_cast<float>(360 / std::numbers::pi * std::atan(tangent));
-        if (what == "shift") {  // all scenes are 16 pixels high
-            float x = std::stof(argument) / 8, y = std::stof(then) / 8;
-            float half_width = static_cast<float>(s.width) / 16;
-            s.camera.screen_window = {x - half_width, x + half_width, y - 1, y + 1};
-        }
-        if (how == "aspect") s.camera.frame_aspect = 1;
-        if (what == "radius")
-            for (Sphere& sphere : s.geometry.spheres) sphere.r *= std::stof(argument);
-        if (how != "watts of lamps" && how != "by area") return;
-        for (Light& light : s.lights) {
-            if (light.type != LightType::area) continue;
-            double area = 0;
-            for (uint32_t i = light.first_prim; i < light.first_prim + light.prims; i++)
-                area += visit(
-                    s.geometry, i,
-                    [&](const Triangle& t) {
-                        const std::vector<Vec3>& p = s.geometry.positions;
-                        return double{length(cross(p[t.v[1]] - p[t.v[0]], p[t.v[2]] - p[t.v[0]]))} /
-                               2;
-                    },
-                    [](const Sphere& b) {
-                        return 4 * std::numbers::pi * double{b.r} * double{b.r};
-                    },
-                    [](const Disk&) { return 1.0; });
-            double by = area * (how == "by area" ? 1 : std::numbers::pi);
-            light.L = light.L / static_cast<float>(by);
-        }
-    };
-}
-
-/// The text of a scene whose albedos, or albedos and lamps, are taken to a power.
-std::string with_power(std::string text, const std::string& how) {
-    std::istringstream words(how);
-    std::string what;
-    float power = 1;
-    words >> what >> power;
-    for (const char* name : {"rgb reflectance\" [", "rgb L\" ["}) {
-        if (what != "all" && (what != "albedo" || name[4] == 'L')) continue;
-        for (size_t at = 0; (at = text.find(name, at)) != std::string::npos; at++) {
-            size_t from = text.find('[', at) + 1, end = text.find(']', from);
-            std::istringstream numbers(text.substr(from, end - from));
-            std::string changed;
-            for (float x; numbers >> x;) changed += std::to_string(std::pow(x, power)) + " ";
-            text.replace(from, end - from, changed);
-        }
-    }
-    return text;
-}
-
-/// Pictures of a scene with a mistake and without, of one seed.
-struct Pair {
-    Image wrong, right;
-};
-/// The tiles of a picture with a mistake over those of one without, with errors from the pixels; or
-/// from a second pair, where a mistake moves edges.
-Tiles effects_on(const SmallScene& scene, const Tiles& should, const Pair& one, const Pair* two) {
+/// The tiles of pictures with a mistake over those of pictures without. Their errors: from how far
+/// the two seeds lie apart, pixel by pixel.
+Tiles effects_on(const SmallScene& scene, const Pair& wrong, const Pair& right) {
     Tiles tiles;
-    auto of = [&](const Image Pair::*which, int x, int y, int c) {
-        double first = channel((one.*which).at(x, y), c);
-        return two ? (first + channel((two->*which).at(x, y), c)) / 2 : first;
-    };
-    for (size_t i = 0; i < should.size(); i++) {
-        double sum_p = 0, sum_b = 0, squares = 0, n = 0, scale = scale_of(should, i);
-        bool dark = key_of(scene.name, should, i).ends_with(" dark");
-        visit_tile(i, scene.coloured, one.right.width, one.right.height, [&](int x, int y, int c) {
-            sum_p += of(&Pair::wrong, x, y, c), sum_b += of(&Pair::right, x, y, c), n++;
+    for (size_t i = 0; i < scene.should.size(); i++) {
+        double sum_w = 0, sum_r = 0, squares = 0, n = 0, scale = scale_of(scene, i);
+        auto each_number = [&](auto visit) {
+            visit_tile(i, scene.coloured, right[0].width, 16, visit);
+        };
+        each_number([&](int x, int y, int c) {
+            for (const Image& image : wrong) sum_w += channel(image.at(x, y), c) / 2;
+            for (const Image& image : right) sum_r += channel(image.at(x, y), c) / 2;
+            n++;
         });
-        double r = dark || sum_b == 0 ? sum_p / n / scale : sum_p / sum_b;
-        visit_tile(i, scene.coloured, one.right.width, one.right.height, [&](int x, int y, int c) {
-            auto off = [&](const Pair& pair) {
-                double right = dark ? sum_p / n : r * channel(pair.right.at(x, y), c);
-                return channel(pair.wrong.at(x, y), c) - right;
+        bool dark = key_of(scene, i).ends_with(" dark");
+        double ratio = dark || sum_r == 0 ? sum_w / n / scale : sum_w / sum_r;
+        each_number([&](int x, int y, int c) {
+            auto off = [&](size_t k) {
+                double expected = dark ? sum_w / n : ratio * channel(right[k].at(x, y), c);
+                return channel(wrong[k].at(x, y), c) - expected;
             };
-            double d = two ? (off(one) - off(*two)) / 2 : off(one);
+            double d = (off(0) - off(1)) / 2;
             squares += d * d * (scene.coloured ? 1 : 3);
         });
-        tiles.push_back({r, std::sqrt(squares) / n / scale});
+        tiles.push_back({ratio, std::sqrt(squares) / n / scale});
     }
     return tiles;
 }
+
 /// Whether two rows say the same.
 bool are_alike(const std::map<std::string, Tiles>& one, const std::map<std::string, Tiles>& two) {
     for (const auto& [scene, tiles] : one)
@@ -167,20 +118,53 @@ bool are_alike(const std::map<std::string, Tiles>& one, const std::map<std::stri
     return true;
 }
 
+/// A row of rows.tsv, which tests/diagnose/plant writes into the folder.
+struct Row {
+    std::string number, ways, words, how;
+};
+
+/// Renders the small scenes with mistakes and without.
+class Effects {
+public:
+    Effects(const MeasureOptions& o, const std::string& folder) : o_(o), folder_(folder) {}
+
+    /// The tiles of a scene with the mistake of this row, by one way: 's' in the scene, 'p' in the
+    /// picture, or a letter of `ways`.
+    Tiles of(const Row& row, char name, const SmallScene& scene) {
+        bool in_code = ways.contains(name);
+        const Way& way = ways.at(in_code ? name : 'm');
+        // The lamp of bulb is found by chance alone: noisy, if no numbers are shared.
+        int times = scene.name == "bulb" && name == 's' ? 64 : 1;
+        std::string key = std::string(1, name) + "/" + scene.name;
+        if (!right_.contains(key)) {
+            right_[key] = pair_of(scene.pbrt, way, o_, 0, times);
+            briefly_[key] = picture_of(scene.pbrt, way, o_, 0, 16, 1);
+        }
+        const Pair& right = right_[key];
+        Pair wrong = right;
+        if (name == 'p') wrong = {changed(right[0], row.how), changed(right[1], row.how)};
+        if (name == 's') {
+            std::string file = folder_ + "/" + row.number + "/" + scene.name + ".pbrt";
+            if (std::filesystem::exists(file)) wrong = pair_of(read_file(file), way, o_, 0, times);
+        }
+        if (in_code) {
+            int mistake = std::stoi(row.number);
+            if (picture_of(scene.pbrt, way, o_, mistake, 16, 1).pixels != briefly_[key].pixels)
+                wrong = pair_of(scene.pbrt, way, o_, mistake);
+        }
+        return effects_on(scene, wrong, right);
+    }
+
+private:
+    const MeasureOptions& o_;
+    std::string folder_;
+    std::map<std::string, Pair> right_;     // by way and scene
+    std::map<std::string, Image> briefly_;  // the same with few samples
+};
+
 /// Measures the effects, and writes them down.
-int write_effects(const MeasureOptions& o, const std::string& rows) {
-    struct Way {
-        const char* method;
-        bool cosine, sky;
-        int times;  // the samples
-    };
-    const std::map<char, Way> ways = {
-        {'u', {"07", false, false, 2}},      {'c', {"07", true, false, 2}},
-        {'n', {"09-area", false, false, 1}}, {'a', {"09-area", true, false, 1}},
-        {'k', {"09-area", true, true, 1}},   {'m', {"14", true, false, 1}},
-        {'b', {"14-balance", true, true, 1}}};
-    const References references = read_references();
-    std::map<std::string, Image> right, again, briefly;  // by way and scene; again: another seed
+int write_effects(const MeasureOptions& o, const std::string& folder) {
+    Effects effects(o, folder);
     std::string text =
         "# What planted mistakes do to the tiles of the small scenes, over what these should be: "
         "the way\n"
@@ -190,86 +174,32 @@ int write_effects(const MeasureOptions& o, const std::string& rows) {
         "mean.\n"
         "# By make effects.\n";
     std::map<std::string, std::vector<std::map<std::string, Tiles>>> known;  // by words
-    std::map<std::string, bool> shown;  // by words: in any scene
-    std::istringstream lines(read_file(rows));
+    std::istringstream lines(read_file(folder + "/rows.tsv"));
     for (std::string line; std::getline(lines, line);) {
-        std::istringstream stream(line);
-        std::string cells[6];
-        for (std::string& cell : cells) std::getline(stream, cell, '\t');
-        const std::string& how = cells[3];
-        std::map<std::string, Tiles> with_uniform_sky;  // way a: of other scenes, k has the same
-        for (char name : cells[1]) {
-            bool is_code = ways.contains(name);
-            const Way& way = ways.at(is_code ? name : 'm');
-            const NamedMethod method = methods_named({way.method}).at(0);
-            planted::cosine = way.cosine, planted::sky = way.sky;
-            std::string effects;
+        std::istringstream cells(line);
+        Row row;
+        for (std::string* cell : {&row.number, &row.ways, &row.words, &row.how})
+            std::getline(cells, *cell, '\t');
+        for (char name : row.ways) {
+            std::string off;
             std::map<std::string, Tiles> all;
             for (const SmallScene& scene : small_scenes()) {
-                if (name == 'k' && !scene.has.contains("a sky") && !with_uniform_sky.empty()) {
-                    const Tiles& tiles = all[scene.name] = with_uniform_sky[scene.name];
-                    std::string effect = effect_text(scene.name, references.at(scene.name), tiles);
-                    if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
-                    continue;
-                }
-                std::string key = std::string(is_code ? 1 : 0, name) + "/" + scene.name;
-                auto render = [&](const std::string& in, int mistake, const Change& change, int spp,
-                                  uint32_t seed = 1) {
-                    planted::mistake = mistake;
-                    // The lamp of bulb is found by chance alone: noisy, if no numbers are shared.
-                    int times = scene.name == "bulb" && !is_code ? 64 : way.times;
-                    return picture_of(in, method, o, spp * times, seed, change);
-                };
-                bool has_edges =
-                    std::set<std::string>{"frame", "wide", "tilted"}.contains(scene.name);
-                if (!right.contains(key)) {
-                    right[key] = render(scene.pbrt, 0, {}, o.spp);
-                    briefly[key] = render(scene.pbrt, 0, {}, 16);
-                    if (!is_code || has_edges) again[key] = render(scene.pbrt, 0, {}, o.spp, 2);
-                }
-                const Image& b = right[key];
-                Image p = b;
-                std::optional<Pair> second;
-                int mistake = is_code ? std::stoi(cells[0]) : 0;
-                bool same =
-                    is_code && render(scene.pbrt, mistake, {}, 16).pixels == briefly[key].pixels;
-                if (is_code && !same) p = render(scene.pbrt, mistake, {}, o.spp);
-                if (is_code && !same && has_edges)
-                    second = {render(scene.pbrt, mistake, {}, o.spp, 2), again[key]};
-                if (!is_code) {
-                    std::string in =
-                        name == 's' ? std::regex_replace(scene.pbrt, std::regex(cells[4]), cells[5])
-                                    : with_power(scene.pbrt, how);
-                    auto with = [&](const Image& image, uint32_t seed) {
-                        Image other = name == 'p' ? changed(image, how) : image;
-                        bool is_picture = other.pixels != image.pixels;
-                        return is_picture ? other : render(in, 0, change_of(how), o.spp, seed);
-                    };
-                    p = with(b, 1), second = {with(again[key], 2), again[key]};
-                }
-                const Tiles& should = references.at(scene.name);
-                Tiles tiles = effects_on(scene, should, {p, b}, second ? &*second : nullptr);
-                all[scene.name] = tiles;
-                std::string effect = effect_text(scene.name, should, tiles);
-                if (!effect.empty()) effects += (effects.empty() ? "" : ";") + effect;
+                all[scene.name] = effects.of(row, name, scene);
+                std::string effect = effect_text(scene, all[scene.name]);
+                if (!effect.empty()) off += (off.empty() ? "" : ";") + effect;
             }
-            if (name == 'a') with_uniform_sky = all;
-            std::printf("%s %c %s: %zu letters\n", cells[0].c_str(), name, cells[2].c_str(),
-                        effects.size());
+            std::printf("%s %c %s: %zu letters\n", row.number.c_str(), name, row.words.c_str(),
+                        off.size());
             std::fflush(stdout);
-            shown[cells[2]] |= !effects.empty();
-            auto& others = known[cells[2]];  // the same may be known of another way
-            if (effects.empty() ||
-                std::any_of(others.begin(), others.end(),
-                            [&](const auto& other) { return are_alike(all, other); }))
-                continue;
+            auto& others = known[row.words];  // the same may be known of another way
+            bool is_known = std::any_of(others.begin(), others.end(),
+                                        [&](const auto& other) { return are_alike(all, other); });
+            if (off.empty() || is_known) continue;
             others.push_back(all);
-            text += std::string(1, name) + "\t" + cells[2] + "\t" + effects + "\n";
+            text += std::string(1, name) + "\t" + row.words + "\t" + off + "\n";
         }
     }
     write_file_atomically(effects_file, text);
-    for (const auto& [words, in_a_scene] : shown)
-        if (!in_a_scene) std::printf("no scene shows this mistake: %s\n", words.c_str());
     return 0;
 }
 
@@ -278,7 +208,7 @@ int write_effects(const MeasureOptions& o, const std::string& rows) {
 int main(int argc, char** argv) {
     return run_program([&] {
         MeasureOptions o =
-            parse_measure_options(argc, argv, "ROWS", "Measures the small scenes.", {});
+            parse_measure_options(argc, argv, "FOLDER", "Measures the small scenes.", {});
         return write_effects(o, o.words.at(0));
     });
 }

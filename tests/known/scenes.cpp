@@ -1,7 +1,12 @@
-#include "tests/check/probes.h"
+#include "tests/known/scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
 
 namespace {
 
@@ -13,11 +18,11 @@ std::string format(const char* pattern, Args... args) {
 }
 
 std::string view(const std::string& look_at, const std::string& camera = "\"float fov\" 40",
-                 int max_depth = 1) {
+                 int max_depth = 1, int width = 16) {
     return format(
-               "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+               "Film \"rgb\" \"integer xresolution\" %d \"integer yresolution\" 16\n"
                "PixelFilter \"box\" Integrator \"path\" \"integer maxdepth\" %d\n",
-               max_depth) +
+               width, max_depth) +
            "LookAt " + look_at + "\nCamera \"perspective\" " + camera + "\nWorldBegin\n";
 }
 /// Straight down on the floor's middle.
@@ -108,7 +113,7 @@ std::string crowd() {
     return text;
 }
 
-void add_floors(std::vector<Probe>& p) {
+void add_floors(std::vector<KnownScene>& p) {
     p.push_back({"floor", "a floor under a lamp", above + floor_here + lamp(at(0, 2, 0))});
     p.push_back(
         {"slant", "a lamp 60 degrees from overhead", above + floor_here + lamp(tilted(60))});
@@ -146,49 +151,52 @@ void add_floors(std::vector<Probe>& p) {
 
 /// What the vertex before has to be remembered for: the camera sees a board, and in it or by its
 /// light a floor close under a lamp. There the weights of both strategies are near 1/2.
-void add_second_vertices(std::vector<Probe>& p) {
+void add_second_vertices(std::vector<KnownScene>& p) {
     auto board = [](const std::string& material) {
         return view("-0.4 0.1 0  1 0.1 0  0 1 0", "\"float fov\" 10", 4) + floor_here +
                lamp(at(0, 0.2, 0)) +
                group(material + at(0.7, 0.5, 0) + turn(90, z_axis) + scale(0.5) + square(true));
     };
     std::string more = lamp(at(0, 1.5, 1.2), 0.3) + lamp(at(0, 1.5, -1.2), 0.1);
-    p.push_back({"wall beside", "a wall beside a floor close under a lamp", board(paint(0.5))});
-    p.push_back({"mirror beside", "a mirror beside a floor close under a lamp", board(metal(0.9))});
-    p.push_back({"metal beside", "rough metal beside a floor close under one of three lamps",
+    p.push_back({"wall-beside", "a wall beside a floor close under a lamp", board(paint(0.5))});
+    p.push_back({"mirror-beside", "a mirror beside a floor close under a lamp", board(metal(0.9))});
+    p.push_back({"metal-beside", "rough metal beside a floor close under one of three lamps",
                  board(metal(0.9, smoother)) + more, 13});
 }
 
-void add_skies(std::vector<Probe>& p) {
+std::string shining_sphere(const std::string& material, int max_depth) {
+    return view("0 0 0  0 0 1  0 1 0", "\"float fov\" 60", max_depth) +
+           group("ReverseOrientation " + shining(1) + material + ball(1));
+}
+std::string room(int max_depth) {
+    return view("0 0 -0.95  0 0 0  0 1 0", "\"float fov\" 80", max_depth) +
+           group(cube(paint(0.5))) + lamp(at(0, 0.99, 0));
+}
+
+void add_skies(std::vector<KnownScene>& p) {
     std::string wide = floor_of(paint(0.5), "", 500);
     std::string low = from_above(0.5);
     // So small that paths from the sky meet it.
     std::string small_floor = floor_of(paint(0.5), "", 0.6);
     p.push_back({"sky", "a floor under a white sky", low + small_floor + sky(), 7, 21, 256});
-    p.push_back({"sky, lamp", "a sky, and behind it in the list a lamp",
+    p.push_back({"sky-lamp", "a sky, and behind it in the list a lamp",
                  low + wide + sky() + lamp(at(0, 1, 0), 5)});
-    p.push_back({"lamp, sky", "a lamp, and behind it in the list the sky",
+    p.push_back({"lamp-sky", "a lamp, and behind it in the list the sky",
                  low + wide + lamp(at(0, 1, 0), 5) + sky()});
     p.push_back({"sphere", "the inside of a sphere that shines and reflects half",
-                 view("0 0 0  0 0 1  0 1 0", "\"float fov\" 60", 6) +
-                     group("ReverseOrientation " + shining(1) + paint(0.5) + ball(1)),
-                 7, 21, 256});
-    p.push_back({"red", "the same, that reflects red alone, 80 % of it",
-                 view("0 0 0  0 0 1  0 1 0", "\"float fov\" 60", 60) +
-                     group("ReverseOrientation " + shining(1) +
-                           "Material \"diffuse\" \"rgb reflectance\" [0.97 0.02 0.02] " + ball(1)),
-                 7, 21, 16});
-    p.push_back({"room", "a grey room with a lamp",
-                 view("0 0 -0.95  0 0 0  0 1 0", "\"float fov\" 80", 3) + group(cube(paint(0.5))) +
-                     lamp(at(0, 0.99, 0)),
-                 7, 21, 128});
+                 shining_sphere(paint(0.5), 6), 7, 21, 256});
+    // Before chapter 10 its long paths are too noisy.
+    p.push_back({"red", "the same, that reflects red alone, 97 % of it",
+                 shining_sphere("Material \"diffuse\" \"rgb reflectance\" [0.97 0.02 0.02] ", 60),
+                 10, 21, 16});
+    p.push_back({"room", "a grey room with a lamp", room(3), 7, 21, 128});
     p.push_back({"box", "a closed box in a bright sky",
                  view("1000 300 0  1001 300 1  0 1 0", "\"float fov\" 60", 4) + sky() +
                      group(at(1000, 300, 0) + "Rotate 33 1 2 3 " + cube(paint(0.8)))});
 }
 
 /// What lights there are besides squares and skies. No light without a size is found by chance.
-void add_kinds_of_lights(std::vector<Probe>& p) {
+void add_kinds_of_lights(std::vector<KnownScene>& p) {
     std::string small_floor = floor_of(paint(0.5), "", 2);
     std::string point = "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [0.6 1.5 0.3]\n";
     std::string sun =
@@ -202,19 +210,19 @@ void add_kinds_of_lights(std::vector<Probe>& p) {
     p.push_back({"sun", "a floor under a distant light", above + small_floor + sun, 9});
     p.push_back({"kinds", "a floor under a lamp, a point light and a distant light",
                  above + small_floor + lamp(at(0, 2, 0), 5) + point + sun, 9});
-    p.push_back({"metal, point", "rough metal under a point light",
+    p.push_back({"metal-point", "rough metal under a point light",
                  view("-1 0.5 0  0 0 0  0 1 0", "\"float fov\" 5") +
                      floor_of(metal(1, rough), "", 2) + point,
                  13});
     p.push_back({"disk", "a floor under a disk that shines",
                  above + floor_here + shape(at(0.5, 2, 0) + down, disk)});
-    p.push_back({"near disk", "a floor close under a disk that shines",
+    p.push_back({"near-disk", "a floor close under a disk that shines",
                  from_above(0.1) + floor_here + shape(at(0, 0.2, 0) + down, disk)});
-    p.push_back({"shining ball", "a floor under a ball that shines",
+    p.push_back({"shining-ball", "a floor under a ball that shines",
                  above + floor_here + shape(at(0.5, 2, 0), ball(0.5))});
 }
 
-void add_bent(std::vector<Probe>& p) {
+void add_bent(std::vector<KnownScene>& p) {
     std::string bent = floor_of(paint(0.5), leaning(40));
     // Of each triangle the camera sees what is near one corner.
     std::string curved = group(paint(0.5) + scale(4) + at(0.9, 0, 0) +
@@ -224,27 +232,27 @@ void add_bent(std::vector<Probe>& p) {
     p.push_back(
         {"curved", "a floor whose normals differ from corner to corner", above + curved + strip});
     p.push_back(
-        {"leaning sky", "a floor whose normals lean, under a sky", from_above(0.5) + bent + sky()});
-    p.push_back({"leaning mirror", "a floor whose normals lean, lit through a mirror",
+        {"leaning-sky", "a floor whose normals lean, under a sky", from_above(0.5) + bent + sky()});
+    p.push_back({"leaning-mirror", "a floor whose normals lean, lit through a mirror",
                  from_above(0.5, 2) + bent + lamp(at(-1.5, 1, 0) + scale(2), 1, false, true) +
                      group(metal(1) + at(-1.5, 2, 0) + scale(4) + square(false))});
-    p.push_back({"leaning lamp", "a lamp of four triangles whose normals lean",
+    p.push_back({"leaning-lamp", "a lamp of four triangles whose normals lean",
                  above + floor_here + group(shining(1) + paint(0) + at(0, 1.1, 0) + bent_lamp), 7,
                  21, 256});
-    p.push_back({"lamp aside", "a lamp whose normals lean away from the camera",
+    p.push_back({"lamp-aside", "a lamp whose normals lean away from the camera",
                  view("-3 -1 0  0 0 0  0 1 0", "\"float fov\" 3") +
                      group(shining(1) + paint(0) + scale(2) + square(false, leaning(80, false)))});
     p.push_back({"below", "a floor whose normals lean, over a lamp below it",
                  above + bent + lamp(turn(-110, z_axis) + at(0, 2, 0))});
     std::string bent_metal = floor_of(metal(1, rough), leaning(40));
-    p.push_back({"below metal", "rough metal whose normals lean, over a lamp below it",
+    p.push_back({"below-metal", "rough metal whose normals lean, over a lamp below it",
                  above + bent_metal + lamp(turn(-110, z_axis) + at(0, 2, 0)), 13});
-    p.push_back({"bent mirror", "a mirror whose normals lean towards its horizon",
+    p.push_back({"bent-mirror", "a mirror whose normals lean towards its horizon",
                  view("-3 1.73 0  0 0 0  0 1 0", "\"float fov\" 3", 4) + sky() +
                      floor_of(metal(1), leaning(20))});
 }
 
-void add_glass_and_metal(std::vector<Probe>& p) {
+void add_glass_and_metal(std::vector<KnownScene>& p) {
     p.push_back({"corridor", "the sky in a row of six mirrors",
                  view("0 0 0  1 0 0.16  0 1 0", "\"float fov\" 0.5", 20) + sky() +
                      group(metal(0.9) + at(1, 0, 0) + "Scale 1 1 1 " + turn(90, z_axis) +
@@ -255,7 +263,7 @@ void add_glass_and_metal(std::vector<Probe>& p) {
         {"pane", "a ball of glass before a sky",
          view("0 0 -4  0.9 0 0  0 1 0", "\"float fov\" 1", 6) + sky() + group(glass + ball(1))});
     p.push_back(
-        {"in glass", "the sky seen from inside a ball of glass",
+        {"in-glass", "the sky seen from inside a ball of glass",
          view("0 0 0  0 0 1  0 1 0", "\"float fov\" 20", 4) + sky() + group(glass + ball(1))});
     p.push_back({"bulb", "a lamp in a ball of glass",
                  from_above(0.4, 3) + floor_here + group(at(0, 1.5, 0) + glass + ball(1)) +
@@ -271,22 +279,22 @@ void add_glass_and_metal(std::vector<Probe>& p) {
         return view(format("-1 %g 0  0 0 0  0 1 0", height), "\"float fov\" 5") + sky() +
                floor_of(material);
     };
-    p.push_back({"metal, wall", "rough metal that shows a wall under a sky",
+    p.push_back({"metal-wall", "rough metal that shows a wall under a sky",
                  view("-1 0.5 0  0 0 0  0 1 0", "\"float fov\" 5", 2) + sky() +
                      floor_of(metal(1, smoother)) +
                      group(paint(0.5) + at(1, 0, 0) + turn(90, z_axis) + scale(3) + square(true)),
                  13});
     p.push_back({"metal", "rough metal, from above", on_metal(metal(1, rough), 8), 13});
-    p.push_back({"metal at an angle", "rough metal, along its surface",
+    p.push_back({"metal-at-an-angle", "rough metal, along its surface",
                  on_metal(metal(1, rough), 0.25), 13});
     std::string real =
         "Material \"conductor\" \"rgb eta\" [1.5 1.5 1.5] \"rgb k\" [1 1 1] " + rough + "\n";
-    p.push_back({"real metal", "rough metal of real eta and k, along its surface",
+    p.push_back({"real-metal", "rough metal of real eta and k, along its surface",
                  on_metal(real, 0.25), 13});
 }
 
 /// Cameras with a lens, wide ones, and an open shutter.
-void add_cameras(std::vector<Probe>& p) {
+void add_cameras(std::vector<KnownScene>& p) {
     p.push_back({"corner", "the corner of a wide picture of a floor",
                  view("0 1.2 0  0 0 0  0 0 1",
                       "\"float fov\" 90 \"float screenwindow\" [0.8 1.2 0.8 1.2]") +
@@ -320,35 +328,131 @@ void add_cameras(std::vector<Probe>& p) {
 }
 
 /// What chapters 17 to 19 are about.
-void add_wavelengths_and_shares(std::vector<Probe>& p) {
+void add_wavelengths_and_shares(std::vector<KnownScene>& p) {
     p.push_back({"dispersing", "a ball of glass that disperses, before a white sky",
                  view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 20", 20) + sky() +
                      group("Material \"dielectric\" \"spectrum eta\" \"glass-F11\" " + ball(1)),
                  18, 19});
-    p.push_back({"sky picture", "a floor under the picture of a sky",
+    p.push_back({"sky-picture", "a floor under the picture of a sky",
                  from_above(0.5) +
                      group(turn(-90, x_axis) +
                            "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
                      floor_of(paint(0.5), "", 0.6),
                  17});
-    p.push_back({"rare light", "a floor on which light is found rarely",
+    p.push_back({"rare-light", "a floor on which light is found rarely",
                  from_above(0.5, 2) + floor_here +
                      lamp(at(1.5, 1, 0) + scale(0.15), 100, false, true) +
                      group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false)),
                  19, 19, 512});
 }
 
+std::string quad(const std::string& corners) {
+    return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [" + corners +
+           "]\n";
+}
+std::string quad_from(double x, double y, double z, double width, double height) {
+    return quad(format("%g %g %g  %g %g %g  %g %g %g  %g %g %g", x, y, z, x, y + height, z,
+                       x + width, y + height, z, x + width, y, z));
+}
+/// Lamps that fill the middle of some of the 4 x 4 tiles of a picture of a field of view of 90.
+std::string pattern(int width) {
+    struct Lamp {
+        int x, y;
+        double L;
+    };
+    std::string text = view("0 0 0  0 0 1  0 1 0", "\"float fov\" 90", 1, width);
+    for (Lamp lamp : {Lamp{0, 0, 3}, {1, 0, 1}, {0, 2, 0.5}, {3, 3, 2}, {2, 1, 0.25}}) {
+        double w = 2 * width / 16.0, x = w * (lamp.x - 2) + w / 4, y = 2.0 * (2 - lamp.y) - 0.5;
+        text += group(shining(lamp.L) + paint(0) + quad_from(x, y - 1, 4, w / 2, 1));
+    }
+    return text;
+}
+
+/// What is for any renderer: quads and spheres, and one material each.
+void add_for_any_renderer(std::vector<KnownScene>& p) {
+    p.push_back({"frame", "lamps that the camera sees", pattern(16)});
+    p.push_back({"wide", "the same in a wide picture", pattern(32)});
+    p.push_back({"paint", "a coloured floor under a coloured lamp",
+                 above + floor_of("Material \"diffuse\" \"rgb reflectance\" [.8 .4 .2] ") +
+                     group("AreaLightSource \"diffuse\" \"rgb L\" [1 2 6] " + paint(0) +
+                           quad("-.5 2 -.5  .5 2 -.5  .5 2 .5  -.5 2 .5"))});
+    p.push_back({"ball", "a floor under a shining ball",
+                 above + floor_here + group(shining(1) + paint(0) + at(0, 2, 0) + ball(0.5))});
+    p.push_back({"reflection", "a lamp behind the camera, in a mirror",
+                 view("0 0 0  0 0 1  0 1 0", "\"float fov\" 20") +
+                     group(shining(1) + paint(0) + quad("-9 -9 -3  9 -9 -3  9 9 -3  -9 9 -3")) +
+                     group(metal(0.9) + quad("-1 -1 2  -1 1 2  1 1 2  1 -1 2"))});
+    std::string wall;
+    for (int i = 0; i < 4; i++)
+        wall += group(shining(2.0 / (1 << i)) + paint(0) +
+                      quad_from(i % 2 ? 0 : -20, i < 2 ? 0 : -20, 3, 20, 20));
+    p.push_back(
+        {"lens", "a wall of four lamps, seen through a ball of glass",
+         view("0 0 -4  .1 .1 0  0 1 0", "\"float fov\" 24", 8) + group(glass + ball(1)) + wall});
+    p.push_back({"tilted", "a square that faces away from the camera, seen from above at an angle",
+                 view("0 3 -3  0 0 0  0 1 0") +
+                     group(paint(0.5) + quad("-1.2 0 -.6  1.2 0 -.6  1.2 0 .9  -1.2 0 .9")) +
+                     group(shining(1) + paint(0) + quad("-2 4 -2  2 4 -2  2 4 2  -2 4 2"))});
+    p.push_back({"pearl", "a grey ball in a ball of glass, under a sky",
+                 view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 16", 20) + sky() +
+                     group(glass + ball(1)) + group(paint(0.5) + at(0.1, 0, -0.4) + ball(0.5))});
+    for (int depth : {1, 2})
+        p.push_back(
+            {format("room-%d", depth), "a grey room with a lamp, with shorter paths", room(depth)});
+    p.push_back({"sphere-2",
+                 "the inside of a sphere that shines and reflects half, with shorter paths",
+                 shining_sphere(paint(0.5), 2)});
+}
+
+std::vector<KnownScene> all_scenes() {
+    std::vector<KnownScene> scenes;
+    add_floors(scenes);
+    add_second_vertices(scenes);
+    add_skies(scenes);
+    add_kinds_of_lights(scenes);
+    add_bent(scenes);
+    add_glass_and_metal(scenes);
+    add_cameras(scenes);
+    add_wavelengths_and_shares(scenes);
+    add_for_any_renderer(scenes);
+    return scenes;
+}
+
+/// Reads the light of each scene: its name, the source of the numbers, and these:
+/// "all=MEAN~ERROR LDE=...".
+void add_light(std::vector<KnownScene>& scenes, const std::string& file) {
+    std::istringstream lines(read_file(file));
+    for (std::string line; std::getline(lines, line);) {
+        if (line[0] == '#') continue;
+        std::istringstream cells(line);
+        std::string name, source, number;
+        std::getline(cells, name, '\t');
+        std::getline(cells, source, '\t');
+        auto scene = std::find_if(scenes.begin(), scenes.end(),
+                                  [&](const KnownScene& s) { return s.name == name; });
+        if (scene == scenes.end()) throw InputError(file + ": error: no scene " + name);
+        scene->source = source;
+        while (cells >> number) {
+            size_t equal = number.find('='), error = number.find('~');
+            scene->light[number.substr(0, equal)] = {std::stod(number.substr(equal + 1)),
+                                                     std::stod(number.substr(error + 1))};
+        }
+    }
+}
+
 }  // namespace
 
-std::vector<Probe> all_probes() {
-    std::vector<Probe> probes;
-    add_floors(probes);
-    add_second_vertices(probes);
-    add_skies(probes);
-    add_kinds_of_lights(probes);
-    add_bent(probes);
-    add_glass_and_metal(probes);
-    add_cameras(probes);
-    add_wavelengths_and_shares(probes);
-    return probes;
+const std::vector<KnownScene>& known_scenes() {
+    static const std::vector<KnownScene> scenes = [] {
+        std::vector<KnownScene> all = all_scenes();
+        add_light(all, "tests/known/light.tsv");
+        return all;
+    }();
+    return scenes;
+}
+
+const KnownScene& known_scene(const std::string& name) {
+    for (const KnownScene& scene : known_scenes())
+        if (scene.name == name) return scene;
+    throw InputError("error: no known scene " + name);
 }

@@ -1,0 +1,176 @@
+// compare_scenes NN: renders the known scenes by chapter NN, and says what is not as it should be.
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "common/base/error.h"
+#include "common/scene/prepare.h"
+#include "common/scene_file/reader.h"
+#include "tests/check/findings.h"
+#include "tests/measure/measure.h"
+#include "tests/support/seal.h"
+
+namespace {
+
+constexpr int batches = 16;
+
+/// What each class of path brings, from the spread of several renders; "all": the picture's mean.
+std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownScene& known,
+                                        const MeasureOptions& o, int samples) {
+    Scene scene = parse_scene("known.pbrt", known.text, nullptr);
+    prepare(scene, o.threads);
+    std::map<std::string, RunningStats> stats;
+    // Chapter 19 shares out only what is left after the first 16 samples.
+    bool shared_out = method.name.starts_with("19") && known.name == "rare-light";
+    int spp = std::max(samples / batches, shared_out ? 32 : 2);
+    for (int batch = 0; batch < batches; batch++) {
+        Rendering r = render_once(method, scene, o, spp, static_cast<uint32_t>(batch + 1), true);
+        std::map<std::string, double> values = {{"all", r.film.mean()}};
+        for (const auto& [name, film] : r.classes) values[name] = film.mean();
+        for (const auto& [name, value] : values) stats[name];
+        for (auto& [name, s] : stats) {
+            while (s.count() < static_cast<uint64_t>(batch)) s.add(0);  // had nothing before
+            s.add(values[name]);
+        }
+    }
+    std::map<std::string, Quantity> result;
+    for (const auto& [name, s] : stats) result[name] = {s.mean(), s.standard_error()};
+    return result;
+}
+
+/// Photons blur light that is not even: there the error of chapter 25 may be larger.
+bool is_blurred(const KnownScene& scene, const NamedMethod& method) {
+    static const std::set<std::string> uneven = {"bulb", "mirror", "leaning-mirror", "wall-beside",
+                                                 "mirror-beside"};
+    return method.biased && uneven.contains(scene.name);
+}
+
+bool fits(const KnownScene& scene, const NamedMethod& method) {
+    bool classes_known = scene.light.size() > 1 || scene.light.at("all").mean < 1e-3;
+    if (!classes_known) return false;
+    int chapter = std::stoi(method.name.substr(0, 2));
+    auto has = [&](const char* word) { return scene.text.find(word) != std::string::npos; };
+    // From a sky, hardly any path meets what most of these small pictures show.
+    bool is_small = scene.name == "sky" || scene.name == "sky-picture";
+    if (chapter == 20 && has("infinite") && !is_small) return false;
+    if (chapter != 25 && is_blurred(scene, method)) return false;
+    // Random directions never find lights without a size.
+    bool no_size = has("LightSource \"point\"") || has("LightSource \"distant\"");
+    if (method.name == "13-bsdf" && no_size) return false;
+    return chapter >= scene.first_chapter && std::min(chapter, 21) <= scene.last_chapter;
+}
+
+/// Of chapter 20 what it can see: where the last vertex is no mirror and no glass.
+bool is_seen(const NamedMethod& method, const std::string& name) {
+    if (!method.name.starts_with("20")) return true;
+    return name == "LE" || (name[0] == 'L' && name[name.size() - 2] == 'D');
+}
+
+/// A class of path that is off, or a picture that is ("all"), though none of its classes is.
+struct Off {
+    const KnownScene* scene;
+    std::string name;
+    Quantity ratio;      // measured over expected
+    bool leaks = false;  // it should bring nothing
+};
+
+struct Findings {
+    std::vector<Off> off = {};
+    int classes = 0;    // compared
+    bool black = true;  // no class brings anything
+};
+
+void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOptions& o,
+             Findings& findings) {
+    constexpr int times_blurred = 40, times = 3;  // as many samples as the scene says
+    bool blurred = is_blurred(scene, method);
+    auto measured = measure(method, scene, o, scene.samples * (blurred ? times_blurred : times));
+    auto expected = scene.light;
+    for (const auto& [name, q] : measured) expected.insert({name, Quantity{}});
+    size_t before = findings.off.size();
+    auto look_at = [&](const std::string& name, Quantity should) {
+        Quantity is = measured[name];
+        if (!is_seen(method, name) || !is_off(is, should, blurred ? 0.12 : 0.008)) return;
+        bool leaks = !(should.mean > 0);
+        findings.off.push_back({&scene, name, leaks ? is : ratio_of(is, should), leaks});
+    };
+    for (const auto& [name, should] : expected) {
+        if (!is_class(name)) continue;
+        findings.classes += should.mean > 0;
+        findings.black &= measured[name].mean == 0;
+        look_at(name, should);
+    }
+    if (findings.off.size() == before) look_at("all", expected["all"]);
+}
+
+Findings findings_of(const NamedMethod& method, const MeasureOptions& o) {
+    Findings findings;
+    for (const KnownScene& scene : known_scenes())
+        if (fits(scene, method)) compare(scene, method, o, findings);
+    return findings;
+}
+
+/// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
+std::string worst_of(const std::vector<Off>& off) {
+    auto distance = [](const Off& o) {
+        double z = std::abs(o.ratio.mean - 1) / std::max(o.ratio.se, 1e-3);
+        return o.leaks ? 0 : std::isfinite(z) ? z : 1e9;
+    };
+    const Off& o = *std::max_element(off.begin(), off.end(), [&](const Off& a, const Off& b) {
+        return distance(a) < distance(b);
+    });
+    std::string factor = name_factor(o.ratio.mean);
+    std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.scene->what + " is ";
+    if (o.leaks) return what + "there, and should not be";
+    return what + short_number(o.ratio.mean) + (factor.empty() ? "" : " (" + factor + ")") +
+           " of what it should be";
+}
+
+/// What is off, by one way in which the chapter finds light. Returns whether anything is.
+bool print_off(const Findings& found, const std::string& way) {
+    if (found.off.empty()) return false;
+    auto of_paths = std::count_if(found.off.begin(), found.off.end(),
+                                  [](const Off& o) { return is_class(o.name); });
+    std::printf("%d of %d classes of path are off%s. Most surely: %s.\n",
+                static_cast<int>(of_paths), found.classes, way.c_str(),
+                worst_of(found.off).c_str());
+    for (size_t i = 0; i < std::min<size_t>(found.off.size(), 12); i++) {
+        const Off& o = found.off[i];
+        std::printf("    %-18s %-10s ", o.scene->name.c_str(), o.name.c_str());
+        if (o.leaks)
+            std::printf("light where there should be none\n");
+        else
+            std::printf("%8.4f +- %.4f\n", o.ratio.mean, o.ratio.se);
+    }
+    return true;
+}
+
+int check(const std::string& chapter, const MeasureOptions& o) {
+    const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
+    Findings found =
+        findings_of(methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0), o);
+    if (found.black) {
+        std::printf("All pictures are black: trace brings no light at all. Does it return L?\n");
+        return 1;
+    }
+    bool off = print_off(found, "");
+    for (const NamedMethod& m : all_methods()) {
+        bool by_area = m.name == chapter + "-area", by_bsdf = m.name == chapter + "-bsdf";
+        if (by_area || by_bsdf)
+            off |= print_off(findings_of(m, o), by_area ? ", by area" : ", by the BSDF alone");
+    }
+    if (!off) std::printf("Light comes by every class of path as it should.\n");
+    return off ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return seal(run_program([&] {
+        MeasureOptions o = parse_measure_options(
+            argc, argv, "CHAPTER",
+            "Renders the known scenes by a chapter, and says what is not as it should be.", {});
+        if (o.words.size() != 1) throw UsageError("error: one chapter is needed, such as 09");
+        return check(o.words[0], o);
+    }));
+}
