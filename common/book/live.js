@@ -107,21 +107,23 @@ class Live {
         if (done.code === null) this.status.textContent += ', stopped';
         else this.report(done);
     }
-    /// One run that shows all at its end.
-    once() {
-        return this.start(this.name, [this.sceneName(), ...this.options(), ...this.about.words || [],
-            '--out', 'out/picture.pfm']);
+    /// What the form says, as the words of a command.
+    words() {
+        const {n} = this.form.elements;
+        return n ? ['--n', n.value, ...this.options()] : [this.sceneName(), ...this.options(), ...this.about.words || []];
     }
+    /// One run that shows all at its end.
+    once() { return this.start(this.name, [...this.words(), '--out', 'out/picture.pfm']); }
     sceneName() { return `scenes/${this.form.elements.scene.value}.pbrt`; }
 
     /// More and more samples, up to those asked for.
     async table() {
-        const n = +this.form.elements.n.value, seed = this.form.elements.seed.value, shares = [64, 8, 1];
+        const n = +this.form.elements.n.value, shares = [64, 8, 1];
         let done;
         for (const [stage, share] of shares.entries()) {
             if (done) this.report(done, `stage ${stage} of ${shares.length}`);
             const some = Math.max(1, Math.floor(n / share));
-            done = await this.run(this.name, ['--n', `${some}`, '--seed', seed, '--out', 'out/picture.pfm'], {});
+            done = await this.run(this.name, ['--n', `${some}`, ...this.options(), '--out', 'out/picture.pfm'], {});
             if (done.code !== 0) break;
         }
         return done;
@@ -132,7 +134,7 @@ class Live {
         const spp = Math.max(1, +this.form.elements.spp.value);
         const parts = Math.max(1, Math.min(navigator.hardwareConcurrency || 1, spp, 8)), shown = [];
         const results = await Promise.all(Array.from({length: parts}, (_, k) => this.start(this.name, [
-            this.sceneName(), ...this.options(), '--film', `out/${k}.film`, '--film-every', '0.1', '--part',
+            ...this.words(), '--film', `out/${k}.film`, '--film-every', '0.1', '--part',
             `${k + 1}/${parts}`, '--out', 'out/picture.pfm'
         ], message => {
             // Drawn once for all workers, since they are about equally far.
@@ -174,8 +176,7 @@ class Live {
         if (this.told?.x === x && this.told.y === y) this.told.sample++;
         else this.told = {x, y, sample: 0};
         const spp = Math.max(1, +this.form.elements.spp.value), sample = this.told.sample % spp;
-        const done = await this.start(this.name, [this.sceneName(), ...this.options(), '--explain',
-            `${x},${y},${sample}`, '--out', 'out/path.ppm']);
+        const done = await this.start(this.name, [...this.words(), '--explain', `${x},${y},${sample}`, '--out', 'out/path.ppm']);
         this.complain(done.errors);
         if (done.code !== 0) return;
         this.print(done.out, '\n\nClick the same pixel again (or press Enter) to see its next sample.');
