@@ -17,6 +17,12 @@ async function chapter(page, name) {
     await open(page, `chapters/${name}/index.html`);
     await page.waitForSelector('.go');
 }
+const fill = (page, values) => page.evaluate(values => {
+    for (const [name, value] of Object.entries(values)) {
+        live.form.elements[name].value = value;
+        live.form.elements[name].dispatchEvent(new Event('change'));
+    }
+}, values);
 const done = page => page.waitForFunction(`live.status.textContent.startsWith('done') &&
     document.querySelector('.stop').disabled`, {timeout: 180000});
 function from_program(name, words, file) {
@@ -39,13 +45,17 @@ function look() {
         const shades = [shade(style(node).color), shade(behind(node))];
         return Math.max(...shades) < 4.5 * Math.min(...shades);
     };
-    const texts = all('body *').filter(node => [...node.childNodes].some(part => part.nodeType === 3 && part.data.trim()) &&
-        node.checkVisibility() && !node.matches('script, svg *, :disabled, math *'));
+    const has_text = node => [...node.childNodes].some(part => part.nodeType === 3 && part.data.trim());
+    const texts = all('body *').filter(node => has_text(node) && node.checkVisibility() &&
+        !node.matches('script, svg *, :disabled, math *'));
     const wrong = {
-        'pictures without words': all('img').filter(i => !i.naturalWidth || !(i.alt || i.matches('.thumbnail'))),
+        'pictures without words': all('img').filter(img => img.loading !== 'lazy' && !img.naturalWidth ||
+            !img.alt && !img.matches('.thumbnail')),
         'cut off': all('main table, main pre, .formula').filter(node => node.getBoundingClientRect().right > innerWidth ||
             node.scrollWidth > node.clientWidth + 1 && style(node).overflowX !== 'auto' || node.matches('.formula') &&
             node.offsetWidth > node.clientWidth),
+        'labels beyond their figure': all('.figure text').filter(node => [node, node.closest('svg')]
+            .map(part => part.getBoundingClientRect().right).reduce((label, edge) => label > edge + 1)),
         'too pale': texts.filter(is_pale),
         'too wide': document.documentElement.scrollWidth > innerWidth ? [document.body] : []
     };
@@ -94,9 +104,9 @@ async function same_bytes(page, name) {
 /// Tab reaches all that a mouse can use, with a frame around it, and Enter renders.
 async function by_keyboard(page) {
     await chapter(page, '15_mis_ris');
+    await fill(page, {scene: 'cornell', size: '24x24', spp: 1});
     await page.evaluate(() => {
         for (const part of document.querySelectorAll('details')) part.open = true;
-        live.fill({scene: 'cornell', size: '24x24', spp: 1});
         window.left = new Set([...document.querySelectorAll('a[href], button, input, select, textarea, summary, [tabindex="0"]')]
             .filter(node => node.checkVisibility() && !node.disabled && !node.closest('dialog')));
     });
@@ -121,7 +131,9 @@ async function by_keyboard(page) {
 /// The path of a pixel by click and by keys; classes of paths; a mistake in the scene; stopping.
 async function live_part(page) {
     await chapter(page, '15_mis_ris');
-    await page.evaluate(`live.fill({scene: 'cornell', spp: 4})`);
+    await page.waitForFunction('live.viewer.pictures.length === 4 && live.viewer.canvas.checkVisibility()');
+    check('before Render, the pictures of the page are there', true);
+    await fill(page, {scene: 'cornell', spp: 4});
     await page.click('.go');
     await done(page);
     await page.click('.live canvas');
@@ -149,7 +161,7 @@ async function live_part(page) {
     await page.waitForSelector('.errors li');
     const said = await text(page, '.errors');
     check('a mistake in the scene is named with its place', /cornell\.pbrt:\d+:\d+: .*WorldBegn/.test(said), said);
-    await page.evaluate(`live.fill({scene: 'thousand-lights', spp: 100000})`);
+    await fill(page, {scene: 'thousand-lights', spp: 100000});
     await page.click('.go');
     await page.waitForFunction(`live.status.textContent.includes('samples per pixel')`);
     await page.click('.stop');
@@ -158,8 +170,8 @@ async function live_part(page) {
 }
 async function race(page) {
     await chapter(page, '15_mis_ris');
+    await fill(page, {scene: 'veach-mis'});
     await page.evaluate(() => {
-        live.fill({scene: 'veach-mis'});
         document.querySelector('.race').open = true;
         const form = document.querySelector('.race form'), {time, other} = form.elements;
         time.value = 4, other.value = '13_glossy';
@@ -195,8 +207,16 @@ async function searching(page) {
     await page.waitForSelector('.results a');
     const first = await page.$eval('.results a', a => a.href);
     check('the search finds words on their page', first.includes('19_adaptive'), first);
-    await page.$eval('main input[name=q]', input => { input.value = 'xyzzyx', input.oninput(); });
-    check('the search says when it finds nothing', (await text(page, 'main .status')).includes('xyzzyx') && !await page.$('.results a'));
+    const search = word => page.$eval('main input[name=q]', (input, word) => { input.value = word, input.oninput(); }, word);
+    await search('MIS');
+    check('it finds whole words, those of the glossary first', await text(page, '.results a') === 'Glossary: MIS');
+    await search('xyzzyx');
+    const said = await text(page, 'main .status');
+    check('it says when it finds nothing', said.includes('xyzzyx') && !await page.$('.results a'), said);
+    await open(page, 'chapters/09_light_sampling/index.html');
+    await page.hover('a[data-tip]');
+    const tip = await page.$eval('a[data-tip]', word => getComputedStyle(word, '::after').content);
+    check('a word of the glossary shows its meaning', tip.length > 20, tip);
 }
 
 async function main() {
