@@ -48,7 +48,7 @@ class Live {
         return [[scene, count('spp', 'samples per pixel', about.spp)], [...own, size, seed,
             field('sampler', 'The random numbers of a pixel are', {}, ['independent', 'stratified', 'sobol']),
             field('max-depth', 'Paths scatter at most so many times:',
-                {type: 'number', min: 0, placeholder: 'as the scene says'}),
+                {type: 'number', min: 0, placeholder: 'of the scene'}),
             field('paths', 'Only these classes of paths count:', {placeholder: 'all; LD(S|D)*E', size: 12})]];
     }
 
