@@ -1,10 +1,22 @@
-// Each section can be linked to.
+// Each section can be linked to, and each listing copied.
 for (const heading of document.querySelectorAll('main :is(h2, h3, h4)[id]')) {
-    const mark = document.createElement('a');
-    mark.href = `#${heading.id}`, mark.className = 'anchor', mark.textContent = '#';
-    mark.setAttribute('aria-label', 'link to this section');
-    heading.append(' ', mark);
+    heading.append(' ', make('a', {class: 'anchor', href: `#${heading.id}`, 'aria-label': 'link to this section'}, '#'));
+}
+for (const code of document.querySelectorAll('main div.sourceCode')) {
+    const copy = () => navigator.clipboard.writeText(code.querySelector('code').textContent);
+    code.append(make('button', {class: 'copy', onclick: copy}, 'copy'));
 }
 
-// On a phone the sidebar begins closed.
+// A word of the glossary shows its meaning when something points at it; on a touch screen, after the first of two taps.
+let tapped;
+for (const word of document.querySelectorAll('a[data-tip]')) {
+    word.onclick = event => {
+        if (matchMedia('(hover: none)').matches && tapped !== word) event.preventDefault();
+        tapped = word;
+        word.focus();
+    };
+}
+
+// Of the sidebar the part of this page is open; on a phone the sidebar begins closed.
+document.querySelector('.sidebar details:has([aria-current])')?.setAttribute('open', '');
 if (matchMedia('(max-width: 60rem)').matches) document.querySelector('.sidebar').open = false;

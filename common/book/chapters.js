@@ -1,84 +1,63 @@
 // What the live part of each chapter's page offers: its own options, as the program knows them.
 // A choice names all values, the default first; a number has its default.
-// against: what it races with at first, if not with the chapter before it
-const choice = (name, label, ...values) => ({name, label, values});
-const number = (name, label, value) => ({name, label, value});
+const choice = (name, ...values) => ({name, values});
+const number = (name, value) => ({name, value});
+const labels = {
+    step: 'The picture shows the work of',
+    'light-by': 'Points on lights are drawn by',
+    m: 'Candidates for each sample of the light:',
+    strategy: 'Light is found by strategy',
+    heuristic: 'The weights are by the heuristic of',
+    pixel: 'Samples are taken of the pixel\'s',
+    compensation: 'Only what is brighter than the mean is sampled (MIS compensation):',
+    pilot: 'Samples of each pixel before errors are known:',
+    judge: 'Samples of one half are placed by the pilot of the half:',
+    chances: 'Chances for light that only mirrors and glass lead to:',
+    'direct-by': 'Direct light is sampled as in chapter',
+    photons: 'Light paths in each pass (0: two for each pixel):',
+    gather: 'How photons are gathered:',
+    patches: 'Patches, at least:',
+    shots: 'Shots, at most:',
+    show: 'How patches are shown:'
+};
 
 // kind  film: samples come one after the other;  once: one picture;  table: no scene, n samples
+// against: what it races with at first, if not with the chapter before it
+const film = (scene, own = [], more = {}) => ({kind: 'film', scene, own, spp: 16, ...more});
+const once = (scene, own, more) => ({kind: 'once', scene, own, ...more});
+const table = n => ({kind: 'table', n});
+const gather = [number('photons', 100000), choice('gather', 'final', 'direct')];
 const chapters = {
-    '01_monte_carlo_pi': {kind: 'table', n: 1 << 20},
-    '02_stratification': {kind: 'table', n: 1024},
-    '03_point_sets': {kind: 'table', n: 1024},
-    '04_importance': {kind: 'table', n: 1000000},
-    '05_ray_casting': {kind: 'film', scene: 'cornell-spheres'},
-    '06_bvh': {
-        // The table needs a clock of the processor.
-        kind: 'once', scene: 'knot', words: ['--quiet'],
-        own: [choice('step', 'work of', 'ordered', 'linear', 'median', 'sah', 'four')]
-    },
-    '07_path_tracing': {kind: 'film', scene: 'cornell'},
-    '08_russian_roulette': {kind: 'film', scene: 'cornell'},
-    '09_light_sampling': {
-        kind: 'film', scene: 'cornell',
-        own: [choice('light-by', 'points on lights by', 'solid-angle', 'area')]
-    },
-    '10_cosine_sampling': {kind: 'film', scene: 'cornell'},
-    '11_light_importance': {kind: 'film', scene: 'thousand-lights'},
-    '12_ris': {kind: 'film', scene: 'thousand-lights', own: [number('m', 'candidates M', 16)]},
-    '13_glossy': {
-        kind: 'film', scene: 'veach-mis', against: '13_glossy',
-        own: [choice('strategy', 'find light by', 'light', 'bsdf')]
-    },
-    '14_mis': {
-        kind: 'film', scene: 'veach-mis',
-        own: [choice('heuristic', 'heuristic', 'power', 'balance')]
-    },
-    '15_mis_ris': {kind: 'film', scene: 'thousand-lights', own: [number('m', 'candidates M', 64)]},
-    '16_lens_and_shutter': {
-        kind: 'film', scene: 'bokeh', against: '16_lens_and_shutter',
-        own: [number('m', 'candidates M', 64), choice('pixel', 'of each pixel', 'area', 'centre')]
-    },
-    '17_sky_image': {
-        kind: 'film', scene: 'sky', against: '17_sky_image',
-        own: [number('m', 'candidates M', 64), choice('compensation', 'compensation', 'on', 'off')]
-    },
-    '18_dispersion': {
-        kind: 'film', scene: 'prism', against: '18_dispersion',
-        own: [number('m', 'candidates M', 64)]
-    },
-    '19_adaptive': {
-        kind: 'film', scene: 'high-contrast',
-        own: [number('pilot', 'samples of the pilot', 16),
-              choice('judge', 'a half is judged by', 'other', 'own')]
-    },
-    '20_light_tracing': {kind: 'film', scene: 'caustic', against: '15_mis_ris'},
-    '21_bidirectional': {
-        kind: 'film', scene: 'cornell-spheres', against: '15_mis_ris',
-        own: [choice('strategy', 'strategy s,t', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2')]
-    },
-    '22_fast_bidirectional': {
-        kind: 'film', scene: 'cornell-spheres',
-        own: [number('chances', 'chances through mirrors', 16),
-              choice('direct-by', 'direct light as in chapter', '15', '21')]
-    },
-    '23_photon_mapping': {
-        kind: 'film', scene: 'pool', spp: 8,
-        own: [number('photons', 'light paths in each pass', 100000),
-              choice('gather', 'gather photons', 'final', 'direct')]
-    },
-    '24_progressive_photons': {
-        kind: 'film', scene: 'pool', spp: 8,
-        own: [number('photons', 'light paths in each pass', 100000),
-              choice('gather', 'gather photons', 'final', 'direct')]
-    },
-    '25_vertex_merging': {
-        kind: 'film', scene: 'sds', against: '22_fast_bidirectional', spp: 8,
-        own: [number('photons', 'light paths in each pass (0: automatic)', 0)]
-    },
-    '26_radiosity': {
-        kind: 'once', scene: 'cornell',
-        own: [number('patches', 'patches at least', 1200),
-              number('shots', 'shots at most', 1000),
-              choice('show', 'show', 'smooth', 'constant')]
-    }
+    '01_monte_carlo_pi': table(1 << 20),
+    '02_stratification': table(1024),
+    '03_point_sets': table(1024),
+    '04_importance': table(1000000),
+    '05_ray_casting': film('cornell-spheres'),
+    // Its table needs a clock of the processor.
+    '06_bvh': once('knot', [choice('step', 'ordered', 'linear', 'median', 'sah', 'four')], {words: ['--quiet']}),
+    '07_path_tracing': film('cornell'),
+    '08_russian_roulette': film('cornell'),
+    '09_light_sampling': film('cornell', [choice('light-by', 'solid-angle', 'area')]),
+    '10_cosine_sampling': film('cornell'),
+    '11_light_importance': film('thousand-lights'),
+    '12_ris': film('thousand-lights', [number('m', 16)]),
+    '13_glossy': film('veach-mis', [choice('strategy', 'light', 'bsdf')], {against: '13_glossy'}),
+    '14_mis': film('veach-mis', [choice('heuristic', 'power', 'balance')]),
+    '15_mis_ris': film('thousand-lights', [number('m', 64)]),
+    '16_lens_and_shutter': film('bokeh', [number('m', 64), choice('pixel', 'area', 'centre')],
+        {against: '16_lens_and_shutter'}),
+    '17_sky_image': film('sky', [number('m', 64), choice('compensation', 'on', 'off')],
+        {against: '17_sky_image'}),
+    '18_dispersion': film('prism', [number('m', 64)], {against: '18_dispersion'}),
+    '19_adaptive': film('high-contrast', [number('pilot', 16), choice('judge', 'other', 'own')]),
+    '20_light_tracing': film('caustic', [], {against: '15_mis_ris'}),
+    '21_bidirectional': film('cornell-spheres',
+        [choice('strategy', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2')], {against: '15_mis_ris', spp: 4}),
+    '22_fast_bidirectional': film('cornell-spheres', [number('chances', 16), choice('direct-by', '15', '21')],
+        {spp: 8}),
+    '23_photon_mapping': film('pool', gather, {spp: 8}),
+    '24_progressive_photons': film('pool', gather, {spp: 8}),
+    '25_vertex_merging': film('sds', [number('photons', 0)], {against: '22_fast_bidirectional', spp: 4}),
+    '26_radiosity': once('cornell',
+        [number('patches', 1200), number('shots', 1000), choice('show', 'smooth', 'constant')])
 };

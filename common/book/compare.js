@@ -6,8 +6,8 @@ function layers(live) {
     const split = make('button', {type: 'button'}, 'Split by classes of path');
     split.onclick = async () => {
         list.textContent = 'working';
-        const {code, files, errors} = await live.start(live.name, [live.sceneName(), ...live.options(),
-            '--out', 'out/picture.pfm', '--split', 'out/classes']);
+        const {code, files, errors} = await live.start(live.name, [...live.words(), '--out', 'out/picture.pfm',
+            '--split', 'out/classes']);
         list.textContent = '';
         live.complain(errors);
         if (code !== 0) return;

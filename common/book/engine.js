@@ -40,7 +40,7 @@ onmessage = async ({data: job}) => {
     }
 };`;
 
-/// What data.js holds, unpacked: {module, size (bytes), worker, files}.
+/// What data.js holds, unpacked: {module, worker, files}.
 async function unpack() {
     const gzipped = Uint8Array.from(atob(packed), letter => letter.charCodeAt(0));
     const stream = new Blob([gzipped]).stream().pipeThrough(new DecompressionStream('gzip'));
@@ -54,7 +54,7 @@ async function unpack() {
     }
     const {'live.js': glue, 'live.wasm': wasm, ...others} = files;
     const worker = URL.createObjectURL(new Blob([glue, workerText], {type: 'text/javascript'}));
-    const data = {files: others, worker, module: await WebAssembly.compile(wasm), size: wasm.length};
+    const data = {files: others, worker, module: await WebAssembly.compile(wasm)};
     await Promise.all(made.split(' ').map(async name => {
         const program = name.replace(/scenes\/(.*)\..*/, 'make_$1'), written = name.replace('scenes', 'out');
         others[name] = (await new Run(data, program, [written], {}, () => {}).done).files[written];

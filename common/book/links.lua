@@ -1,6 +1,6 @@
 -- Links between files of the project become links between pages, pictures become part of the page.
--- FOLDER: where the file is that is read; FOUND: gets the names of all files that it links to.
-local folder = os.getenv("FOLDER")
+-- FOLDER: where the file is that is read; FOUND: gets the names of all files that it links to; BOOK: where the pages are.
+local folder, book = os.getenv("FOLDER"), os.getenv("BOOK")
 local found = io.open(os.getenv("FOUND"), "a")
 
 local function in_project(path)
@@ -16,6 +16,13 @@ local function is_file(path)
     return file and file:close()
 end
 
+-- The glossary: what a word means, by its anchor.
+local glossary = {}
+for line in io.lines("chapters/README.md") do
+    local anchor, meaning = line:match('^| <a id="([^"]+)"></a>%*%*.-%*%* | (.-) | ')
+    if anchor then glossary[anchor] = meaning:gsub("%[(.-)%]%(.-%)", "%1"):gsub("[$*`\\]", "") end
+end
+
 function Link(link)
     local path, anchor = link.target:match("^([^#]*)(.*)$")
     if path == "" or path:match("^%a+:") then return nil end
@@ -23,6 +30,7 @@ function Link(link)
     local file = in_project(path)
     if not is_file(file) then error("a link to " .. file .. ", which is no file") end
     found:write(file .. "\n")
+    if file == "chapters/README.md" then link.attributes["data-tip"] = glossary[anchor:sub(2)] end
     if path:match("README%.md$") then path = path:gsub("README%.md$", "index.html")
     elseif path:match("%.md$") then path = path:gsub("%.md$", ".html")
     else path = path:gsub("/$", "") .. ".html" end
@@ -35,18 +43,69 @@ function Math(formula)
     if formula.mathtype == "DisplayMath" then return pandoc.Span({formula}, {class = "formula"}) end
 end
 
-local kinds = {jpg = "image/jpeg", png = "image/png", svg = "image/svg+xml"}
+-- A number stays with its unit, and a unit in one line.
+local units = {["%"] = true, s = true, ms = true, m = true, kB = true, MB = true, GB = true, nm = true, samples = true}
+function Inlines(inlines)
+    for i = 2, #inlines - 1 do
+        local before, after = inlines[i - 1].text or "", (inlines[i + 1].text or ""):gsub("[.,;:)]*$", "")
+        local is_unit = after:match("^%a*⁻") or before:match("^[(]?[%d.,]+$") and units[after]
+        if inlines[i].t == "Space" and is_unit then inlines[i] = pandoc.Str("\u{a0}") end
+    end
+    for i = #inlines - 1, 1, -1 do -- nor does a formula leave what ends its sentence
+        if inlines[i].t == "Math" and (inlines[i + 1].text or ""):match("^[.,;:)]") then
+            inlines[i] = pandoc.Span({inlines[i], inlines:remove(i + 1)}, {class = "together"})
+        end
+    end
+    return inlines
+end
+
+-- Drawings become part of the page, in its colors. Other pictures are files of their own where they are photographs, and else
+-- in the page, since a page cannot read the pixels of a file.
+local captions, drawings, kinds = {}, 0, {png = "image/png", svg = "image/svg+xml"}
+local colors = {["#888"] = "currentColor", ["#2a7fd4"] = "var(--blue)", ["#d4622a"] = "var(--orange)", ["#d4a017"] = "var(--gold)"}
 function Image(image)
     if image.src:match("^%a+:") then error("a picture from elsewhere: " .. image.src) end
     local file = in_project(image.src)
     local chapter = file:match("^chapters/(%d%d)_[^/]*/strip.png$")
+    if file:match("^chapters/.*%.svg$") then
+        drawings = drawings + 1
+        local name = "figure" .. drawings
+        local svg = io.open(file):read("a"):gsub("#%x%x%x%x*", colors):gsub("<svg", '<svg class="figure ' .. name .. '"', 1)
+        svg = svg:gsub("<style>(.-)</style>", "<style>." .. name .. " { %1 }</style>"):gsub(' id="', ' id="' .. name)
+        svg = svg:gsub("url%(#", "url(#" .. name)
+        captions[svg] = image.caption
+        return pandoc.RawInline("html", svg)
+    elseif file:match("%.jpg$") then
+        os.execute("mkdir -p " .. book .. "/" .. file:match(".*/") .. " && cp " .. file .. " " .. book .. "/" .. file)
+        image.attributes.loading = "lazy"
+        return image
+    end
     if chapter then
         local names = pandoc.pipe("common/tools/make_strips", {"--names", chapter}, "")
         image.attributes["data-names"] = names:gsub("\n$", "")
     end
-    image.src = "data:" .. kinds[file:match("%w+$")] .. ";base64," ..
-        pandoc.pipe("base64", {"-w0", file}, "")
+    image.src = "data:" .. kinds[file:match("%w+$")] .. ";base64," .. pandoc.pipe("base64", {"-w0", file}, "")
     return image
+end
+
+-- A picture in a paragraph of its own has a caption: what it shows.
+function Para(para)
+    local image = para.content[1]
+    if #para.content ~= 1 then return nil end
+    local caption = image.t == "Image" and image.caption or image.t == "RawInline" and captions[image.text]
+    if not caption then return nil end
+    return {pandoc.RawBlock("html", "<figure>"), pandoc.Plain(para.content), pandoc.RawBlock("html", "<figcaption>"),
+        pandoc.Plain(caption), pandoc.RawBlock("html", "</figcaption></figure>")}
+end
+
+-- A listing says which file it is from.
+function Blocks(blocks)
+    for i = 2, #blocks do
+        local comment = blocks[i - 1].t == "RawBlock" and blocks[i - 1].text or ""
+        local file = comment:match("^<!%-%- listing: (%S+)") or comment:match("^<!%-%- file: (%S+)")
+        if file and blocks[i].t == "CodeBlock" then blocks[i].attributes["data-file"] = file end
+    end
+    return blocks
 end
 
 -- Pictures that are written as HTML. Of a chapter's picture the front page shows a part.
@@ -55,6 +114,5 @@ function RawInline(raw)
     if not src then return nil end
     local chapter = folder == "." and src:match("^chapters/(%d[^/]*)/")
     if not chapter then return Image(pandoc.Image(alt, src)) end
-    local data = pandoc.pipe("base64", {"-w0", os.getenv("THUMBS") .. "/" .. chapter .. ".png"}, "")
-    return pandoc.Image(alt, "data:image/png;base64," .. data, "", {class = "thumbnail"})
+    return pandoc.Image(alt, "book/" .. chapter .. ".jpg", "", {class = "thumbnail", loading = "lazy"})
 end

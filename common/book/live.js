@@ -14,16 +14,19 @@ class Live {
         this.name = name, this.data = data, this.about = chapters[name], this.runs = [];
         this.viewer = new Viewer();
         this.status = make('p', {class: 'status', role: 'status'},
-            `ready: the programs of all chapters are ${(data.size / 1e6).toFixed(1)} MB of WebAssembly`);
+            'The pictures of this page, until you render one here.');
         this.errors = make('ul', {class: 'errors', role: 'alert'});
         this.text = make('pre', {class: 'printed', tabindex: 0, hidden: true});
-        this.form = make('form', {class: 'options'}, ...this.fields(),
+        const [first, more] = this.fields();
+        this.stopping = make('button',
+            {type: 'button', class: 'stop', disabled: true, onclick: () => this.stop()}, 'Stop');
+        this.form = make('form', {class: 'options'}, ...first,
             make('button', {type: 'submit', class: 'go'}, 'Render'),
-            make('button', {type: 'button', class: 'stop', disabled: true, onclick: () => this.stop()}, 'Stop'));
+            this.stopping,
+            make('details', {class: 'more'}, make('summary', {}, 'more'), ...more));
         this.form.onsubmit = event => { event.preventDefault(); this.render(); };
-        this.node = make('section', {class: 'live', 'aria-label': 'live'},
-            make('h2', {id: 'live'}, 'Try it here'),
-            this.form, this.errors, this.viewer.node, this.status, this.text);
+        this.node = document.getElementById('live');
+        this.node.append(this.form, this.errors, this.viewer.node, this.status, this.text);
         if (this.about.kind === 'film') {
             this.node.append(layers(this), race(this));
             this.viewer.pick = ([x, y]) => this.tell(x, y);
@@ -33,29 +36,22 @@ class Live {
 
     fields() {
         const about = this.about, own = (about.own || []).map(o => o.values ?
-            field(o.name, o.label, {}, o.values) : count(o.name, o.label, o.value));
-        const seed = count('seed', 'seed', 0);
-        if (about.kind === 'table') return [count('n', 'samples', about.n), seed];
+            field(o.name, labels[o.name], {}, o.values) : count(o.name, labels[o.name], o.value));
+        const seed = count('seed', 'Another seed gives other random numbers:', 0);
+        if (about.kind === 'table') return [[count('n', 'samples', about.n)], [seed]];
         const names = Object.keys(this.data.files).filter(file => file.endsWith('.pbrt')).map(file => file.slice(7, -5));
         const scene = field('scene', 'scene', {}, names);
         scene.lastChild.value = about.scene;
-        const size = field('size', 'size', {}, ['256x256', '24x24', '64x64', '128x128', '512x512']);
-        if (about.kind === 'once') return [scene, size, ...own];
-        return [scene, size, count('spp', 'samples per pixel', about.spp || 16),
-            field('sampler', 'sampler', {}, ['independent', 'stratified', 'sobol']), seed,
-            field('max-depth', 'longest path', {type: 'number', min: 0, placeholder: 'of the scene'}),
-            field('paths', 'classes', {placeholder: 'all; LD(S|D)*E', size: 12}), ...own];
+        const sizes = ['256x256', '24x24', '64x64', '128x128', '512x512'];
+        const size = field('size', 'The picture has so many pixels:', {}, sizes);
+        if (about.kind === 'once') return [[scene], [...own, size]];
+        return [[scene, count('spp', 'samples per pixel', about.spp)], [...own, size, seed,
+            field('sampler', 'The random numbers of a pixel are', {}, ['independent', 'stratified', 'sobol']),
+            field('max-depth', 'Paths scatter at most so many times:',
+                {type: 'number', min: 0, placeholder: 'of the scene'}),
+            field('paths', 'Only these classes of paths count:', {placeholder: 'all; LD(S|D)*E', size: 12})]];
     }
 
-    /// Sets fields of the form.
-    fill(values) {
-        for (const [name, value] of Object.entries(values)) {
-            const input = this.form.elements[name];
-            if (!input) continue;
-            input.value = value;
-            input.dispatchEvent(new Event('change'));
-        }
-    }
     /// The scene's text, which may be changed.
     editor() {
         this.editing = make('textarea', {spellcheck: 'false', rows: 14, 'aria-label': 'text of the scene'});
@@ -90,38 +86,37 @@ class Live {
         for (const run of this.runs) run.stop();
         this.runs = [];
     }
-    busy(is) {
-        this.form.querySelector('.stop').disabled = !is;
-        this.node.classList.toggle('busy', is);
-    }
 
     async render() {
         this.stop();
         this.errors.replaceChildren();
         this.viewer.overlay.replaceChildren();
-        this.busy(true);
+        this.stopping.disabled = false;
         this.began = performance.now();
         this.status.textContent = 'working';
         const done = await this[this.about.kind]();
-        this.busy(false);
+        this.stopping.disabled = true;
         if (done.code === null) this.status.textContent += ', stopped';
         else this.report(done);
     }
-    /// One run that shows all at its end.
-    once() {
-        return this.start(this.name, [this.sceneName(), ...this.options(), ...this.about.words || [],
-            '--out', 'out/picture.pfm']);
+    /// What the form says, as the words of a command.
+    words() {
+        const {n} = this.form.elements;
+        return n ? ['--n', n.value, ...this.options()] :
+            [this.sceneName(), ...this.options(), ...this.about.words || []];
     }
+    /// One run that shows all at its end.
+    once() { return this.start(this.name, [...this.words(), '--out', 'out/picture.pfm']); }
     sceneName() { return `scenes/${this.form.elements.scene.value}.pbrt`; }
 
     /// More and more samples, up to those asked for.
     async table() {
-        const n = +this.form.elements.n.value, seed = this.form.elements.seed.value, shares = [64, 8, 1];
+        const n = +this.form.elements.n.value, shares = [64, 8, 1];
         let done;
         for (const [stage, share] of shares.entries()) {
             if (done) this.report(done, `stage ${stage} of ${shares.length}`);
             const some = Math.max(1, Math.floor(n / share));
-            done = await this.run(this.name, ['--n', `${some}`, '--seed', seed, '--out', 'out/picture.pfm'], {});
+            done = await this.run(this.name, ['--n', `${some}`, ...this.options(), '--out', 'out/picture.pfm'], {});
             if (done.code !== 0) break;
         }
         return done;
@@ -132,7 +127,7 @@ class Live {
         const spp = Math.max(1, +this.form.elements.spp.value);
         const parts = Math.max(1, Math.min(navigator.hardwareConcurrency || 1, spp, 8)), shown = [];
         const results = await Promise.all(Array.from({length: parts}, (_, k) => this.start(this.name, [
-            this.sceneName(), ...this.options(), '--film', `out/${k}.film`, '--film-every', '0.1', '--part',
+            ...this.words(), '--film', `out/${k}.film`, '--film-every', '0.1', '--part',
             `${k + 1}/${parts}`, '--out', 'out/picture.pfm'
         ], message => {
             // Drawn once for all workers, since they are about equally far.
@@ -174,8 +169,8 @@ class Live {
         if (this.told?.x === x && this.told.y === y) this.told.sample++;
         else this.told = {x, y, sample: 0};
         const spp = Math.max(1, +this.form.elements.spp.value), sample = this.told.sample % spp;
-        const done = await this.start(this.name, [this.sceneName(), ...this.options(), '--explain',
-            `${x},${y},${sample}`, '--out', 'out/path.ppm']);
+        const done = await this.start(this.name,
+            [...this.words(), '--explain', `${x},${y},${sample}`, '--out', 'out/path.ppm']);
         this.complain(done.errors);
         if (done.code !== 0) return;
         this.print(done.out, '\n\nClick the same pixel again (or press Enter) to see its next sample.');
@@ -195,14 +190,12 @@ class Live {
     }
 }
 
-// The live part stands before the second section.
-const here = document.body.dataset.chapter;
-if (here && chapters[here]) {
-    const after = document.querySelectorAll('main h2')[1] || document.querySelector('.turn');
-    const waiting = make('p', {class: 'status'}, 'The live part is being unpacked.');
-    after.before(waiting);
-    engine.then(data => {
-        window.live = new Live(here, data);
-        waiting.replaceWith(window.live.node);
-    }).catch(error => { waiting.textContent = `No live part in this browser: ${error.message}`; });
-}
+// The live part stands before the second section. Until it has rendered, it shows the pictures of the page.
+const waiting = document.querySelector('#live .status'), strip = document.querySelector('main img[data-names]');
+document.querySelectorAll('main h2')[1].before(document.getElementById('live'));
+engine.then(async data => {
+    window.live = new Live(document.body.dataset.chapter, data);
+    await strip.decode();
+    window.live.viewer.set(picturesOf(strip));
+    waiting.remove();
+}).catch(error => { waiting.textContent = `No live part in this browser: ${error.message}`; });

@@ -5,20 +5,12 @@ const problem = make('p', {class: 'errors', role: 'alert'});
 const inputs = ['A', 'B, the reference'].map((label, k) => make('input', {
     type: 'file', accept: '.pfm,.ppm,.png', 'aria-label': `Picture ${label}`, onchange: event => take(k, event.target.files)
 }));
-const zone = make('div', {class: 'drop'}, ...inputs.map((input, k) =>
-    make('p', {}, `Picture ${['A', 'B, the reference'][k]}: `, input)), 'or drop both files here');
-zone.ondragover = event => event.preventDefault();
-zone.ondrop = event => {
-    event.preventDefault();
-    take(event.dataTransfer.files.length > 1 || !own[0] ? 0 : 1, event.dataTransfer.files);
-};
-document.querySelector('.own').replaceChildren(zone, problem, viewer.node, said);
+document.querySelector('.own').replaceChildren(...inputs.map((input, k) =>
+    make('p', {}, `Picture ${['A', 'B, the reference'][k]}: `, input)), problem, viewer.node, said);
 
-async function take(first, files) {
-    for (const [k, file] of [...files].slice(0, 2 - first).entries()) {
-        const bytes = new Uint8Array(await file.arrayBuffer());
-        own[first + k] = {bytes, name: file.name, path: `${'AB'[first + k]}/${file.name}`};
-    }
+async function take(k, [file]) {
+    if (!file) return;
+    own[k] = {bytes: new Uint8Array(await file.arrayBuffer()), name: file.name, path: `${'AB'[k]}/${file.name}`};
     if (own[0] && own[1]) await compare();
 }
 async function compare() {

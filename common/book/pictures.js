@@ -178,7 +178,8 @@ function picturesOf(img) {
 /// Opens the pictures of an <img>.
 function hold(img) {
     const viewer = new Viewer(), close = make('button', {type: 'button', class: 'close'}, 'close');
-    const dialog = make('dialog', {'aria-label': 'pictures'}, close, viewer.node);
+    const dialog = make('dialog', {'aria-label': 'pictures'}, close, viewer.node,
+        make('p', {class: 'status'}, 'Choose two pictures; the slider is the border between them.'));
     close.onclick = () => dialog.close();
     dialog.onclose = () => dialog.remove();
     document.body.append(dialog);
@@ -188,5 +189,6 @@ function hold(img) {
 
 for (const img of document.querySelectorAll('main img[src^="data:image/png"]:not(.thumbnail)')) {
     img.onclick = () => hold(img);
-    img.after(make('button', {type: 'button', class: 'hold', onclick: img.onclick}, 'hold this picture'));
+    img.after(make('button', {type: 'button', class: 'hold', onclick: img.onclick},
+        'look closely: values, error, two pictures in one'));
 }

@@ -1,14 +1,10 @@
 # The book: all pages as HTML, and in them the programs of all chapters as one WebAssembly module.
-.PHONY: book slides
+.PHONY: book
 #: reading: make book         all pages as HTML, with chapters that run in them: out/book/index.html (3 minutes)
 book: $(made)
 	@command -v em++ >/dev/null || common/tools/install emscripten || true
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
 	    common/book/make_book out/book $(wasm) $(made_here); else common/book/make_book out/book; fi
-
-#: teaching: make slides       slides of each chapter, from its page: out/slides/, one HTML file each; the browser prints them
-slides:
-	@common/book/make_slides out/slides
 
 # The module has a film_clock.cpp of its own, in live.cpp.
 wasm          := $(BUILD)/wasm

@@ -1,19 +1,24 @@
 // The search page. `sections` holds the text of all pages, section by section: [address, page, heading, text].
 
-/// Sections that contain all words; those with a word in a heading come first, then those with the most.
+/// One of the words, whole.
+const whole = words => {
+    const escaped = words.map(word => word.replace(/[\\^$.*+?()[\]{}|/]/g, '\\$&'));
+    return RegExp(`(?<![\\p{L}\\d_])(${escaped.join('|')})(?![\\p{L}\\d_])`, 'giu');
+};
+/// Sections that contain all words: those of the glossary first, then those with a word in a heading, then the others.
 function search(words) {
     const found = sections.map(([address, page, heading, text]) => {
-        const title = `${page} ${heading}`.toLowerCase(), body = text.toLowerCase();
-        const scores = words.map(word => Math.min(5, body.split(word).length - 1) + (title.includes(word) ? 20 : 0));
+        const scores = words.map(word => Math.min(5, text.match(whole([word]))?.length || 0) +
+            (whole([word]).test(`${page} ${heading}`) ? page === 'Glossary' ? 100 : 20 : 0));
         return {score: Math.min(...scores) && scores.reduce((sum, x) => sum + x), address, page, heading, text};
     });
     return found.filter(({score}) => score > 0).sort((a, b) => b.score - a.score);
 }
 /// The text around the first of the words, with all words marked.
 function excerpt(text, words) {
-    const escaped = words.map(word => word.replace(/[^\w\s]/g, '\\$&')), pattern = RegExp(`(${escaped.join('|')})`, 'i');
-    const from = Math.max(0, text.lastIndexOf(' ', Math.max(0, text.search(pattern) - 60)));
-    return make('p', {}, ...text.slice(from, from + 200).split(pattern).map((part, i) => i % 2 ? make('mark', {}, part) : part));
+    const from = Math.max(0, text.lastIndexOf(' ', Math.max(0, text.search(whole(words)) - 60)));
+    const parts = text.slice(from, from + 200).split(whole(words));
+    return make('p', {}, ...parts.map((part, i) => i % 2 ? make('mark', {}, part) : part));
 }
 function show(query) {
     const words = query.toLowerCase().match(/\S+/g) || [], found = words.length ? search(words) : [];

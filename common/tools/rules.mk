@@ -1,5 +1,5 @@
 # Pages, and what looks at the text of the code.
-.PHONY: help help-all diff lint pictures gallery readmes student-edition tidy
+.PHONY: help help-all diff lint pictures readmes student-edition tidy
 
 #: starting: make help-all     these commands, and those that only makers use
 help:
@@ -20,11 +20,6 @@ student-edition: $(made)
 pictures: programs
 	common/tools/make_pictures $(BUILD)
 	common/tools/make_strips $(BUILD)
-#: maintaining: make gallery      render the six pictures of 1280x720 at the top of README.md, in 25 minutes
-gallery: programs $(BUILD)/make_gallery
-	$(RUN) $(BUILD)/make_gallery scenes/gallery
-	common/tools/make_gallery $(BUILD)
-	common/tools/fill_readmes --text README.md
 #: maintaining: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
 readmes: programs
 	common/tools/fill_readmes $(if $(SLOW),--slow)

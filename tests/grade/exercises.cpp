@@ -26,7 +26,7 @@ TEST_SUITE("exercises") {
         CHECK(says(text, "///   by area:  pdf_w = pdf_A d^2 / cos_y"));
         CHECK(says(text, "inline LightSample sample_light(const Scene& scene, const Hit& x,"));
         CHECK(says(text, "    // Sample a light.\n"));
-        CHECK(says(text, "    // Yours. As it was: chapters/08_russian_roulette/estimator.h\n"));
+        CHECK(says(text, "    // Yours.\n"));
         CHECK(says(text, "    return x.material->reflectance / pi;"));  // as in chapter 08
         CHECK(says(text, "    not_written(\"sample_light\");\n}"));
         CHECK_FALSE(says(text, "y.pdf_w /= static_cast<float>(N);"));

@@ -24,11 +24,6 @@ def add(name, data, matrix=None):
     return thing
 
 
-def strength_and_color(L):
-    most = max(L) or 1
-    return most, [x / most for x in L]
-
-
 def metal(cos, eta, k):
     """The Fresnel reflectance of a metal: the mean of both polarizations."""
     sin2 = 1 - cos * cos
@@ -89,9 +84,8 @@ def surface(shape, at):
     if shape["light"] >= 0:
         light = flat["lights"][shape["light"]]
         emission = nodes.new("ShaderNodeEmission")
-        strength, color = strength_and_color(light["L"])
-        strength /= inside_glass(at)
-        emission.inputs["Color"].default_value = color + [1]
+        strength = max(light["L"]) / inside_glass(at)
+        emission.inputs["Color"].default_value = [x / max(light["L"]) for x in light["L"]] + [1]
         emission.inputs["Strength"].default_value = strength
         if not light["two_sided"]:
             front = nodes.new("ShaderNodeMath")
@@ -142,26 +136,7 @@ for s in flat["spheres"]:  # as many triangles, with the area of the sphere; Cyc
     faces = [[v.index for v in face.verts][::sign] for face in ball.faces]
     add_mesh(s["shape"], positions, faces, [sign * v.co for v in ball.verts])
 
-for d in flat["disks"]:
-    n = 128
-    turn = Vector((0, 0, 1)).rotation_difference(Vector(d["n"])).to_matrix()
-    r = d["r"] * math.sqrt(math.pi / (n / 2 * math.sin(2 * math.pi / n)))
-    rim = [(r * math.cos(2 * math.pi * i / n), r * math.sin(2 * math.pi * i / n), 0) for i in range(n)]
-    add_mesh(d["shape"], [Vector(d["c"]) + turn @ Vector(p) for p in rim], [list(range(n))])
-
-sky = Vector()
-for light in flat["lights"]:
-    if light["type"] == "infinite":
-        sky += Vector(light["L"])
-    elif light["type"] != "area":
-        data = bpy.data.lights.new("light", "POINT" if light["type"] == "point" else "SUN")
-        strength, data.color = strength_and_color(light["L"])
-        if light["type"] == "point":
-            data.energy, data.shadow_soft_size = 4 * math.pi * strength, 0
-            add("light", data, Matrix.Translation(light["p"]))
-        else:
-            data.energy, data.angle = strength, 0
-            add("light", data, Vector(light["p"]).to_track_quat("Z", "Y").to_matrix().to_4x4())
+sky = sum((Vector(light["L"]) for light in flat["lights"] if light["type"] == "infinite"), Vector())
 scene.world.use_nodes = True
 scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = list(sky) + [1]
 

@@ -35,6 +35,10 @@ void refuse_more_than_is_told(const Scene& scene) {
     refuse(scene.sky_image.has_value(), "the image of a sky");
     refuse(!scene.movers.empty(), "a shape that moves");
     refuse(scene.camera.frame_aspect || scene.camera.screen_window, "a frame of the camera");
+    refuse(!scene.geometry.disks.empty(), "a disk");
+    for (const Light& light : scene.lights)
+        refuse(light.type != LightType::area && light.type != LightType::infinite,
+               "a light without a size");
     for (const Material& m : scene.materials) refuse(m.glass != nullptr, "glass that disperses");
 }
 
@@ -55,10 +59,9 @@ void print(const Scene& scene) {
             text(m.k).c_str(), double{m.alpha}, double{m.ior});
     });
     print("lights", scene.lights, [](const Light& light) {
-        const char* types[] = {"area", "point", "distant", "infinite"};
-        return text(R"({"type": "%s", "L": %s, "p": %s, "two_sided": %s})",
-                    types[static_cast<int>(light.type)], text(light.L).c_str(),
-                    text(light.p).c_str(), text(light.two_sided));
+        return text(R"({"type": "%s", "L": %s, "two_sided": %s})",
+                    light.type == LightType::area ? "area" : "infinite", text(light.L).c_str(),
+                    text(light.two_sided));
     });
     print("shapes", scene.shapes, [](const Shape& s) {
         return text(R"({"material": %u, "light": %d, "inward": %s})", s.material, s.light,
@@ -71,10 +74,6 @@ void print(const Scene& scene) {
     print("spheres", g.spheres, [](const Sphere& s) {
         return text(R"({"c": %s, "r": %.9g, "shape": %u})", text(s.c).c_str(), double{s.r},
                     s.shape);
-    });
-    print("disks", g.disks, [](const Disk& d) {
-        return text(R"({"c": %s, "n": %s, "r": %.9g, "shape": %u})", text(d.c).c_str(),
-                    text(d.n).c_str(), double{d.r}, d.shape);
     });
     std::printf("}\n");
 }
