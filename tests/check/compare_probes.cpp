@@ -57,7 +57,7 @@ constexpr double times_blurred = 40, times_checked = 3;
 bool is_blurred(const std::string& probe, const NamedMethod& method) {
     static const std::set<std::string> uneven = {"bulb", "mirror", "leaning mirror", "wall beside",
                                                  "mirror beside"};
-    return method.biased && uneven.contains(probe);
+    return method.biased() && uneven.contains(probe);
 }
 
 bool fits(const Probe& probe, const NamedMethod& method) {
@@ -232,17 +232,17 @@ Answers ask_all(const MeasureOptions& o) {
     Answers answers;
     for (const NamedMethod& method : all_methods()) {
         bool second = method.name == "09-area" || method.name == "13-bsdf";
-        if ((is_variant(method) && !second) || (method.biased && method.name != "25")) continue;
+        if ((method.is_variant() && !second) || (method.biased() && method.name != "25")) continue;
         std::printf("%s\n", method.name.c_str());
         std::fflush(stdout);
         for (const auto& [probe, row] :
-             measure_all(method, o, method.biased ? times_checked : 16, 1000))
+             measure_all(method, o, method.biased() ? times_checked : 16, 1000))
             for (const auto& [name, q] : row) {
                 // What depends on how a chapter works has its name behind it in the file.
                 bool of_noise = name == "noise" || name == "rays";
                 bool own = of_noise || is_blurred(probe, method);
                 if (!is_class(name) && name != "all" && !tells(probe, name)) continue;
-                if (name == "samples" || (method.biased && (of_noise || !own))) continue;
+                if (name == "samples" || (method.biased() && (of_noise || !own))) continue;
                 if (own) answers.own[probe][name + " " + method.name] = q;
                 if (!own) answers.of_all[probe][name].push_back(q);
             }

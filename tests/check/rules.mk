@@ -4,7 +4,7 @@
 #: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
 exercise:
 	@common/tools/exercise '$(CH)'
-checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp) tests/measure/methods.cpp \
+checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp) tests/methods/table.cpp \
             tests/measure/measure.cpp) $(support)
 $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
 	@mkdir -p $(@D); printf '#include "$<"\n' >$@
@@ -16,7 +16,7 @@ $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
 #: teaching: make check CH=09      is it right? one line for each claim, and what is off; NAME=1: the function with the mistake
 check: checkers $(made) \
-       $(if $(wildcard tests/measure/method_$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
+       $(if $(wildcard tests/methods/$(CH).cpp),,$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 # All chapters in one, for the references that make check compares with (2 minutes): build/compare_probes --references

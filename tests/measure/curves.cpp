@@ -58,7 +58,7 @@ Curve measure_curve(const NamedMethod& method, Scene& scene, const Reference& re
     double spent = 0, next = 0;
     // What is biased gets longer, until chance is small beside its bias.
     auto time_left = [&] {
-        return spent + next < (method.biased && !curve.flat() ? 16 * seconds : seconds);
+        return spent + next < (method.biased() && !curve.flat() ? 16 * seconds : seconds);
     };
     for (int spp = 1; spp <= 1 << 20 && (spp <= 16 || time_left()); spp *= 4) {
         CurvePoint point{spp, 0, {}, {}};
@@ -73,7 +73,7 @@ Curve measure_curve(const NamedMethod& method, Scene& scene, const Reference& re
         double cost = point.seconds * o.runs * o.threads;
         spent += cost;
         next = 4 * cost;
-        if (!method.biased && root_mean_square(point.rmse) < 10 * reference.rmse) break;
+        if (!method.biased() && root_mean_square(point.rmse) < 10 * reference.rmse) break;
         curve.points.push_back(point);
         curve.slope = last_slope(curve.points);
     }

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/picture/image.h"
-#include "tests/measure/methods.h"
+#include "tests/measure/measure.h"
 
 /// The mean of a scene's references, of how little it is sure, and by which methods it was made.
 struct Reference {

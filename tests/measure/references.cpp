@@ -30,7 +30,7 @@ LabeledFilm render_part(const NamedMethod& method, const Scene& scene, const Mea
     options.seed = static_cast<uint32_t>(seed);
     options.quiet = true;
     options.film = part_path(method, scene, o, seed);
-    Rendering r = method.render(scene, options);
+    Rendering r = render(method, scene, options);
     save_film(scene, options, r);
     if (r.stats.interrupted) throw InputError("error: interrupted; run it again to go on");
     return read_film(options.film);
