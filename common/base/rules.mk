@@ -20,7 +20,7 @@ export CCACHE_SLOPPINESS
 $(BUILD)/obj/%.h.gch: $$(subst brief/,,$$*).h $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "$(counted)compile $<"; echo '#include "$<"' >$(basename $@)
 	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -MMD -MP -x c++-header $(basename $@) -o $@
-standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp tests/check/*.cpp tests/measure/*.cpp))
+standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp tests/check/*.cpp tests/measure/*.cpp tests/methods/*.cpp))
 $(standard): own_flags += $(call precompiled,common/base/standard.h)
 $(standard): $(BUILD)/obj/common/base/standard.h.gch
 $(BUILD)/obj/common/base/standard.h.gch: own_flags =

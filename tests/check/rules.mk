@@ -5,7 +5,7 @@
 exercise:
 	@common/tools/exercise '$(CH)'
 checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp tests/known/*.cpp) \
-            tests/measure/methods.cpp tests/measure/measure.cpp) $(support)
+            tests/methods/table.cpp tests/measure/measure.cpp) $(support)
 # Chapters without paths of light: their check renders the chapter's own picture.
 draw_alone := 01 02 03 04 05 06 26
 $(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags

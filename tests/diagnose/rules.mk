@@ -1,6 +1,6 @@
 # Pictures of small scenes by any renderer: what is wrong with them?
 diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge known/scenes)
-measuring_small := $(diagnosing) $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/programs/measure measure/measure measure/methods)
+measuring_small := $(diagnosing) $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/programs/measure measure/measure methods/table)
 planted_methods := 07 09 14
 # They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
 $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
@@ -18,5 +18,5 @@ $(BUILD)/diagnose_effects: $(measuring_small) $(common) tests/diagnose/mistakes.
 	@rm -rf $(BUILD)/diagnosed; tests/diagnose/plant $(BUILD)/diagnosed $(BUILD)/probes
 	@for chapter in $(planted_methods); do echo "compile chapter $$chapter with mistakes"; \
 	  CCACHE_NODIRECT=1 $(CXX) $(filter-out -I.,$(CXXFLAGS)) -w -I$(BUILD)/diagnosed -I. -include tests/diagnose/planted.h \
-	    -c tests/measure/method_$$chapter.cpp -o $(BUILD)/diagnosed/$$chapter.o || exit 1; done
+	    -c tests/methods/$$chapter.cpp -o $(BUILD)/diagnosed/$$chapter.o || exit 1; done
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $(planted_methods:%=$(BUILD)/diagnosed/%.o) $(filter %.o,$^) -o $@

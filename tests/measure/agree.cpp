@@ -199,7 +199,7 @@ int main(int argc, char** argv) {
         if (all) o.methods = {"all", "13-bsdf"};
         std::vector<NamedMethod> methods = methods_named(o.methods);
         // Photons blur light: with these few passes their picture is meant to be another one.
-        if (all) std::erase_if(methods, [](const NamedMethod& m) { return m.biased; });
+        if (all) std::erase_if(methods, [](const NamedMethod& m) { return m.biased(); });
         std::vector<SceneResult> results;
         Table details{{"scene", "chapter", "quantity", "mean", "standard error", "mean of others",
                        "standard error of others", "z"},

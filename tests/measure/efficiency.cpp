@@ -43,7 +43,7 @@ std::vector<Contender> contenders_on(const std::string& path,
     // truth below would be.
     const NamedMethod* last = nullptr;
     for (const NamedMethod& method : all_methods()) {
-        if (!method.biased && !is_variant(method) && can_render(method, scene)) last = &method;
+        if (!method.biased() && !method.is_variant() && can_render(method, scene)) last = &method;
     }
     bool asked = std::any_of(contenders.begin(), contenders.end(), [&](const Contender& c) {
         return last && c.method->name == last->name;
@@ -125,7 +125,7 @@ void expand_chapter(MeasureOptions& o) {
     if (o.words.size() != 1 || o.words[0].size() != 2) return;
     std::string before;
     for (const NamedMethod& m : all_methods()) {
-        if (m.name < o.words[0] && !is_variant(m)) before = m.name;
+        if (m.name < o.words[0] && !m.is_variant()) before = m.name;
     }
     NamedMethod chapter = methods_named({o.words[0]})[0];
     if (o.methods.empty()) {

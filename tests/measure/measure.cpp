@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/nearest.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/work.h"
@@ -18,6 +19,15 @@ std::vector<std::string> split_list(const std::string& text) {
     std::istringstream stream(text);
     for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
     return words;
+}
+
+std::vector<std::string> scenes_in(const char* folder) {
+    std::vector<std::string> scenes;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path().string());
+    }
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
 }
 
 }  // namespace
@@ -81,12 +91,11 @@ Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOpti
     o.threads = options.threads;
     o.sampler = options.sampler;
     o.seed = seed;
-    o.search = method.search;
     o.quiet = true;
     if (classes) o.split = "in memory";
     scene.spp = spp;
     Stopwatch watch;
-    Rendering r = method.render(scene, o);
+    Rendering r = render(method, scene, o);
     r.stats.seconds = watch.seconds() / options.threads;
     if (r.stats.interrupted) throw InputError("error: interrupted");
     return r;
@@ -119,4 +128,35 @@ std::string markdown(const Table& table) {
     add_bars(barred.columns);
     for (auto& row : barred.rows) add_bars(row);
     return aligned(barred);
+}
+
+std::vector<std::string> own_scenes() { return scenes_in("scenes"); }
+
+std::vector<std::string> all_scenes() {
+    std::vector<std::string> scenes = own_scenes(), others = scenes_in("tests/pictures/references");
+    scenes.insert(scenes.end(), others.begin(), others.end());
+    return scenes;
+}
+
+std::string scene_name(const std::string& path) {
+    std::filesystem::path p(path);
+    std::string folder = p.parent_path().filename().string();
+    return (folder == "scenes" ? "" : folder + "/") + p.stem().string();
+}
+
+std::string file_name(std::string scene_name) {
+    std::replace(scene_name.begin(), scene_name.end(), '/', '-');
+    return scene_name;
+}
+
+std::string find_scene(const std::string& name) {
+    if (std::filesystem::exists(name)) return name;
+    std::vector<std::string> known;
+    for (const std::string& path : all_scenes()) {
+        known.push_back(scene_name(path));
+        if (known.back() == name) return path;
+    }
+    std::string nearest = nearest_word(name, known);
+    throw UsageError("error: no scene '" + name + "'" +
+                     (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
 }

@@ -6,8 +6,8 @@
 
 #include "common/options/command_line.h"
 #include "common/results/table.h"
-#include "tests/measure/methods.h"
 #include "tests/measure/spread.h"
+#include "tests/methods/table.h"
 
 /// What all measuring programs understand; each has its own defaults.
 struct MeasureOptions {
@@ -44,3 +44,16 @@ std::string short_number(double x);
 
 /// The table in Markdown, its columns aligned so that it reads as plain text too.
 std::string markdown(const Table& table);
+
+/// The scenes of scenes/, as paths; and those with the ones of tests/pictures/references/.
+std::vector<std::string> own_scenes();
+std::vector<std::string> all_scenes();
+
+/// "cornell" for scenes/cornell.pbrt, "references/veach-mis" for the scenes of others.
+std::string scene_name(const std::string& path);
+
+/// The same as part of a file's name: without a slash.
+std::string file_name(std::string scene_name);
+
+/// The path of a scene from its path or its scene_name, or UsageError.
+std::string find_scene(const std::string& name);

@@ -34,9 +34,8 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
     Solved result{patch.size(), watch.seconds() / threads, 0, 0};
     auto error = [&](Show how) {
         Shown shown = ch26::show(scene, patches, s, how, threads);
-        NamedMethod method{.name = "26", .render = by_trace([&](const Scene&) {
-                                             return method_of<ch26::trace>(shown);
-                                         })};
+        NamedMethod method{.name = "26",
+                           .make = [&](auto&, auto&) { return method_of<ch26::trace>(shown); }};
         return compare(render_once(method, scene, o, o.spp, 0).film.image(), reference).rel_mse;
     };
     result.constant = error(Show::constant), result.smooth = error(Show::smooth);

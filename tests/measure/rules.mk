@@ -1,6 +1,6 @@
 # The programs that measure: all methods against each other, in error, time and stability.
 measuring := $(basename $(notdir $(shell grep -l '^int main' tests/measure/*.cpp)))
-methods   := $(filter-out $(measuring:%=tests/measure/%.cpp),$(wildcard tests/measure/*.cpp))
+methods   := $(filter-out $(measuring:%=tests/measure/%.cpp),$(wildcard tests/measure/*.cpp)) $(wildcard tests/methods/*.cpp)
 comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))

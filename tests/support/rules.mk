@@ -3,7 +3,7 @@ $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 # In the program of all tests, each trace() is compiled once: see tests/traces.
 $(tests): own_flags += -DALL_TESTS
 # Most tests run for less time than it takes to compile them by -O3.
-brief := $(filter-out %/exact_hits.o $(BUILD)/obj/tests/check/% $(BUILD)/obj/tests/diagnose/%,$(tests))
+brief := $(filter-out %/exact_hits.o $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% methods/%),$(tests))
 $(brief): own_flags += $(briefly)
 
 # Most tests include the same headers: see common/base/rules.mk.
