@@ -1,9 +1,6 @@
 // Chapter 26: patches, form factors, solvers, and the picture.
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <numeric>
-
 #include "tests/traces/15.h"
 #include "chapters/26_radiosity/run.h"
 #include "common/scene/diffuse_meshes.h"
@@ -17,6 +14,8 @@ using ch26::Show, ch26::Shown, ch26::Solution, ch26::Sweep;
 
 // Values of unit squares: opposite at distance 1, and with a common edge.
 constexpr double opposite = 0.1998248956984, beside = 0.2000437760754;
+
+constexpr Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
 
 int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
 
@@ -45,21 +44,15 @@ std::string emitting(double W, double rho, const std::string& shape) {
            diffuse(rho) + shape + "AttributeEnd\n";
 }
 
-/// The faces of the unit cube, seen from inside: z = 0 and 1, then the others.
-std::vector<std::vector<Vec3>> cube_faces() {
-    Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    return {quad({}, x, y), quad(z, y, x),  quad({}, y, z),
-            quad(x, z, y),  quad({}, z, x), quad(y, x, z)};
-}
-/// A closed cube of this reflectance. `shining` of its faces emit W W m^-2.
-std::string cube(double rho, size_t shining, double W = 1) {
+/// The unit cube, closed, of this reflectance. `shining` of its faces emit W W m^-2.
+std::string cube(double rho, int shining, double W = 1) {
     std::string text;
-    auto faces = cube_faces();
-    for (size_t f = 0; f < 6; f++)
-        text += f < shining ? emitting(W, rho, mesh(faces[f])) : diffuse(rho) + mesh(faces[f]);
+    for (const auto& face : {quad({}, x, y), quad(z, y, x), quad({}, y, z), quad(x, z, y),
+                             quad({}, z, x), quad(y, x, z)})
+        text += shining-- > 0 ? emitting(W, rho, mesh(face)) : diffuse(rho) + mesh(face);
     return text;
 }
-
+/// One with a board in it.
 const std::string furnished =
     cube(0.5, 1) + diffuse(0.3) + mesh(quad({0.3f, 0.3f, 0.3f}, {0.3f, 0.1f, 0}, {0, 0.1f, 0.4f}));
 
@@ -124,7 +117,6 @@ Finished run_program_with(const Words& more, const std::string& scene = "scenes/
 
 TEST_SUITE("ch26 form factors") {
     TEST_CASE("truth: form factors by contour of squares") {
-        Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
         for (auto [d, F] :
              {std::pair{0.1, 0.8269945223973}, {1.0, opposite}, {10.0, 0.003162056838758}}) {
             Vec3 above = static_cast<float>(d) * z;
@@ -165,7 +157,6 @@ TEST_SUITE("ch26 form factors") {
 
     TEST_CASE("truth: what a wall hides: half of a square is seen past it") {
         // The wall stands in the plane x = 1/2 and hides all that is beyond it.
-        Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
         std::string wall = diffuse(0) + mesh(quad({0.5f, -9, -9}, 18 * y, 18 * z));
         std::vector<Vec3> low = {{}, 0.5f * x, y}, here = {z, z + y, z + 0.5f * x};
         std::vector<Vec3> beyond = {z + x, z + 0.6f * x, z + 0.8f * x + y};
@@ -178,35 +169,17 @@ TEST_SUITE("ch26 form factors") {
         Scene scene = world_of(furnished);
         Room raw(scene, 150, false), room(scene, 150);
         REQUIRE(room.patches->closed);
-        double worst = 0, worst_raw = 0;
+        double off = 0;
         for (size_t i = 0; i < room.G.size(); i++) {
-            worst = std::max(worst, std::abs(room.row_sum(i) - 1));
-            worst_raw = std::max(worst_raw, std::abs(raw.row_sum(i) - 1));
+            off = std::max(off, std::abs(raw.row_sum(i) - 1));
+            CHECK(std::abs(room.row_sum(i) - 1) < 1e-6);
             for (size_t j = 0; j < i; j++) CHECK(room.G[i][j] == room.G[j][i]);
         }
-        CHECK(worst < 1e-6);
-        CHECK(worst_raw > 1e-3);  // there was something to repair
+        CHECK(off > 1e-3);  // there was something to repair
         // In an open room rows sum to at most 1, and those that were right stay so.
         Room open(scene_from("scenes/cornell.pbrt", 32, 5), 300);
         CHECK_FALSE(open.patches->closed);
         for (size_t i = 0; i < open.G.size(); i++) CHECK(open.row_sum(i) < 1 + 1e-6);
-    }
-
-    TEST_CASE(
-        "identity: rows are the same for any threads and order, and each pair is asked once") {
-        constexpr uint32_t n = 300;  // more than one block of 256
-        std::atomic<int> asked = 0;
-        auto exchange = [&](uint32_t i, uint32_t j) {
-            CHECK(i < j);
-            asked++;
-            return (i + 2.0 * j) / 100;
-        };
-        Matrix G(n), backwards(n);
-        for (uint32_t i = 0; i < n; i++) ch26::row_of(G, i, 1, exchange);
-        CHECK(asked == n * (n - 1) / 2);
-        for (uint32_t i = n; i-- > 0;) ch26::row_of(backwards, i, 7, exchange);
-        CHECK(G == backwards);
-        CHECK(G[3][290] == static_cast<float>((3 + 2.0 * 290) / 100));
     }
 }
 
@@ -233,17 +206,17 @@ TEST_SUITE("ch26 patches") {
     }
 
     TEST_CASE("input: what has no radiosity is refused, with its place in the file") {
-        std::string lamp = emitting(1, 0.5, mesh(cube_faces()[0])) + '\n';
+        std::string lamp = emitting(1, 0.5, square(0, true)) + '\n';
         auto refusal = [](const std::string& world) {
             return error_of([&] { refuse(world_of(world)); });
         };
-        CHECK(refusal(lamp + mesh(cube_faces()[1])) == "");
+        CHECK(refusal(lamp + square(9, false)) == "");
         CHECK(refusal(cube(0.999, 1)) == "");
         CHECK(refusal(cube(1, 1)).starts_with("test.pbrt: error: radiosity needs a surface that"));
         for (const char* directive :
              {"Material \"dielectric\"", "Material \"conductor\" \"float roughness\" 0.3",
               "LightSource \"point\"", "LightSource \"infinite\""}) {
-            std::string text = refusal(lamp + directive + "\n" + mesh(cube_faces()[1]));
+            std::string text = refusal(lamp + directive + "\n" + square(9, false));
             CHECK(text.starts_with("test.pbrt:9:1: error: radiosity knows "));
         }
         // Shapes too small to be cut into triangles.
@@ -320,19 +293,15 @@ TEST_SUITE("ch26 solvers") {
     TEST_CASE("identity: spheres and disks made meshes keep area, power and the side that shines") {
         // The lamps are not the first shapes, nor the last.
         std::string shapes =
-            diffuse(0.5) + "Shape \"sphere\" \"float radius\" 0.5\n" + mesh(cube_faces()[1]) +
+            diffuse(0.5) + "Shape \"sphere\" \"float radius\" 0.5\n" + square(9, false) +
             emitting(1, 0.5, "Translate 5 0 0 Shape \"disk\" \"float radius\" 2\n") +
             emitting(2, 0.5, "Translate 9 0 0 ReverseOrientation Shape \"sphere\"\n") +
-            emitting(3, 0.5, mesh(cube_faces()[3])) + "Translate 0 0 -5 Shape \"disk\"\n";
+            emitting(3, 0.5, square(8, true)) + "Translate 0 0 -5 Shape \"disk\"\n";
         Scene before = world_of(shapes), after = world_of(shapes);
         CHECK(tessellate(after, 2) == 2 * 512 + 2 * 32);
-        CHECK(after.geometry.spheres.empty());
-        CHECK(after.geometry.disks.empty());
-        CHECK(after.geometry.triangles.size() == 4 + 2 * 512 + 2 * 32);
-        for (size_t i = 0; i < 3; i++) {
-            double power = double{light_power(before, i)};
-            CHECK(double{light_power(after, i)} == about(power, 1e-4));
-        }
+        CHECK(after.geometry.size() == 4 + 2 * 512 + 2 * 32);
+        for (size_t i = 0; i < 3; i++)
+            CHECK(double{light_power(after, i)} == about(double{light_power(before, i)}, 1e-4));
         // All triangles shine where the shape did, and are as large in all.
         std::map<uint32_t, double> area;
         for (uint32_t prim = 0; prim < after.geometry.triangles.size(); prim++) {
@@ -431,20 +400,19 @@ TEST_SUITE("ch26 radiosity") {
         for (const Patch& p : patches->patch)
             B.push_back((p.centre.y > 1 ? 9 : value(p.centre)) * Rgb{1, 1, 1});
         Shown shown = ch26::make_shown(scene, patches, B, Show::smooth, 2);
-        int inner = 0, even = 0;
+        int inner = 0;
         for (size_t i = 0; i < B.size(); i++) {
             const Patch& patch = patches->patch[i];
             bool rises = patch.centre.x < 1 && patch.centre.y < 1;
             for (size_t c = 0; c < 3; c++) {
                 Vec3 p = patch.p[c];
-                bool is_inner = std::max(std::abs(p.x), std::abs(p.z)) < 0.7f;
-                if (rises && is_inner) CHECK(std::abs(shown.B[i][c].g - value(p)) < 0.03f);
+                bool is_inner = rises && std::max(std::abs(p.x), std::abs(p.z)) < 0.7f;
+                if (is_inner) CHECK(std::abs(shown.B[i][c].g - value(p)) < 0.03f);
                 if (!rises) CHECK(std::abs(shown.B[i][c].g / B[i].g - 1) < 1e-5f);
-                inner += rises && is_inner, even += !rises;
+                inner += is_inner;
             }
         }
         CHECK(inner > 100);
-        CHECK(even > 200);
     }
 }
 
@@ -458,9 +426,8 @@ TEST_SUITE("ch26 program") {
             CAPTURE(scene);
             Finished end = run_program_with({"--patches", "600", "--out", folder / "a.pfm"}, scene);
             CHECK(end.code == 0);
-            REQUIRE(end.out.find("\nsurfaces reflect ") != end.out.npos);
-            size_t at = end.out.find("\nwarning: the light that surfaces reflect is wrong: ");
-            CHECK((at != end.out.npos) == is_wrong);
+            bool warns = end.out.find("\nwarning: the light that surfaces ") != end.out.npos;
+            CHECK(warns == is_wrong);
         }
     }
 
@@ -493,15 +460,6 @@ TEST_SUITE("ch26 program") {
         CHECK(read_image(folder / "a.pfm").width == 33);
         CHECK(end.out.find("warning: sweeps ended before 100 % of the light had arrived") !=
               end.out.npos);
-    }
-
-    TEST_CASE("input: options that mean nothing to radiosity are refused") {
-        for (const Words& words : {Words{"--max-depth", "3"},
-                                   {"--patches", "1000000"},
-                                   {"--solver", "jacobi", "--shots", "5"}}) {
-            Finished end = run_program_with(words);
-            CHECK(end.code == 2);
-            CHECK(std::count(end.err.begin(), end.err.end(), '\n') == 1);
-        }
+        CHECK(run_program_with({"--solver", "jacobi", "--shots", "5"}).code == 2);
     }
 }
