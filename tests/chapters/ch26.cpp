@@ -15,7 +15,7 @@ using ch26::Show, ch26::Shown, ch26::Solution, ch26::Sweep;
 // Values of unit squares: opposite at distance 1, and with a common edge.
 constexpr double opposite = 0.1998248956984, beside = 0.2000437760754;
 
-constexpr Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
+constexpr Vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
 
 int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
 
@@ -47,8 +47,8 @@ std::string emitting(double W, double rho, const std::string& shape) {
 /// The unit cube, closed, of this reflectance. `shining` of its faces emit W W m^-2.
 std::string cube(double rho, int shining, double W = 1) {
     std::string text;
-    for (const auto& face : {quad({}, x, y), quad(z, y, x), quad({}, y, z), quad(x, z, y),
-                             quad({}, z, x), quad(y, x, z)})
+    for (const auto& face : {quad({}, X, Y), quad(Z, Y, X), quad({}, Y, Z), quad(X, Z, Y),
+                             quad({}, Z, X), quad(Y, X, Z)})
         text += shining-- > 0 ? emitting(W, rho, mesh(face)) : diffuse(rho) + mesh(face);
     return text;
 }
@@ -119,10 +119,10 @@ TEST_SUITE("ch26 form factors") {
     TEST_CASE("truth: form factors by contour of squares") {
         for (auto [d, F] :
              {std::pair{0.1, 0.8269945223973}, {1.0, opposite}, {10.0, 0.003162056838758}}) {
-            Vec3 above = static_cast<float>(d) * z;
-            CHECK(std::abs(form_factor(quad({}, x, y), quad(above, y, x)) - F) < 3e-5);
+            Vec3 above = static_cast<float>(d) * Z;
+            CHECK(std::abs(form_factor(quad({}, X, Y), quad(above, Y, X)) - F) < 3e-5);
         }
-        CHECK(std::abs(form_factor(quad({}, x, y), quad({}, y, z)) - beside) < 1e-6);
+        CHECK(std::abs(form_factor(quad({}, X, Y), quad({}, Y, Z)) - beside) < 1e-6);
     }
 
     TEST_CASE(
@@ -157,9 +157,9 @@ TEST_SUITE("ch26 form factors") {
 
     TEST_CASE("truth: what a wall hides: half of a square is seen past it") {
         // The wall stands in the plane x = 1/2 and hides all that is beyond it.
-        std::string wall = diffuse(0) + mesh(quad({0.5f, -9, -9}, 18 * y, 18 * z));
-        std::vector<Vec3> low = {{}, 0.5f * x, y}, here = {z, z + y, z + 0.5f * x};
-        std::vector<Vec3> beyond = {z + x, z + 0.6f * x, z + 0.8f * x + y};
+        std::string wall = diffuse(0) + mesh(quad({0.5f, -9, -9}, 18 * Y, 18 * Z));
+        std::vector<Vec3> low = {{}, 0.5f * X, Y}, here = {Z, Z + Y, Z + 0.5f * X};
+        std::vector<Vec3> beyond = {Z + X, Z + 0.6f * X, Z + 0.8f * X + Y};
         CHECK(form_factor(low, here, wall) > 0);
         CHECK(form_factor(low, beyond) > 0);
         CHECK(form_factor(low, beyond, wall) == 0);
