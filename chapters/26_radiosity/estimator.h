@@ -183,7 +183,8 @@ inline std::optional<size_t> brightest(const std::vector<Patch>& patch, const So
 ///   H_j += F_ji dB_i = G_ij dB_i / A_j;      dB_j += rho_j H_j's change;      dB_i = 0
 ///
 /// Needs one row of G, which alone is repaired: what does not leave the room arrives.
-/// source  Cohen, Chen, Wallace, Greenberg 1988      tested by  "agreement: Jacobi, ...", to 1e-6
+/// source  Cohen, Chen, Wallace, Greenberg 1988
+/// tested by  "identity: all that lamps emit is absorbed, escapes, or is unshot", to 1e-6
 inline void shoot(const Patches& patches, size_t i, std::span<const float> G_i, Solution& s) {
     const std::vector<Patch>& patch = patches.patch;
     double sum = 0, area = double{patch[i].area};

@@ -13,7 +13,7 @@ using Matrix = std::vector<std::vector<float>>;
 using ExchangeOf = std::function<double(uint32_t i, uint32_t j)>;
 
 /// Row i of G; computes what other rows do not know yet.
-/// tested by  "identity: rows are the same for any threads and order, and each pair is asked once"
+/// tested by  "identity: repaired rows sum to 1, and both ends agree"
 inline const std::vector<float>& row_of(Matrix& G, size_t i, int threads,
                                         const ExchangeOf& exchange) {
     if (!G[i].empty()) return G[i];

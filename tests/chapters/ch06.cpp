@@ -106,7 +106,7 @@ TEST_SUITE("ch06 bvh") {
         }
         auto tests = [&](size_t step) { return work[step].boxes + work[step].prims; };
         CHECK(tests(1) < tests(0) / 10);
-        for (size_t step : {2, 3, 4}) CHECK(tests(step) < tests(step - 1));
+        for (size_t step = 2; step < 5; step++) CHECK(tests(step) < tests(step - 1));
         // It takes the largest child apart; with any other one, half as many and more are left.
         CHECK(static_cast<double>(work[4].nodes) < 0.47 * static_cast<double>(work[3].nodes));
     }

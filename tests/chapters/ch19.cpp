@@ -59,45 +59,38 @@ Rgb rare(const Scene&, Ray, Sampler& sampler, Recorder& recorder) {
 TEST_SUITE("ch19 adaptive") {
     TEST_CASE("truth: sample densities are those of the least error") {
         // The left half of the picture varies four times as much as the right: its standard
-        // deviation is four times as large, and its mean the same.
-        constexpr int width = 64, height = 32;
-        std::vector<PilotPixel> pilot(width * height);
-        Sampler sampler(SamplerType::independent, 1, 1);
-        for (int i = 0; i < width * height; i++) {
-            PilotPixel& pixel = pilot[static_cast<size_t>(i)];
-            sampler.start(static_cast<uint32_t>(i), 0);
-            for (int k = 0; k < 200; k++) {
-                float L = 1 + (i % width < width / 2 ? 0.4f : 0.1f) * (sampler.u1() - 0.5f);
-                pixel.add({L, L, L});
+        // deviation is four times as large, and its mean the same. n is in proportion to s, (4 or
+        // 1) / 2.5; where samples cost nine times as many rays, a third as many: (4/3 or 1) 6/7.
+        constexpr size_t width = 64, height = 32;
+        for (auto [rays, left, right] : {std::tuple{1u, 1.6, 0.4}, {9u, 8.0 / 7, 6.0 / 7}}) {
+            std::vector<PilotPixel> pilot(width * height);
+            for (size_t i = 0; i < pilot.size(); i++) {
+                bool is_left = i % width < width / 2;
+                float s = is_left ? 0.4f : 0.1f;
+                for (float L : {1 - s, 1 + s}) pilot[i].add({L, L, L});
+                pilot[i].rays = is_left ? rays : 1;
             }
-            pixel.rays = 200;
+            std::vector<double> densities = ch19::sample_density(pilot, width);
+            CHECK(densities[16 * width + 10] == doctest::Approx(left).epsilon(1e-4).scale(0));
+            CHECK(densities[16 * width + 50] == doctest::Approx(right).epsilon(1e-4).scale(0));
+            double sum = std::accumulate(densities.begin(), densities.end(), 0.0);
+            CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
         }
-        std::vector<double> densities = ch19::sample_density(pilot, width);
-        // n in proportion to s: (4 or 1) / 2.5
-        CHECK(densities[16 * width + 10] == doctest::Approx(1.6).epsilon(0.02).scale(0));
-        CHECK(densities[16 * width + 50] == doctest::Approx(0.4).epsilon(0.02).scale(0));
-        double sum = 0;
-        for (double density : densities) sum += density;
-        CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
 
-        // Where samples cost nine times as many rays, a third as many: (4/3 or 1) 6/7.
-        for (int i = 0; i < width * height; i++) {
-            if (i % width < width / 2) pilot[static_cast<size_t>(i)].rays = 1800;
-        }
-        densities = ch19::sample_density(pilot, width);
-        CHECK(densities[16 * width + 10] == doctest::Approx(8.0 / 7).epsilon(0.02).scale(0));
-        CHECK(densities[16 * width + 50] == doctest::Approx(6.0 / 7).epsilon(0.02).scale(0));
-
-        // One pixel that varies: averages of 5, twice along each axis, are tents of 9.
-        std::fill(pilot.begin(), pilot.end(), PilotPixel{});
-        for (float L : {0.0f, 1.0f}) pilot[10 * width + 20].add({L, L, L});
-        densities = ch19::sample_density(pilot, width);
+        // One pixel of half 0 varies: averages of 5, twice along each axis, are tents of 9; for
+        // half 1, of which it decides. Where nothing varies, samples are spread evenly.
+        Pilot pilot;
+        pilot.width = width;
+        for (auto& half : pilot.half) half.resize(width * height);
+        for (float L : {0.0f, 1.0f}) pilot.half[0][10 * width + 20].add({L, L, L});
+        ch19::SampleDensities densities;
+        choose_densities(densities, pilot, 2);
         auto tent = [](int at) { return std::max(5 - std::abs(at), 0) / 25.0; };
-        for (int y = 0; y < height; y++) {
-            for (int x = 0; x < width; x++) {
-                double expected = width * height * tent(x - 20) * tent(y - 10);
-                CHECK(std::abs(densities[static_cast<size_t>(y * width + x)] - expected) < 1e-9);
-            }
+        for (size_t i = 0; i < width * height; i++) {
+            int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
+            double expected = width * height * tent(x - 20) * tent(y - 10);
+            CHECK(std::abs(densities.of_half[1][i] - expected) < 1e-9);
+            CHECK(densities.of_half[0][i] == 1);
         }
     }
 
@@ -114,16 +107,11 @@ TEST_SUITE("ch19 adaptive") {
               doctest::Approx(v * 6 / 5).epsilon(1e-6).scale(0));  // 6 / 5: by their own mean
     }
 
-    TEST_CASE("truth: a picture of one color is sampled evenly, and a spike within bounds") {
-        std::vector<PilotPixel> even(64), spiky(10000);
-        for (PilotPixel& pixel : even) {
-            for (int k = 0; k < 5; k++) pixel.add({0.3f, 0.2f, 0.1f});
-        }
-        for (double density : ch19::sample_density(even, 8)) CHECK(density == 1);
-        for (size_t i = 0; i < 10000; i++) {
+    TEST_CASE("truth: a spike is sampled within bounds") {
+        std::vector<PilotPixel> spiky(10000);
+        for (size_t i = 0; i < 10000; i++)
             for (int k = 0; k < 4; k++)
                 spiky[i].add(Rgb{1, 1, 1} * (i == 5050 && k == 0 ? 1e6f : 0.0f));
-        }
         ch19::SampleDensities densities;
         for (auto& half : densities.of_half) half = ch19::sample_density(spiky, 100);
         uint32_t most = 0, least = 1000;

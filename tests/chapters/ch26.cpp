@@ -1,9 +1,6 @@
 // Chapter 26: patches, form factors, solvers, and the picture.
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <numeric>
-
 #include "tests/traces/15.h"
 #include "chapters/26_radiosity/run.h"
 #include "common/scene/diffuse_meshes.h"
@@ -17,6 +14,8 @@ using ch26::Show, ch26::Shown, ch26::Solution, ch26::Sweep;
 
 // Values of unit squares: opposite at distance 1, and with a common edge.
 constexpr double opposite = 0.1998248956984, beside = 0.2000437760754;
+
+constexpr Vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
 
 int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
 
@@ -45,106 +44,66 @@ std::string emitting(double W, double rho, const std::string& shape) {
            diffuse(rho) + shape + "AttributeEnd\n";
 }
 
-/// The faces of the unit cube, seen from inside: z = 0 and 1, then the others.
-std::vector<std::vector<Vec3>> cube_faces() {
-    Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    return {quad({}, x, y), quad(z, y, x),  quad({}, y, z),
-            quad(x, z, y),  quad({}, z, x), quad(y, x, z)};
-}
-/// A closed cube of this reflectance. `shining` of its faces emit 1 W m^-2.
-Scene cube_room(double rho, size_t shining_faces, const std::string& more = "") {
+/// The unit cube, closed, of this reflectance. `shining` of its faces emit W W m^-2.
+std::string cube(double rho, int shining, double W = 1) {
     std::string text;
-    auto faces = cube_faces();
-    for (size_t f = 0; f < 6; f++) {
-        text +=
-            f < shining_faces ? emitting(1, rho, mesh(faces[f])) : diffuse(rho) + mesh(faces[f]);
-    }
-    return world_of(text + more);
+    for (const auto& face : {quad({}, X, Y), quad(Z, Y, X), quad({}, Y, Z), quad(X, Z, Y),
+                             quad({}, Z, X), quad(Y, X, Z)})
+        text += shining-- > 0 ? emitting(W, rho, mesh(face)) : diffuse(rho) + mesh(face);
+    return text;
 }
+/// One with a board in it.
+const std::string furnished =
+    cube(0.5, 1) + diffuse(0.3) + mesh(quad({0.3f, 0.3f, 0.3f}, {0.3f, 0.1f, 0}, {0, 0.1f, 0.4f}));
 
-/// Patches alone, to compare form factors with.
-Patch patch_of(Vec3 a, Vec3 b, Vec3 c) {
+Patch gray(float area, float rho, float E) {
     Patch p;
-    Vec3 sides = cross(b - a, c - a);
-    p.p = {a, b, c}, p.n = normalize(sides), p.centre = (a + b + c) / 3;
-    p.area = length(sides) / 2, p.eps = 1e-6f;
+    p.area = area, p.rho = {rho, rho, rho}, p.E = {E, E, E};
     return p;
 }
-std::vector<Patch> patches_of(const std::vector<Vec3>& corners) {
-    std::vector<Patch> patches;
-    for (size_t i = 0; i < corners.size(); i += 3)
-        patches.push_back(patch_of(corners[i], corners[i + 1], corners[i + 2]));
-    return patches;
-}
-
-/// The form factor from all of one surface to all of another, with nothing in between.
-double form_factor(const std::vector<Patch>& from, const std::vector<Patch>& to) {
-    Scene empty = world_of("Translate 0 0 -99 " + emitting(1, 0.5, mesh(cube_faces()[0])));
-    double sum = 0, area = 0;
-    for (uint32_t i = 0; i < from.size(); i++) {
-        area += double{from[i].area};
-        for (uint32_t j = 0; j < to.size(); j++)
-            sum += ch26::exchange(empty, from[i], to[j], hash32(i, j));
-    }
-    return sum / area;
-}
-
-/// The room of TRUTHS' cube: six patches of area 1, the first of which emits 1.
-struct SixPatches {
-    Matrix G;
-    std::vector<Patch> patch = std::vector<Patch>(6);
-
-    explicit SixPatches(double rho, int emitters = 1) {
-        for (size_t i = 0; i < 6; i++) {
-            constexpr float around = static_cast<float>(beside);
-            G.push_back(std::vector<float>(6, around));
-            G[i][i] = 0, G[i][i ^ 1] = 1 - 4 * around;  // the sum is 1 to the last bit
-            float r = static_cast<float>(rho), E = static_cast<int>(i) < emitters ? 1 : 0;
-            patch[i].area = 1, patch[i].rho = {r, r, r}, patch[i].E = {E, E, E};
-        }
-    }
-};
-
-double B_of(const Patch& p, const Solution& s, size_t i) { return ch26::radiosity_of(p, s.H[i]).g; }
-
-/// The patch with most to shoot shoots it; false when there is none.
-bool shoot_next(const Patches& patches, const Matrix& G, Solution& s) {
-    std::optional<size_t> i = ch26::brightest(patches.patch, s);
-    if (i) ch26::shoot(patches, *i, G[*i], s);
-    return i.has_value();
-}
-
-/// Solved to the last digits by Gauss-Seidel.
-Solution solved(const Matrix& G, const std::vector<Patch>& patch) {
+/// B of patch i, when patches that exchange G have sent to and fro.
+double B_of(const Matrix& G, const std::vector<Patch>& patch, size_t i) {
     Solution s;
     ch26::solve(G, patch, Sweep::gauss_seidel, 1e-12, s);
-    for (size_t i = 0; i < patch.size(); i++) {
-        double out = double{patch[i].area} * (1 - ch26::row_sum(G[i], patch[i]));
-        s.escaped += out * ch26::radiosity_of(patch[i], s.H[i]);
-    }
-    return s;
+    return ch26::radiosity_of(patch[i], s.H[i]).g;
+}
+
+/// Within a share of the truth.
+doctest::Approx about(double truth, double share) {
+    return doctest::Approx(truth).epsilon(share).scale(0);
 }
 
 /// A room as a matrix of its patches.
 struct Room {
-    Patches patches;
+    Scene scene;
+    std::shared_ptr<Patches> patches;
+    ch26::ExchangeOf exchange;
     Matrix G;
 
-    Room(const Scene& scene, size_t wanted, bool repaired = true)
-        : patches(make_patches(scene, wanted, all_threads())), G(patches.patch.size()) {
-        ch26::ExchangeOf exchange = ch26::form_factors(scene, patches, 0);
+    Room(const Scene& s, size_t wanted, bool repaired = true)
+        : scene(s),
+          patches(std::make_shared<Patches>(make_patches(scene, wanted, all_threads()))),
+          exchange(ch26::form_factors(scene, *patches, 0)),
+          G(patches->patch.size()) {
         for (size_t i = 0; i < G.size(); i++) ch26::row_of(G, i, all_threads(), exchange);
-        if (repaired) ch26::repair(G, patches.patch, patches.closed);
+        if (repaired) ch26::repair(G, patches->patch, patches->closed);
     }
-    double row_sum(size_t i) const { return ch26::row_sum(G[i], patches.patch[i]); }
+    double row_sum(size_t i) const { return ch26::row_sum(G[i], patches->patch[i]); }
+    Solution swept(Sweep kind = Sweep::gauss_seidel) {
+        return ch26::sweep_all(*patches, G, exchange, kind, all_threads(), Limit(0));
+    }
 };
 
-/// The room as the program shows it.
-Method by_radiosity(const Scene& scene, size_t wanted, Show how) {
-    Room room(scene, wanted);
-    Solution s = solved(room.G, room.patches.patch);
-    auto patches = std::make_shared<Patches>(room.patches);
-    return method_of<ch26::trace>(ch26::show(scene, patches, s, how, all_threads()));
+/// The form factor from all of one mesh to all of another, by what they exchange; `more`: beside.
+double form_factor(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+                   const std::string& more = "") {
+    Room room(world_of(emitting(1, 0, mesh(from)) + emitting(1, 0, mesh(to)) + more), 1, false);
+    double sum = 0, area = 0;
+    for (size_t i = 0; i < from.size() / 3; i++) {
+        area += double{room.patches->patch[i].area};
+        for (size_t j = 0; j < to.size() / 3; j++) sum += double{room.G[i][from.size() / 3 + j]};
+    }
+    return sum / area;
 }
 
 /// The program on a scene, small; `more` may say otherwise.
@@ -154,140 +113,88 @@ Finished run_program_with(const Words& more, const std::string& scene = "scenes/
     return run("26_radiosity", words);
 }
 
-/// A scene in a file, seen from inside the unit cube.
-std::string file_of(const TemporaryFolder& folder, const std::string& world) {
-    std::string path = folder / "room.pbrt";
-    write_file_atomically(path,
-                          "LookAt 0.5 0.5 0.05  0.5 0.5 1  0 1 0\nCamera \"perspective\"\n"
-                          "PixelFilter \"box\"\nWorldBegin\n" +
-                              world);
-    return path;
-}
-/// A closed cube, all of which emits W W m^-2 and reflects rho.
-std::string even_cube(double W, double rho) {
-    std::string text;
-    for (const auto& face : cube_faces()) text += emitting(W, rho, mesh(face));
-    return text;
-}
-
 }  // namespace
 
 TEST_SUITE("ch26 form factors") {
-    TEST_CASE("truth: form factors by contour of squares" * doctest::skip()) {
-        Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-        auto floor = patches_of(quad({}, x, y));
+    TEST_CASE("truth: form factors by contour of squares") {
         for (auto [d, F] :
              {std::pair{0.1, 0.8269945223973}, {1.0, opposite}, {10.0, 0.003162056838758}}) {
-            auto above = patches_of(quad(static_cast<float>(d) * z, y, x));
-            CHECK(std::abs(form_factor(floor, above) - F) < 3e-5);
+            Vec3 above = static_cast<float>(d) * Z;
+            CHECK(std::abs(form_factor(quad({}, X, Y), quad(above, Y, X)) - F) < 3e-5);
         }
-        auto wall = patches_of(quad({}, y, z));
-        CHECK(std::abs(form_factor(floor, wall) - beside) < 1e-6);
+        CHECK(std::abs(form_factor(quad({}, X, Y), quad({}, Y, Z)) - beside) < 1e-6);
     }
 
     TEST_CASE(
         "failure: the form factor by centres is 59 % off at distance 1, and exceeds 1 at 0.1") {
-        Patch low, high;
-        low.area = high.area = 1;
-        low.n = {0, 0, 1}, high.n = {0, 0, -1};
-        for (auto [distance, F] : {std::pair{0.1, 31.83098861838}, {1.0, 0.3183098861838}}) {
-            double G = ch26::by_centres(low, high, {}, {0, 0, static_cast<float>(distance)});
-            CHECK(G == doctest::Approx(F).epsilon(1e-6).scale(0));
-        }
-        high.n = {-1, 0, 0};
-        double G = ch26::by_centres(low, high, {}, {0.5f, 0, 0.5f});
+        Patch low = gray(1, 0, 0), high = gray(1, 0, 0);
+        auto G = [&](Vec3 n, Vec3 to) {
+            low.n = {0, 0, 1}, high.n = n;
+            return about(ch26::by_centres(low, high, {}, to), 1e-6);
+        };
+        CHECK(G({0, 0, -1}, {0, 0, 0.1f}) == 31.83098861838);
+        CHECK(G({0, 0, -1}, {0, 0, 1}) == 0.3183098861838);
         // Six such faces: rows sum to 1.59, and light grows where more than 0.628 is reflected.
-        CHECK(5 * G == doctest::Approx(1.5915494309).epsilon(1e-6).scale(0));
+        CHECK(G({-1, 0, 0}, {0.5f, 0, 0.5f}) == 1.5915494309 / 5);
     }
 
     TEST_CASE("truth: a small patch and a large one at decades of size and distance") {
-        Patch large = patch_of({}, {1, 0, 0}, {0, 1, 0});
-        for (float size : {0.3f, 0.01f}) {
+        std::vector<Vec3> large = {{}, {1, 0, 0}, {0, 1, 0}};
+        for (float size : {0.3f, 0.01f})
             for (float distance : {1.0f, 0.01f}) {
-                Vec3 o = {0.31f, 0.29f, distance};
-                Patch small = patch_of(o, o + Vec3{0, size, 0}, o + Vec3{size, 0, 0});
-                RunningStats F;  // from 4^5 points, which it hardly depends on
-                std::vector<std::array<Vec3, 3>> parts = {small.p};
-                for (int depth = 0; depth < 5; depth++) {
-                    std::vector<std::array<Vec3, 3>> finer;
-                    for (const auto& t : parts)
-                        for (const auto& part : quarters(t)) finer.push_back(part);
-                    parts = finer;
-                }
-                for (const auto& t : parts)
-                    F.add(ch26::point_to_polygon((t[0] + t[1] + t[2]) / 3, small.n, large.p));
-                double area = double{small.area};
-                CHECK(form_factor({small}, {large}) ==
-                      doctest::Approx(F.mean()).epsilon(1e-3).scale(0));
-                CHECK(form_factor({large}, {small}) * double{large.area} / area ==
-                      doctest::Approx(F.mean()).epsilon(1e-3).scale(0));
+                Vec3 o = {0.31f, 0.29f, distance}, down = {0, 0, -1};
+                Corners small = {o, o + Vec3{0, size, 0}, o + Vec3{size, 0, 0}};
+                RunningStats F;  // from 32 x 32 points, on which it hardly depends
+                for_each_in_grid(small, 32, [&](const Corners& t) {
+                    F.add(ch26::point_to_polygon((t[0] + t[1] + t[2]) / 3, down, large));
+                });
+                std::vector<Vec3> corners(small.begin(), small.end());
+                double back = form_factor(large, corners) / double{size} / double{size};
+                CHECK(form_factor(corners, large) == about(F.mean(), 1e-3));
+                CHECK(back == about(F.mean(), 1e-3));
             }
-        }
     }
 
     TEST_CASE("truth: what a wall hides: half of a square is seen past it") {
         // The wall stands in the plane x = 1/2 and hides all that is beyond it.
-        Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-        Scene scene = world_of("Translate 0 0 0 " +
-                               emitting(1, 0.5, mesh(quad({0.5f, -9, -9}, 18 * y, 18 * z))));
-        auto low = patch_of({}, 0.5f * x, y), here = patch_of(z, z + y, z + 0.5f * x);
-        auto beyond = patch_of(z + x, z + 0.6f * x, z + 0.8f * x + y);
-        REQUIRE(dot(beyond.n, z) < 0);
-        CHECK(ch26::exchange(scene, low, here, 1) > 0);
-        CHECK(ch26::exchange(scene, low, beyond, 1) == 0);
+        std::string wall = diffuse(0) + mesh(quad({0.5f, -9, -9}, 18 * Y, 18 * Z));
+        std::vector<Vec3> low = {{}, 0.5f * X, Y}, here = {Z, Z + Y, Z + 0.5f * X};
+        std::vector<Vec3> beyond = {Z + X, Z + 0.6f * X, Z + 0.8f * X + Y};
+        CHECK(form_factor(low, here, wall) > 0);
+        CHECK(form_factor(low, beyond) > 0);
+        CHECK(form_factor(low, beyond, wall) == 0);
     }
 
-    TEST_CASE("identity: repaired rows sum to 1, and both ends agree" * doctest::skip()) {
-        std::vector<Vec3> block = quad({0.3f, 0.3f, 0.3f}, {0.3f, 0.1f, 0}, {0, 0.1f, 0.4f});
-        Scene scene = cube_room(0.5, 1, diffuse(0.3) + mesh(block));
+    TEST_CASE("identity: repaired rows sum to 1, and both ends agree") {
+        Scene scene = world_of(furnished);
         Room raw(scene, 150, false), room(scene, 150);
-        REQUIRE(room.patches.closed);
-        double worst = 0, worst_raw = 0;
+        REQUIRE(room.patches->closed);
+        double off = 0;
         for (size_t i = 0; i < room.G.size(); i++) {
-            worst = std::max(worst, std::abs(room.row_sum(i) - 1));
-            worst_raw = std::max(worst_raw, std::abs(raw.row_sum(i) - 1));
+            off = std::max(off, std::abs(raw.row_sum(i) - 1));
+            CHECK(std::abs(room.row_sum(i) - 1) < 1e-6);
             for (size_t j = 0; j < i; j++) CHECK(room.G[i][j] == room.G[j][i]);
         }
-        CHECK(worst < 1e-6);
-        CHECK(worst_raw > 1e-3);  // there was something to repair
+        CHECK(off > 1e-3);  // there was something to repair
         // In an open room rows sum to at most 1, and those that were right stay so.
         Room open(scene_from("scenes/cornell.pbrt", 32, 5), 300);
-        CHECK_FALSE(open.patches.closed);
+        CHECK_FALSE(open.patches->closed);
         for (size_t i = 0; i < open.G.size(); i++) CHECK(open.row_sum(i) < 1 + 1e-6);
-    }
-
-    TEST_CASE(
-        "identity: rows are the same for any threads and order, and each pair is asked once") {
-        constexpr uint32_t n = 300;  // more than one block of 256
-        std::atomic<int> asked = 0;
-        auto exchange = [&](uint32_t i, uint32_t j) {
-            CHECK(i < j);
-            asked++;
-            return (i + 2.0 * j) / 100;
-        };
-        Matrix G(n), backwards(n);
-        for (uint32_t i = 0; i < n; i++) ch26::row_of(G, i, 1, exchange);
-        CHECK(asked == n * (n - 1) / 2);
-        for (uint32_t i = n; i-- > 0;) ch26::row_of(backwards, i, 7, exchange);
-        CHECK(G == backwards);
-        CHECK(G[3][290] == static_cast<float>((3 + 2.0 * 290) / 100));
-        CHECK(G[290][3] == G[3][290]);
-        CHECK(G[290][290] == 0);
     }
 }
 
 TEST_SUITE("ch26 patches") {
     TEST_CASE("identity: patches cover what has light, and each point finds its patch") {
-        Scene scene = scene_from("scenes/cornell.pbrt", 32, 5);
+        Scene scene = world_of(furnished);
         Patches patches = make_patches(scene, 2000, all_threads());
         CHECK(patches.patch.size() >= 2000);
         CHECK(patches.patch.size() < 2200);
-        double area = 0, whole = 0;
+        double area = 0;
         for (const Patch& p : patches.patch) {
             area += double{p.area};
             for (std::array<float, 3> b : {std::array{0.4f, 0.3f, 0.3f}, {0.1f, 0.8f, 0.1f}}) {
                 Vec3 at = b[0] * p.p[0] + b[1] * p.p[1] + b[2] * p.p[2];
-                auto x = intersect(scene, {at + 1e-2f * p.n, -p.n});
+                auto x = intersect(scene, {at + 1e-4f * p.n, -p.n});
                 REQUIRE(x);
                 Place place = place_of(patches, *x);
                 REQUIRE(place.patch != no_side);
@@ -295,182 +202,145 @@ TEST_SUITE("ch26 patches") {
                 for (size_t c = 0; c < 3; c++) CHECK(std::abs(place.b[c] - b[c]) < 2e-3);
             }
         }
-        for (uint32_t prim = 0; prim < scene.geometry.triangles.size(); prim++) {
-            auto t = corners(scene, prim);
-            whole += double{length(cross(t[1] - t[0], t[2] - t[0])) / 2};
-        }
-        // The lamp has two sides, one of which sees the ceiling; and so have the blocks, since
-        // patches of the floor lie below their sides.
-        double lamp = 130.0 * 105, blocks = 165.0 * (6 * 165 + 4 * 330);
-        CHECK(area == doctest::Approx(whole + lamp + blocks).epsilon(2e-3).scale(0));
+        CHECK(area == about(6 + 2 * 0.13, 1e-5));  // the board in it has light on both sides
     }
 
     TEST_CASE("input: what has no radiosity is refused, with its place in the file") {
-        std::string lamp = emitting(1, 0.5, mesh(cube_faces()[0]));
-        auto refusal = [&](const std::string& more) {
-            return error_of([&] { refuse(world_of(lamp + '\n' + more)); });
+        std::string lamp = emitting(1, 0.5, square(0, true)) + '\n';
+        auto refusal = [](const std::string& world) {
+            return error_of([&] { refuse(world_of(world)); });
         };
-        CHECK(refusal(mesh(cube_faces()[1])) == "");
-        auto reflecting = [](double rho) { return error_of([&] { refuse(cube_room(rho, 1)); }); };
-        CHECK(
-            reflecting(1).starts_with("test.pbrt: error: radiosity needs a surface that absorbs"));
-        CHECK(reflecting(0.999) == "");
+        CHECK(refusal(lamp + square(9, false)) == "");
+        CHECK(refusal(cube(0.999, 1)) == "");
+        CHECK(refusal(cube(1, 1)).starts_with("test.pbrt: error: radiosity needs a surface that"));
         for (const char* directive :
              {"Material \"dielectric\"", "Material \"conductor\" \"float roughness\" 0.3",
               "LightSource \"point\"", "LightSource \"infinite\""}) {
-            std::string text = refusal(std::string(directive) + "\n" + mesh(cube_faces()[1]));
+            std::string text = refusal(lamp + directive + "\n" + square(9, false));
             CHECK(text.starts_with("test.pbrt:9:1: error: radiosity knows "));
         }
-    }
-
-    TEST_CASE("input: a sphere or disk too small to be cut into triangles is refused") {
-        const std::string lamp = "Translate 3 2 1\nShape \"";
-        for (const char* kind : {"sphere", "disk"}) {
+        // Shapes too small to be cut into triangles.
+        for (std::string kind : {"sphere", "disk"})
             for (auto [radius, refused] : {std::pair{"1e-9", true}, {"1e-4", false}}) {
-                Scene scene = world_of(
-                    emitting(1, 0.5, lamp + kind + "\" \"float radius\" " + radius + "\n"));
+                std::string shape = "Shape \"" + kind + "\" \"float radius\" " + radius;
+                Scene scene = world_of("Translate 3 2 1 " + emitting(1, 0.5, shape + "\n"));
                 CHECK(error_of([&] { tessellate(scene, 2); }).empty() == !refused);
             }
-        }
     }
 }
 
 TEST_SUITE("ch26 solvers") {
     TEST_CASE("truth: parallel plates, concentric spheres and the cube as matrices") {
-        auto gray = [](float area, float rho, float E) {
-            Patch p;
-            p.area = area, p.rho = {rho, rho, rho}, p.E = {E, E, E};
-            return p;
-        };
         std::vector<Patch> plates = {gray(1, 0.5f, 1), gray(1, 0.8f, 0)};
-        Solution s = solved({{0, 1}, {1, 0}}, plates);
-        CHECK(B_of(plates[0], s, 0) == doctest::Approx(5.0 / 3).epsilon(1e-7).scale(0));
-        CHECK(B_of(plates[1], s, 1) == doctest::Approx(4.0 / 3).epsilon(1e-7).scale(0));
+        CHECK(B_of({{0, 1}, {1, 0}}, plates, 0) == about(5.0 / 3, 1e-7));
+        CHECK(B_of({{0, 1}, {1, 0}}, plates, 1) == about(4.0 / 3, 1e-7));
         // Areas 1 and 4: the inner sees the outer alone, the outer also itself.
         std::vector<Patch> spheres = {gray(1, 0.5f, 1), gray(4, 0.5f, 0)};
-        s = solved({{0, 1}, {1, 3}}, spheres);
-        CHECK(B_of(spheres[0], s, 0) == doctest::Approx(10.0 / 9).epsilon(1e-9).scale(0));
-        CHECK(B_of(spheres[1], s, 1) == doctest::Approx(2.0 / 9).epsilon(1e-9).scale(0));
-        SixPatches cube(0.8);
-        s = solved(cube.G, cube.patch);
-        CHECK(B_of(cube.patch[0], s, 0) == doctest::Approx(1.551724153645).epsilon(5e-7).scale(0));
-        CHECK(B_of(cube.patch[1], s, 1) == doctest::Approx(0.6895510707376).epsilon(2e-6).scale(0));
-        CHECK(B_of(cube.patch[2], s, 2) == doctest::Approx(0.6896811939044).epsilon(2e-6).scale(0));
+        CHECK(B_of({{0, 1}, {1, 3}}, spheres, 0) == about(10.0 / 9, 1e-9));
+        CHECK(B_of({{0, 1}, {1, 3}}, spheres, 1) == about(2.0 / 9, 1e-9));
+        Matrix G(6, std::vector<float>(6, static_cast<float>(beside)));
+        for (size_t i = 0; i < 6; i++) G[i][i] = 0, G[i][i ^ 1] = static_cast<float>(opposite);
+        std::vector<Patch> faces(6, gray(1, 0.8f, 0));
+        faces[0].E = {1, 1, 1};
+        CHECK(B_of(G, faces, 0) == about(1.551724153645, 5e-7));
+        CHECK(B_of(G, faces, 1) == about(0.6895510707376, 2e-6));
+        CHECK(B_of(G, faces, 2) == about(0.6896811939044, 2e-6));
     }
 
     TEST_CASE("truth: sweeps end by what is still to come, not by the change") {
         // At 0.99 a change of 1e-3 hides up to 0.099.
-        SixPatches cube(0.99, 6);
-        double rho = double{cube.patch[0].rho.g}, truth = 1 / (1 - rho);
-        for (double wanted : {1e-2, 1e-4, 1e-8}) {
+        std::vector<Patch> plates(2, gray(1, 0.99f, 1));
+        double truth = 1 / (1 - double{plates[0].rho.g});
+        for (double wanted : {1e-2, 1e-4, 1e-8})
             for (Sweep kind : {Sweep::jacobi, Sweep::gauss_seidel}) {
                 Solution s;
-                ch26::solve(cube.G, cube.patch, kind, wanted, s);
-                double off = std::abs(B_of(cube.patch[0], s, 0) / truth - 1);
+                ch26::solve({{0, 1}, {1, 0}}, plates, kind, wanted, s);
+                double off = std::abs(ch26::radiosity_of(plates[0], s.H[0]).g / truth - 1);
                 CHECK(off < 1.05 * wanted);
                 CHECK(off > wanted / 100);
             }
-        }
     }
 
     TEST_CASE("identity: all that lamps emit is absorbed, escapes, or is unshot") {
         for (bool closed : {true, false}) {
             CAPTURE(closed);
-            Scene scene = closed ? cube_room(0.5, 1) : scene_from("scenes/cornell.pbrt", 32, 5);
-            Room room(scene, 200);
-            REQUIRE(room.patches.closed == closed);
-            const std::vector<Patch>& patch = room.patches.patch;
-            Solution shots;
-            ch26::start(patch, shots);
-            for (int i = 0; i < 777; i++) shoot_next(room.patches, room.G, shots);
-            for (const Solution& s : {solved(room.G, patch), shots}) {
-                ch26::Balance b = balance_of(patch, s);
-                CHECK(std::abs(b.error()) < 1e-9);
-                CHECK(b.absorbed > 0.3 * b.emitted);
-                if (closed) CHECK(std::abs(b.escaped) < 1e-6 * b.emitted);
-                if (!closed) CHECK(b.escaped > 0.2 * b.emitted);
+            Room room(closed ? world_of(cube(0.5, 1)) : scene_from("scenes/cornell.pbrt", 32, 5),
+                      150);
+            REQUIRE(room.patches->closed == closed);
+            const std::vector<Patch>& patch = room.patches->patch;
+            auto shoot = [&](uint64_t shots) {
+                RenderOptions options;
+                options.quiet = true, options.threads = 2;
+                return ch26::refine(*room.patches, room.G, room.exchange, shots, Limit(0), options);
+            };
+            Solution a = room.swept(Sweep::jacobi), b = room.swept();
+            Solution some = shoot(777), shots = shoot(30000);
+            CHECK(a.steps > b.steps);
+            for (size_t i = 0; i < patch.size(); i++) {
+                CHECK(a.H[i].r == about(b.H[i].r, 1e-8));
+                CHECK(shots.H[i].r == about(b.H[i].r, 1e-6));
             }
-        }
-    }
-
-    TEST_CASE("agreement: Jacobi, Gauss-Seidel and shots find the same") {
-        Room room(scene_from("scenes/cornell.pbrt", 32, 5), 150);
-        const std::vector<Patch>& patch = room.patches.patch;
-        Solution a, b = solved(room.G, patch), c;
-        ch26::solve(room.G, patch, Sweep::jacobi, 1e-12, a);
-        ch26::start(patch, c);
-        while (ch26::share_to_come(patch, c) > 1e-9 && shoot_next(room.patches, room.G, c)) {
-        }
-        CHECK(a.steps > b.steps);
-        for (size_t i = 0; i < patch.size(); i++) {
-            CHECK(a.H[i].r == doctest::Approx(b.H[i].r).epsilon(1e-9).scale(0));
-            CHECK(c.H[i].r == doctest::Approx(b.H[i].r).epsilon(1e-6).scale(0));
+            for (const Solution& s : {b, some, shots}) {
+                ch26::Balance balance = balance_of(patch, s);
+                CHECK(std::abs(balance.error()) < 1e-9);
+                CHECK(balance.absorbed > 0.3 * balance.emitted);
+                if (closed) CHECK(std::abs(balance.escaped) < 1e-6 * balance.emitted);
+                if (!closed) CHECK(balance.escaped > 0.2 * balance.emitted);
+            }
         }
     }
 
     TEST_CASE("identity: spheres and disks made meshes keep area, power and the side that shines") {
         // The lamps are not the first shapes, nor the last.
         std::string shapes =
-            diffuse(0.5) + "Shape \"sphere\" \"float radius\" 0.5\n" + mesh(cube_faces()[0]) +
-            emitting(1, 0.5, "Translate 5 0 0 Shape \"disk\"\n") +
+            diffuse(0.5) + "Shape \"sphere\" \"float radius\" 0.5\n" + square(9, false) +
+            emitting(1, 0.5, "Translate 5 0 0 Shape \"disk\" \"float radius\" 2\n") +
             emitting(2, 0.5, "Translate 9 0 0 ReverseOrientation Shape \"sphere\"\n") +
-            emitting(3, 0.5, mesh(cube_faces()[1])) + "Shape \"disk\"\n";
+            emitting(3, 0.5, square(8, true)) + "Translate 0 0 -5 Shape \"disk\"\n";
         Scene before = world_of(shapes), after = world_of(shapes);
-        tessellate(after, 2);
-        CHECK(after.geometry.spheres.empty());
-        CHECK(after.geometry.disks.empty());
-        CHECK(after.geometry.triangles.size() == 4 + 2 * 512 + 2 * 32);
-        for (size_t i = 0; i < 3; i++) {
-            CAPTURE(i);
-            double power = double{light_power(before, i)};
-            CHECK(double{light_power(after, i)} == doctest::Approx(power).epsilon(1e-4).scale(0));
-            // All its triangles say so, and shine where the shape did.
-            const Light& light = after.lights[i];
-            for (uint32_t k = 0; k < light.prims; k++) {
-                uint32_t prim = light.first_prim + k;
-                CHECK(after.shapes[after.geometry.triangles[prim].shape].light ==
-                      static_cast<int>(i));
-                auto t = corners(after, prim);
-                Vec3 at = (t[0] + t[1] + t[2]) / 3, n = after.geometry.facet_normals[prim];
-                for (float side : {1.0f, -1.0f}) {
-                    Ray ray = {at + side * 0.1f * n, -side * n};
-                    auto x = intersect(after, ray), y = intersect(before, ray);
-                    REQUIRE(x);
-                    REQUIRE(y);
-                    CHECK(emission(after, *x) == emission(before, *y));
-                    CHECK(is_black(emission(after, *x)) == (side < 0));
-                }
+        CHECK(tessellate(after, 2) == 2 * 512 + 2 * 32);
+        CHECK(after.geometry.size() == 4 + 2 * 512 + 2 * 32);
+        for (size_t i = 0; i < 3; i++)
+            CHECK(double{light_power(after, i)} == about(double{light_power(before, i)}, 1e-4));
+        // All triangles shine where the shape did, and are as large in all.
+        std::map<uint32_t, double> area;
+        for (uint32_t prim = 0; prim < after.geometry.triangles.size(); prim++) {
+            auto t = corners(after, prim);
+            Vec3 at = (t[0] + t[1] + t[2]) / 3, n = after.geometry.facet_normals[prim];
+            area[after.geometry.triangles[prim].shape] +=
+                double{length(cross(t[1] - t[0], t[2] - t[0]))} / 2 / pi_exact;
+            for (float side : {1.0f, -1.0f}) {
+                Ray ray = {at + side * 0.1f * n, -side * n};
+                auto x = intersect(after, ray), y = intersect(before, ray);
+                REQUIRE(x);
+                REQUIRE(y);
+                CHECK(emission(after, *x) == emission(before, *y));
             }
         }
-    }
-
-    TEST_CASE("truth: the ambient estimate is exact where light is even") {
-        // Nothing is shot yet: what is to come is E rho / (1 - rho) everywhere.
-        Room even(cube_room(0.5, 6), 12);
-        Solution s;
-        ch26::start(even.patches.patch, s);
-        Radiosity H = ch26::ambient(even.patches.patch, s);
-        CHECK(H.g == doctest::Approx(2).epsilon(1e-5).scale(0));
-        CHECK(ch26::share_to_come(even.patches.patch, s) == 1);
+        for (auto [shape, truth] : {std::pair{0u, 1}, {2u, 4}, {3u, 4}, {5u, 1}})
+            CHECK(area[shape] == about(truth, 1e-4));
     }
 }
 
 TEST_SUITE("ch26 radiosity") {
     TEST_CASE("furnace: a closed cube that emits 1 shows 1 / (pi (1 - rho)) in every way") {
-        for (Show how : {Show::constant, Show::smooth}) {
-            Scene scene = cube_room(0.5, 6);
-            scene.camera.o = {0.5f, 0.4f, 0.3f};
-            scene.width = scene.height = 16;
-            Film film = film_of(scene, by_radiosity(scene, 48, how), 4).film;
-            double truth = 2 / pi_exact;
-            CHECK(film.mean() == doctest::Approx(truth).epsilon(1e-5).scale(0));
-            for (Rgb L : film.image().pixels)
-                CHECK(double{L.g} == doctest::Approx(truth).epsilon(1e-4).scale(0));
-        }
+        Scene scene = world_of(cube(0.5, 6));
+        scene.camera.o = {0.5f, 0.4f, 0.3f};
+        scene.width = scene.height = 16;
+        Room room(scene, 48);
+        Solution unshot;  // all of the light is still to come
+        ch26::start(room.patches->patch, unshot);
+        for (const Solution& s : {room.swept(), unshot})
+            for (Show how : {Show::constant, Show::smooth}) {
+                Shown shown = ch26::show(scene, room.patches, s, how, all_threads());
+                Film film = film_of(scene, method_of<ch26::trace>(shown), 4).film;
+                CHECK(film.mean() == about(2 / pi_exact, 1e-5));
+                for (Rgb L : film.image().pixels) CHECK(double{L.g} == about(2 / pi_exact, 1e-4));
+            }
     }
 
     TEST_CASE("identity: a smooth picture has no more light than its patches, and none below 0") {
-        Scene scene = cube_room(0.5, 6);
+        Scene scene = world_of(cube(0.5, 6));
         auto patches = std::make_shared<Patches>(make_patches(scene, 300, 2));
         const std::vector<Patch>& patch = patches->patch;
         for (size_t bright = 0; bright < patch.size(); bright += 7) {
@@ -493,27 +363,30 @@ TEST_SUITE("ch26 radiosity") {
         }
     }
 
-    TEST_CASE("agreement: a gray Cornell box with chapter 15, closer with more patches" *
+    TEST_CASE("agreement: a gray Cornell box with chapter 15, and by paths that end at patches" *
               doctest::skip()) {
         // The same seed takes the same points of each pixel: edges cancel.
         Scene scene = scene_from("tests/pictures/references/cornell-grey.pbrt", 64, 60);
-        constexpr int spp = 64;
-        Film paths = film_of(scene, method_of<ch15::trace>(ch15::prepare(scene)), spp).film;
-        double before = 1;
-        for (size_t wanted : {size_t{80}, size_t{320}, size_t{1280}}) {
-            CAPTURE(wanted);
-            Film film = film_of(scene, by_radiosity(scene, wanted, Show::smooth), spp).film;
-            double squares = 0;
-            for (int y = 0; y < 64; y += 4)
-                for (int x = 0; x < 64; x += 4) {
-                    double a = block_of(film, x, y, 4).mean, b = block_of(paths, x, y, 4).mean;
-                    squares += (a - b) * (a - b) / (b * b + 0.01) / 256;
-                }
-            CHECK(squares < 0.7 * before);
-            before = squares;
-            CHECK(std::abs(film.mean() / paths.mean() - 1) < (wanted > 1000 ? 0.015 : 0.04));
-        }
-        CHECK(before < 0.01);
+        Room room(scene, 1280);
+        Shown shown = ch26::show(scene, room.patches, room.swept(), Show::smooth, all_threads());
+        Film patches = film_of(scene, method_of<ch26::trace>(shown), 64).film;
+        Film paths = film_of(scene, method_of<ch15::trace>(ch15::prepare(scene)), 64).film;
+        double squares = 0;
+        for (int y = 0; y < 64; y += 4)
+            for (int x = 0; x < 64; x += 4) {
+                double a = block_of(patches, x, y, 4).mean, b = block_of(paths, x, y, 4).mean;
+                squares += (a - b) * (a - b) / (b * b + 0.01) / 256;
+            }
+        CHECK(squares < 0.01);
+        CHECK(std::abs(patches.mean() / paths.mean() - 1) < 0.015);
+
+        LightTable lights = build_light_table(light_pmf(scene, 0.25));
+        Method by_path = [&](const Scene&, Ray ray, Sampler& sampler, Recorder&) {
+            std::optional<Hit> x = intersect(scene, ray);
+            if (!x) return Rgb{};
+            return emission(scene, *x) + ch26::by_path(scene, shown, lights, *x, -ray.d, sampler);
+        };
+        check_agreement(hold_against(film_of(scene, by_path, 128, 2).film, paths, 16), 0.01);
     }
 
     TEST_CASE("truth: corners follow radiosity that rises evenly, and stop at an edge") {
@@ -522,77 +395,60 @@ TEST_SUITE("ch26 radiosity") {
                                diffuse(0.25) + square(0, true) +
                                "AreaLightSource \"diffuse\" Translate -1 5 0 " + square(0, false));
         auto patches = std::make_shared<Patches>(make_patches(scene, 400, 2));
-        const std::vector<Patch>& patch = patches->patch;
-        std::vector<Rgb> B;
         auto value = [](Vec3 p) { return p.x < 1 ? 3 + p.x + 0.5f * p.z : 1.0f; };
-        for (const Patch& p : patch) {
-            float b = value(p.centre);
-            B.push_back(p.centre.y > 1 ? Rgb{9, 9, 9} : Rgb{b, b, b});
-        }
+        std::vector<Rgb> B;
+        for (const Patch& p : patches->patch)
+            B.push_back((p.centre.y > 1 ? 9 : value(p.centre)) * Rgb{1, 1, 1});
         Shown shown = ch26::make_shown(scene, patches, B, Show::smooth, 2);
-        int inner = 0, right = 0;
-        for (size_t i = 0; i < patch.size(); i++) {
-            Rgb sum;
+        int inner = 0;
+        for (size_t i = 0; i < B.size(); i++) {
+            const Patch& patch = patches->patch[i];
+            bool rises = patch.centre.x < 1 && patch.centre.y < 1;
             for (size_t c = 0; c < 3; c++) {
-                Vec3 p = patch[i].p[c];
-                Rgb b = shown.B[i][c];
-                sum += b / 3;
-                if (p.y > 1) CHECK(b.g == doctest::Approx(9).epsilon(1e-5).scale(0));
-                right += patch[i].centre.x > 1 && p.y < 1;
-                if (patch[i].centre.x > 1 && p.y < 1)
-                    CHECK(b.g == doctest::Approx(1).epsilon(1e-5).scale(0));
-                bool is_inner = std::max(std::abs(p.x), std::abs(p.z)) < 0.7f;
-                if (patch[i].centre.x > 1 || p.y > 1 || !is_inner) continue;
-                CHECK(std::abs(b.g - value(p)) < 0.03f);
-                inner++;
+                Vec3 p = patch.p[c];
+                bool is_inner = rises && std::max(std::abs(p.x), std::abs(p.z)) < 0.7f;
+                if (is_inner) CHECK(std::abs(shown.B[i][c].g - value(p)) < 0.03f);
+                if (!rises) CHECK(std::abs(shown.B[i][c].g / B[i].g - 1) < 1e-5f);
+                inner += is_inner;
             }
-            CHECK(std::abs(sum.g / B[i].g - 1) < 0.03f);  // the light of each patch
         }
         CHECK(inner > 100);
-        CHECK(right > 100);
     }
 }
 
 TEST_SUITE("ch26 program") {
-    TEST_CASE("identity: radiosity has the same bytes for 1, 2 and 7 threads" * doctest::skip()) {
-        TemporaryFolder folder;
-        std::string first;
-        for (const char* threads : {"1", "2", "7"}) {
-            Finished end = run_program_with(
-                {"--quiet", "--patches", "150", "--threads", threads, "--out", folder / "a.pfm"});
-            CHECK(end.code == 0);
-            std::string bytes = read_file(folder / "a.pfm");
-            if (first.empty()) first = bytes;
-            CHECK(bytes == first);
-        }
-    }
-
     TEST_CASE("failure: patches wider than their distance to a light: too bright, and a warning" *
               doctest::skip()) {
         TemporaryFolder folder;
-        for (auto [path, is_wrong] : {std::pair{"scenes/near-light.pbrt", true},
-                                      {"scenes/cornell.pbrt", false},
-                                      {"scenes/color-bleeding.pbrt", false}}) {
-            const char* scene = path;
+        for (auto [name, is_wrong] :
+             {std::pair{"near-light", true}, {"cornell", false}, {"color-bleeding", false}}) {
+            std::string scene = "scenes/" + std::string(name) + ".pbrt";
             CAPTURE(scene);
             Finished end = run_program_with({"--patches", "600", "--out", folder / "a.pfm"}, scene);
             CHECK(end.code == 0);
-            const std::string reflect = "\nsurfaces reflect ";
-            size_t at = end.out.find(reflect);
-            REQUIRE(at != end.out.npos);
-            at = end.out.find("\nwarning: the light that surfaces reflect is wrong: ");
-            CHECK((at != end.out.npos) == is_wrong);
+            bool warns = end.out.find("\nwarning: the light that surfaces ") != end.out.npos;
+            CHECK(warns == is_wrong);
         }
     }
 
     TEST_CASE(
         "truth: a room that is 10,000 times dimmer than the one beside it has its own light") {
         TemporaryFolder folder;
-        std::string dim = even_cube(1, 0.5), bright = "Translate 2 0 0\n" + even_cube(1e4, 0.5);
-        Words words = {"--quiet", "--patches", "24", "--out", folder / "a.pfm"};
-        CHECK(run_program_with(words, file_of(folder, dim + bright)).code == 0);
+        std::string rooms = cube(0.5, 6) + "Translate 2 0 0\n" + cube(0.5, 6, 1e4), first;
+        write_file_atomically(folder / "rooms.pbrt",
+                              "LookAt 0.5 0.5 0.05  0.5 0.5 1  0 1 0\nCamera \"perspective\"\n"
+                              "PixelFilter \"box\"\nWorldBegin\n" +
+                                  rooms);
+        for (const char* threads : {"1", "2", "7"}) {
+            Words words = {"--quiet", "--patches",     "24", "--threads", threads,
+                           "--out",   folder / "a.pfm"};
+            CHECK(run_program_with(words, folder / "rooms.pbrt").code == 0);
+            std::string bytes = read_file(folder / "a.pfm");
+            if (first.empty()) first = bytes;
+            CHECK(bytes == first);
+        }
         for (Rgb L : read_image(folder / "a.pfm").pixels)
-            CHECK(double{L.g} == doctest::Approx(2 / pi_exact).epsilon(2e-3).scale(0));
+            CHECK(double{L.g} == about(2 / pi_exact, 2e-3));
     }
 
     TEST_CASE("files: --time soon ends solution and picture, which are written") {
@@ -604,43 +460,6 @@ TEST_SUITE("ch26 program") {
         CHECK(read_image(folder / "a.pfm").width == 33);
         CHECK(end.out.find("warning: sweeps ended before 100 % of the light had arrived") !=
               end.out.npos);
-    }
-
-    TEST_CASE("input: options that mean nothing to radiosity are refused") {
-        for (const Words& words : {Words{"--max-depth", "3"},
-                                   {"--explain", "1,1"},
-                                   {"--film", "a.film"},
-                                   {"--patches", "0"},
-                                   {"--patches", "1000000"},
-                                   {"--show", "nothing"},
-                                   {"--solver", "jacobi", "--shots", "5"}}) {
-            Finished end = run_program_with(words);
-            CAPTURE(words[0]);
-            CHECK(end.code == 2);
-            CHECK(std::count(end.err.begin(), end.err.end(), '\n') == 1);
-        }
-    }
-}
-
-TEST_SUITE("ch26 slow") {
-    TEST_CASE("agreement: paths that end at patches, with chapter 15") {
-        Scene scene = scene_from("scenes/cornell.pbrt", 32, 60);
-        Room room(scene, 2000);
-        Shown shown = ch26::show(scene, std::make_shared<Patches>(room.patches),
-                                 solved(room.G, room.patches.patch), Show::smooth, all_threads());
-        LightTable lights = build_light_table(light_pmf(scene, 0.25));
-        Method by_path = [&](const Scene&, Ray ray, Sampler& sampler, Recorder&) {
-            std::optional<Hit> x = intersect(scene, ray);
-            if (!x) return Rgb{};
-            return emission(scene, *x) + ch26::by_path(scene, shown, lights, *x, -ray.d, sampler);
-        };
-        Film film = film_of(scene, by_path, 512, 1).film;
-        Film paths = film_of(scene, method_of<ch15::trace>(ch15::prepare(scene)), 512, 1).film;
-        for (int y = 0; y < 32; y += 8)
-            for (int x = 0; x < 32; x += 8) {
-                Measured a = block_of(film, x, y, 8), b = block_of(paths, x, y, 8);
-                CHECK(z_between(a, b) < 5);
-                CHECK(std::hypot(a.se, b.se) < 0.04 * b.mean);
-            }
+        CHECK(run_program_with({"--solver", "jacobi", "--shots", "5"}).code == 2);
     }
 }
