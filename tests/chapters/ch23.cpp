@@ -6,8 +6,6 @@
 #include "tests/traces/15.h"
 #include "tests/traces/22.h"
 #include "tests/traces/23.h"
-#include "common/results/warnings.h"
-#include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"
 
@@ -39,21 +37,14 @@ std::vector<Photon> on_a_square(int n, Sampler& random, float flux) {
     return photons;
 }
 
-Material white_material() {
-    Material white;
-    white.reflectance = {1, 1, 1};
-    return white;
-}
-
 /// A point of a white floor, whose radiance is its irradiance / pi.
-struct Floor {
-    Material white = white_material();
-    Hit at(float x, float z) const {
-        Hit hit;
-        hit.p = {x, 0, z}, hit.n = hit.ng = {0, 1, 0}, hit.material = &white;
-        return hit;
-    }
-};
+Hit floor_at(float x, float z) {
+    static Material white;
+    white.reflectance = {1, 1, 1};
+    Hit hit;
+    hit.p = {x, 0, z}, hit.n = hit.ng = {0, 1, 0}, hit.material = &white;
+    return hit;
+}
 
 /// The irradiance at a point, estimated from photons within this radius.
 double irradiance_at(const Hit& x, const std::vector<Photon>& photons, float radius) {
@@ -61,49 +52,18 @@ double irradiance_at(const Hit& x, const std::vector<Photon>& photons, float rad
     return pi_exact * double{ch23::gather({}, PhotonMap(photons, radius), x, 9, recorder).g};
 }
 
-/// The chapter's picture of a scene.
-Film film_by(const Scene& scene, PhotonSettings settings, int spp, uint32_t seed = 1,
-             int threads = 2, const std::string& paths = "") {
-    Scene of_spp = scene;
-    of_spp.spp = spp;
-    RenderOptions options;
-    options.seed = settings.seed = seed;
-    options.sampler = settings.sampler;
-    options.threads = threads, options.quiet = true, options.paths = paths;
-    return render_film(of_spp, options, passes_of<ch23::photon_passes>(of_spp, settings)).film;
+Method by_15(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
+Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
+Method by_23(const Scene& scene, const PhotonSettings& settings) {
+    return passes_of<ch23::photon_passes>(scene, settings);
 }
 
-/// Means of a picture over seeds.
-Measured mean_over_seeds(const Scene& scene, const PhotonSettings& settings, int spp, int seeds,
-                         const std::string& paths = "") {
-    RunningStats means;
-    for (int seed = 1; seed <= seeds; seed++) {
-        means.add(film_by(scene, settings, spp, static_cast<uint32_t>(seed), 2, paths).mean());
-    }
-    return {means.mean(), means.standard_error()};
+/// The mean is that of the truth, but for 5 standard errors and a bias; both know it well.
+void check_near(const Measured& m, const Measured& truth, double bias, double relative_se) {
+    double se = std::hypot(m.se, truth.se);
+    CHECK(std::abs(m.mean - truth.mean) < 5 * se + bias * truth.mean);
+    CHECK(se < relative_se * truth.mean);
 }
-
-/// The same by another chapter: `trace` is its own.
-template <class AnyTrace>
-Measured mean_over_seeds_of(Scene scene, const AnyTrace& trace, int spp, int seeds,
-                            const std::string& paths) {
-    scene.spp = spp;
-    RunningStats means;
-    for (int seed = 1; seed <= seeds; seed++) {
-        RenderOptions options;
-        options.seed = static_cast<uint32_t>(seed);
-        options.threads = 2, options.quiet = true, options.paths = paths;
-        means.add(render_film(scene, options, trace).film.mean());
-    }
-    return {means.mean(), means.standard_error()};
-}
-Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
-
-/// A flat sheet that pretends to lean away from the sun by 45 degrees, towards (0, 1, -1).
-const std::string bent_sheet =
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-3 -3 0 -3 3 0 3 3 0 3 "
-    "-3 0]\n"
-    "\"normal N\" [0 1 -1 0 1 -1 0 1 -1 0 1 -1]\n";
 
 }  // namespace
 
@@ -173,9 +133,7 @@ TEST_SUITE("ch23 first radius") {
     }
 
     TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {
-        auto radius = [](const Scene& scene) {
-            return double{passes_of<ch23::photon_passes>(scene, PhotonSettings{}).first_radius};
-        };
+        auto radius = [](const Scene& scene) { return double{by_23(scene, {}).first_radius}; };
         const std::string glass =
             "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
             "\"float radius\" 0.4 AttributeEnd LightSource \"point\" \"point3 from\" [1 2 0] "
@@ -194,16 +152,6 @@ TEST_SUITE("ch23 first radius") {
 }
 
 TEST_SUITE("ch23 density of photons") {
-    TEST_CASE("truth: the kernel is 1 on average over the disk, and its square 4/3") {
-        double mean = 0, squares = 0;
-        for (int j = 0; j < 10000; j++) {  // d^2 is uniform
-            double k{ch23::kernel((static_cast<float>(j) + 0.5f) / 10000)};
-            mean += k / 10000, squares += k * k / 10000;
-        }
-        CHECK(mean == doctest::Approx(1).epsilon(1e-4).scale(0));
-        CHECK(squares == doctest::Approx(4.0 / 3).epsilon(1e-3).scale(0));  // TRUTHS G5
-    }
-
     TEST_CASE("truth: light at an edge and in a corner") {
         // The share that is found at the distance t r from the edge (TRUTHS G2 to G4).
         struct {
@@ -216,14 +164,13 @@ TEST_SUITE("ch23 density of photons") {
                      {1, 1}};
         constexpr int n = 2000, repeats = 200;
         constexpr float r = 0.1f;
-        Floor floor;
         for (const auto& c : cases) {
             RunningStats edge, corner;
             Sampler random = random_numbers(1);
             for (int repeat = 0; repeat < repeats; repeat++) {
                 auto photons = on_a_square(n, random, 1.0f / n);
-                edge.add(irradiance_at(floor.at(c.t * r, 0.5f), photons, r));
-                corner.add(irradiance_at(floor.at(0, 0), photons, r));
+                edge.add(irradiance_at(floor_at(c.t * r, 0.5f), photons, r));
+                corner.add(irradiance_at(floor_at(0, 0), photons, r));
             }
             check_bounded(edge, c.share, 0.03);
             check_bounded(corner, 0.25, 0.04);
@@ -234,7 +181,6 @@ TEST_SUITE("ch23 density of photons") {
         // Irradiance a + b |x|^2 around the middle: too bright by c r^2 laplacian = 4 b c r^2 (G6).
         constexpr int n = 2000, repeats = 200;
         constexpr float r = 0.4f;
-        Floor floor;
         RunningStats stats;
         Sampler random = random_numbers(1);
         for (int repeat = 0; repeat < repeats; repeat++) {
@@ -243,16 +189,15 @@ TEST_SUITE("ch23 density of photons") {
                 float x = photon.p.x - 0.5f, z = photon.p.z - 0.5f;
                 photon.flux = (1 + 8 * (x * x + z * z)) * photon.flux;
             }
-            stats.add(irradiance_at(floor.at(0.5f, 0.5f), photons, r));
+            stats.add(irradiance_at(floor_at(0.5f, 0.5f), photons, r));
         }
         check_bounded(stats, 1 + 32 / 12.0 * 0.16, 0.01);
     }
 
     TEST_CASE("failure: no light leaks through a thin wall, round a corner, or between sheets") {
-        Floor floor;
         Sampler random = random_numbers(1);
         auto photons = on_a_square(1000, random, 0.001f);
-        Hit x = floor.at(0.5f, 0.5f);
+        Hit x = floor_at(0.5f, 0.5f);
         CHECK(irradiance_at(x, photons, 0.1f) > 0.3);
         Hit behind = x;  // the other side of the same wall
         behind.n = behind.ng = {0, -1, 0};
@@ -267,54 +212,17 @@ TEST_SUITE("ch23 density of photons") {
 }
 
 TEST_SUITE("ch23 photon mapping") {
-    TEST_CASE("truth: irradiance of all lights, by photons alone" * doctest::skip()) {
-        auto all = lights_of_known_irradiance;
-        all.insert(all.end(), lights_without_size.begin(), lights_without_size.end());
-        for (const auto& [light, E] : all) {
-            if (E < 0.1) continue;  // too few photons come here
-            Scene scene = scene_of(
-                "LookAt 0 0.05 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 90\n"
-                "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n"
-                "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]\n" +
-                square(0, true) + "AttributeEnd\n" + light);
-            scene.max_depth = 1;
-            PhotonSettings settings{.light_paths = 40000, .final_gathering = false, .radius = 0.1f};
-            Measured m = mean_over_seeds(scene, settings, 4, 12);
-            double truth = 0.5 * E / pi_exact;
-            CHECK(std::abs(m.mean - truth) < 5 * m.se + 0.003 * truth);  // light is not quite even
-            CHECK(m.se < 0.05 * truth);
-        }
-    }
-
-    TEST_CASE("truth: the flux of a spot of light does not depend on the radius" *
-              doctest::skip()) {
-        const SpotByMirror spot;
-        const Scene& scene = spot.scene;
-        double truth = spot.mean;
-        for (bool final_gathering : {false, true}) {
-            for (float radius : {0.06f, 0.15f, 0.4f}) {
-                CAPTURE(final_gathering);
-                CAPTURE(radius);
-                PhotonSettings settings{.sampler = SamplerType::sobol,
-                                        .light_paths = 40000,
-                                        .final_gathering = final_gathering,
-                                        .radius = radius};
-                Measured m = mean_over_seeds(scene, settings, 4, 8, "LSDE");
-                CHECK(std::abs(m.mean - truth) < 5 * m.se);
-                CHECK(m.se < 0.004 * truth);
-            }
-        }
-    }
-
     TEST_CASE("failure: with one radius the error stops falling, where light is not even" *
               doctest::skip()) {
         Scene scene = bulb_over_a_floor();
-        Film exact = film_of(scene, by_fifteen(scene), 10000).film;
-        PhotonSettings settings{.light_paths = 1000, .final_gathering = false, .radius = 0.4f};
+        Film exact = film_of(scene, by_15(scene), 10000).film;
         auto error = [&](int spp) {
             RunningStats mse;
             for (uint32_t seed = 1; seed <= 6; seed++) {
-                mse.add(mean_squared_error(film_by(scene, settings, spp, seed), exact));
+                Method method = by_23(
+                    scene,
+                    {.seed = seed, .light_paths = 1000, .final_gathering = false, .radius = 0.4f});
+                mse.add(mean_squared_error(film_of(scene, method, spp, seed).film, exact));
             }
             return mse.mean();
         };
@@ -323,65 +231,31 @@ TEST_SUITE("ch23 photon mapping") {
         CHECK(many > 0.005);
     }
 
-    TEST_CASE("furnace: inside a sphere that emits 1 and reflects the albedo: 1 / (1 - albedo)" *
-              doctest::skip()) {
-        for (bool final_gathering : {false, true}) {
-            Scene scene = scene_of(
-                "LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 60\n"
-                "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
-                "ReverseOrientation AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
-                "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]\n"
-                "Shape \"sphere\" \"float radius\" [1]\n");
-            scene.max_depth = 200;
-            PhotonSettings settings{
-                .light_paths = 4000, .final_gathering = final_gathering, .radius = 0.2f};
-            Measured m = mean_over_seeds(scene, settings, 8, 10);
-            CAPTURE(final_gathering);
-            CHECK(std::abs(m.mean - 2) < 5 * m.se);
-            CHECK(m.se < 0.005);
-        }
-    }
-
     TEST_CASE("agreement: glossy metal, mirrors and glass with chapters 15 and 21" *
               doctest::skip()) {
         for (std::string name : {"veach-mis", "cornell-spheres"}) {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 5);
             const std::string classes = name == "veach-mis" ? "LDD+E" : "L(D|S)+E";
-            PhotonSettings settings{.light_paths = 5000, .radius = 0.01f * scene.radius};
-            Measured m = mean_over_seeds(scene, settings, 16, 8, classes);
-            Measured truth = mean_over_seeds_of(scene, method_of<ch22::trace>(ch22::prepare(scene)),
-                                                32, 8, classes);
-            CHECK(std::abs(m.mean - truth.mean) <
-                  5 * std::hypot(m.se, truth.se) + 0.01 * truth.mean);
-            CHECK(std::hypot(m.se, truth.se) < 0.015 * truth.mean);
+            Method method = by_23(scene, {.light_paths = 5000, .radius = 0.01f * scene.radius});
+            Measured m = picture_of(scene, method, 128, classes);
+            Measured truth = picture_of(scene, by_22(scene), 256, classes);
+            check_near(m, truth, 0.01, 0.015);
         }
     }
 
-    TEST_CASE("agreement: a lamp over a wide land, whose sky has a million times its power") {
-        Scene scene = scene_of(
-            "LookAt 0 0.5 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 40\n"
-            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
-            "LightSource \"infinite\" \"rgb L\" [1 1 1]\nAttributeBegin Scale 500 1 500\n" +
-            square(0, true) + "AttributeEnd\nAreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\n" +
-            "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + square(1, false));
-        Measured m = mean_over_seeds(scene, {.light_paths = 500}, 64, 10, "LDE");
-        Measured truth = mean_over_seeds_of(scene, by_fifteen(scene), 64, 10, "LDE");
-        CHECK(std::abs(m.mean - truth.mean) < 5 * std::hypot(m.se, truth.se));
-        CHECK(std::hypot(m.se, truth.se) < 0.02 * truth.mean);
-    }
-
     TEST_CASE("agreement: smoothed normals with chapter 15") {
-        // A coarse ball with the normals of a sphere, in the sun: photons alone, at small radii.
-        Scene scene =
-            world_of("LightSource \"distant\" \"point3 from\" [3 4 -5]\n" + bent_sheet, 16);
+        // A flat sheet that pretends to lean away from the sun by 45 degrees, towards (0, 1, -1):
+        // photons alone, at small radii.
+        Scene scene = world_of(
+            "LightSource \"distant\" \"point3 from\" [3 4 -5]\n"
+            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-3 -3 0 -3 3 "
+            "0 3 3 0 3 -3 0] \"normal N\" [0 1 -1 0 1 -1 0 1 -1 0 1 -1]\n",
+            16);
         scene.max_depth = 1;
-        Measured m = mean_over_seeds(
-            scene, {.light_paths = 40000, .final_gathering = false, .radius = 0.05f}, 4, 8);
-        Film film = film_of(scene, by_fifteen(scene), 256).film;
-        CHECK(std::abs(m.mean - film.mean()) <
-              5 * std::hypot(m.se, film.standard_error()) + 0.01 * film.mean());
-        CHECK(m.se < 0.01 * film.mean());
+        Method method =
+            by_23(scene, {.light_paths = 40000, .final_gathering = false, .radius = 0.05f});
+        check_near(picture_of(scene, method, 32), picture_of(scene, by_15(scene), 256), 0.01, 0.01);
     }
 
     TEST_CASE("failure: light that comes and is seen through glass: only photons find it" *
@@ -395,72 +269,14 @@ TEST_SUITE("ch23 photon mapping") {
             square(0, true) + "AttributeEnd Material \"dielectric\" Scale 3 1 3\n" +
             square(0.5f, true) + square(0.45f, false));
         scene.max_depth = 12;
-        auto both = method_of<ch22::trace>(ch22::prepare(scene));
-        CHECK(film_of(scene, both, 64).film.mean() == 0);
+        CHECK(picture_of(scene, by_22(scene), 64).mean == 0);
         // Straight through but for the glass: about I cos^3 / h^2 rho / pi of the light, 12 / 13
         // of it on the way down and on the way up.
+        double expected = 0.5 / pi_exact / 2.25 * std::pow(0.9, 1.5) * std::pow(12 / 13.0, 2);
         for (bool final_gathering : {false, true}) {
-            Measured m = mean_over_seeds(scene, {.final_gathering = final_gathering}, 4, 4);
-            double expected = 0.5 / pi_exact / 2.25 * std::pow(0.9, 1.5) * std::pow(12 / 13.0, 2);
-            CHECK(m.mean == doctest::Approx(expected).epsilon(0.1).scale(0));
+            Method method = by_23(scene, {.final_gathering = final_gathering});
+            CHECK(picture_of(scene, method, 16).mean ==
+                  doctest::Approx(expected).epsilon(0.1).scale(0));
         }
-    }
-
-    TEST_CASE("identity: parts add up to the whole, error included") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
-        scene.spp = 7;
-        RenderOptions options;
-        options.threads = 2, options.quiet = true, options.parts = 3;
-        PhotonSettings settings{.light_paths = 1000};
-        Film whole = film_by(scene, settings, 7, 0);
-        std::vector<Film> parts;
-        for (int part : {2, 3, 1}) {
-            options.part = part;
-            parts.push_back(
-                render_film(scene, options, passes_of<ch23::photon_passes>(scene, settings)).film);
-        }
-        parts[0].add(parts[1]);
-        parts[0].add(parts[2]);
-        CHECK(parts[0].image().pixels == whole.image().pixels);
-        CHECK(parts[0].standard_error() == whole.standard_error());
-        CHECK(whole.standard_error() > 0);
-    }
-
-    TEST_CASE("failure: nothing to count, no light, no diffuse surface") {
-        Scene none = floor_without_lights();
-        CHECK(film_by(none, {.light_paths = 100}, 2).mean() == 0);
-        Scene mirror = light_before_mirror();
-        Film film = film_by(mirror, {.light_paths = 100}, 8);
-        CHECK(film.mean() == doctest::Approx(film_of(mirror, by_fifteen(mirror), 64).film.mean())
-                                 .epsilon(0.05)
-                                 .scale(0));
-        Scene cornell = scene_from("scenes/cornell.pbrt", 8, 3);
-        Film few = film_by(cornell, {.light_paths = 1}, 4);
-        CHECK(std::isfinite(few.mean()));
-    }
-}
-
-TEST_SUITE("ch23 photon mapping slow") {
-    TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler" *
-              doctest::skip()) {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
-        for (SamplerType sampler :
-             {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-            PhotonSettings settings{
-                .sampler = sampler, .light_paths = 500, .final_gathering = false};
-            RunningStats means;
-            double reported = 0;
-            constexpr int runs = 40;
-            for (int run = 0; run < runs; run++) {
-                Film film = film_by(scene, settings, 32, static_cast<uint32_t>(run));
-                means.add(film.mean());
-                reported += film.standard_error() / runs;
-            }
-            double spread = std::sqrt(means.variance());
-            CAPTURE(reported / spread);
-            CHECK(reported / spread > 0.65);  // 40 runs: spread to 11 %, 32 passes: each to 13 %
-            CHECK(reported / spread < 1.5);
-        }
-        CHECK(std::isnan(film_by(scene, {.light_paths = 500}, 1).standard_error()));
     }
 }

@@ -1,51 +1,19 @@
 // Chapter 25: photons as one more strategy of the bidirectional chapters.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
 #include "tests/traces/22.h"
 #include "tests/traces/23.h"
 #include "tests/traces/25.h"
-#include "tests/measure/floor_in_mirror.h"
-#include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
-#include "tests/support/photons.h"
 #include "tests/support/whole_paths.h"
 
 template Method passes_of<ch25::merging_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
-RenderOptions options_of(uint32_t seed, const std::string& paths = "") {
-    RenderOptions options;
-    options.seed = seed, options.threads = 2, options.quiet = true, options.paths = paths;
-    return options;
-}
-
-const PhotonSettings as_usual = {.light_paths = 0};  // by the picture's size
-
-/// The chapter's picture of a scene.
-Film film_by(Scene scene, PhotonSettings settings, int spp, uint32_t seed = 1,
-             const std::string& paths = "") {
-    scene.spp = spp, settings.seed = seed;
-    return render_film(scene, options_of(seed, paths),
-                       passes_of<ch25::merging_passes>(scene, settings))
-        .film;
-}
-
-/// Means of blocks of the picture over `runs` seeds; of the classes of path that the filter
-/// matches.
-BlockMeans blocks_by(const Scene& scene, const PhotonSettings& settings, int spp, int runs,
-                     const std::string& paths = "") {
-    BlockMeans means{scene.width, 8};
-    for (int run = 0; run < runs; run++)
-        means.add(film_by(scene, settings, spp, static_cast<uint32_t>(run), paths).image());
-    return means;
-}
-
-/// A vertex of a path from the eye, as the walk of the lesson makes it.
-Vertex eye_vertex(const Scene& scene, const Endpoints& endpoints, const Hit& x, Vec3 from) {
-    Ray ray = {from, normalize(x.p - from)};
-    return vertex_at(scene, endpoints, x, ray, {1, 1, 1});
+Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
+Method by_25(const Scene& scene, const PhotonSettings& settings = {.light_paths = 0}) {
+    return passes_of<ch25::merging_passes>(scene, settings);
 }
 
 /// The weights of the lesson: of connections by s, then of merges by the number of their vertex;
@@ -56,7 +24,8 @@ std::vector<double> lesson_weights(const Scene& scene, ch25::Merging& merging,
     Subpath light = {true, path.from_light}, eye = {false, Path(1)};
     Vec3 from = eye.path[0].x.p = merging.endpoints.camera.view.o;
     for (const Hit& x : path.from_eye) {
-        eye.path.push_back(eye_vertex(scene, merging.endpoints, x, from));
+        Ray ray = {from, normalize(x.p - from)};
+        eye.path.push_back(vertex_at(scene, merging.endpoints, x, ray, {1, 1, 1}));
         from = x.p;
     }
     ch25::add_sums(scene, merging, light);
@@ -188,122 +157,35 @@ TEST_SUITE("ch25 vertex merging") {
     TEST_CASE("identity: where nothing is a mirror or glass, the path of chapter 22") {
         for (const char* name : {"cornell", "two-lights", "lamp", "horizon-sky", "veach-mis"}) {
             Scene scene = scene_from(std::string("scenes/") + name + ".pbrt", 16, 6);
-            scene.spp = 4;
-            Film own = film_by(scene, as_usual, 4);
-            auto by_22 = method_of<ch22::trace>(ch22::prepare(scene, 0));
-            Film other = render_film(scene, options_of(1), by_22).film;
+            Film own = film_of(scene, by_25(scene), 4).film;
+            Method by_22 = method_of<ch22::trace>(ch22::prepare(scene, 0));
             CHECK(own.mean() > 0);
-            CHECK(own.image().pixels == other.image().pixels);
+            CHECK(own.image().pixels == film_of(scene, by_22, 4).film.image().pixels);
         }
-    }
-
-    TEST_CASE("agreement: a light in glass with chapter 22, radii near 0" * doctest::skip()) {
-        Scene scene = scene_from("scenes/light-in-glass.pbrt", 24, 5);
-        auto by_22 = method_of<ch22::trace>(ch22::prepare(scene));
-        PhotonSettings settings{.light_paths = 2000, .radius = 0.01f * scene.radius};
-        BlockMeans own = blocks_by(scene, settings, 16, 12);
-        BlockMeans other = blocks_of(scene, by_22, 32, 12, 8);
-        CHECK(hold_against(own, other).agrees());
-        CHECK(own.whole.standard_error() < 0.02 * own.whole.mean());
-    }
-
-    TEST_CASE("truth: the flux of a spot of light does not depend on the radius, merged or not" *
-              doctest::skip()) {
-        const SpotByMirror spot;
-        const Scene& scene = spot.scene;
-        double truth = spot.mean;
-        for (float radius : {0.02f, 0.15f, 0.4f})
-            for (int light_paths : {100, 4000}) {
-                CAPTURE(radius);
-                CAPTURE(light_paths);
-                PhotonSettings settings{.light_paths = light_paths, .radius = radius};
-                Measured m = blocks_by(scene, settings, 64, 8, "LSDE").block(0, 0, 32);
-                CHECK(std::abs(m.mean - truth) < 5 * m.se);
-                CHECK(m.se < 0.04 * truth);
-            }
     }
 
     TEST_CASE("agreement: light through glass, seen through glass, with chapter 23" *
               doctest::skip()) {
         // No connection finds this light (chapter 21); photons do.
         Scene scene = scene_from("scenes/sds.pbrt", 32, 6);
-        PhotonSettings settings{.light_paths = 20000, .radius = scene.radius / 120};
-        Measured own = blocks_by(scene, settings, 8, 12, "LS+DS+E").block(0, 0, 32);
-        auto of_23 = [&](uint32_t seed) {
-            ch23::PhotonSettings s{.seed = seed, .light_paths = 20000};
-            Scene of_spp = scene;
-            of_spp.spp = 8;
-            return render_film(of_spp, options_of(seed, "LS+DS+E"),
-                               passes_of<ch23::photon_passes>(of_spp, s))
-                .film.mean();
-        };
-        RunningStats photons;
-        for (uint32_t seed = 1; seed <= 12; seed++) photons.add(of_23(seed));
+        Method by_23 =
+            passes_of<ch23::photon_passes>(scene, ch23::PhotonSettings{.light_paths = 20000});
+        Method method = by_25(scene, {.light_paths = 20000, .radius = scene.radius / 120});
+        Measured own = picture_of(scene, method, 96, "LS+DS+E");
         CHECK(own.mean > 0);
-        CHECK(std::abs(own.mean - photons.mean()) <
-              5 * std::hypot(own.se, photons.standard_error()));
+        CHECK(z_between(own, picture_of(scene, by_23, 96, "LS+DS+E")) < 5);
         CHECK(own.se < 0.02 * own.mean);
     }
 
     TEST_CASE("variance: light in mirrors: a fourth of the error of chapter 22" * doctest::skip()) {
         Scene scene = scene_from("scenes/sds.pbrt", 32, 8);
-        auto error = [](const BlockMeans& m) {
-            double sum = 0;
-            for (const RunningStats& s : m.blocks) sum += s.variance();
-            return sum;
-        };
-        auto by_22 = method_of<ch22::trace>(ch22::prepare(scene));
-        double own = error(blocks_by(scene, as_usual, 16, 8, "LS+D.*E"));
-        double other = error(blocks_of(scene, by_22, 16, 8, 8, "LS+D.*E"));
-        CAPTURE(other / own);
-        CHECK(own < other / 4);
-    }
-
-    TEST_CASE("identity: parts add up to the whole, error included") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
-        scene.spp = 7;
-        RenderOptions options = options_of(0);
-        Film whole =
-            render_film(scene, options, passes_of<ch25::merging_passes>(scene, as_usual)).film;
-        options.parts = 3;
-        std::vector<Film> parts;
-        for (int part : {2, 3, 1}) {
-            options.part = part;
-            parts.push_back(
-                render_film(scene, options, passes_of<ch25::merging_passes>(scene, as_usual)).film);
+        BlockMeans own{32, 8};
+        for (uint32_t seed = 0; seed < 8; seed++) {
+            Method method = by_25(scene, {.seed = seed, .light_paths = 0});
+            own.add(film_of_classes(scene, method, 16, "LS+D.*E", seed).image());
         }
-        parts[0].add(parts[1]);
-        parts[0].add(parts[2]);
-        CHECK(parts[0].image().pixels == whole.image().pixels);
-        CHECK(parts[0].standard_error() == whole.standard_error());
-        CHECK(whole.standard_error() > 0);
-    }
-
-    TEST_CASE("failure: no light, nothing diffuse, nothing but one light path") {
-        CHECK(film_by(floor_without_lights(), as_usual, 2).mean() == 0);
-        Scene mirror = light_before_mirror();
-        auto by_15 = method_of<ch15::trace>(ch15::prepare(mirror));
-        CHECK(film_by(mirror, as_usual, 8).mean() ==
-              doctest::Approx(film_of(mirror, by_15, 64).film.mean()).epsilon(0.05).scale(0));
-        Scene spheres = scene_from("scenes/cornell-spheres.pbrt", 8, 3);
-        CHECK(std::isfinite(film_by(spheres, {.light_paths = 1}, 4).mean()));
-    }
-}
-
-TEST_SUITE("ch25 vertex merging slow") {
-    TEST_CASE("consistency: the reported error is the spread over seeds, splats included") {
-        Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
-        RunningStats means;
-        double reported = 0;
-        constexpr int runs = 40;
-        for (int run = 0; run < runs; run++) {
-            Film film = film_by(scene, as_usual, 32, static_cast<uint32_t>(run));
-            means.add(film.mean());
-            reported += film.standard_error() / runs;
-        }
-        double spread = std::sqrt(means.variance());
-        CAPTURE(reported / spread);
-        CHECK(reported / spread > 0.65);  // 40 runs: spread to 11 %, 32 passes: each to 13 %
-        CHECK(reported / spread < 1.5);
+        BlockMeans other = blocks_of(scene, by_22(scene), 16, 8, 8, "LS+D.*E");
+        CAPTURE(other.variance() / own.variance());
+        CHECK(own.variance() < other.variance() / 4);
     }
 }

@@ -3,14 +3,19 @@
 #pragma once
 #include "tests/support/estimators.h"
 
-/// A picture's mean and its error; of the classes of path that the filter matches.
-inline Measured picture_of(Scene scene, const Method& method, int spp,
-                           const std::string& paths = "", uint32_t seed = 1) {
+/// A picture of the classes of path that the filter matches.
+inline Film film_of_classes(Scene scene, const Method& method, int spp, const std::string& paths,
+                            uint32_t seed = 1) {
     scene.spp = spp;
     RenderOptions options;
     options.threads = static_cast<int>(std::thread::hardware_concurrency());
     options.seed = seed, options.quiet = true, options.paths = paths;
-    Film film = render_film(scene, options, method).film;
+    return render_film(scene, options, method).film;
+}
+/// Its mean, and the standard error of this.
+inline Measured picture_of(const Scene& scene, const Method& method, int spp,
+                           const std::string& paths = "") {
+    Film film = film_of_classes(scene, method, spp, paths);
     return {film.mean(), film.standard_error()};
 }
 
@@ -55,18 +60,11 @@ struct BlockMeans {
 };
 
 /// `runs` pictures of a square scene; of the classes of path that the filter matches.
-template <class AnyTrace>
-BlockMeans blocks_of(Scene scene, const AnyTrace& trace, int spp, int runs, int side,
-                     const std::string& paths = "") {
+inline BlockMeans blocks_of(const Scene& scene, const Method& method, int spp, int runs, int side,
+                            const std::string& paths = "") {
     BlockMeans means{scene.width, side};
-    scene.spp = spp;
-    RenderOptions options;
-    options.threads = static_cast<int>(std::thread::hardware_concurrency());
-    options.quiet = true, options.paths = paths;
-    for (int run = 0; run < runs; run++) {
-        options.seed = static_cast<uint32_t>(run);
-        means.add(render_film(scene, options, trace).film.image());
-    }
+    for (int run = 0; run < runs; run++)
+        means.add(film_of_classes(scene, method, spp, paths, static_cast<uint32_t>(run)).image());
     return means;
 }
 inline Agreement hold_against(const BlockMeans& a, const BlockMeans& b) {

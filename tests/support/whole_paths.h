@@ -31,28 +31,18 @@ bool add_eye_vertices(const Scene& scene, const Pinhole& camera, WholePath<Path>
     return true;
 }
 
-/// A vector once more, in double.
-struct Exact {
-    double x, y, z;
-    explicit Exact(Vec3 v) : x(double{v.x}), y(double{v.y}), z(double{v.z}) {}
-    Exact(double a, double b, double c) : x(a), y(b), z(c) {}
-    Exact to(Exact b) const { return {b.x - x, b.y - y, b.z - z}; }
-    double dot(Exact b) const { return x * b.x + y * b.y + z * b.z; }
-    double length() const { return std::sqrt(dot(*this)); }
-    double cos(Exact b) const { return dot(b) / length() / b.length(); }
-};
+inline double cosine(Vec3d a, Vec3d b) { return dot(a, b) / std::sqrt(dot(a, a) * dot(b, b)); }
 
 /// The density, in sr^-1, with which a path goes on at x, where its normals are the surface's; the
 /// same from both sides. In double, and by formulas of its own.
-inline double density_onwards(const Hit& x, Exact from, Exact to) {
+inline double density_onwards(const Hit& x, Vec3d from, Vec3d to) {
     if (is_specular(*x.material)) return 1;
-    Exact n(x.ng);
-    double cos_o = from.cos(n), cos_i = to.cos(n);
+    Vec3d n(x.ng);
+    double cos_o = cosine(from, n), cos_i = cosine(to, n);
     if (cos_o * cos_i <= 0) return 0;
     if (x.material->type == MaterialType::diffuse) return std::abs(cos_i) / pi_exact;
-    double a = from.length(), b = to.length(), alpha = double{x.material->alpha};
-    double cos_h =
-        Exact(from.x / a + to.x / b, from.y / a + to.y / b, from.z / a + to.z / b).cos(n);
+    Vec3d half = from / std::sqrt(dot(from, from)) + to / std::sqrt(dot(to, to));
+    double cos_h = cosine(half, n), alpha = double{x.material->alpha};
     double D = alpha * alpha / pi_exact / std::pow(1 + cos_h * cos_h * (alpha * alpha - 1), 2);
     return D / (1 + RoughMetal{alpha, 0, 0}.lambda(cos_o)) / (4 * std::abs(cos_o));
 }
@@ -65,13 +55,13 @@ std::vector<double> densities_of(const Scene& scene, const Endpoints& endpoints,
                                  const WholePath<Path>& path, double area_of_merges = 0) {
     const auto& y = path.from_light;
     size_t n = y.size();  // vertices but the eye
-    auto p = [&](size_t i) { return Exact(i < n ? y[i].x.p : endpoints.camera.view.o); };
+    auto p = [&](size_t i) { return Vec3d(i < n ? y[i].x.p : endpoints.camera.view.o); };
     auto hit = [&](size_t i) { return path.from_eye[n - 1 - i]; };
     auto specular = [&](size_t i) { return i > 0 && i < n && is_specular(*y[i].x.material); };
-    auto to = [&](size_t a, size_t b) { return p(a).to(p(b)); };
+    auto to = [&](size_t a, size_t b) { return p(b) - p(a); };
     auto area = [&](size_t from, size_t at) {  // of one sr at `from`, in m^-2 at `at`
-        Exact d = to(from, at);
-        return std::abs(d.cos(Exact(hit(at).ng))) / d.dot(d);
+        Vec3d d = to(from, at);
+        return std::abs(cosine(d, Vec3d(hit(at).ng))) / dot(d, d);
     };
     // Of each vertex, when it comes from the light, and from the eye.
     std::vector<double> light(n), eye(n);
@@ -82,11 +72,11 @@ std::vector<double> densities_of(const Scene& scene, const Endpoints& endpoints,
                                            pdf_area(scene, path.light)) /
                        sides;
         } else {
-            double pdf_w = i == 1 ? std::abs(to(0, 1).cos(Exact(hit(0).ng))) / pi_exact
+            double pdf_w = i == 1 ? std::abs(cosine(to(0, 1), Vec3d(hit(0).ng))) / pi_exact
                                   : density_onwards(hit(i - 1), to(i - 1, i - 2), to(i - 1, i));
             light[i] = pdf_w * area(i - 1, i);
         }
-        double cos_c = to(n, i).cos(Exact(endpoints.camera.axis));
+        double cos_c = cosine(to(n, i), Vec3d(endpoints.camera.axis));
         double pdf_w = i == n - 1 ? 1 / (double{endpoints.camera.area} * cos_c * cos_c * cos_c)
                                   : density_onwards(hit(i + 1), to(i + 1, i + 2), to(i + 1, i));
         eye[i] = pdf_w * area(i + 1, i);
