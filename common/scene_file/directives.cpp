@@ -84,13 +84,7 @@ void Directives::coord_sys_transform(Lexer& lexer, const Token& word) {
 void Directives::color_space(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     if (token.text == "srgb") return;
-    for (const char* name : {"aces2065-1", "dci-p3", "rec2020"}) {
-        if (token.text != name) continue;
-        notes_.add(lexer.at(word), "ColorSpace " + quote(name) + " is read as \"srgb\"");
-        return;
-    }
-    fail_unknown(lexer.at(token), "ColorSpace", std::string(token.text),
-                 {"aces2065-1", "dci-p3", "rec2020", "srgb"});
+    notes_.add(lexer.at(word), "ColorSpace " + quote(token.text) + " is read as \"srgb\"");
 }
 
 void Directives::make_named_medium(Lexer& lexer, const Token& word) {
