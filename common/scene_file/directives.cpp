@@ -412,8 +412,9 @@ void Directives::check_names() const {
     if (!lines.empty()) throw InputError(join_lines(lines));
 }
 
-// A mesh may be given a material whose texture is named later.
+// A mesh may be given a material that is made later.
 void Directives::check_uvs(const Geometry& g) {
+    const std::string no_uv = "a textured mesh without usable uv";
     for (const Triangle& t : g.triangles) {
         uint32_t material = scene_.shapes[t.shape].material;
         if (scene_.materials[material].texture == 0) continue;
@@ -429,12 +430,8 @@ void Directives::check_uvs(const Geometry& g) {
             scene_.materials.push_back(plain);
             continue;
         }
-        for (const auto& [name, named] : named_materials_) {
-            if (named.index != material) continue;
-            fail(named.first_use, "a mesh of material " + quote(name) +
-                                      " has no usable uv, which its texture needs" +
-                                      or_stand_in(no_uv));
-        }
+        fail(scene_.place(scene_.shapes[t.shape].at),
+             "the mesh has no usable uv, which its texture needs" + or_stand_in(no_uv));
     }
 }
 
