@@ -84,13 +84,7 @@ void Directives::coord_sys_transform(Lexer& lexer, const Token& word) {
 void Directives::color_space(Lexer& lexer, const Token& word) {
     Token token = expect_string(lexer, word, "a name");
     if (token.text == "srgb") return;
-    for (const char* name : {"aces2065-1", "dci-p3", "rec2020"}) {
-        if (token.text != name) continue;
-        notes_.add(lexer.at(word), "ColorSpace " + quote(name) + " is read as \"srgb\"");
-        return;
-    }
-    fail_unknown(lexer.at(token), "ColorSpace", std::string(token.text),
-                 {"aces2065-1", "dci-p3", "rec2020", "srgb"});
+    notes_.add(lexer.at(word), "ColorSpace " + quote(token.text) + " is read as \"srgb\"");
 }
 
 void Directives::make_named_medium(Lexer& lexer, const Token& word) {
@@ -418,8 +412,9 @@ void Directives::check_names() const {
     if (!lines.empty()) throw InputError(join_lines(lines));
 }
 
-// A mesh may be given a material whose texture is named later.
+// A mesh may be given a material that is made later.
 void Directives::check_uvs(const Geometry& g) {
+    const std::string no_uv = "a textured mesh without usable uv";
     for (const Triangle& t : g.triangles) {
         uint32_t material = scene_.shapes[t.shape].material;
         if (scene_.materials[material].texture == 0) continue;
@@ -435,12 +430,8 @@ void Directives::check_uvs(const Geometry& g) {
             scene_.materials.push_back(plain);
             continue;
         }
-        for (const auto& [name, named] : named_materials_) {
-            if (named.index != material) continue;
-            fail(named.first_use, "a mesh of material " + quote(name) +
-                                      " has no usable uv, which its texture needs" +
-                                      or_stand_in(no_uv));
-        }
+        fail(scene_.place(scene_.shapes[t.shape].at),
+             "the mesh has no usable uv, which its texture needs" + or_stand_in(no_uv));
     }
 }
 

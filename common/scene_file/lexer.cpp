@@ -22,7 +22,6 @@ Lexer::Lexer(std::string file, std::string bytes, const Report& report)
 }
 
 void Lexer::check_encoding() const {
-    if (bytes_.starts_with("\x1f\x8b")) fail({file_}, "compressed by gzip: unpack it first");
     if (bytes_.starts_with("\xff\xfe") || bytes_.starts_with("\xfe\xff")) {
         fail({file_}, "UTF-16 text: save it as UTF-8");
     }

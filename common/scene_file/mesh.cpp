@@ -94,10 +94,7 @@ TriangleMesh read_triangle_mesh(Params& params, size_t corners) {
     }
     if (!are_usable(mesh.uvs)) mesh.uvs.clear();
     std::vector<uint32_t> indices = read_indices(params, mesh.positions.size(), corners);
-    const Param* faces = params.find("integer", "faceIndices");
-    if (faces && faces->numbers.size() != indices.size() / corners) {
-        fail(faces->at, "\"faceIndices\" needs one number for each face");
-    }
+    params.ignore("integer", {"faceIndices"});
     if (corners == 3) {
         mesh.indices = std::move(indices);
         return mesh;

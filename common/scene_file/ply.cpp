@@ -34,11 +34,7 @@ const PlyScalar* find_scalar(std::string_view name) {
 const PlyScalar* read_scalar(PlyBytes& reader) {
     std::string_view name = reader.word();
     if (const PlyScalar* type = find_scalar(name)) return type;
-    std::vector<std::string> known;
-    for (const PlyScalar& type : ply_scalars) known.push_back(type.name);
-    std::string nearest = nearest_word(name, known);
-    reader.fail_here("unknown property type " + quote(name) +
-                     (nearest.empty() ? "" : ": did you mean " + quote(nearest) + '?'));
+    reader.fail_here("unknown property type " + quote(name));
 }
 
 Property read_property(PlyBytes& reader) {
@@ -227,9 +223,6 @@ bool are_usable(const std::vector<Vec2>& uvs) {
 
 TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits) {
     if (bytes.empty()) fail({file}, "the file is empty");
-    if (bytes.starts_with("\x1f\x8b")) {
-        fail({file}, "compressed by gzip: unpack it first");
-    }
     PlyBytes reader(file, bytes);
     std::vector<Element> elements = read_header(reader);
 

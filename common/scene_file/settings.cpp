@@ -123,11 +123,8 @@ void read_film(Params& params, Scene& scene, Exposure& exposure, SceneNotes& not
 
     params.replace("float", "cropwindow", "a part of the film");
     params.replace("integer", "pixelbounds", "a part of the film");
-    std::string sensor = params.string("sensor", "cie1931");
-    if (sensor != "cie1931") {
-        params.stand_in(params.at("sensor"), "a sensor or white balance",
-                        unknown("sensor", sensor, {"cie1931"}));
-    }
+    if (params.string("sensor", "cie1931") != "cie1931")
+        params.replace("string", "sensor", "a sensor or white balance");
     if (params.number("whitebalance", 0) != 0)
         params.replace("float", "whitebalance", "a sensor or white balance");
     if (params.find("float", "maxcomponentvalue")) {

@@ -145,11 +145,6 @@ bool read_shape(Params& params, const ShapeState& state, const Limits& limits, N
     check_room(params, state, g, 1, 0, limits);
     int axes = -1;
     auto add = [&](const TriangleMesh& mesh) {
-        bool needs_uv = scene.materials[state.material].texture != 0 && !params.may_stand_in();
-        if (needs_uv && mesh.uvs.empty()) {
-            fail(params.at(), params.owner() + " has no usable uv, which its texture needs" +
-                                  or_stand_in(no_uv));
-        }
         check_room(params, state, g, mesh.indices.size() / 3, mesh.positions.size(), limits);
         uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
         add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);

@@ -4,9 +4,6 @@
 #include "common/scene_file/named_files.h"
 #include "common/scene_file/settings.h"
 
-/// The name of the stand-in for a mesh that has no uv for its texture.
-inline constexpr const char* no_uv = "a textured mesh without usable uv";
-
 /// What is in force where a Shape directive stands.
 struct ShapeState {
     Transform world_from_object;

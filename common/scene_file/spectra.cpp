@@ -21,22 +21,10 @@ struct Illuminant {
     const char* name;
     double x, y;
 };
-constexpr std::array<Illuminant, 15> illuminants = {{
+constexpr std::array<Illuminant, 3> illuminants = {{
     {"stdillum-A", 0.44758, 0.40745},
     {"stdillum-D50", 0.34567, 0.35851},
     {"stdillum-D65", 0.31272, 0.32903},
-    {"stdillum-F1", 0.3131, 0.3371},
-    {"stdillum-F2", 0.3721, 0.3751},
-    {"stdillum-F3", 0.4091, 0.3941},
-    {"stdillum-F4", 0.4402, 0.4031},
-    {"stdillum-F5", 0.3138, 0.3452},
-    {"stdillum-F6", 0.3779, 0.3882},
-    {"stdillum-F7", 0.3129, 0.3292},
-    {"stdillum-F8", 0.3458, 0.3586},
-    {"stdillum-F9", 0.3741, 0.3727},
-    {"stdillum-F10", 0.3458, 0.3588},
-    {"stdillum-F11", 0.3805, 0.3769},
-    {"stdillum-F12", 0.4370, 0.4042},
 }};
 
 double at(const Spectrum& spectrum, double nm) {

@@ -37,9 +37,9 @@ Rgb reflectance_rgb(const Spectrum& spectrum);
 /// The mean over the matching curve of each primary, as that of metals below.
 Rgb mean_rgb(const Spectrum& spectrum);
 
-/// pbrt's standard illuminants: "stdillum-A", "-D50", "-D65" and "-F1" to "-F12", with luminance 1.
+/// pbrt's standard illuminants: "stdillum-A", "-D50" and "-D65", with luminance 1.
 ///
-/// source  chromaticities of CIE 015, tables T.3 and T.8
+/// source  chromaticities of CIE 015, table T.3
 std::optional<Rgb> illuminant_rgb(const std::string& name);
 std::vector<std::string> illuminant_names();
 

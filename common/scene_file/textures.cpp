@@ -58,13 +58,9 @@ bool read_filter(Params& params, SceneNotes& notes) {
     params.ignore("float", {"maxanisotropy"});
     std::string filter = params.string("filter", "bilinear");
     if (filter == "point") return true;
-    if (filter == "bilinear") return false;
-    for (const char* known : {"trilinear", "ewa", "EWA"}) {
-        if (filter != known) continue;
+    if (filter != "bilinear")
         notes.add(params.at("filter"), "filter " + quote(filter) + " is read as \"bilinear\"");
-        return false;
-    }
-    fail_unknown(params.at("filter"), "filter", filter, {"EWA", "bilinear", "point", "trilinear"});
+    return false;
 }
 
 }  // namespace
@@ -134,7 +130,7 @@ float TextureReader::number(Params& params, const std::string& name, float fallb
     const Param* texture = params.may_stand_in() ? params.find("texture", name) : nullptr;
     if (!texture) return params.number(name, fallback, 0, high);
     params.stand_in(texture->at, "a texture that is no reflectance", "");
-    return mean_input(params, name, fallback, true).r;
+    return std::clamp(mean_input(params, name, fallback, true).r, 0.0f, high);
 }
 
 // What an input of a texture is on average.

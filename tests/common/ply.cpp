@@ -63,7 +63,6 @@ TEST_SUITE("ply") {
         auto cases = read_malformed_cases("tests/support/malformed/ply.txt");
         CHECK(cases.size() >= 30);
         for (const MalformedCase& c : cases) CHECK(refuse(c.input) == c.message);
-        CHECK(refuse("\x1f\x8b\x08") == "mesh.ply: error: compressed by gzip: unpack it first");
     }
 
     TEST_CASE("input: damaged bytes are refused with the byte where reading stopped") {

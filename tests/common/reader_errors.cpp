@@ -76,7 +76,6 @@ TEST_SUITE("reader: malformed input") {
             {"# \xc3\xbc\xe2\x82\xac\xf0\x9f\x98\x80\xff", ":1:6", utf8},
             {{"\xff\xfe#\x00", 4}, "", "UTF-16 text: save it as UTF-8"},
             {{"\xfe\xff\x00#", 4}, "", "UTF-16 text: save it as UTF-8"},
-            {"\x1f\x8b\x08", "", "compressed by gzip: unpack it first"},
             {std::string("A\x01\x7f\0B", 5), ":1:1", unknown + "\"A???B\""},
             {std::string(100, 'x'), ":1:1", unknown + '"' + std::string(60, 'x') + "...\""},
             // Lines end with LF, CR LF or CR.

@@ -9,13 +9,6 @@
 
 namespace {
 
-/// Finds light of radiance 1 after scatterings of these kinds, the one next to the eye first.
-void find_after(Recorder& recorder, const std::string& kinds) {
-    recorder.start();
-    for (char kind : kinds) recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, kind == 'S', {1, 1, 1});
-    recorder.emitted({1, 1, 1});
-}
-
 using Words = std::vector<std::string>;
 
 /// What may stand between L and E, up to four letters, for an expression to match.
@@ -35,17 +28,6 @@ std::string matched(const std::string& expression) {
 }  // namespace
 
 TEST_SUITE("recorder") {
-    TEST_CASE("truth: a path's class is read from the light to the eye, and a path starts anew") {
-        Recorder recorder(true);
-        for (auto [kinds, its_class] : {std::pair{"", "LE"},
-                                        {"D", "LDE"},
-                                        {"SD", "LDSE"},       // diffuse surface seen in a mirror
-                                        {"DSS", "LSSDE"}}) {  // caustic behind a glass ball
-            find_after(recorder, kinds);
-            REQUIRE(recorder.contributions().size() == 1);
-            CHECK(recorder.contributions()[0].path_class == its_class);
-        }
-    }
 
     TEST_CASE("truth: each vertex knows the one it was reached from, on a tree of paths too") {
         Recorder recorder(true);
@@ -84,7 +66,8 @@ TEST_SUITE("recorder") {
             classes.push_back(part.path_class);
         }
         Recorder keeps_nothing;
-        find_after(keeps_nothing, "DSDS");
+        keeps_nothing.start();
+        keeps_nothing.emitted({1, 1, 1});
         keeps_nothing.cut(), keeps_nothing.cut();
         CHECK(keeps_nothing.contributions().empty());
         CHECK(keeps_nothing.paths_cut() == 2);

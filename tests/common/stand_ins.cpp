@@ -119,7 +119,9 @@ TEST_SUITE("stand-ins") {
             {"Import 'a.pbrt'", ""},
         };
         for (const auto& [text, taken] : cases) CHECK(files.taken(text) == taken);
-        CHECK(files.read("WorldBegin Shape 'sphere'").stand_ins.size() == 2);
+        Scene bare = files.read("WorldBegin Shape 'sphere'");
+        CHECK(bare.stand_ins.size() == 2);
+        CHECK(settings_of(bare) == "1280x720 16 5 90 at 0 0 0, 1 0 0, 0 1 0, 0 0 1");
     }
 
     TEST_CASE("truth: what stands in has the mean of what it stands for") {
