@@ -13,40 +13,15 @@
 
 namespace {
 
-double root_mean_square(const std::vector<double>& values) {
-    RunningStats squares;
-    for (double x : values) squares.add(x * x);
-    return std::sqrt(squares.mean());
-}
-
-double mean_of(const std::vector<double>& values) {
-    RunningStats mean;
-    for (double x : values) mean.add(x);
-    return mean.mean();
-}
-
-/// The renders with one number of samples.
-struct CurvePoint {
-    int spp;
-    double seconds;                     // of one render: processor time over threads
-    std::vector<double> rmse, rel_mse;  // of each run, against the reference
-};
-
+/// The error of a method's renders of one scene with ever more samples, against the reference.
 struct Curve {
     const NamedMethod* method;
-    std::vector<CurvePoint> points;
-    double slope = NAN;  // fitted: log RMSE over log spp, last 3 points; in theory -1/2
+    std::vector<double> spp = {}, rmse = {};
+    ErrorLine rel_mse = {};  // over the seconds of one render: processor time over threads
+    double slope = NAN;      // fitted: log RMSE over log spp, last 3 points; in theory -1/2
 
-    ErrorLine rel_mse_over_time() const {
-        ErrorLine line;
-        for (const CurvePoint& p : points) {
-            line.seconds.push_back(p.seconds);
-            line.error.push_back(mean_of(p.rel_mse));
-        }
-        return line;
-    }
     bool flat() const { return slope > -0.25; }
-    bool falls() const { return !points.empty() && !flat(); }
+    bool falls() const { return !spp.empty() && !flat(); }
 };
 
 /// What all methods are compared with.
@@ -76,47 +51,38 @@ const Curve* measure_of_all(const std::vector<Curve>& curves) {
 /// How many times faster than `first` at equal error; "never" for one that stays at its bias, "-"
 /// for one that is exact from the first sample on.
 std::string times_faster(const Curve& curve, const Curve* first) {
-    if (curve.points.empty() || !first) return "-";
-    double ratio = times_faster(curve.rel_mse_over_time(), first->rel_mse_over_time());
-    return curve.flat() ? "never" : two_digits(ratio);
-}
-
-/// Of log RMSE over log samples, from the last three points; NaN for one.
-double last_slope(const std::vector<CurvePoint>& points) {
-    std::vector<double> spp, rmse;
-    for (size_t i = points.size() - std::min<size_t>(3, points.size()); i < points.size(); i++) {
-        spp.push_back(points[i].spp);
-        rmse.push_back(root_mean_square(points[i].rmse));
-    }
-    return fitted_slope(spp, rmse);
+    if (curve.spp.empty() || !first) return "-";
+    return curve.flat() ? "never" : two_digits(times_faster(curve.rel_mse, first->rel_mse));
 }
 
 /// Renders with 1, 4, 16, ... spp, `runs` of each, for about `seconds` of all processors together,
 /// and as long as the error is at least 10 times the reference's own.
 Curve measure_curve(const NamedMethod& method, Scene& scene, const Truth& truth,
                     const MeasureOptions& o, double seconds) {
-    Curve curve{&method, {}, NAN};
+    Curve curve{&method};
     double spent = 0, next = 0;
     // What is biased gets longer, until chance is small beside its bias.
     auto time_left = [&] {
         return spent + next < (method.biased && !curve.flat() ? 16 * seconds : seconds);
     };
     for (int spp = 1; spp <= 1 << 20 && (spp <= 16 || time_left()); spp *= 4) {
-        CurvePoint point{spp, 0, {}, {}};
+        RunningStats squares, rel_mse, time;
         for (int run = 0; run < o.runs; run++) {
             uint32_t seed = 0x10000u * static_cast<uint32_t>(run + 1) + static_cast<uint32_t>(spp);
             Rendering r = render_once(method, scene, o, spp, seed);
             Comparison c = compare(r.film.image(), truth.image);
-            point.rmse.push_back(c.rmse);
-            point.rel_mse.push_back(c.rel_mse);
-            point.seconds += r.stats.seconds / o.runs;
+            squares.add(c.mse), rel_mse.add(c.rel_mse), time.add(r.stats.seconds);
         }
-        double cost = point.seconds * o.runs * o.threads;
+        double cost = time.mean() * o.runs * o.threads, rmse = std::sqrt(squares.mean());
         spent += cost;
         next = 4 * cost;
-        if (!method.biased && root_mean_square(point.rmse) < 10 * truth.rmse) break;
-        curve.points.push_back(point);
-        curve.slope = last_slope(curve.points);
+        if (!method.biased && rmse < 10 * truth.rmse) break;
+        curve.spp.push_back(spp), curve.rmse.push_back(rmse);
+        curve.rel_mse.seconds.push_back(time.mean());
+        curve.rel_mse.error.push_back(rel_mse.mean());
+        auto last = std::min<std::ptrdiff_t>(3, std::ssize(curve.spp));
+        curve.slope = fitted_slope({curve.spp.end() - last, curve.spp.end()},
+                                   {curve.rmse.end() - last, curve.rmse.end()});
     }
     return curve;
 }
@@ -128,13 +94,14 @@ void draw_curves(const std::string& folder, const std::string& scene,
     const Curve* first = measure_of_all(curves);
     std::vector<Line> lines;
     for (const Curve& c : curves) {
-        ErrorLine line = c.rel_mse_over_time();
         std::string than = first ? ", times faster: " + times_faster(c, first) : "";
-        lines.push_back({scene, c.method->label + than, c.method->color, line.seconds, line.error});
+        lines.push_back(
+            {scene, c.method->label + than, c.method->color, c.rel_mse.seconds, c.rel_mse.error});
     }
     write_lines(folder, "chart-" + file_name(scene), scene + ": error against time",
                 "seconds of one render", "relMSE", lines);
 }
+
 /// All curves of a scene.
 std::vector<Curve> measure_scene(const std::string& path, const std::vector<NamedMethod>& methods,
                                  const MeasureOptions& o, double seconds, Work& work) {
@@ -152,17 +119,16 @@ std::vector<Curve> measure_scene(const std::string& path, const std::vector<Name
 void add_summary(const std::string& scene, const std::vector<Curve>& curves, Table& summary) {
     const Curve* first = measure_of_all(curves);
     for (const Curve& c : curves) {
-        std::string slope = "exact";
-        if (!c.points.empty()) {
-            char text[32];
-            std::snprintf(text, sizeof text, "%.2f", c.slope);
-            slope = text;
-        }
-        const CurvePoint none{0, 0, {}, {}};
-        const CurvePoint& last = c.points.empty() ? none : c.points.back();
-        summary.rows.push_back({scene, c.method->label, std::to_string(last.spp),
-                                short_number(last.seconds), short_number(mean_of(last.rel_mse)),
-                                slope, times_faster(c, first)});
+        std::vector<std::string> row = {scene, c.method->label, "0", "0", "0", "exact"};
+        if (!c.spp.empty())
+            row = {scene,
+                   c.method->label,
+                   short_number(c.spp.back()),
+                   short_number(c.rel_mse.seconds.back()),
+                   short_number(c.rel_mse.error.back()),
+                   two_digits(c.slope)};
+        row.push_back(times_faster(c, first));
+        summary.rows.push_back(row);
     }
 }
 
