@@ -10,7 +10,8 @@ function check(claim, holds, detail = '') {
     console.log(`${holds ? 'ok      ' : 'FAILED  '}${claim}${detail && `: ${detail}`}`);
     if (!holds) failed++;
 }
-const all_files = fs.readdirSync(book, {recursive: true}).map(name => path.join(book, name));
+const all_files = fs.readdirSync(book, {recursive: true}).map(name => path.join(book, name))
+    .filter(name => fs.statSync(name).isFile());
 const open = (page, name) => page.goto(`file://${book}/${name}`);
 const text = (page, selector) => page.$eval(selector, node => node.textContent);
 async function chapter(page, name) {
