@@ -195,7 +195,7 @@ const waiting = document.querySelector('#live .status'), strip = document.queryS
 document.querySelectorAll('main h2')[1].before(document.getElementById('live'));
 engine.then(async data => {
     window.live = new Live(document.body.dataset.chapter, data);
-    await strip.decode();
-    window.live.viewer.set(picturesOf(strip));
     waiting.remove();
+    await strip.decode();
+    if (!window.live.began) window.live.viewer.set(picturesOf(strip));
 }).catch(error => { waiting.textContent = `No live part in this browser: ${error.message}`; });

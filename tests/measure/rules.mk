@@ -19,8 +19,7 @@ chart: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 #: maintaining: make front        the chart of the front page, anew
 front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
 	$(BUILD)/chart cornell --methods all --seconds 60
-	cp out/chart-cornell.svg tests/measure/front.svg; cp out/chart-summary.tsv tests/measure/front.tsv
-	common/tools/fill_readmes --text README.md
+	cp out/chart-cornell.svg tests/measure/front.svg
 #: measuring: make stability    do methods fail where theory says, as it says, and nowhere else? (3 minutes)
 stability: $(BUILD)/stability $(made)
 	$<
