@@ -162,13 +162,11 @@ std::string command_line(int argc, char** argv) {
 int run_program(const std::function<int()>& program) {
     auto report = [](const std::string& line, int code) {
         tell(printable(line) + "\n");
-        tell_rest();
         return code;
     };
     try {
         prepare_streams();
         int code = program();
-        tell_rest();
         flush_stdout();
         return code;
     } catch (const UsageError& e) {

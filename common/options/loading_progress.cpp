@@ -13,7 +13,7 @@ LoadingProgress::~LoadingProgress() { clear(); }
 
 void LoadingProgress::clear() {
     std::lock_guard lock(mutex_);
-    if (is_shown_) ::show("\r\033[K");
+    if (is_shown_) tell("\r\033[K");
     is_shown_ = false;
 }
 
@@ -25,6 +25,6 @@ void LoadingProgress::show(const std::string& what, double share) {
     char done[50];
     std::snprintf(done, sizeof done, " ... %2.0f %%", 100 * std::clamp(share, 0.0, 1.0));
     std::string text = printable(what) + done;
-    ::show(is_terminal_ ? "\r" + text + "\033[K" : text + "\n");
+    tell(is_terminal_ ? "\r" + text + "\033[K" : text + "\n");
     is_shown_ = is_terminal_;
 }

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "common/base/checksum.h"
 #include "common/base/files.h"
@@ -58,17 +59,13 @@ bool is_consistent(const Film& film, const FilmLabel& label) {
 class FilmReader {
 public:
     explicit FilmReader(const std::string& path) : path_(path) {
-        if (std::error_code none; std::filesystem::is_directory(file_path(path), none)) {
-            errno = EISDIR;
-        } else {
-            check_film_is_file(path);
-            file_ = open_file(path);
-        }
-        if (file_ < 0) refuse(std::string("cannot read: ") + std::strerror(errno));
+        std::error_code none;
+        bool is_folder = std::filesystem::is_directory(file_path(path), none);
+        if (!is_folder) check_film_is_file(path);
+        errno = 0;
+        file_.open(file_path(path), std::ios::binary);
+        if (is_folder || !file_) refuse_to_read(is_folder ? EISDIR : errno);
     }
-    ~FilmReader() { close_file(file_); }
-    FilmReader(const FilmReader&) = delete;
-    FilmReader& operator=(const FilmReader&) = delete;
 
     LabeledFilm read();
 
@@ -78,23 +75,23 @@ private:
         refuse("the film is damaged: its numbers contradict each other");
     }
 
+    [[noreturn]] void refuse_to_read(int error) const {
+        refuse(std::string("cannot read: ") + std::strerror(error));
+    }
+
     /// The next bytes, as many as there are up to `size`.
     size_t read_some(char* to, size_t size) {
-        size_t done = 0;
-        while (done < size) {
-            ptrdiff_t n = read_bytes(file_, to + done, std::min<size_t>(size - done, 1 << 20));
-            if (n < 0) refuse(std::string("cannot read: ") + std::strerror(errno));
-            if (n == 0) break;
-            done += static_cast<size_t>(n);
-        }
-        return done;
+        errno = 0;
+        file_.read(to, static_cast<std::streamsize>(size));
+        if (file_.bad()) refuse_to_read(errno);
+        return static_cast<size_t>(file_.gcount());
     }
     std::string read_text();
     void read_sums(std::vector<PixelSum>& sums);
     void read_pixels(Film& film, const FilmShape& shape);
 
     std::string path_;
-    int file_ = -1;
+    std::ifstream file_;
     Checksum checksum_;
 };
 
@@ -142,7 +139,7 @@ LabeledFilm FilmReader::read() {
     // Ask first whether there are so many bytes: a label alone must not take all memory.
     uint64_t pixels = static_cast<uint64_t>(shape.width) * static_cast<uint64_t>(shape.height);
     uint64_t least = pixels * (shape.takes_splats ? 3 : 1) + (shape.kind == 2 ? pixels : 0);
-    if (bytes_in(file_) < least * sizeof(PixelSum)) refuse("the film is cut short");
+    if (size_of(path_) < least * sizeof(PixelSum)) refuse("the film is cut short");
     Film film(shape.width, shape.height, shape.takes_splats);
     if (shape.kind == 2) film.start_halves();
     if (shape.has_batches()) film.start_batches();
@@ -163,7 +160,7 @@ LabeledFilm FilmReader::read() {
 
 }  // namespace
 
-void write_film(const std::string& path, const FilmLabel& label, const Film& film, FileLock* lock) {
+void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
     NewFile file(path);
     Checksum checksum;
     std::string text = label_text(label, shape_of(film));
@@ -176,7 +173,7 @@ void write_film(const std::string& path, const FilmLabel& label, const Film& fil
     uint64_t sum = checksum.value();
     file.write({reinterpret_cast<const char*>(&sum), sizeof sum});
     file.write_through();
-    file.commit(lock);
+    file.commit();
 }
 
 uint64_t largest_size(const Film& film) {

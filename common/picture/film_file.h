@@ -17,8 +17,7 @@ inline constexpr const char* film_ending = ".film";
 /// Writes a film: a label in lines of text, the sums as they are in memory, and a checksum of both.
 /// The bytes depend on the samples, but not on their order. Throws
 /// InputError; the file that was there before stays until the new one is whole and on the disk.
-void write_film(const std::string& path, const FilmLabel& label, const Film& film,
-                FileLock* lock = nullptr);
+void write_film(const std::string& path, const FilmLabel& label, const Film& film);
 /// The most bytes that its file has.
 uint64_t largest_size(const Film& film);
 

@@ -68,7 +68,7 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     rendering.film_lock = std::make_shared<FileLock>(options.film);
     bool is_new = size_of(options.film) == 0;
     // Each film is written beside the one before.
-    check_space({{options.film, (is_new ? 2 : 1) * largest_size(rendering.film)}});
+    check_space(options.film, (is_new ? 2 : 1) * largest_size(rendering.film));
     if (is_new) return try_to_save_film(scene, options, rendering);
     LabeledFilm found = read_film(options.film);
     check_options(options.film, found.label, film_options(scene, options));
@@ -109,8 +109,7 @@ FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rende
 
 void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
     if (options.film.empty()) return;
-    write_film(options.film, label_of(scene, options, rendering), rendering.film,
-               rendering.film_lock.get());
+    write_film(options.film, label_of(scene, options, rendering), rendering.film);
 }
 
 void try_to_save_film(const Scene& scene, const RenderOptions& options,

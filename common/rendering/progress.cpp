@@ -11,7 +11,7 @@
 Progress::Progress(bool quiet) : on_(!quiet), is_terminal_(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-    if (on_ && is_terminal_) ::show("\r\033[K");
+    if (on_ && is_terminal_) tell("\r\033[K");
 }
 
 void Progress::show(double share, double seconds) {
@@ -23,9 +23,9 @@ void Progress::show(double share, double seconds) {
     char left[100];
     std::snprintf(left, sizeof left, "%3.0f %%  %.0f s left", 100 * share,
                   seconds / share - seconds);
-    if (!is_terminal_) return ::show(left + std::string("\n"));
+    if (!is_terminal_) return tell(left + std::string("\n"));
     constexpr size_t width = 30;
     std::string bar(static_cast<size_t>(share * width), '#');
     bar.resize(width, ' ');
-    ::show("\r[" + bar + "] " + left + "\033[K");
+    tell("\r[" + bar + "] " + left + "\033[K");
 }

@@ -19,9 +19,9 @@ static void request_stop(int signal) {
     std::chrono::nanoseconds time = std::chrono::steady_clock::now().time_since_epoch();
     int64_t now = time.count(), first = 0;
     bool again = !first_times[signal].compare_exchange_strong(first, now);
-    if (again && now - first > second / 2) end_by_signal(signal);
+    if (again && now - first > second / 2) return end_by_signal(signal);
     stop_requested = true;
-    keep_catching(signal, request_stop);
+    std::signal(signal, request_stop);  // some systems call it once
     errno = before;
 }
 

@@ -6,7 +6,6 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
-#include "common/base/report.h"
 #include "common/base/system.h"
 #include "common/picture/film_file.h"
 
@@ -40,18 +39,6 @@ void add_later(const std::string& folder, const std::vector<std::string>& others
     }
 }
 
-/// Checks the disk space for files: that of uncompressed pictures is known, others have at least a
-/// byte. If only some disks are full, the other files are worth the render.
-void check_space(const Scene& scene, const std::vector<std::string>& files) {
-    uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
-    std::vector<FutureFile> known;
-    for (const std::string& file : files) {
-        uint64_t bytes = has_ending(file, ".pfm") ? sizeof(Rgb) : has_ending(file, ".ppm") ? 3 : 0;
-        known.push_back({file, std::max<uint64_t>(bytes * pixels, 1)});
-    }
-    tell(check_space(known));
-}
-
 }  // namespace
 
 std::string drawing_path(const RenderOptions& options) {
@@ -77,7 +64,9 @@ void check_outputs(const Scene& scene, const RenderOptions& options) {
         others.push_back("LE.pfm");  // of any class
         add_later(options.split, others, files);
     }
-    check_outputs(files, inputs);
-    std::erase(files, options.film);  // its own room is asked for where its size is known
-    check_space(scene, files);
+    uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
+    check_outputs(files, inputs, [&](const std::string& file) {
+        uint64_t bytes = has_ending(file, ".pfm") ? sizeof(Rgb) : has_ending(file, ".ppm") ? 3 : 0;
+        return std::max<uint64_t>(bytes * pixels, 1);  // that of others is not known
+    });
 }

@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
                                                                    comment_of(notes));
                                             }
                                             FileLock lock(o.out);
-                                            write_film(o.out, sum.label, sum.film, &lock);
+                                            write_film(o.out, sum.label, sum.film);
                                         }}};
         if (!o.stats.empty()) {
             outputs.push_back({o.stats, [&] { write_file_atomically(o.stats, stats_json(sum)); }});

@@ -121,22 +121,20 @@ TEST_SUITE("film error") {
         Film film(6, 5);
         film.start_halves();
         double difference = 0, v_sum = 0, v2_sum = 0, m2 = 0, mean = 0, sum = 0, sum2 = 0;
-        uint64_t samples = 0;
         for (uint32_t i = 0; i < 30; i++) {
-            std::vector<double> a = samples_of(i, 2 + static_cast<int>(i % 3));
-            std::vector<double> b = samples_of(i + 99, 3 + static_cast<int>(i % 2), 2);
-            for (double s : a) film.add(i, grey(s)), sum += s, sum2 += s * s;
-            for (double s : b) film.add(i, grey(s), 1), sum += s, sum2 += s * s;
-            difference += std::pow(mean_of(a) - mean_of(b), 2) / 4;
-            double va = variance_of_mean(a), vb = variance_of_mean(b), v = (va + vb) / 4;
+            std::vector<double> half[2] = {samples_of(i, 2 + static_cast<int>(i % 3)),
+                                           samples_of(i + 99, 3 + static_cast<int>(i % 2), 2)};
+            double v = 0;
+            for (int h : {0, 1}) {
+                double here = variance_of_mean(half[h]), n = static_cast<double>(half[h].size());
+                for (double s : half[h]) film.add(i, grey(s), h), sum += s, sum2 += s * s;
+                v += here / 4, m2 += here * n * (n - 1), mean += mean_of(half[h]) / 2 / 30;
+            }
+            difference += std::pow(mean_of(half[0]) - mean_of(half[1]), 2) / 4;
             v_sum += v, v2_sum += v * v;
-            double na = static_cast<double>(a.size()), nb = static_cast<double>(b.size());
-            m2 += va * na * (na - 1) + vb * nb * (nb - 1);
-            mean += (mean_of(a) + mean_of(b)) / 2 / 30;
-            samples += a.size() + b.size();
         }
         CHECK(film.mean() == about(mean));
-        CHECK(film.samples() == samples);
+        CHECK(film.samples() == 30 * 3 + 15 * 7);
         CHECK(film.standard_error() == about(std::sqrt(difference) / 30));
         Film::ErrorBasis basis = film.error_basis();
         CHECK(basis.pixels == about(v_sum * v_sum / v2_sum));
@@ -243,7 +241,10 @@ TEST_SUITE("film error") {
         const int width = 37, height = 21;
         Image a = random_image(width, height, 3), b = random_image(width, height, 4);
         for (size_t i = 0; i < 300; i++) a.pixels[i] = 1.1f * b.pixels[i];
-        auto bright = [](Rgb p) { return (double{p.r} + double{p.g} + double{p.b}) / 3; };
+        auto of = [](Rgb p, size_t channel) {
+            return std::array{double{p.r}, double{p.g}, double{p.b},
+                              (double{p.r} + double{p.g} + double{p.b}) / 3}[channel];
+        };
         std::vector<double> ratios;
         std::vector<std::pair<double, double>> errors;  // relative, squared
         int cut_off = 0;
@@ -251,14 +252,14 @@ TEST_SUITE("film error") {
             Rgb p = a.pixels[i], q = b.pixels[i];
             double squared = 0, relative = 0;
             bool differ = false;
-            for (auto [x, y] : {std::pair{p.r, q.r}, {p.g, q.g}, {p.b, q.b}}) {
-                double d = double{x} - double{y};
-                squared += d * d / 3, relative += d * d / (double{y} * double{y} + 0.01) / 3;
+            for (size_t c = 0; c < 3; c++) {
+                double x = of(p, c), y = of(q, c), d = x - y;
+                squared += d * d / 3, relative += d * d / (y * y + 0.01) / 3;
                 differ = differ || (x == 1) != (y == 1);
             }
             errors.push_back({relative, squared});
             cut_off += differ;
-            if (bright(q) > 0) ratios.push_back(bright(p) / bright(q));
+            if (of(q, 3) > 0) ratios.push_back(of(p, 3) / of(q, 3));
         }
         std::sort(errors.begin(), errors.end());
         std::sort(ratios.begin(), ratios.end());
@@ -283,33 +284,27 @@ TEST_SUITE("film error") {
         // 5 x 3 blocks, of which the last column and row are 5 pixels wide.
         Comparison c = compare(a, b);
         CHECK(c.blocks == 15);
-        double worst = 0;
-        std::array<double, 4> variance = {};
+        double worst = 0, variance[4] = {};
         int beyond = 0, worst_x = 0, worst_y = 0;
         for (int y0 = 0; y0 < height; y0 += 8)
             for (int x0 = 0; x0 < width; x0 += 8) {
-                bool is_beyond = false;
+                double here = 0;
                 for (size_t channel = 0; channel < 4; channel++) {
                     std::vector<double> d;
                     for (int y = y0; y < std::min(height, y0 + 8); y++)
-                        for (int x = x0; x < std::min(width, x0 + 8); x++) {
-                            Rgb e = a.at(x, y), f = b.at(x, y);
-                            d.push_back(std::array{
-                                double{e.r} - double{f.r}, double{e.g} - double{f.g},
-                                double{e.b} - double{f.b}, bright(e) - bright(f)}[channel]);
-                        }
+                        for (int x = x0; x < std::min(width, x0 + 8); x++)
+                            d.push_back(of(a.at(x, y), channel) - of(b.at(x, y), channel));
                     double n = static_cast<double>(d.size()), v = variance_of_mean(d);
                     variance[channel] += n * n * v;
-                    double z = std::abs(mean_of(d)) / std::sqrt(v);
-                    is_beyond |= z > 5;
-                    if (z > worst) worst = z, worst_x = x0, worst_y = y0;
+                    here = std::max(here, std::abs(mean_of(d)) / std::sqrt(v));
                 }
-                beyond += is_beyond;
+                beyond += here > 5;
+                if (here > worst) worst = here, worst_x = x0, worst_y = y0;
             }
-        CHECK(c.standard_error == about(std::sqrt(variance[3]) / (width * height)));
-        for (size_t i = 0; i < 3; i++)
-            CHECK(c.channels.at(i).standard_error ==
-                  about(std::sqrt(variance[i]) / (width * height)));
+        for (size_t i = 0; i < 4; i++) {
+            double error = std::sqrt(variance[i]) / (width * height);
+            CHECK((i < 3 ? c.channels[i].standard_error : c.standard_error) == about(error));
+        }
         CHECK(c.worst_z == about(worst, 1e-3));
         CHECK(c.worst_x == worst_x);
         CHECK(c.worst_y == worst_y);

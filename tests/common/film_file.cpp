@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <fstream>
 #include <limits>
 #include <numeric>
 
@@ -60,7 +61,7 @@ LabeledFilm read_back(const std::string& bytes) {
 
 std::string refusal(const std::string& bytes) {
     TemporaryFolder folder;
-    write_file_atomically(folder / "a.film", bytes);
+    std::ofstream(folder / "a.film", std::ios::binary) << bytes;
     std::string error = error_of([&] { read_film(folder / "a.film"); });
     CHECK((error.empty() || error.starts_with(folder / "a.film" + ": error: ")));
     return error.substr(error.empty() ? 0 : (folder / "a.film").size() + 9);
@@ -208,7 +209,6 @@ TEST_SUITE("film files") {
         } cases[] = {
             {"samples 0 2 1", "samples 2 2 1", bad},
             {"samples 0 2 1", "samples 0 1 1", contradiction},
-            {"samples 0 2 1", "samples 0 x 1", bad},
             {"samples 0 2 1", "samples 0 2 1\nsamples 2 3 1", bad},
             {"samples 0 2 1", "samples 0 2 1\ngoal 2 1 1", bad},
             {"samples 0 2 1", "samples 0 2 1\ngoal 9 10 1", bad},
@@ -217,9 +217,7 @@ TEST_SUITE("film files") {
             {"counts 30 0 0 0 0 0 0 0 0", "counts 30 0 0 0 31 0 1 2 4", contradiction},
             {"counts 30 0 0 0 0 0 0 0 0", "counts 30 0 0 0 1 0 1 3 4", bad},
             {"counts 30 0 0 0", "counts 30 0 0 1", bad},
-            {"counts 30 0 0 0 0 0 0 0 0 0", "counts 30 0 0 0 0 0 0 0 0 9218868437227405312", bad},
             {"size 5 3 1 1", "size 3 5 1 1", none},
-            {"option paths", "option size 5x3\noption paths", none},
             {"option paths", "option size 5x4\noption paths", bad},
             {"size 5 3 1 1", "size 5 3 5 1", bad},
             {"size 5 3 1", "size 65536 65536 1", bad},

@@ -42,7 +42,8 @@ TEST_SUITE("numbers") {
 
     TEST_CASE("input: what is a number, and what is none, in every country") {
         for (const char* country : {"C", "de_DE.UTF-8"}) {
-            if (std::setlocale(LC_NUMERIC, country) == nullptr) MESSAGE("skipped: no " << std::string(country));
+            if (std::setlocale(LC_NUMERIC, country) == nullptr)
+                MESSAGE("skipped: no " << std::string(country));
             CHECK(to_number("+1.5e+2") == 150);
             CHECK(to_number("-.5") == -0.5);
             CHECK(to_number("5.") == 5);

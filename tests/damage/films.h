@@ -2,13 +2,10 @@
 // is a film that can be looked at, added and written as it was read.
 #pragma once
 #include <bit>
-#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <random>
 
 #include "common/base/checksum.h"
-#include "common/base/system.h"
 #include "common/picture/film_file.h"
 #include "common/results/results.h"
 #include "common/results/warnings.h"
@@ -50,29 +47,18 @@ inline LabeledFilm any_film(int kind, bool takes_splats, uint32_t first, uint32_
 class FilmFuzzer {
 public:
     FilmFuzzer() {
-        // In memory where the system has such a folder: films are written through to the disk.
-        std::filesystem::path memory = "/dev/shm", disk = std::filesystem::temp_directory_path();
-        std::random_device random;
-        std::string name = "films-" + std::to_string(random()) + std::to_string(random());
-        std::filesystem::path folder = (std::filesystem::exists(memory) ? memory : disk) / name;
-        std::filesystem::create_directory(folder);
-        folder_ = file_name(folder);
         for (auto [kind, takes_splats] : {std::pair(0, false),
                                           {1, false},
                                           {2, false},
                                           {3, false},
                                           {4, true},
                                           {0, true},
-                                          {1, true}}) {
+                                          {1, true}})
             for (uint32_t first : {0u, 3u, 4u}) {
                 films_.push_back(any_film(kind, takes_splats, first, first + 2));
                 bytes_.push_back(written(films_.back()));
             }
-        }
     }
-    ~FilmFuzzer() { std::filesystem::remove_all(folder_); }
-    FilmFuzzer(const FilmFuzzer&) = delete;
-    FilmFuzzer& operator=(const FilmFuzzer&) = delete;
 
     /// The films that are damaged, as files.
     const std::vector<std::string>& films() const { return bytes_; }
@@ -80,21 +66,21 @@ public:
     /// Reads the bytes of a film, and does with it all that is done with films. Throws InputError
     /// of one line when it is refused, and logic_error when something else is wrong.
     void use(const std::string& bytes) {
-        std::ofstream(folder_ + "/a.film", std::ios::binary) << bytes;
-        LabeledFilm film = read_film(folder_ + "/a.film");
+        std::ofstream(folder_ / "a.film", std::ios::binary) << bytes;
+        LabeledFilm film = read_film(folder_ / "a.film");
         if (written(film) != bytes) throw std::logic_error("written otherwise than read");
         look_at(film);
         for (const LabeledFilm& other : films_) {
             LabeledFilm sum = other;
             try {
-                add_film(sum, folder_ + "/a.film", film);
+                add_film(sum, folder_ / "a.film", film);
             } catch (const InputError& error) {
                 check_message(error.what());
                 continue;
             }
             look_at(sum);
             std::string whole = written(sum);
-            read_film(folder_ + "/b.film");
+            read_film(folder_ / "b.film");
         }
     }
 
@@ -122,8 +108,8 @@ public:
 
 private:
     std::string written(const LabeledFilm& film) const {
-        write_film(folder_ + "/b.film", film.label, film.film);
-        return read_file(folder_ + "/b.film");
+        write_film(folder_ / "b.film", film.label, film.film);
+        return read_file(folder_ / "b.film");
     }
 
     /// All that is worked out from a film.
@@ -143,10 +129,9 @@ private:
             "goal|option|size|samples 2 3 0|goal 9 3 0",
             '|');
         size_t end = std::min(bytes.size(), bytes.find("\n\n") + 1);
-        std::string label = bytes.substr(0, end);
-        size_t other = dice.below(bytes_.size());
-        std::string theirs = bytes_[other].substr(0, bytes_[other].find("\n\n") + 1);
-        return mutate(label, theirs, words, dice) + bytes.substr(end);
+        const std::string& other = bytes_[dice.below(bytes_.size())];
+        return mutate(bytes.substr(0, end), other.substr(0, other.find("\n\n") + 1), words, dice) +
+               bytes.substr(end);
     }
 
     /// Changes a number of the sums, or swaps two of them; now and then their count.
@@ -158,22 +143,19 @@ private:
         auto put = [&](size_t where, auto value) {
             std::memcpy(bytes.data() + at + where, &value, sizeof value);
         };
-        constexpr double numbers[] = {0, 1, -1, 1e308, -1e308, 5e-324, HUGE_VAL};
+        const double numbers[] = {0, 1, -1, 1e308, -1e308, 5e-324, HUGE_VAL, std::nan("")};
         constexpr uint32_t counts[] = {0, 1, 2, 3, 1u << 28, (1u << 28) + 1, 1u << 31, 0xffffffff};
-        constexpr uint8_t small[] = {0, 1, 2, 28, 29, 255};
-        switch (dice.below(8)) {
-            case 0: return put(8 * dice.below(12), numbers[dice.below(7)]);
-            case 1: return put(8 * dice.below(12), std::nan(""));
-            case 2: return put(96 + dice.below(4), small[dice.below(6)]);
-            case 3: return put(100, counts[dice.below(8)]);
-            case 4: bytes.replace(at, size, bytes.substr(from, size)); return;
-            case 5: bytes.insert(at, bytes.substr(from, size)); return;
-            case 6: bytes.erase(at, dice.below(2) == 0 ? size : 1 + dice.below(200)); return;
-            default: bytes[at + dice.below(size)] = static_cast<char>(dice.below(256)); return;
+        switch (dice.below(6)) {
+            case 0: return put(8 * dice.below(12), numbers[dice.below(8)]);
+            case 1: return put(96 + dice.below(4), static_cast<char>(dice.below(30)));
+            case 2: return put(100, counts[dice.below(8)]);
+            case 3: bytes.replace(at, size, bytes.substr(from, size)); return;
+            case 4: bytes.insert(at, bytes.substr(from, size)); return;
+            default: bytes.erase(at, dice.below(2) == 0 ? size : 1 + dice.below(200));
         }
     }
 
-    std::string folder_;
+    TemporaryFolder folder_;
     std::vector<LabeledFilm> films_;
     std::vector<std::string> bytes_;
 };

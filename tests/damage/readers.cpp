@@ -1,7 +1,7 @@
 // Short runs of the fuzzers; `make fuzz` is the long one.
 #include <doctest/doctest.h>
 
-#include "tests/damage/pictures.h"
+#include "tests/damage/scenes.h"
 
 TEST_SUITE("reader: malformed input") {
     TEST_CASE("input: damaged scenes and meshes are read or refused, and nothing else happens" *
@@ -30,15 +30,5 @@ TEST_SUITE("reader: malformed input") {
             CHECK(mesh.faces_left_out == ply.mesh.faces_left_out);
         }
         CHECK(read > 1200);
-    }
-}
-
-TEST_SUITE("pictures on disk") {
-    TEST_CASE("input: damaged pictures, notes and statistics are read or refused, and no more") {
-        constexpr uint32_t count = 2000;
-        FuzzResult result = fuzz_pictures(1'000'000, count);
-        CHECK(result.read + result.refused == count);
-        CHECK(result.read > count / 10);
-        CHECK(result.refused > count / 3);
     }
 }

@@ -31,9 +31,9 @@ Finished captured(const Work& work) {
     struct Redirected {
         Redirected(int stream, const std::string& name) : stream_(stream), before_(::dup(stream)) {
             std::fflush(nullptr);
-            int file = open_new_file(name);
-            ::dup2(file, stream);
-            close_file(file);
+            std::FILE* file = std::fopen(name.c_str(), "wb");
+            ::dup2(::fileno(file), stream);
+            std::fclose(file);
         }
         ~Redirected() {
             std::fflush(nullptr);
