@@ -1,25 +1,22 @@
-// How near and how small lights may be: in every chapter that samples lights.
+// Law: lights may be as near and as small as floats allow, for every method that samples lights.
 #include <cstdio>
 
-#include "tests/support/chapters.h"
-// After the chapters: it has another normalize().
 #include "common/geometry/transform.h"
+#include "common/light/light_shapes.h"
+#include "tests/laws/laws.h"
 
 namespace {
 
-/// The chapters that differ where there is one light: it is sampled in the same way by 09 to 13.
-std::vector<Chapter> some_chapters(const Scene& scene) {
-    return {{"09", method_of<ch09::trace>(ch09::LightMeasure::solid_angle)},
-            {"14", method_of<ch14::trace>(ch14::prepare(scene))},
-            {"15", method_of<ch15::trace>(ch15::prepare(scene))}};
-}
-std::vector<Chapter> all_chapters(const Scene& scene) {
-    std::vector<Chapter> chapters = some_chapters(scene);
-    chapters.push_back({"10", method_of<ch10::trace>()});
-    chapters.push_back({"11", method_of<ch11::trace>(ch11::prepare(scene))});
-    chapters.push_back({"12", method_of<ch12::trace>(ch12::prepare(scene, 4))});
-    chapters.push_back({"13", method_of<ch13::trace>(ch13::prepare(scene), ch13::Strategy::light)});
-    return chapters;
+/// The methods that sample lights well, however near or far. 09, 14 and 15 differ where there is
+/// one light: others sample it as one of these does.
+std::vector<NamedMethod> that_sample_lights(const Scene& scene, bool all = true) {
+    std::vector<NamedMethod> methods = methods_for(scene);
+    std::erase_if(methods, [&](const NamedMethod& m) {
+        bool differs = m.name == "09" || m.name == "14" || m.name == "15";
+        return m.search != LightSearch::light_sampling || m.name == "09-area" ||
+               m.name == "14-balance" || !(all || differs);
+    });
+    return methods;
 }
 
 /// A float with all its digits, as a scene file has it.
@@ -123,18 +120,19 @@ RunningStats measure(const Scene& scene, const Method& trace, const Ray& ray, ui
     return stats;
 }
 
-/// How much is measured: by which chapters, with how many points, and to which error.
+/// To which error the irradiance is measured at which heights, from how many Sobol points.
 struct Effort {
-    std::vector<Chapter> (*chapters)(const Scene&) = some_chapters;
-    uint32_t scrambles = 512, points = 16;
     double relative_se = 4e-3;
+    uint32_t scrambles = 512, points = 16;
+    bool all_methods = false;
     std::vector<double> heights = {1e-1, 1e-3, 1e-5, 1e-7};
 };
 
-void check_chapters(const Scene& scene, const Ray& ray, double truth, const Effort& effort) {
-    for (const Chapter& chapter : effort.chapters(scene)) {
-        CAPTURE(chapter.name);
-        RunningStats s = measure(scene, chapter.trace, ray, effort.scrambles, effort.points);
+void check_methods(const Scene& scene, const Ray& ray, double truth, const Effort& effort) {
+    for (const NamedMethod& row : that_sample_lights(scene, effort.all_methods)) {
+        CAPTURE(row.name);
+        Method trace = method(row.name, scene);
+        RunningStats s = measure(scene, trace, ray, effort.scrambles, effort.points);
         check_bounded(s, truth, effort.relative_se);
     }
 }
@@ -153,7 +151,7 @@ void check_squares(const Effort& effort) {
             Scene scene = patch_under(unit_square_at(h, corner));
             REQUIRE(scene.light_shapes[0].parallelogram);
             Ray ray = onto_patch(scene, h);
-            check_chapters(scene, ray, irradiance_of_triangles(scene, {}), effort);
+            check_methods(scene, ray, irradiance_of_triangles(scene, {}), effort);
         }
 }
 
@@ -168,7 +166,7 @@ void check_triangles(const Effort& effort) {
             const auto& corners = points;
             CAPTURE(h);
             Scene scene = patch_under(triangles(indices, h, corners));
-            check_chapters(scene, onto_patch(scene, h), irradiance_of_triangles(scene, {}), effort);
+            check_methods(scene, onto_patch(scene, h), irradiance_of_triangles(scene, {}), effort);
         }
 }
 
@@ -181,7 +179,7 @@ void check_disks(const Effort& effort) {
             CAPTURE(h);
             std::string place = "Translate " + digits(d) + " " + digits(h) + " 0 ";
             Scene scene = patch_under(place + "Rotate 90 1 0 0 Shape \"disk\"\n");
-            check_chapters(scene, onto_patch(scene, h), irradiance_of_disk(h, d), effort);
+            check_methods(scene, onto_patch(scene, h), irradiance_of_disk(h, d), effort);
         }
 }
 
@@ -196,7 +194,7 @@ void check_balls(const Effort& effort) {
             Scene scene = patch_under("Translate " + digits(double{c.x}) + " " +
                                       digits(double{c.y}) + " 0 Shape \"sphere\"\n");
             double E = irradiance_of_ball(Vec3d(scene.geometry.spheres[0].c), 1);
-            check_chapters(scene, onto_patch(scene, gap), E, effort);
+            check_methods(scene, onto_patch(scene, gap), E, effort);
         }
 }
 
@@ -208,7 +206,7 @@ void check_small_balls(const Effort& effort) {
         Scene scene = patch_under("Translate 7 25 -11 Shape \"sphere\" \"float radius\" " + r);
         double d2 = dot(Vec3d(c), Vec3d(c)), radius = std::stod(r);
         double E = pi_exact * radius * radius / d2 * double{c.y} / std::sqrt(d2);
-        check_chapters(scene, onto_patch(scene, 1), E, effort);
+        check_methods(scene, onto_patch(scene, 1), E, effort);
     }
 }
 
@@ -230,41 +228,43 @@ void check_densities(const Scene& scene, Vec3 x) {
 
 }  // namespace
 
-TEST_SUITE("light limits") {
+TEST_SUITE("law: near lights") {
     TEST_CASE("truth: squares from near") { check_squares({}); }
     TEST_CASE("truth: triangles from near") { check_triangles({}); }
-    TEST_CASE("truth: disks from near") { check_disks({.relative_se = 1e-2}); }
-    TEST_CASE("truth: balls from near") { check_balls({.relative_se = 1e-2}); }
-    TEST_CASE("truth: balls from afar") { check_small_balls({all_chapters, 64, 16, 1e-4}); }
+    TEST_CASE("truth: disks from near") { check_disks({1e-2}); }
+    TEST_CASE("truth: balls from near") { check_balls({1e-2}); }
+    TEST_CASE("truth: balls from afar") { check_small_balls({1e-4, 64, 16, true}); }
 
     TEST_CASE("identity: no shadow ray goes to light that would not come, or not be reflected") {
         // The lamp is behind the wall and shines towards it, or in front of it and shines away:
         // each path is one ray to the wall, and one on.
-        auto lit_from = [](bool behind) {
+        for (std::string place : {"-1", "9"}) {
+            CAPTURE(place);
             Scene scene =
                 world_of("AttributeBegin Rotate -90 1 0 0 Scale 9 1 9 " + square(0, true) +
-                         "AttributeEnd\n" + shining + "Rotate -90 1 0 0 Translate 0 " +
-                         (behind ? "-1 0 " : "9 0 ") + square(0, true));
-            scene.width = scene.height = 8;
+                             "AttributeEnd\n" + shining + "Rotate -90 1 0 0 Translate 0 " + place +
+                             " 0 " + square(0, true),
+                         8);
             scene.max_depth = 1;
-            return scene;
-        };
-        for (bool behind : {true, false}) {
-            CAPTURE(behind);
-            Scene scene = lit_from(behind);
-            for (const Chapter& chapter : all_chapters(scene)) {
-                CAPTURE(chapter.name);
-                Rendering r = film_of(scene, chapter.trace, 4);
+            for (const NamedMethod& row : that_sample_lights(scene)) {
+                CAPTURE(row.name);
+                Rendering r = film_of(scene, method(row.name, scene), 4);
                 CHECK(r.stats.rays == 2 * 8 * 8 * 4);
                 CHECK(r.film.mean() == 0);
             }
         }
     }
 
+    /// Every method brings numbers along the ray.
+    void check_finite(const Scene& scene, const Ray& ray) {
+        for (const NamedMethod& row : that_sample_lights(scene)) {
+            CAPTURE(row.name);
+            CHECK(std::isfinite(repeat(scene, ray, method(row.name, scene), 200).mean()));
+        }
+    }
+
     TEST_CASE(
         "failure: on a light, but for rounding, it gives nothing by light sampling, and no NaN") {
-        Sampler sampler(SamplerType::independent, 1, 1);
-        Recorder recorder;
         for (std::string h : {"1e-18", "1e-38", "1e-44", "0"}) {
             for (std::string shape : {unit_square_at(std::stod(h), {-0.3f, -0.4f}),
                                       triangles("0 2 1", std::stod(h), {{-1, 0}, {1, -1}, {0, 2}}),
@@ -276,34 +276,21 @@ TEST_SUITE("light limits") {
                 check_densities(scene, {});
                 Ray ray = onto_patch(scene, 1e-3);
                 ray.o = ray.o + 1e-3f * ray.d;
-                for (const Chapter& chapter : all_chapters(scene))
-                    for (uint32_t i = 0; i < 200; i++) {
-                        CAPTURE(chapter.name);
-                        sampler.start(0, i);
-                        CHECK(is_finite(chapter.trace(scene, ray, sampler, recorder)));
-                    }
+                check_finite(scene, ray);
             }
         }
     }
 
-    TEST_CASE("failure: the brightest and smallest lights, by every chapter: no NaN") {
-        Sampler sampler(SamplerType::independent, 1, 1);
-        Recorder recorder;
+    TEST_CASE("failure: the brightest and smallest lights, by every method: no NaN") {
         for (std::string r : {"1.1e-18", "1e-17", "1e-10", "4e8"}) {
+            CAPTURE(r);
             std::string rough = "Material \"conductor\" \"float roughness\" 0.1 Scale 1e6 1 1e6 ";
             std::string light =
                 "AreaLightSource \"diffuse\" \"rgb L\" [1e15 1e15 1e15] "
                 "Translate 0 2e3 0 Shape \"sphere\" \"float radius\" ";
-            Scene scene = world_of("AttributeBegin " + rough + square(0, true) + "AttributeEnd " +
-                                   light + r + " Translate 30 0 0 Shape \"sphere\"");
-            CAPTURE(r);
-            for (const Chapter& chapter : all_chapters(scene))
-                for (uint32_t i = 0; i < 200; i++) {
-                    CAPTURE(chapter.name);
-                    sampler.start(0, i);
-                    CHECK(is_finite(
-                        chapter.trace(scene, {{0, 5, -9}, {0, -0.6f, 0.8f}}, sampler, recorder)));
-                }
+            check_finite(world_of("AttributeBegin " + rough + square(0, true) + "AttributeEnd " +
+                                  light + r + " Translate 30 0 0 Shape \"sphere\""),
+                         {{0, 5, -9}, {0, -0.6f, 0.8f}});
         }
     }
 }

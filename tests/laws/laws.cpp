@@ -1,0 +1,207 @@
+#include "tests/laws/laws.h"
+
+#include "tests/support/light_paths.h"
+
+std::vector<NamedMethod> methods_for(const Scene& scene) {
+    std::vector<NamedMethod> methods;
+    for (const NamedMethod& m : all_methods()) {
+        bool as_another = m.name.ends_with("-sobol") || m.name == "12-m32" || m.name == "15-m16";
+        if (!as_another && can_render(m, scene)) methods.push_back(m);
+    }
+    return methods;
+}
+
+Scene seen_along(Scene scene, const Ray& ray) {
+    Camera& camera = scene.camera;
+    camera.o = ray.o, camera.forward = normalize(ray.d);
+    Vec3 aside = std::abs(camera.forward.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    camera.right = normalize(cross(camera.forward, aside));
+    camera.up = cross(camera.right, camera.forward);
+    camera.fov = 0.001f;
+    scene.width = scene.height = 1;
+    return scene;
+}
+
+Scene lit_floor(const std::string& lights) { return seen_along(floor_under(lights), onto_origin); }
+
+namespace {
+
+/// The classes that paths from the camera find although lights have no size, and those that paths
+/// from the lights show to a pinhole.
+const std::string sampled = "L(D(S|D)*)?E";
+
+/// What samples bring, each one a path or a pass: by class of path, by length, and all together.
+struct Census {
+    int samples = 0;
+    std::map<std::string, PathSum> parts = {};
+
+    void merge(const Census& b) {
+        samples += b.samples;
+        for (const auto& [name, sum] : b.parts) parts[name].merge(sum);
+    }
+    /// One sample: the mean over the paths of a pass.
+    void add_pass(const Census& paths) {
+        samples++;
+        for (const auto& [name, sum] : paths.parts) {
+            PathSum& part = parts[name];
+            uint64_t met = part.not_zero + sum.not_zero;
+            part.add(sum.sum / paths.samples);
+            part.not_zero = met;
+        }
+    }
+};
+
+/// The paths [first, last) through random points of the film.
+Census paths_of(const Scene& scene, const Method& method, int first, int last, uint32_t seed,
+                bool classes) {
+    Census census{last - first};
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    Sampler sampler(SamplerType::independent, seed, 1);
+    Recorder recorder(classes);
+    ClassSelection by_eye(sampled), by_light(shown_by_light);
+    Splats splats;
+    Vec2 size = {static_cast<float>(scene.width), static_cast<float>(scene.height)};
+    for (int i = first; i < last; i++) {
+        sampler.start(0, static_cast<uint32_t>(i));
+        recorder.start();
+        splats.clear();
+        Vec2 u = sampler.u2();
+        Ray ray = camera_ray(view, {u.x * size.x, u.y * size.y});
+        Rgb L = method.trace(scene, ray, splats, sampler, recorder);
+        for (const Splat& splat : splats) L += splat.L;
+        std::map<std::string, double> parts = {{"all", double{average(L)}}};
+        for (const Contribution& part : recorder.contributions()) {
+            double y = double{average(part.L)};
+            parts[part.path_class] += y;
+            parts["length " + std::to_string(part.path_class.size() - 2)] += y;
+            if (by_eye.contains(part.path_class)) parts["all " + sampled] += y;
+            if (by_light.contains(part.path_class)) parts["all " + shown_by_light] += y;
+        }
+        for (auto [name, y] : parts) census.parts[name].add(y);
+    }
+    return census;
+}
+
+Census census_of(const Scene& scene, const NamedMethod& row, int paths, uint32_t seed,
+                 bool classes) {
+    RenderOptions options;
+    options.seed = seed;
+    Method method = row.make(scene, options);
+    auto census = [&](int begin, int count) {
+        return in_blocks<Census>(count, [&](int first, int last) {
+            return paths_of(scene, method, begin + first, begin + last, seed, classes);
+        });
+    };
+    if (!method.prepare) return census(0, paths);
+    // Paths of a pass depend on each other.
+    Census passes;
+    for (int pass = 0, each = paths / 64; pass < 64; pass++) {
+        method.prepare(static_cast<uint32_t>(pass), 1, [] { return false; });
+        passes.add_pass(census(pass * each, each));
+    }
+    return passes;
+}
+
+}  // namespace
+
+Measured brightness(const Scene& scene, const NamedMethod& method, int paths, uint32_t seed) {
+    Census census = census_of(scene, method, paths, seed, false);
+    return census.parts["all"].measured(census.samples);
+}
+
+void check_light(const Scene& scene, const KnownLight& light) {
+    constexpr int few = 2048, most = 1 << 20;
+    bool one_ray = scene.width == 1;  // which no path from a light happens to meet
+    int tested = 0;
+    for (const NamedMethod& method : methods_for(scene)) {
+        bool blurs = method.blurs(), from_lights = method.search == LightSearch::from_lights;
+        if (blurs && !(light.even && method.name.ends_with("-few"))) continue;
+        if (from_lights && (one_ray || light.mean == 0)) continue;
+        if (std::ranges::count(light.except, method.name)) continue;
+        CAPTURE(method.name);
+        double bound = light.relative_se;
+        Measured m;
+        int paths = few;
+        for (uint64_t met = 0; met < 50 && paths < most; paths *= 8) {
+            Census pilot = census_of(scene, method, paths, 2, false);
+            met = pilot.parts["all"].not_zero;
+            m = pilot.parts["all"].measured(pilot.samples);
+            if (light.mean == 0) break;
+        }
+        if (light.mean > 0) {
+            double wanted = paths / 8 * std::pow(m.se / (0.6 * bound * light.mean), 2);
+            if (wanted > most / 8 && (method.by_chance() || blurs || from_lights))
+                bound *= 3, wanted /= 9;
+            if (method.by_chance() && (m.mean == 0 || wanted > most)) continue;  // hardly ever met
+            m = brightness(scene, method, static_cast<int>(std::clamp<double>(wanted, few, most)));
+        }
+        tested++;
+        CAPTURE(m.mean);
+        CAPTURE(light.mean);
+        double se = std::hypot(m.se, light.se), known = (blurs ? 0.01 : 2e-6) * light.mean;
+        CAPTURE(se);
+        CHECK(std::abs(m.mean - light.mean) <= 5 * se + known);
+        CHECK(se <= bound * light.mean);
+    }
+    CHECK(tested > 0);
+}
+
+/// Whether the method finds all light of this class of path, or of this sum, where lights may have
+/// no size: such lights are never met, and no light path reaches a pinhole by way of a mirror.
+static bool finds_all(const NamedMethod& method, bool no_size, const std::string& name) {
+    static ClassSelection by_eye(sampled), by_light(shown_by_light);
+    bool shown = name[0] == 'L' ? by_light.contains(name) : name == "all " + shown_by_light;
+    bool aimed = name[0] == 'L' ? by_eye.contains(name) : name == "all " + sampled;
+    if (method.search == LightSearch::from_lights) return shown;
+    if (method.biased() || !no_size) return true;
+    return aimed || (shown && method.search == LightSearch::both_ends);
+}
+
+/// Compares what a method found with what is known of the same light. Who has too few paths of a
+/// class may have met too little of it: such numbers are left out. Returns how many were compared;
+/// adds what the method found to `known`, unless it blurs.
+static int compare(const NamedMethod& method, const Scene& scene, const Census& census,
+                   std::map<std::string, Measured>& known) {
+    bool no_size = std::ranges::any_of(scene.lights, [](const Light& light) {
+        return light.type == LightType::point || light.type == LightType::distant;
+    });
+    CAPTURE(method.name);
+    int compared = 0;
+    for (const auto& [its_name, part] : census.parts) {
+        const std::string& name = its_name;
+        Measured m = part.measured(census.samples);
+        if (part.not_zero < 100 || m.se > 0.3 * m.mean) continue;
+        if (!finds_all(method, no_size, name)) continue;
+        if (known.contains(name)) {
+            CAPTURE(name);
+            CAPTURE(m.mean);
+            CAPTURE(known[name].mean);
+            double se = std::hypot(m.se, known[name].se);
+            double allowed = (method.blurs() ? 0.01 : 1e-6) * m.mean;
+            CHECK(std::abs(m.mean - known[name].mean) <= 5 * se + allowed);
+            compared++;
+        }
+        if (!method.blurs()) known[name] = m;
+    }
+    return compared;
+}
+
+int check_classes_agree(const Scene& scene, int paths, uint32_t seed, bool blurred) {
+    std::map<std::string, Measured> known;
+    int compared = 0;
+    for (const NamedMethod& method : methods_for(scene)) {
+        if ((method.biased() && method.is_variant()) || (method.blurs() && !blurred)) continue;
+        compared += compare(method, scene, census_of(scene, method, paths, seed++, true), known);
+    }
+    return compared;
+}
+
+void check_same_light(const Scene& a, const std::vector<Scene>& others, int paths) {
+    for (const NamedMethod& method : methods_for(a)) {
+        if (method.biased()) continue;
+        std::map<std::string, Measured> known;
+        compare(method, a, census_of(a, method, paths, 1, true), known);
+        for (const Scene& b : others)
+            CHECK(compare(method, b, census_of(b, method, paths, 2, true), known) >= 3);
+    }
+}
