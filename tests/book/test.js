@@ -25,7 +25,7 @@ const fill = (page, values) => page.evaluate(values => {
     }
 }, values);
 const done = page => page.waitForFunction(`live.status.textContent.startsWith('done') &&
-    document.querySelector('.stop').disabled`, {timeout: 180000});
+    document.querySelector('.stop').disabled`);
 function from_program(name, words, file) {
     execFileSync(`${build}/${name}`, [...words, '--out', file, '--quiet']);
     return file;
@@ -148,7 +148,7 @@ async function live_part(page) {
     check('arrow keys and Enter do, too', (await text(page, '.live .printed')).includes('pixel 129,130 sample 0'));
 
     await page.click('.by-class button');
-    await page.waitForFunction(`document.querySelectorAll('.layers button').length > 3`, {timeout: 60000});
+    await page.waitForFunction(`document.querySelectorAll('.layers button').length > 3`);
     const shares = await page.$$eval('.layers button', list => list.map(button => button.textContent));
     const sum = shares.slice(1).reduce((s, share) => s + parseFloat(share.split(' ')[1]), 0);
     check('the classes of paths sum to the picture', Math.abs(sum - 100) < 0.5, shares.slice(0, 5).join(', '));
@@ -227,6 +227,7 @@ async function main() {
         console.log(`in ${kind}:`);
         const is_chrome = kind === 'chrome', args = is_chrome ? ['--no-sandbox', '--host-resolver-rules=MAP * ~NOTFOUND'] : [];
         const browser = await puppeteer.launch({browser: kind, executablePath, args}), page = await browser.newPage(), problems = [];
+        page.setDefaultTimeout(180000);
         page.on('pageerror', error => problems.push(error.message));
         page.on('console', message => message.type() === 'error' && problems.push(message.text()));
         page.on('request', request => /^(http|ws|ftp)/.test(request.url()) && problems.push(`asks for ${request.url()}`));
