@@ -110,13 +110,17 @@ TEST_SUITE("ch09 near lights") {
         }
     }
 
-    TEST_CASE("failure: in the light's plane, and at a point light: 0, and finite") {
+    TEST_CASE("failure: in the light's plane, at a point light, and from infinitely far") {
         Scene level = floor_under(shining + "Translate 5 0 0 " + square(0, false));
         for (const Method& trace : {trace_by_area, trace_by_angle})
             CHECK(irradiance(level, trace, 1000).mean() == 0);
         Scene touching = floor_under("LightSource \"point\" \"point3 from\" [0 0 0]");
         Sampler random = random_numbers(1);
         CHECK(light_sample(touching, origin_of(touching), random).pdf_w == 0);
+        for (std::string type : {"distant", "infinite"}) {  // anything may be in between
+            Scene far = floor_under("LightSource \"" + type + "\"");
+            CHECK(light_sample(far, origin_of(far), random).dist == infinity);
+        }
     }
 }
 

@@ -134,6 +134,20 @@ TEST_SUITE("ch15 two lights") {
         }
     }
 
+    TEST_CASE("identity: a drawn light has at least a tenth of the mean power of those drawn") {
+        // Three that are always candidates, four that are drawn, and two without power.
+        std::string lights;
+        for (const char* scale : {"9000", "9000", "9000", "1", "1", "1", "1", "1", "1"})
+            lights += "LightSource \"point\" \"float scale\" " + std::string(scale) + "\n";
+        Scene scene = floor_under(lights);
+        scene.lights[7].L = scene.lights[8].L = {};
+        ch15::Lights of_five = ch15::prepare(scene, 5);
+        CHECK(of_five.always.size() == 3);
+        double least = 1.0 / 6 / 10;
+        for (size_t i : {7u, 8u})
+            CHECK(pmf_light(of_five.table, i) == nearly(least / (1 + 2 * least), 1e-5));
+    }
+
     TEST_CASE("teeth: a wrong number of candidates moves the mean, a wrong target does not") {
         Scene scene = three_lights(paint);
         ch15::Lights honest = ch15::prepare(scene, 2), wrong = honest, silly = honest;
