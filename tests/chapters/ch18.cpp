@@ -52,16 +52,18 @@ TEST_SUITE("ch18 dispersion") {
         for (float channel : {sum.r, sum.g, sum.b}) CHECK(std::abs(channel - 1) < 3e-4f);
         CHECK(last < 0.7851);
         CHECK(ch18::sample_wavelength(white, 0).micrometres > 0.37f);
-        // Blue, green and red, where they are seen.
-        auto weight_at = [&](float micrometres) {
-            float u = 0;
-            while (ch18::sample_wavelength(white, u).micrometres < micrometres) u += 1e-4f;
-            return ch18::sample_wavelength(white, u).weight;
-        };
-        Rgb blue = weight_at(0.45f), green = weight_at(0.54f), red = weight_at(0.64f);
-        CHECK((blue.b > 2 && blue.g < 0.5f));
-        CHECK((green.g > 2 && green.r < 0.5f && green.b < 0.5f));
-        CHECK((red.r > 2.5f && red.g < 0.2f));
+        // Each interval is drawn by its share of white, and its middle is the observer's
+        // wavelength.
+        double u = 0;
+        for (size_t i = 0; i < white.size(); i++) {
+            double p = double{average(white[i])};
+            auto drawn = ch18::sample_wavelength(white, static_cast<float>(u + p / 2));
+            u += p;
+            if (p < 1e-3) continue;
+            double nm = observer_first_nm + observer_step_nm * static_cast<double>(i);
+            CHECK(1000 * double{drawn.micrometres} == doctest::Approx(nm).epsilon(1e-4).scale(0));
+            CHECK(drawn.weight == white[i] / average(white[i]));
+        }
     }
 
     TEST_CASE("truth: the glasses have the indices and Abbe numbers of their data sheets") {

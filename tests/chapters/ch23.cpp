@@ -245,12 +245,12 @@ TEST_SUITE("ch23 photon mapping") {
     }
 
     TEST_CASE("agreement: smoothed normals with chapter 15") {
-        // A flat sheet that pretends to lean away from the sun by 45 degrees, towards (0, 1, -1):
-        // photons alone, at small radii.
+        // A flat sheet that pretends to lean, on the left towards the sun, on the right away from
+        // it, so that no light is reflected: photons alone, at small radii.
         Scene scene = world_of(
             "LightSource \"distant\" \"point3 from\" [3 4 -5]\n"
-            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-3 -3 0 -3 3 "
-            "0 3 3 0 3 -3 0] \"normal N\" [0 1 -1 0 1 -1 0 1 -1 0 1 -1]\n",
+            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-1.6 -1.6 0 "
+            "-1.6 1.6 0 1.6 1.6 0 1.6 -1.6 0] \"normal N\" [0 1 -1 0 1 -1 0 -5 -2 0 -5 -2]\n",
             16);
         scene.max_depth = 1;
         Method method =
