@@ -25,10 +25,11 @@ void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(10)
         printable(path + ": error: " + what + ": " + std::strerror(error != 0 ? error : EIO)));
 }
 
-// A device or a pipe cannot be replaced, only written to.
+// A device or a pipe cannot be replaced, only written to. On Windows devices have such whole names.
 bool is_device(const std::string& name) {
     std::error_code none;
     fs::file_status status = fs::status(file_path(name), none);
+    if (fs::absolute(file_path(name), none).u8string().starts_with(u8"\\\\.\\")) return true;
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
