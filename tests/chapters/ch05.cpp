@@ -133,7 +133,11 @@ TEST_SUITE("ch05 shapes") {
             auto t = ch05::intersect_sphere(ray, c, r), also = intersect_sphere(ray, c, r);
             REQUIRE(t.has_value() == also.has_value());
             if (t) CHECK(std::abs(*t - *also) < 1e-6f);
-            met += hit.has_value() + t.has_value();
+            Vec3 n = normalize(point() - point());
+            auto at = ch05::intersect_disk(ray, c, n, r), there = intersect_disk(ray, c, n, r);
+            REQUIRE(at.has_value() == there.has_value());
+            if (at) CHECK(std::abs(*at - *there) < 1e-5f);
+            met += hit.has_value() + t.has_value() + at.has_value();
         }
         CHECK(met > 10000);
     }

@@ -130,8 +130,9 @@ TEST_SUITE("ch19 adaptive") {
         densities.pilot = 7;  // 4 and 3
         constexpr size_t pixels = 4000;
         for (size_t i = 0; i < pixels; i++) {  // the second half has more where the first has less
-            double density = 0.2 + 1.6 * (static_cast<double>(i) + 0.5) / pixels;
-            densities.of_half[0].push_back(density), densities.of_half[1].push_back(2 - density);
+            double u = (static_cast<double>(i) + 0.5) / pixels;
+            densities.of_half[0].push_back(0.2 + 1.6 * u);
+            densities.of_half[1].push_back(0.4 + 1.8 * (1 - u) * (1 - u));
         }
         for (uint32_t spp : {1u, 2u, 3u, 7u, 8u, 20u, 63u, 1000u}) {
             CAPTURE(spp);

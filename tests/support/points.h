@@ -34,9 +34,9 @@ void check_points(Make make, Estimate estimate, uint32_t step = 1, bool about = 
     auto product = [](Vec2 p) { return double{p.x} * double{p.y}; };
     auto exponential = [](Vec2 p) { return std::exp(double{p.x} + double{p.y}); };
     double e = std::numbers::e, variance = std::pow((e * e - 1) / 2, 2) - std::pow(e - 1, 4);
-    for (uint32_t n : {7u, 16u}) {
+    for (uint32_t n : {1u, 7u, 16u}) {
         RunningStats of_dart, of_product, of_sum;
-        for (uint32_t run = 0; run < 2000; run++) {
+        for (uint32_t run = 0; run < (n == 1 ? 14000 : 2000); run++) {
             std::vector<Vec2> points = make(n, hash32(run, 2));
             of_dart.add(estimate(points, dart));
             of_product.add(estimate(points, product));
