@@ -26,7 +26,7 @@ TEST_SUITE("coincident") {
     TEST_CASE("truth: surfaces in one place are named, and no others") {
         const std::string with_shape = "5:1: note: this lamp and the Shape at test.pbrt:3:1 lie ";
         std::string crowd = "AttributeBegin\n";
-        for (int i = 0; i < 40; i++) crowd += "Translate 9 0 0 Shape \"sphere\"\n";
+        for (int i = 0; i < 200; i++) crowd += "Translate 9 0 0 Shape \"sphere\"\n";
         crowd += "AttributeEnd\n";
         const std::pair<std::string, std::string> cases[] = {
             // In a plane: all of a lamp, a corner of it, by a disk, of a wall that is turned, and
