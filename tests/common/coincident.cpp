@@ -25,6 +25,9 @@ const std::string lamp = "AreaLightSource \"diffuse\"\n",
 TEST_SUITE("coincident") {
     TEST_CASE("truth: surfaces in one place are named, and no others") {
         const std::string with_shape = "5:1: note: this lamp and the Shape at test.pbrt:3:1 lie ";
+        std::string crowd = "AttributeBegin\n";
+        for (int i = 0; i < 200; i++) crowd += "Translate 9 0 0 Shape \"sphere\"\n";
+        crowd += "AttributeEnd\n";
         const std::pair<std::string, std::string> cases[] = {
             // In a plane: all of a lamp, a corner of it, by a disk, of a wall that is turned, and
             // two lamps. In space: balls. And faces that are given twice.
@@ -32,6 +35,7 @@ TEST_SUITE("coincident") {
             {level("1", ".4", ".4", "2", "2") + lamp + small, with_shape},
             {ceiling + lamp + disk, " lie in one place"},
             {turn + ceiling + "Rotate 20 0 1 0\n" + lamp + small, " lie in one place"},
+            {crowd + ceiling + lamp + small, " lie in one place"},
             {lamp + small + small, "5:1: note: this lamp and the lamp at test.pbrt:4:1 lie "},
             {ball + lamp + ball, with_shape},
             {small + "Material \"conductor\"\n" + small,

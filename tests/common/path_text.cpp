@@ -41,6 +41,7 @@ TEST_SUITE("path text") {
         PathStory story(5, false);
         Recorder recorder(true, &story);
         recorder.start();
+        story.starts_at_eye();
         trace_hit();
         recorder.vertex(hit_at({1, 2, 3}, m.glass, false));
         CHECK_FALSE(story.has_left());
@@ -60,7 +61,7 @@ TEST_SUITE("path text") {
         recorder.emitted({3, 2, 1});
         story.ends();
         CHECK(story.text() ==
-              "vertex 1  dielectric at (1, 2, 3), n (0, 0, -1), back, distance 2.5\n"
+              "from the eye:\nvertex 1  dielectric at (1, 2, 3), n (0, 0, -1), back, distance 2.5\n"
               "    light met: adds (0.5, 0.25, 0.125), mis 0.5, class LE\n"
               "    goes on along wi (0, 0.6, 0.8): f (2, 4, 8) sr^-1, pdf_w 1 (delta), beta (0.5, "
               "0.25, 0.125)\n"

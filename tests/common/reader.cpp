@@ -324,6 +324,8 @@ TEST_SUITE("reader: materials") {
                  sphere,
              "sphere 0 0 0, 1 1 0 0 reversed light 1\nsphere 0 0 0, 1" + grey +
                  "\narea 1 1 1, 1 from 0"},
+            // What only bounds a medium is no surface.
+            {"MakeNamedMaterial 'air' 'string type' 'interface' NamedMaterial 'air'" + sphere, ""},
             {"AttributeBegin Attribute 'shape' 'float radius' 2 'float height' 3 "
              "Attribute 'material' 'rgb reflectance' [1 0 0] Material 'diffuse' "
              "Shape 'sphere' Shape 'sphere' 'float radius' 4 Shape 'disk' AttributeEnd" +

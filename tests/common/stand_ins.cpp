@@ -169,6 +169,9 @@ TEST_SUITE("stand-ins") {
             CAPTURE(text);
             CHECK(files.described(light + noise + text, "sphere") == "sphere 0 0 0, 1 " + looks);
         }
+        CHECK(files.described(light + texture("'imagemap' 'string filename' 'a.png'") +
+                                  " Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]",
+                              "triangle") == "triangle 0 0 0 1 0 0 0 1 0 0.5 0.5 0.5");
         const std::pair<std::string, std::string> lights[] = {
             {"LightSource 'spot' 'point3 from' [1 2 3] 'rgb I' [4 5 6]", "point 4 5 6, 1 2 3"},
             // A hemisphere of constant intensity.

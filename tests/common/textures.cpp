@@ -149,6 +149,9 @@ TEST_SUITE("textures") {
         Hit hit;
         make_hit(plain, ray, linear_scan(plain.geometry, ray), hit);
         CHECK(hit.material->reflectance == red);
+        Scene patch = gallery.scene("Shape 'bilinearmesh' 'point3 P' [0 0 0 1 0 0 0 1 0 1 1 0]");
+        check(patch, 0.25f, 0.75f, red), check(patch, 0.75f, 0.25f, white);
+        check(patch, 0.25f, 0.25f, blue), check(patch, 0.75f, 0.75f, green);
         // A mirrored mesh, whose corners the reader exchanges, and one that turns while it moves.
         Scene mirrored = gallery.scene("Scale -1 1 1 ReverseOrientation " + square_with_uv);
         check(mirrored, -0.25f, 0.75f, red), check(mirrored, -0.75f, 0.25f, white);
