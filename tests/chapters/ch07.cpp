@@ -3,12 +3,10 @@
 
 #include <array>
 
-#include "tests/traces/07.h"
+#include "chapters/07_path_tracing/estimator.h"
 #include "common/base/error.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
-
-template Method method_of<ch07::trace>();
 
 namespace {
 

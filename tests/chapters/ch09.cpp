@@ -3,12 +3,10 @@
 
 #include <array>
 
-#include "tests/traces/08.h"
-#include "tests/traces/09.h"
+#include "chapters/08_russian_roulette/estimator.h"
+#include "chapters/09_light_sampling/estimator.h"
 #include "common/results/warnings.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch09::trace>(ch09::LightMeasure);
 
 using ch09::LightMeasure;
 

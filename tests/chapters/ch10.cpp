@@ -3,11 +3,9 @@
 
 #include <array>
 
-#include "tests/traces/09.h"
-#include "tests/traces/10.h"
+#include "chapters/09_light_sampling/estimator.h"
+#include "chapters/10_cosine_sampling/estimator.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch10::trace>();
 
 namespace {
 

@@ -3,12 +3,10 @@
 
 #include <array>
 
-#include "tests/traces/10.h"
-#include "tests/traces/11.h"
+#include "chapters/10_cosine_sampling/estimator.h"
+#include "chapters/11_light_importance/estimator.h"
 #include "common/light/pdf_one_light.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch11::trace>(ch11::LightTable);
 
 namespace {
 

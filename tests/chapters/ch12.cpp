@@ -5,12 +5,10 @@
 #include <tuple>
 #include <utility>
 
-#include "tests/traces/11.h"
-#include "tests/traces/12.h"
+#include "chapters/11_light_importance/estimator.h"
+#include "chapters/12_ris/estimator.h"
 #include "common/base/parallel.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch12::trace>(ch12::Proposal);
 
 namespace {
 

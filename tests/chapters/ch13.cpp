@@ -3,14 +3,12 @@
 
 #include <array>
 
-#include "tests/traces/11.h"
-#include "tests/traces/13.h"
+#include "chapters/11_light_importance/estimator.h"
+#include "chapters/13_glossy/estimator.h"
 #include "common/base/error.h"
 #include "tests/support/ggx_truth.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
-
-template Method method_of<ch13::trace>(LightTable, ch13::Strategy);
 
 using ch13::Strategy;
 

@@ -3,15 +3,13 @@
 
 #include <set>
 
-#include "tests/traces/15.h"
-#include "tests/traces/22.h"
-#include "tests/traces/23.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
 #include "common/results/warnings.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"
-
-template Method passes_of<ch23::photon_passes>(const Scene&, const ch23::PhotonSettings&);
 
 namespace {
 
@@ -70,7 +68,7 @@ Film film_by(const Scene& scene, PhotonSettings settings, int spp, uint32_t seed
     options.seed = settings.seed = seed;
     options.sampler = settings.sampler;
     options.threads = threads, options.quiet = true, options.paths = paths;
-    return render_film(of_spp, options, passes_of<ch23::photon_passes>(of_spp, settings)).film;
+    return render_film(of_spp, options, ch23::photon_passes(of_spp, settings)).film;
 }
 
 /// Means of a picture over seeds.
@@ -174,7 +172,7 @@ TEST_SUITE("ch23 first radius") {
 
     TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {
         auto radius = [](const Scene& scene) {
-            return double{passes_of<ch23::photon_passes>(scene, PhotonSettings{}).first_radius};
+            return double{ch23::photon_passes(scene, PhotonSettings{}).first_radius};
         };
         const std::string glass =
             "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
@@ -416,8 +414,7 @@ TEST_SUITE("ch23 photon mapping") {
         std::vector<Film> parts;
         for (int part : {2, 3, 1}) {
             options.part = part;
-            parts.push_back(
-                render_film(scene, options, passes_of<ch23::photon_passes>(scene, settings)).film);
+            parts.push_back(render_film(scene, options, ch23::photon_passes(scene, settings)).film);
         }
         parts[0].add(parts[1]);
         parts[0].add(parts[2]);

@@ -1,13 +1,11 @@
 // Chapter 24: photons whose radius shrinks from pass to pass.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/23.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
 // In this order: names of a lower chapter must not be found through a higher one.
-#include "tests/traces/24.h"
+#include "chapters/24_progressive_photons/estimator.h"
 #include "tests/support/photons.h"
-
-template Method passes_of<ch24::photon_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
@@ -19,7 +17,7 @@ Film film_by(const Scene& scene, PhotonSettings settings, int spp, uint32_t seed
     RenderOptions options;
     options.seed = settings.seed = seed;
     options.threads = 2, options.quiet = true, options.part = part, options.parts = parts;
-    return render_film(of_spp, options, passes_of<ch24::photon_passes>(of_spp, settings)).film;
+    return render_film(of_spp, options, ch24::photon_passes(of_spp, settings)).film;
 }
 
 }  // namespace
@@ -57,13 +55,13 @@ TEST_SUITE("ch24 progressive photons") {
             CameraView view = camera_view(scene.camera, scene.width, scene.height);
             for (bool final_gathering : {false, true}) {
                 PhotonSettings of_24{.light_paths = 20000, .final_gathering = final_gathering};
-                float first = passes_of<ch24::photon_passes>(scene, of_24).first_radius;
+                float first = ch24::photon_passes(scene, of_24).first_radius;
                 for (uint32_t pass : {0u, 1u, 20u}) {
                     ch23::PhotonSettings of_23{.light_paths = 20000,
                                                .final_gathering = final_gathering,
                                                .radius = ch24::radius_of(first, pass)};
-                    Method a = passes_of<ch23::photon_passes>(scene, of_23);
-                    Method b = passes_of<ch24::photon_passes>(scene, of_24);
+                    Method a = ch23::photon_passes(scene, of_23);
+                    Method b = ch24::photon_passes(scene, of_24);
                     a.prepare(pass, 2, [] { return false; });
                     b.prepare(pass, 2, [] { return false; });
                     int lit = 0;

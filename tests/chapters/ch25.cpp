@@ -1,17 +1,15 @@
 // Chapter 25: photons as one more strategy of the bidirectional chapters.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/22.h"
-#include "tests/traces/23.h"
-#include "tests/traces/25.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
+#include "chapters/25_vertex_merging/estimator.h"
 #include "tests/measure/floor_in_mirror.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"
 #include "tests/support/whole_paths.h"
-
-template Method passes_of<ch25::merging_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
@@ -27,9 +25,7 @@ const PhotonSettings as_usual = {.light_paths = 0};  // by the picture's size
 Film film_by(Scene scene, PhotonSettings settings, int spp, uint32_t seed = 1,
              const std::string& paths = "") {
     scene.spp = spp, settings.seed = seed;
-    return render_film(scene, options_of(seed, paths),
-                       passes_of<ch25::merging_passes>(scene, settings))
-        .film;
+    return render_film(scene, options_of(seed, paths), ch25::merging_passes(scene, settings)).film;
 }
 
 /// Means of blocks of the picture over `runs` seeds; of the classes of path that the filter
@@ -233,8 +229,7 @@ TEST_SUITE("ch25 vertex merging") {
             ch23::PhotonSettings s{.seed = seed, .light_paths = 20000};
             Scene of_spp = scene;
             of_spp.spp = 8;
-            return render_film(of_spp, options_of(seed, "LS+DS+E"),
-                               passes_of<ch23::photon_passes>(of_spp, s))
+            return render_film(of_spp, options_of(seed, "LS+DS+E"), ch23::photon_passes(of_spp, s))
                 .film.mean();
         };
         RunningStats photons;
@@ -263,14 +258,13 @@ TEST_SUITE("ch25 vertex merging") {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 16, 5);
         scene.spp = 7;
         RenderOptions options = options_of(0);
-        Film whole =
-            render_film(scene, options, passes_of<ch25::merging_passes>(scene, as_usual)).film;
+        Film whole = render_film(scene, options, ch25::merging_passes(scene, as_usual)).film;
         options.parts = 3;
         std::vector<Film> parts;
         for (int part : {2, 3, 1}) {
             options.part = part;
             parts.push_back(
-                render_film(scene, options, passes_of<ch25::merging_passes>(scene, as_usual)).film);
+                render_film(scene, options, ch25::merging_passes(scene, as_usual)).film);
         }
         parts[0].add(parts[1]);
         parts[0].add(parts[2]);

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <numeric>
 
-#include "tests/traces/15.h"
+#include "chapters/15_mis_ris/estimator.h"
 #include "chapters/26_radiosity/run.h"
 #include "common/scene/diffuse_meshes.h"
 #include "tests/support/estimators.h"
