@@ -1,13 +1,11 @@
 // Chapter 05: Whitted's ray tracing: exact where it sees, and blind to the rest.
 #include <doctest/doctest.h>
 
-#include "tests/traces/05.h"
-#include "tests/traces/07.h"
+#include "chapters/05_ray_casting/estimator.h"
+#include "chapters/07_path_tracing/estimator.h"
 #include "common/geometry/shapes.h"
 #include "common/recording/class_filter.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch05::trace>();
 
 namespace {
 

@@ -1,10 +1,8 @@
 // Chapter 07: path tracing: furnaces, closed enclosures, and paths that are cut.
 #include <doctest/doctest.h>
 
-#include "tests/traces/07.h"
+#include "chapters/07_path_tracing/estimator.h"
 #include "tests/support/directions.h"
-
-template Method method_of<ch07::trace>();
 
 namespace {
 

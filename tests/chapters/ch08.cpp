@@ -1,11 +1,9 @@
 // Chapter 08: Russian roulette: the mean of chapter 07, its price, and what a wrong one does.
 #include <doctest/doctest.h>
 
-#include "tests/traces/07.h"
-#include "tests/traces/08.h"
+#include "chapters/07_path_tracing/estimator.h"
+#include "chapters/08_russian_roulette/estimator.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch08::trace>();
 
 namespace {
 

@@ -1,11 +1,9 @@
 // Chapter 09: explicit light sampling: known irradiances, near lights, what counts once.
 #include <doctest/doctest.h>
 
-#include "tests/traces/08.h"
-#include "tests/traces/09.h"
+#include "chapters/08_russian_roulette/estimator.h"
+#include "chapters/09_light_sampling/estimator.h"
 #include "tests/support/known_lights.h"
-
-template Method method_of<ch09::trace>(ch09::LightMeasure);
 
 using ch09::LightMeasure;
 

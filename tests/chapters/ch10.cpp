@@ -1,11 +1,9 @@
 // Chapter 10: cosine sampling: the warp, samples that are all alike, and a sky where it is worse.
 #include <doctest/doctest.h>
 
-#include "tests/traces/09.h"
-#include "tests/traces/10.h"
+#include "chapters/09_light_sampling/estimator.h"
+#include "chapters/10_cosine_sampling/estimator.h"
 #include "tests/support/directions.h"
-
-template Method method_of<ch10::trace>();
 
 TEST_SUITE("ch10 cosine sampling") {
     TEST_CASE("density: cosine hemisphere") {

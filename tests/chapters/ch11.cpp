@@ -3,11 +3,9 @@
 
 #include <numeric>
 
-#include "tests/traces/10.h"
-#include "tests/traces/11.h"
+#include "chapters/10_cosine_sampling/estimator.h"
+#include "chapters/11_light_importance/estimator.h"
 #include "tests/support/known_lights.h"
-
-template Method method_of<ch11::trace>(ch11::LightTable);
 
 namespace {
 

@@ -3,11 +3,9 @@
 
 #include <array>
 
-#include "tests/traces/11.h"
-#include "tests/traces/12.h"
+#include "chapters/11_light_importance/estimator.h"
+#include "chapters/12_ris/estimator.h"
 #include "tests/support/known_lights.h"
-
-template Method method_of<ch12::trace>(ch12::Proposal);
 
 namespace {
 

@@ -1,13 +1,11 @@
 // Chapter 13: rough metal, and the two ways to look for light on it, each of which fails somewhere.
 #include <doctest/doctest.h>
 
-#include "tests/traces/11.h"
-#include "tests/traces/13.h"
+#include "chapters/11_light_importance/estimator.h"
+#include "chapters/13_glossy/estimator.h"
 #include "tests/support/directions.h"
 #include "tests/support/ggx_truth.h"
 #include "tests/support/plates.h"
-
-template Method method_of<ch13::trace>(LightTable, ch13::Strategy);
 
 using ch13::Strategy;
 

@@ -1,13 +1,11 @@
 // Chapter 14: the weights of multiple importance sampling, and all strategies.
 #include <doctest/doctest.h>
 
-#include "tests/traces/10.h"
-#include "tests/traces/13.h"
-#include "tests/traces/14.h"
+#include "chapters/10_cosine_sampling/estimator.h"
+#include "chapters/13_glossy/estimator.h"
+#include "chapters/14_mis/estimator.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
-
-template Method method_of<ch14::trace>(ch14::Lights);
 
 using ch14::balance_heuristic, ch14::power_heuristic;
 

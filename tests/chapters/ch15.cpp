@@ -5,14 +5,12 @@
 #include <numeric>
 #include <utility>
 
-#include "tests/traces/12.h"
-#include "tests/traces/14.h"
-#include "tests/traces/15.h"
+#include "chapters/12_ris/estimator.h"
+#include "chapters/14_mis/estimator.h"
+#include "chapters/15_mis_ris/estimator.h"
 #include "common/light/resampling.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/plates.h"
-
-template Method method_of<ch15::trace>(ch15::Lights);
 
 namespace {
 

@@ -1,11 +1,9 @@
 // Chapter 16: the lens and the shutter.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/16.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/16_lens_and_shutter/estimator.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch16::trace>(many_lights::Lights);
 
 namespace {
 

@@ -1,11 +1,9 @@
 // Chapter 17: light from an image of the sky.
 #include <doctest/doctest.h>
 
-#include "tests/traces/16.h"
-#include "tests/traces/17.h"
+#include "chapters/16_lens_and_shutter/estimator.h"
+#include "chapters/17_sky_image/estimator.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch17::trace>(ch17::LightsAndSky);
 
 namespace {
 

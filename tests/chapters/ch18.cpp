@@ -1,15 +1,13 @@
 // Chapter 18: dispersion.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/17.h"
-#include "tests/traces/18.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/17_sky_image/estimator.h"
+#include "chapters/18_dispersion/estimator.h"
 #include "common/base/error.h"
 #include "common/options/loading.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/estimators.h"
-
-template Method method_of<ch18::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/traces/18.h"
-#include "tests/traces/19.h"
+#include "chapters/18_dispersion/estimator.h"
+#include "chapters/19_adaptive/estimator.h"
 #include "common/base/files.h"
 #include "common/options/loading.h"
 #include "common/picture/comparison.h"
@@ -12,8 +12,6 @@
 #include "tests/support/folder.h"
 #include "tests/support/run_program.h"
 #include "tests/support/stand_ins.h"
-
-template Method method_of<ch19::trace>(sky_light::LightsAndSky, std::vector<Rgb>);
 
 namespace {
 

@@ -1,13 +1,11 @@
 // Chapter 20: what a path from a light brings to the camera.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/20.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/20_light_tracing/estimator.h"
 #include "common/results/warnings.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
-
-template Method method_of<ch20::trace_light>(ch20::Endpoints);
 
 namespace {
 

@@ -1,14 +1,12 @@
 // Chapters 21 and 22: every strategy, its weight, and all of them together.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/20.h"
-#include "tests/traces/21.h"
-#include "tests/traces/22.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/20_light_tracing/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/whole_paths.h"
-
-template Method method_of<ch21::trace>(Endpoints);
 
 namespace {
 

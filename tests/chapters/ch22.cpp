@@ -2,12 +2,10 @@
 // What holds for both chapters is in ch21.cpp.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/21.h"
-#include "tests/traces/22.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 #include "tests/support/light_paths.h"
-
-template Method method_of<ch22::trace>(ch22::Bidirectional);
 
 namespace {
 

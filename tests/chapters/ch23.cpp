@@ -3,13 +3,11 @@
 
 #include <set>
 
-#include "tests/traces/15.h"
-#include "tests/traces/22.h"
-#include "tests/traces/23.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"
-
-template Method passes_of<ch23::photon_passes>(const Scene&, const ch23::PhotonSettings&);
 
 namespace {
 
@@ -55,7 +53,7 @@ double irradiance_at(const Hit& x, const std::vector<Photon>& photons, float rad
 Method by_15(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
 Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
 Method by_23(const Scene& scene, const PhotonSettings& settings) {
-    return passes_of<ch23::photon_passes>(scene, settings);
+    return ch23::photon_passes(scene, settings);
 }
 
 /// The mean is that of the truth, but for 5 standard errors and a bias; both know it well.

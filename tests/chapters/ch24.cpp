@@ -1,18 +1,16 @@
 // Chapter 24: photons whose radius shrinks from pass to pass.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
-#include "tests/traces/23.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
 // In this order: names of a lower chapter must not be found through a higher one.
-#include "tests/traces/24.h"
+#include "chapters/24_progressive_photons/estimator.h"
 #include "tests/support/photons.h"
-
-template Method passes_of<ch24::photon_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
 Method by_24(const Scene& scene, const PhotonSettings& settings) {
-    return passes_of<ch24::photon_passes>(scene, settings);
+    return ch24::photon_passes(scene, settings);
 }
 
 }  // namespace
@@ -59,7 +57,7 @@ TEST_SUITE("ch24 progressive photons") {
                         method.prepare = nullptr;
                         return film_of(scene, method, 1, pass).film;
                     };
-                    Film expected = film_of_pass(passes_of<ch23::photon_passes>(scene, of_23));
+                    Film expected = film_of_pass(ch23::photon_passes(scene, of_23));
                     CHECK(film_of_pass(by_24(scene, of_24)).image().pixels ==
                           expected.image().pixels);
                     CHECK(expected.mean() > 0);

@@ -1,19 +1,17 @@
 // Chapter 25: photons as one more strategy of the bidirectional chapters.
 #include <doctest/doctest.h>
 
-#include "tests/traces/22.h"
-#include "tests/traces/23.h"
-#include "tests/traces/25.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
+#include "chapters/25_vertex_merging/estimator.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/whole_paths.h"
-
-template Method passes_of<ch25::merging_passes>(const Scene&, const PhotonSettings&);
 
 namespace {
 
 Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
 Method by_25(const Scene& scene, const PhotonSettings& settings = {.light_paths = 0}) {
-    return passes_of<ch25::merging_passes>(scene, settings);
+    return ch25::merging_passes(scene, settings);
 }
 
 /// The weights of the lesson: of connections by s, then of merges by the number of their vertex;
@@ -168,8 +166,7 @@ TEST_SUITE("ch25 vertex merging") {
               doctest::skip()) {
         // No connection finds this light (chapter 21); photons do.
         Scene scene = scene_from("scenes/sds.pbrt", 32, 6);
-        Method by_23 =
-            passes_of<ch23::photon_passes>(scene, ch23::PhotonSettings{.light_paths = 20000});
+        Method by_23 = ch23::photon_passes(scene, ch23::PhotonSettings{.light_paths = 20000});
         Method method = by_25(scene, {.light_paths = 20000, .radius = scene.radius / 120});
         Measured own = picture_of(scene, method, 96, "LS+DS+E");
         CHECK(own.mean > 0);

@@ -1,7 +1,7 @@
 // Chapter 26: patches, form factors, solvers, and the picture.
 #include <doctest/doctest.h>
 
-#include "tests/traces/15.h"
+#include "chapters/15_mis_ris/estimator.h"
 #include "chapters/26_radiosity/run.h"
 #include "common/scene/diffuse_meshes.h"
 #include "tests/support/estimators.h"

@@ -1,10 +1,10 @@
 // The light of paths from lights, for each chapter that shows it: 20, by splats, and 22 to 25.
 #include <doctest/doctest.h>
 
-#include "tests/traces/20.h"
-#include "tests/traces/22.h"
-#include "tests/traces/23.h"
-#include "tests/traces/25.h"
+#include "chapters/20_light_tracing/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
+#include "chapters/25_vertex_merging/estimator.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/photons.h"
@@ -18,12 +18,10 @@ Method by_22(const Scene& scene, const PhotonSettings&) {
     return method_of<ch22::trace>(ch22::prepare(scene));
 }
 Method by_23(const Scene& scene, const PhotonSettings& s) {
-    return passes_of<ch23::photon_passes>(
+    return ch23::photon_passes(
         scene, ch23::PhotonSettings{s.sampler, s.seed, s.light_paths, s.final_gathering, s.radius});
 }
-Method by_25(const Scene& scene, const PhotonSettings& s) {
-    return passes_of<ch25::merging_passes>(scene, s);
-}
+Method by_25(const Scene& scene, const PhotonSettings& s) { return ch25::merging_passes(scene, s); }
 
 /// A chapter with its photons, and how well it knows the mean of a picture from its samples.
 struct Way {

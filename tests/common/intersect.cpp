@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/traces/07.h"
+#include "chapters/07_path_tracing/estimator.h"
 #include "common/geometry/bvh_build.h"
 #include "common/geometry/shapes.h"
 #include "common/scene/smooth_normal.h"

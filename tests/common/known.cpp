@@ -1,5 +1,5 @@
 // The known scenes, and how their light is compared.
-#include "tests/traces/15.h"
+#include "chapters/15_mis_ris/estimator.h"
 #include "tests/check/findings.h"
 #include "tests/support/scenes.h"
 

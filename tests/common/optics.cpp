@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "tests/traces/07.h"
+#include "chapters/07_path_tracing/estimator.h"
 #include "common/material/metal.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "tests/traces/14.h"
+#include "chapters/14_mis/estimator.h"
 #include "tests/support/scenes.h"
 
 namespace {

@@ -28,7 +28,6 @@ std::string matched(const std::string& expression) {
 }  // namespace
 
 TEST_SUITE("recorder") {
-
     TEST_CASE("truth: each vertex knows the one it was reached from, on a tree of paths too") {
         Recorder recorder(true);
         recorder.start();

@@ -106,7 +106,7 @@ TEST_SUITE("law: bent normals") {
                                         "Translate -2 1.5 0 Shape \"sphere\" \"float radius\" 0.5");
         scene.max_depth = 2;
         double cos = static_cast<double>(dot(leaning(0.9), normalize(image)));
-        check_light(scene, {0.25 / static_cast<double>(dot(image, image)) * std::abs(cos), 0.1});
+        check_light(scene, {0.25 / static_cast<double>(dot(image, image)) * std::abs(cos), 0.12});
     }
 
     TEST_CASE("identity: no light from below the surface, even where the bent normal faces it") {

@@ -1,11 +1,11 @@
 // Pictures by another renderer: what our chapters must agree with.
 #include <doctest/doctest.h>
 
-#include "tests/traces/07.h"
-#include "tests/traces/08.h"
-#include "tests/traces/15.h"
-#include "tests/traces/21.h"
-#include "tests/traces/22.h"
+#include "chapters/07_path_tracing/estimator.h"
+#include "chapters/08_russian_roulette/estimator.h"
+#include "chapters/15_mis_ris/estimator.h"
+#include "chapters/21_bidirectional/estimator.h"
+#include "chapters/22_fast_bidirectional/estimator.h"
 #include "common/picture/image.h"
 #include "tests/support/light_paths.h"
 

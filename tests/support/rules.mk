@@ -1,7 +1,5 @@
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
-# In the program of all tests, each trace() is compiled once: see tests/traces.
-$(tests): own_flags += -DALL_TESTS
 # Most tests run for less time than it takes to compile them by -O3.
 brief := $(filter-out %/exact_hits.o $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% methods/%),$(tests))
 $(brief): own_flags += $(briefly)
@@ -11,5 +9,5 @@ ifdef precompiled
 advance := $(filter-out %/main.o,$(brief))
 $(advance): own_flags += $(call precompiled,tests/support/included.h)
 $(advance): $(BUILD)/obj/tests/support/included.h.gch
-$(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS -DALL_TESTS $(briefly)
+$(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
 endif
