@@ -98,6 +98,18 @@ TEST_SUITE("law: known light") {
             }
     }
 
+    TEST_CASE("truth: a lamp close to the floor is as bright when it is cut into many lamps") {
+        // Both strategies of MIS count, each with the choice among the lamps in its density.
+        for (int n : {1, 2, 3}) {
+            CAPTURE(n);
+            std::string lamps, side = std::to_string(0.5 / n) + " ";
+            for (int i = 0; i < n * n; i++)
+                lamps += black_lamp("1", at((i % n + 0.5) / n - 0.5, 0.1, (i / n + 0.5) / n - 0.5) +
+                                             "Scale " + side + "1 " + side + square(0, false));
+            check_light(lit_floor(lamps), {irradiance_of_square(0.1) / pi_exact, 0.01});
+        }
+    }
+
     TEST_CASE("truth: a two-sided lamp gives the same from behind, near and far") {
         for (double h : {0.5, 3.0, 10.0}) {
             CAPTURE(h);
@@ -196,7 +208,7 @@ TEST_SUITE("law: known light") {
                   {white_sky + lamps, E + pi_exact},
                   {white_sky + lamps + sun, E + pi_exact + 1},
                   {sun + roof + lamps, E},
-                  {shade + points(1, 1e9, 20, 5, 0.5) + lamps, E},
+                  {shade + points(40, 1e9, 20, 5, 0.5) + lamps, E},
                   {shade + points(n, 1e9, 20, 5, 0.5) + lamps, E},
                   {lamps + points(n, 0, 0, 2, 2) + white_sky, E + pi_exact}}) {
                 CAPTURE(lights.substr(0, 200));
