@@ -126,6 +126,16 @@ TEST_SUITE("ch21 bidirectional") {
         }
     }
 
+    TEST_CASE("agreement: caustics with chapter 20, which finds them at once" * doctest::skip()) {
+        for (std::string name : {"caustic", "cornell-spheres", "light-in-glass"}) {
+            CAPTURE(name);
+            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
+            for (const auto& [by, paths] : {std::pair(&by_21, 100000), {&by_22, 400000}})
+                CHECK(check_classes(scene, by_20(scene), scene, by(scene), paths, 1,
+                                    shown_by_light) >= 6);
+        }
+    }
+
     TEST_CASE("agreement: each block of the picture with chapter 15, by both ends" *
               doctest::skip()) {
         for (std::string name : {"cornell-spheres", "two-lights"}) {

@@ -43,8 +43,9 @@ TEST_SUITE("ch24 progressive photons") {
                 "\"float radius\" 0.5",
             12);
         mirrored.max_depth = 5;
-        for (const Scene& scene : {scene_from("scenes/cornell-spheres.pbrt", 12, 5),
-                                   scene_from("scenes/veach-mis.pbrt", 12, 5), mirrored}) {
+        for (const Scene& scene :
+             {scene_from("scenes/cornell-spheres.pbrt", 12, 5),
+              scene_from("scenes/veach-mis.pbrt", 12, 5), mirrored, leaning_wall()}) {
             for (bool final_gathering : {false, true}) {
                 PhotonSettings of_24{.light_paths = 20000, .final_gathering = final_gathering};
                 float first = by_24(scene, of_24).first_radius;
