@@ -159,7 +159,7 @@ TEST_SUITE("law: known light") {
                    {0, static_cast<float>(std::sin(a)), static_cast<float>(std::cos(a))}};
         for (bool behind_pane : {true, false})
             check_light(seen_along(pane_before_half_a_sky(behind_pane), ray),
-                        {behind_pane ? (1 - R) / (1 + R) : 2 * R / (1 + R), 0.01});
+                        {behind_pane ? (1 - R) / (1 + R) : 2 * R / (1 + R), 0.005});
     }
 
     TEST_CASE("failure: without lights a picture is black") {
