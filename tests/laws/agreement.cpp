@@ -207,7 +207,7 @@ TEST_SUITE("law: agreement slow") {
                 "[-9 -1 -9  -9 -1 9  9 -1 9  9 -1 -9] \"normal N\" " +
                 leans + "\n" + light + ball);
             scene.max_depth = 3;
-            CHECK(check_classes_agree(scene, 400000) > 20);
+            CHECK(check_classes_agree(scene, 400000) > 9);
         }
     }
 
