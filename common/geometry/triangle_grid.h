@@ -1,6 +1,7 @@
 // A triangle cut into k x k small ones, row by row: rows of 2 (k - j) - 1, for j = 0 .. k - 1.
 #pragma once
 #include <array>
+#include <cstdint>
 
 #include "common/base/vec.h"
 
