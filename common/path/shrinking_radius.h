@@ -1,6 +1,8 @@
 // taught by chapter 24
 // The radius in which photons count, from pass to pass.
 #pragma once
+#include <cstdint>
+
 #include "common/base/vec.h"
 
 /// The radius of a pass, the same for all points.

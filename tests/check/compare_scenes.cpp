@@ -42,7 +42,7 @@ std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownSc
 bool is_blurred(const KnownScene& scene, const NamedMethod& method) {
     static const std::set<std::string> uneven = {"bulb", "mirror", "leaning-mirror", "wall-beside",
                                                  "mirror-beside"};
-    return method.biased && uneven.contains(scene.name);
+    return method.biased() && uneven.contains(scene.name);
 }
 
 bool fits(const KnownScene& scene, const NamedMethod& method) {

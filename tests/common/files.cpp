@@ -280,8 +280,8 @@ TEST_SUITE("pictures on disk") {
             image.pixels[i] = Rgb{1, 0.25f, 0} * (static_cast<float>(i) / 15);
         std::string png = encode_png(image, "build/07 --paths 'L\xc3\xa4' \n --seed 1\x1b");
         CHECK(png.find(std::string("IHDR\0\0\0\5\0\0\0\3\x08\x02\0\0\0", 17)) == 12);
-        CHECK(png.find(std::string("tEXtComment\0", 12) + "build/07 --paths 'L??' \n --seed 1?") ==
-              37);
+        CHECK(png.find(std::string("tEXtComment\0", 12) + "build/07 --paths 'L?"
+                                                          "?' \n --seed 1?") == 37);
         CHECK(png.ends_with("IEND\xae\x42\x60\x82"));  // the checksum that all PNGs end with
         TemporaryFolder folder;
         write_image(folder / "a.ppm", image, "");

@@ -23,11 +23,11 @@ int main(int argc, char** argv) {
     return run_program([&] {
         std::string to;
         std::vector<std::string> words;
-        parse_options(argc, argv, "FOLDER",
-                      "Says what is wrong with a renderer, from its pictures of the small scenes.",
-                      {{"write", "DIR", "write the scenes",
-                        [&](const std::string& text) { to = text; }}},
-                      [&](const std::string& word) { words.push_back(word); });
+        parse_options(
+            argc, argv, "FOLDER",
+            "Says what is wrong with a renderer, from its pictures of the small scenes.",
+            {{"write", "DIR", "write the scenes", [&](const std::string& text) { to = text; }}},
+            [&](const std::string& word) { words.push_back(word); });
         if (!to.empty()) return write_scenes(to);
         if (words.size() != 1) throw UsageError("error: one folder of pictures is needed");
         Folder folder = read_folder(words[0]);
