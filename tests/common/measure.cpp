@@ -137,7 +137,7 @@ TEST_SUITE("comparison") {
         label.options = {{"chapter", "15_mis_ris"}, {"code", "89"}, {"file", "a.pbrt"},
                          {"scene", "0123"},         {"spp", "any"}, {"paths", ""}};
         const std::string options = "chapter 15_mis_ris|scene a.pbrt|checksum 0123|";
-        auto notes = [&](uint64_t spp) {
+        auto notes = [&](double spp) {
             std::string text;
             for (const std::string& line : lines_of(notes_of(label, spp))) text += line + '|';
             return text;

@@ -271,9 +271,9 @@ TEST_SUITE("textures") {
         Limits limits;
         limits.texels = 3;
         auto refused = [&](const std::string& file, const std::string& place,
-                           const Limits& limits = {}) {
+                           const Limits& own = {}) {
             std::string world = "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]";
-            return error_of([&] { gallery.scene(world, "", file, limits); })
+            return error_of([&] { gallery.scene(world, "", file, own); })
                 .starts_with(gallery.folder / "scene.pbrt:" + place + ": error: ");
         };
         CHECK(refused("b.png", "2:35"));
