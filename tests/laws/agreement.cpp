@@ -129,7 +129,7 @@ TEST_SUITE("law: agreement") {
         const std::string camera =
             "Camera \"perspective\" \"float fov\" 40\nFilm \"rgb\" \"integer xresolution\" 32 "
             "\"integer yresolution\" 32\nIntegrator \"path\" \"integer maxdepth\" 4\nWorldBegin\n";
-        for (uint32_t seed : {1, 4}) {
+        for (uint32_t seed : {1u, 4u}) {
             CAPTURE(seed);
             std::string world = generated_room(seed);
             REQUIRE(world.find("\"point\"") == std::string::npos);
