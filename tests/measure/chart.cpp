@@ -63,7 +63,7 @@ Curve measure_curve(const NamedMethod& method, Scene& scene, const Truth& truth,
     double spent = 0, next = 0;
     // What is biased gets longer, until chance is small beside its bias.
     auto time_left = [&] {
-        return spent + next < (method.biased && !curve.flat() ? 16 * seconds : seconds);
+        return spent + next < (method.biased() && !curve.flat() ? 16 * seconds : seconds);
     };
     for (int spp = 1; spp <= 1 << 20 && (spp <= 16 || time_left()); spp *= 4) {
         RunningStats squares, rel_mse, time;
@@ -76,7 +76,7 @@ Curve measure_curve(const NamedMethod& method, Scene& scene, const Truth& truth,
         double cost = time.mean() * o.runs * o.threads, rmse = std::sqrt(squares.mean());
         spent += cost;
         next = 4 * cost;
-        if (!method.biased && rmse < 10 * truth.rmse) break;
+        if (!method.biased() && rmse < 10 * truth.rmse) break;
         curve.spp.push_back(spp), curve.rmse.push_back(rmse);
         curve.rel_mse.seconds.push_back(time.mean());
         curve.rel_mse.error.push_back(rel_mse.mean());
