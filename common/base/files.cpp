@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <thread>
 
 #include "common/base/error.h"
@@ -228,16 +229,14 @@ std::string read_file(const std::string& path) {
     constexpr size_t largest = size_t{1} << 30;
     std::error_code none;
     if (fs::is_directory(file_path(path), none)) fail(path, "cannot read", EISDIR);
-    errno = 0;
-    std::ifstream file(file_path(path), std::ios::binary);
+    // Not by std::ifstream: that of libc++ takes what cannot be read for the end of the file.
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_to_read(path), std::fclose);
     if (!file) fail(path, "cannot read", errno);
     // Read in pieces, since a pipe has no size to ask for.
     std::string bytes, piece(1 << 16, '\0');
-    while (bytes.size() <= largest && file) {
-        file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-        bytes.append(piece, 0, static_cast<size_t>(file.gcount()));
-    }
-    if (file.bad()) fail(path, "cannot read", errno);
+    for (size_t n = 1; n > 0 && bytes.size() <= largest; bytes.append(piece, 0, n))
+        n = std::fread(piece.data(), 1, piece.size(), file.get());
+    if (std::ferror(file.get()) != 0) fail(path, "cannot read", errno);
     if (bytes.size() > largest) throw InputError(path + ": error: larger than 1 GiB");
     return bytes;
 }

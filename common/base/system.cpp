@@ -14,6 +14,13 @@ std::string file_name(const fs::path& path) {
     std::u8string name = path.generic_u8string();
     return {name.begin(), name.end()};
 }
+std::FILE* open_to_read(const std::string& name) {
+#ifdef _WIN32
+    return _wfopen(file_path(name).c_str(), L"rb");
+#else
+    return std::fopen(name.c_str(), "rb");
+#endif
+}
 
 static std::vector<void (*)(int)> handlers_before(stop_signals.size());
 static std::atomic<void (*)(int)> caught_by = nullptr;

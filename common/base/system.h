@@ -2,6 +2,7 @@
 // program, and its streams. All else is written in standard C++.
 #pragma once
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 /// that it makes have slashes; in Windows itself they are UTF-16, with backslashes.
 std::filesystem::path file_path(const std::string& name);
 std::string file_name(const std::filesystem::path& path);
+
+/// Null if it cannot be opened: errno says why.
+std::FILE* open_to_read(const std::string& name);
 
 /// Makes a file that no other program can make until this one removes it or ends, in whatever way:
 /// the number of the lock. -1: errno is EWOULDBLOCK where another program has it.
