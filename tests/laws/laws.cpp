@@ -147,7 +147,7 @@ void check_light(const Scene& scene, const KnownLight& light) {
 }
 
 /// Whether the method finds all light of this class of path, or of this sum, where lights may have
-/// no size: such lights are never met, and no light path reaches a pinhole by way of a mirror.
+/// no size: such lights are never met, and no light path reaches a pinhole through a mirror.
 static bool finds_all(const NamedMethod& method, bool no_size, const std::string& name) {
     static ClassSelection by_eye(sampled), by_light(shown_by_light);
     bool shown = name[0] == 'L' ? by_light.contains(name) : name == "all " + shown_by_light;

@@ -25,7 +25,6 @@ std::string disk(double R, double h, double x = 0);
 
 /// The inside of a ball whose wall emits 1 and reflects the share a.
 Scene closed_sphere(double a, int max_depth);
-inline const Ray from_inside = {{0, 0, 0}, {0, 0, 1}};
 
 /// The green channel of one ray, over and over.
 RunningStats repeat(const Scene& scene, const Ray& ray, const Method& trace, int paths,
