@@ -90,30 +90,20 @@ void Directives::color_space(Lexer& lexer, const Token& word) {
 void Directives::make_named_medium(Lexer& lexer, const Token& word) {
     expect_string(lexer, word, "a name");
     Params params(lexer, word, notes_, false);
-    params.stand_in(params.at(), "a medium", "MakeNamedMedium is not supported");
-    params.ignore_rest();
-    params.finish();
+    notes_.need(params.at(), "a medium");
 }
 
 void Directives::medium_interface(Lexer& lexer, const Token& word) {
     bool is_empty = expect_string(lexer, word, "the name of a medium").text.empty();
     if (lexer.peek().type == Token::string) is_empty &= lexer.next().text.empty();
-    if (!is_empty) not_supported(lexer, word, "MediumInterface", "a medium");
+    if (!is_empty) notes_.need(lexer.at(word), "a medium");
 }
 
 void Directives::transform_times(Lexer& lexer, const Token& word) {
     double start = lexer.number(lexer.next(), "TransformTimes");
     double end = lexer.number(lexer.next(), "TransformTimes");
     if (start == 0 && end == 1) return;
-    not_supported(lexer, word, "TransformTimes other than 0 1", "TransformTimes");
-}
-
-void Directives::not_supported(Lexer& lexer, const Token& word, const std::string& what,
-                               const std::string& stand_in) {
-    if (!notes_.stand_ins()) {
-        fail(lexer.at(word), what + " is not supported" + or_stand_in(stand_in));
-    }
-    notes_.stand_in(lexer.at(word), stand_in);
+    notes_.need(lexer.at(word), "TransformTimes other than 0 1");
 }
 
 void Directives::camera(Lexer& lexer, const Token& word) {
@@ -181,8 +171,7 @@ void Directives::light_source(Lexer& lexer, const Token& word) {
     Params params = read_params(lexer, word, "light");
     if (params.type() == "infinite" && params.find("string", "filename")) {
         if (has_sky_image_) {
-            params.stand_in(params.at(), "a second picture of the sky",
-                            "a second picture of the sky");
+            params.stand_in(params.at(), "a second picture of the sky");
             params.ignore("string", {"filename"});
             if (!params.may_stand_in()) params.finish();
         } else {
@@ -200,11 +189,16 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
     std::string name = lexer.unescape(token);
     Params params(lexer, word, notes_, false);
     params.read_type();
+    bool is_used = named_materials_.contains(name);
     uint32_t index = find_material(name, lexer.at(token));
     NamedMaterial& named = named_materials_[name];
     if (named.defined) fail(lexer.at(token), "a second material " + quote(name));
     named.defined = true;
     std::optional<Material> material = read_any_material(params);
+    if (!material && is_used) {
+        fail(named.first_use, "the material " + quote(name) +
+                                  ", of which shapes are left out, must be made before its use");
+    }
     if (!material) absent_.insert(index);
     if (material) scene_.materials[index] = *material;
 }
@@ -320,10 +314,7 @@ bool Directives::is_left_out(Params& params, const State& where) {
 
 void Directives::place(Params& params, const State& where) {
     if (is_left_out(params, where)) return;
-    if (!where.unusable.empty()) {
-        if (told_unusable_.insert(where.unusable).second) throw InputError(where.unusable);
-        return;
-    }
+    if (!where.unusable.empty()) throw InputError(where.unusable);
     if (where.start != where.end && where.emission && notes_.stand_ins()) {
         notes_.stand_in(params.at(), "a light or camera that moves");
         State still = where;
@@ -333,24 +324,17 @@ void Directives::place(Params& params, const State& where) {
     ShapeState state = {where.start, where.material, where.emission, where.reverse_orientation};
     state.primitives_elsewhere = moving_primitives_;
     state.vertices_elsewhere = moving_vertices_;
-    size_t before = scene_.geometry.size() + moving_primitives_;
-    bool is_there = where.start == where.end
-                        ? read_shape(params, state, limits_, files_, scene_, notes_)
-                        : read_mover(params, where, state);
-    if (!is_there) return;
-    if (scene_.geometry.size() + moving_primitives_ > before) return;
-    if (!too_small_) too_small_ = params.at();
-    if (!too_small_light_ && where.emission) too_small_light_ = params.at();
+    if (where.start != where.end) return read_mover(params, where, state);
+    read_shape(params, state, limits_, files_, scene_, notes_);
 }
 
 void Directives::texture(Lexer& lexer, const Token& word) {
     textures_.read(lexer, word, state_.defaults["texture"]);
 }
 
-bool Directives::read_mover(Params& params, const State& where, ShapeState& state) {
+void Directives::read_mover(Params& params, const State& where, ShapeState& state) {
     if (state.emission) {
-        params.stand_in(params.at(), "a light or camera that moves",
-                        "a shape that moves cannot shine");
+        params.stand_in(params.at(), "a light or camera that moves");
     }
     constexpr size_t most = 1000;
     if (scene_.movers.size() == most) fail(params.at(), "more than 1000 shapes that move");
@@ -360,13 +344,12 @@ bool Directives::read_mover(Params& params, const State& where, ShapeState& stat
     state.vertices_elsewhere += scene_.geometry.positions.size();
 
     std::swap(scene_.geometry, mover.geometry);
-    bool is_there = read_shape(params, state, limits_, files_, scene_, notes_);
+    read_shape(params, state, limits_, files_, scene_, notes_);
     std::swap(scene_.geometry, mover.geometry);
-    if (mover.geometry.size() == 0) return is_there;
+    if (mover.geometry.size() == 0) return;
     moving_primitives_ += mover.geometry.size();
     moving_vertices_ += mover.geometry.positions.size();
     scene_.movers.push_back(std::move(mover));
-    return true;
 }
 
 // The number of the named material, which may be defined after its use.
@@ -384,7 +367,7 @@ const Transform& Directives::still_transform(Params& params) const {
     bool is_direction = params.type() == "infinite" && state_.only_projects;
     if (!state_.unusable.empty() && !is_direction) throw InputError(state_.unusable);
     if (state_.start != state_.end) {
-        params.stand_in(params.at(), "a light or camera that moves", "only shapes can move");
+        params.stand_in(params.at(), "a light or camera that moves");
     }
     return state_.start;
 }
@@ -414,24 +397,17 @@ void Directives::check_names() const {
 
 // A mesh may be given a material that is made later.
 void Directives::check_uvs(const Geometry& g) {
-    const std::string no_uv = "a textured mesh without usable uv";
     for (const Triangle& t : g.triangles) {
         uint32_t material = scene_.shapes[t.shape].material;
         if (scene_.materials[material].texture == 0) continue;
         if (!g.uvs.empty() && !std::isnan(g.uvs[t.v[0]].x)) continue;
-        if (notes_.stand_ins()) {
-            Material plain = scene_.materials[material];
-            plain.reflectance = textures_.mean(plain.texture - 1u);
-            if (plain.type == MaterialType::conductor)
-                plain.k = k_of_reflectance(plain.reflectance);
-            plain.texture = 0;
-            notes_.stand_in(scene_.place(plain.at), no_uv);
-            scene_.shapes[t.shape].material = static_cast<uint32_t>(scene_.materials.size());
-            scene_.materials.push_back(plain);
-            continue;
-        }
-        fail(scene_.place(scene_.shapes[t.shape].at),
-             "the mesh has no usable uv, which its texture needs" + or_stand_in(no_uv));
+        Material plain = scene_.materials[material];
+        notes_.need(scene_.place(scene_.shapes[t.shape].at), "a textured mesh without usable uv");
+        plain.reflectance = textures_.mean(plain.texture - 1u);
+        if (plain.type == MaterialType::conductor) plain.k = k_of_reflectance(plain.reflectance);
+        plain.texture = 0;
+        scene_.shapes[t.shape].material = static_cast<uint32_t>(scene_.materials.size());
+        scene_.materials.push_back(plain);
     }
 }
 
@@ -454,36 +430,20 @@ void Directives::stand_in_for_missing() {
 }
 
 void Directives::check_complete() {
+    const std::string unless_left_out = ", or all are left out as too small";
     Position file = {scene_.file};
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
     check_names();
     check_uvs(scene_.geometry);
     for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
-    for (const auto& [name, named] : named_materials_) {
-        auto is_of_it = [&, index = named.index](const Shape& s) { return s.material == index; };
-        if (!absent_.contains(named.index) ||
-            std::none_of(scene_.shapes.begin(), scene_.shapes.end(), is_of_it))
-            continue;
-        fail(named.first_use, "the material " + quote(name) +
-                                  ", of which shapes are left out, must be made before its use");
-    }
     if (!in_world_) fail(file, "no WorldBegin");
     if (notes_.stand_ins()) stand_in_for_missing();
     if (!has_camera_) fail(file, "no Camera");
 
-    // Where something is missing, it may be what was too small to keep.
-    const std::string too_small = std::string(": all triangles of this Shape are too small ") +
-                                  "(areas of 0, or below 5e-20: choose a smaller unit)";
     bool has_shape = scene_.geometry.size() > 0 || !scene_.movers.empty();
-    bool has_light = !scene_.lights.empty() || scene_.sky_image;
-    if (!has_shape && too_small_) fail(*too_small_, "no Shape is left" + too_small);
-    if (!has_shape && notes_.stand_ins()) {
-        notes_.stand_in(file, "a scene without shapes");
-    } else if (!has_shape) {
-        fail(file, "no Shape");
-    }
-    if (!has_light && too_small_light_) fail(*too_small_light_, "no light is left" + too_small);
-    if (!has_light) fail(file, "no light: the picture would be black");
+    if (!has_shape && notes_.stand_ins()) notes_.stand_in(file, "a scene without shapes");
+    if (!has_shape && !notes_.stand_ins()) fail(file, "no Shape" + unless_left_out);
+    if (scene_.lights.empty() && !scene_.sky_image) fail(file, "no light" + unless_left_out);
 }
 
 Scene Directives::finish() {

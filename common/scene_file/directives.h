@@ -86,8 +86,6 @@ private:
         Position first_use;
     };
 
-    void not_supported(Lexer& lexer, const Token& word, const std::string& what,
-                       const std::string& stand_in);
     Params read_params(Lexer& lexer, const Token& word, const std::string& target);
     void place(Params& params, const State& where);
     void place_object(const Object& object, const Position& at, const State& state);
@@ -100,7 +98,7 @@ private:
     void check_uvs(const Geometry& g);
     void check_complete();
     void stand_in_for_missing();
-    bool read_mover(Params& params, const State& where, ShapeState& state);
+    void read_mover(Params& params, const State& where, ShapeState& state);
 
     Scene scene_;
     const Limits limits_;
@@ -114,12 +112,9 @@ private:
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
     std::map<std::string, Object> objects_;
-    std::set<std::string> told_unusable_;  // the messages of transforms
-    Object* open_object_ = nullptr;        // the one that is being defined
+    Object* open_object_ = nullptr;  // the one that is being defined
     uint64_t object_numbers_ = 0, placed_ = 0;
     uint64_t moving_primitives_ = 0, moving_vertices_ = 0;  // of all movers
-    // The first Shape of which all triangles were too small, and the first such that shines.
-    std::optional<Position> too_small_, too_small_light_;
     bool in_world_ = false, has_camera_ = false, has_filter_ = false, has_sky_image_ = false;
 };
 

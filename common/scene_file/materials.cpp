@@ -8,7 +8,6 @@
 
 namespace {
 
-constexpr const char* unknown_name = "a spectrum of unknown name";
 constexpr float smooth_below = 1e-3f;  // the alpha under which pbrt takes a surface for smooth
 
 // "reflectance": one colour, or a texture and its largest value. Whether it is given.
@@ -29,8 +28,7 @@ float read_alpha(Params& params, TextureReader& textures, const std::string& pre
     float v = textures.number(params, prefix + "vroughness", roughness, roughest);
     bool remap = params.boolean("remaproughness", true);
     if (u != v) {
-        params.stand_in(params.at(), "a roughness that differs between u and v",
-                        "uroughness and vroughness that differ are not supported");
+        params.stand_in(params.at(), "a roughness that differs between u and v");
         u = std::sqrt(u * v);
     }
     return remap ? std::sqrt(u) : u;
@@ -48,15 +46,7 @@ std::optional<Rgb> read_metal(Params& params, const std::string& name) {
         check_range(*spectrum, double{max_component(mean)}, 0, largest);
         return mean;
     }
-    std::vector<std::string> known;
-    for (const std::string& symbol : metal_symbols()) {
-        MetalIor ior = *metal_ior(symbol);
-        if (spectrum->strings[0] == "metal-" + symbol + "-eta") return ior.eta;
-        if (spectrum->strings[0] == "metal-" + symbol + "-k") return ior.k;
-        known.push_back("metal-" + symbol + '-' + name.substr(name.rfind('.') + 1));
-    }
-    params.stand_in(spectrum->at, unknown_name, unknown("spectrum", spectrum->strings[0], known));
-    return {};
+    return params.named(*spectrum, metals());
 }
 
 // `prefix` is what the names of its parameters begin with.
@@ -69,9 +59,8 @@ Material read_conductor(Params& params, TextureReader& textures, const std::stri
     if (has_reflectance && (eta || k)) {
         fail(params.at(), "a conductor has either reflectance or eta and k");
     }
-    MetalIor copper = *metal_ior("Cu");
-    material.eta = eta.value_or(copper.eta);
-    material.k = k.value_or(copper.k);
+    material.eta = eta.value_or(metals().at("metal-Cu-eta"));
+    material.k = k.value_or(metals().at("metal-Cu-k"));
     if (has_reflectance) {
         // Find the metal of eta = 1 that reflects so much at normal incidence, as pbrt does.
         material.eta = {1, 1, 1};
@@ -87,8 +76,7 @@ void read_glass(Params& params, Material& material) {
     const Param* spectrum = params.find("spectrum", "eta");
     if (!spectrum) return;
     if (spectrum->strings.size() != 1) {
-        params.stand_in(spectrum->at, "an index of refraction as a list",
-                        "\"eta\" must be a float or the name of a glass");
+        params.stand_in(spectrum->at, "an index of refraction as a list");
         if (params.may_stand_in()) material.ior = average(mean_rgb(read_spectrum(*spectrum)));
         return;
     }
@@ -101,7 +89,8 @@ void read_glass(Params& params, Material& material) {
         }
         known.push_back(glass.name);
     }
-    params.stand_in(spectrum->at, unknown_name, unknown("spectrum", spectrum->strings[0], known));
+    params.stand_in(spectrum->at, "a spectrum of unknown name",
+                    unknown("spectrum", spectrum->strings[0], known));
 }
 
 Material read_dielectric(Params& params, TextureReader& textures) {
@@ -112,7 +101,7 @@ Material read_dielectric(Params& params, TextureReader& textures) {
     read_glass(params, material);
     material.ior = std::clamp(material.ior, least, most);
     if (read_alpha(params, textures) >= smooth_below) {
-        params.stand_in(params.at(), "rough glass", "a rough dielectric is not supported");
+        params.stand_in(params.at(), "rough glass");
     }
     return material;
 }
@@ -124,14 +113,9 @@ float read_total(Params& params, const std::string& name, float of_one) {
     return total > 0 ? total / of_one : 1;
 }
 
-Vec3d read_point(Params& params, const std::string& name, Vec3 fallback) {
-    Vec3 p = params.point(name, fallback);
-    return {p.x, p.y, p.z};
-}
-
 // Where a point light stands.
 Vec3 read_position(Params& params, const Transform& world_from_light) {
-    Vec3d from = read_point(params, "from", {0, 0, 0});
+    Vec3d from(params.point("from", {0, 0, 0}));
     Vec3 p = to_vec3(transform_point(world_from_light, from));
     if (!(max_component(abs(p)) <= 1e9f)) fail(params.at("from"), "the light is farther than 1e9");
     return p;
@@ -146,7 +130,7 @@ float solid_angle_of_spot(Params& params) {
 
 // The unit vector towards a distant light.
 Vec3 read_direction(Params& params, const Transform& world_from_light) {
-    Vec3d from = read_point(params, "from", {0, 0, 0}), to = read_point(params, "to", {0, 0, 1});
+    Vec3d from(params.point("from", {0, 0, 0})), to(params.point("to", {0, 0, 1}));
     if (from == to) fail(params.at("to"), "\"from\" and \"to\" are the same point");
     return to_vec3(normalize(transform_vector(world_from_light, from - to)));
 }

@@ -7,8 +7,8 @@
 #include "common/base/position.h"
 
 /// An error behind which nothing more is read: a limit that is passed, a string without an end.
-struct ReadingEnds : InputError {
-    using InputError::InputError;
+struct ReadingEnds : std::runtime_error {
+    using std::runtime_error::runtime_error;
 };
 [[noreturn]] void stop_reading(const Position& at, const std::string& text);
 

@@ -18,14 +18,14 @@ constexpr std::array<ParamType, 13> param_types = {{{"blackbody", number, 1},
                                                     {"float", number, 1},
                                                     {"integer", "a whole number", 1},
                                                     {"normal", number, 3},
-                                                    {"point2", number, 2},
                                                     {"point3", number, 3},
+                                                    {"point2", number, 2},
                                                     {"rgb", number, 3},
                                                     {"spectrum", "a name or numbers", 1},
                                                     {"string", text, 1},
                                                     {"texture", text, 1},
-                                                    {"vector2", number, 2},
-                                                    {"vector3", number, 3}}};
+                                                    {"vector3", number, 3},
+                                                    {"vector2", number, 2}}};
 
 const ParamType& find_type(const Position& at, const std::string& name) {
     std::vector<std::string> known;
@@ -33,9 +33,6 @@ const ParamType& find_type(const Position& at, const std::string& name) {
         if (type.name == name) return type;
         known.emplace_back(type.name);
     }
-    // Know the names that these had in the third edition of pbrt.
-    if (name == "color") fail(at, "unknown parameter type \"color\": did you mean \"rgb\"?");
-    if (name == "point" || name == "vector") known = {name + '3'};
     fail_unknown(at, "parameter type", name, known);
 }
 

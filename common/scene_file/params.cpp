@@ -126,15 +126,15 @@ void Params::refuse_old_type() const {
 }
 
 bool Params::stands_in() {
-    if (!may_stand_in() || !has_stand_in(table_name())) return false;
+    if (!may_stand_in() || or_stand_in(table_name()).empty()) return false;
     notes_->stand_in(type_at_, table_name());
     return true;
 }
 
 void Params::fail_type(const std::vector<std::string>& known) const {
-    if (has_stand_in(table_name())) {
-        fail(type_at_, owner() + " is not supported (known: " + list(known) + ')' +
-                           or_stand_in(table_name()));
+    std::string hint = or_stand_in(table_name());
+    if (!hint.empty()) {
+        fail(type_at_, owner() + " is not supported (known: " + list(known) + ')' + hint);
     }
     fail_unknown(type_at_, directive_, type_, known);
 }
@@ -223,31 +223,34 @@ Rgb Params::illuminant(const std::string& name, Rgb fallback) {
             if (is_black(L)) fail(param->at, quote(name) + " has no visible light");
             return L;
         }
-        if (std::optional<Rgb> L = illuminant_rgb(param->strings[0])) return *L;
-        stand_in(param->at, "a spectrum of unknown name",
-                 unknown("spectrum", param->strings[0], illuminant_names()));
-        return fallback;
+        return named(*param, illuminants()).value_or(fallback);
     }
     const Param* param = find_exactly("rgb", name, 3);
     if (!param) return fallback;
     return read_rgb(*param, 0, infinity);
 }
 
+std::optional<Rgb> Params::named(const Param& spectrum, const NamedColors& known) {
+    const std::string& name = spectrum.strings[0];
+    std::vector<std::string> names;
+    for (const auto& [word, color] : known) {
+        if (word == name) return color;
+        names.push_back(word);
+    }
+    stand_in(spectrum.at, "a spectrum of unknown name", unknown("spectrum", name, names));
+    return {};
+}
+
 void Params::ignore(const std::string& type, const std::vector<std::string>& names) {
     for (const std::string& name : names) find(type, name);
 }
 
-void Params::not_supported(const Position& at, const std::string& text) {
-    wrong_.push_back(message_at(at, "error", text));
-}
-
 void Params::stand_in(const Position& at, const std::string& what, const std::string& text) {
-    if (may_stand_in()) {
-        notes_->stand_in(at, what);
-    } else {
-        std::string hint = or_stand_in(what);
-        not_supported(at, text + (text.ends_with('?') ? hint.substr(1) : hint));
-    }
+    if (may_stand_in()) return notes_->stand_in(at, what);
+    std::string hint = or_stand_in(what);
+    if (text.ends_with('?')) hint.erase(0, 1);
+    std::string wrong = text.empty() ? what + " is not supported" : text;
+    wrong_.push_back(message_at(at, "error", wrong + hint));
 }
 
 void Params::replace(const std::string& type, const std::string& name, const std::string& what) {
@@ -259,8 +262,6 @@ bool Params::read(const std::function<void()>& reader, const std::string& stand_
     try {
         reader();
         return true;
-    } catch (const ReadingEnds&) {
-        throw;
     } catch (const InputError& error) {
         std::string text = error.what();
         if (!stand_in.empty() && may_stand_in()) {

@@ -1,6 +1,7 @@
 // The parameters that follow a directive of a pbrt-v4 scene file: `"float fov" 45`.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,17 +56,18 @@ public:
     /// A color of components >= 0: `rgb`, or of luminance 1: `blackbody`, or a `spectrum` that is
     /// listed or a standard illuminant.
     Rgb illuminant(const std::string& name, Rgb fallback);
+    /// The color of the name that a spectrum is given as; nothing where it is unknown, which is
+    /// remembered.
+    std::optional<Rgb> named(const Param& spectrum, const NamedColors& known);
     /// The parameter of this type and name; null if not given.
     const Param* find(const std::string& type, const std::string& name);
     /// The parameter of this type and name; an error unless it has exactly `count` values.
     const Param* find_exactly(const std::string& type, const std::string& name, size_t count);
     /// Accepts parameters that have no effect on what we render.
     void ignore(const std::string& type, const std::vector<std::string>& names);
-    /// Remembers something that we have not, for finish() to throw: so one run names all of it.
-    void not_supported(const Position& at, const std::string& text);
     /// Remembers something that we have not, but have a stand-in for, named as in the table. It is
-    /// an error for finish() to throw only where stand-ins are not allowed.
-    void stand_in(const Position& at, const std::string& what, const std::string& text);
+    /// an error for finish() to throw only where stand-ins are not allowed, `text` if it has one.
+    void stand_in(const Position& at, const std::string& what, const std::string& text = "");
     /// The same for a parameter, where it is given.
     void replace(const std::string& type, const std::string& name, const std::string& what);
     /// Whether stand-ins are allowed.

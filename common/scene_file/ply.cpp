@@ -24,16 +24,11 @@ struct Element {
     }
 };
 
-const PlyScalar* find_scalar(std::string_view name) {
+const PlyScalar* read_scalar(PlyBytes& reader) {
+    std::string_view name = reader.word();
     for (const PlyScalar& type : ply_scalars) {
         if (name == type.name || name == type.other_name) return &type;
     }
-    return nullptr;
-}
-
-const PlyScalar* read_scalar(PlyBytes& reader) {
-    std::string_view name = reader.word();
-    if (const PlyScalar* type = find_scalar(name)) return type;
     reader.fail_here("unknown property type " + quote(name));
 }
 

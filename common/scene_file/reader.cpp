@@ -115,6 +115,8 @@ Scene Reader::read_scene(std::string text) {
         }
     } catch (const InputError& error) {
         errors_.add(error);
+    } catch (const ReadingEnds& end) {
+        errors_.add(InputError(end.what()));
     }
     throw InputError(join_lines(error_lines_));
 }
@@ -125,8 +127,6 @@ void Reader::read(const std::string& path, std::string text) {
     for (Token token = lexer.next(); token.type != Token::end; token = lexer.next()) {
         try {
             read_directive(lexer, token);
-        } catch (const ReadingEnds&) {
-            throw;
         } catch (const InputError& error) {
             errors_.add(error);
             if (error_lines_.size() >= most_errors) {
@@ -185,8 +185,6 @@ void Reader::include(Lexer& lexer, const Token& word) {
     std::string text;
     try {
         text = directives_.files().read(path, at);
-    } catch (const ReadingEnds&) {
-        throw;
     } catch (const InputError&) {
         if (!notes_.stand_ins()) throw;
         notes_.stand_in(at, "a scene file that cannot be read");

@@ -15,7 +15,7 @@ void check_radius(const Params& params, Vec3 c, float r) {
 }
 
 // The one factor by which the transform scales these axes; not supported where there is none.
-double uniform_scale(Params& params, const std::vector<Vec3d>& axes, const std::string& otherwise) {
+double uniform_scale(Params& params, const std::vector<Vec3d>& axes) {
     constexpr double tolerance = 1e-3;  // for numbers written with few digits
     double scale = length(axes[0]);
     for (size_t i = 0; i < axes.size(); i++) {
@@ -23,8 +23,7 @@ double uniform_scale(Params& params, const std::vector<Vec3d>& axes, const std::
         bool same = std::abs(length(next) - scale) <= tolerance * scale;
         bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
         if (same && right_angle) continue;
-        params.stand_in(params.at(), "a sphere or disk scaled differently along its axes",
-                        otherwise);
+        params.stand_in(params.at(), "a sphere or disk scaled differently along its axes");
         double product = 1;
         for (Vec3d axis : axes) product *= length(axis);
         return std::pow(product, 1 / static_cast<double>(axes.size()));
@@ -35,8 +34,7 @@ double uniform_scale(Params& params, const std::vector<Vec3d>& axes, const std::
 // Parts are not supported. pbrt clamps an angle above 360 degrees.
 void require_whole(Params& params, const std::string& name, bool is_whole) {
     if (params.number("phimax", 360) >= 360 && is_whole) return;
-    params.stand_in(params.at(is_whole ? "phimax" : name), "a part of a sphere or disk",
-                    "only whole spheres and disks are supported");
+    params.stand_in(params.at(is_whole ? "phimax" : name), "a part of a sphere or disk");
 }
 
 // The number of the axes of a sphere or disk; -1 where they are the world's.
@@ -55,8 +53,7 @@ int add_sphere(Params& params, const ShapeState& state, Scene& scene) {
     bool is_cut = std::min(z0, z1) > -radius || std::max(z0, z1) < radius;
     require_whole(params, z1 == radius ? "zmin" : "zmax", !is_cut);
     const Transform& t = state.world_from_object;
-    double scale = uniform_scale(params, {t.x, t.y, t.z},
-                                 "a sphere scaled differently along its axes is not supported");
+    double scale = uniform_scale(params, {t.x, t.y, t.z});
     Sphere sphere = {to_vec3(t.o), static_cast<float>(radius * scale),
                      static_cast<uint32_t>(scene.shapes.size())};
     check_radius(params, sphere.c, sphere.r);
@@ -68,8 +65,7 @@ int add_disk(Params& params, const ShapeState& state, Scene& scene) {
     float radius = params.number("radius", 1, least_radius);
     require_whole(params, "innerradius", params.number("innerradius", 0) == 0);
     const Transform& t = state.world_from_object;
-    double scale = uniform_scale(params, {t.x, t.y},
-                                 "a disk scaled differently along its axes is not supported");
+    double scale = uniform_scale(params, {t.x, t.y});
     Vec3d normal = transform_normal(t, {0, 0, state.reverse_orientation ? -1.0 : 1.0});
     Disk disk = {to_vec3(transform_point(t, {0, 0, params.number("height", 0)})),
                  to_vec3(normalize(normal)), static_cast<float>(radius * scale),
@@ -138,7 +134,7 @@ void add_shape(const Params& params, const ShapeState& state, std::vector<Primit
 
 }  // namespace
 
-bool read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
+void read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
                 Scene& scene, SceneNotes& notes) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
@@ -155,8 +151,7 @@ bool read_shape(Params& params, const ShapeState& state, const Limits& limits, N
         TriangleMesh mesh =
             is_cylinder ? read_cylinder(params) : read_triangle_mesh(params, is_patches ? 4 : 3);
         if ((is_patches || is_cylinder) && state.emission && state.emission->power > 0) {
-            params.stand_in(params.at(), "the power of a patch or cylinder",
-                            "the \"power\" of a light of this shape is not supported");
+            params.stand_in(params.at(), "the power of a patch or cylinder");
             if (params.may_stand_in()) {
                 ShapeState without = state;
                 without.emission->power = 0;
@@ -177,7 +172,7 @@ bool read_shape(Params& params, const ShapeState& state, const Limits& limits, N
                 "a mesh that cannot be read");
         }
         params.finish();
-        if (name && !mesh) return false;
+        if (name && !mesh) return;
         if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
         add(*mesh);
     } else if (params.type() == "sphere") {
@@ -191,7 +186,6 @@ bool read_shape(Params& params, const ShapeState& state, const Limits& limits, N
     add_shape(params, state, g.triangles, triangles, false, axes, scene);
     add_shape(params, state, g.spheres, spheres, state.reverse_orientation, axes, scene);
     add_shape(params, state, g.disks, disks, false, axes, scene);
-    return true;
 }
 
 void number_light_primitives(Scene& scene) {

@@ -21,9 +21,7 @@ struct ShapeState {
 ///   sphere    outwards;   disk  object space's +z, carried along as a normal
 /// and ReverseOrientation turns each to the other side. Throws ReadingEnds when the scene grows
 /// beyond the limits.
-///
-/// Returns false where nothing is added, and that is the stand-in of the shape.
-bool read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
+void read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
                 Scene& scene, SceneNotes& notes);
 
 /// Gives each area light its range of primitives, once all are read.

@@ -6,27 +6,6 @@
 
 namespace {
 
-struct NamedMetal {
-    const char* symbol;
-    MetalIor ior;
-};
-constexpr std::array<NamedMetal, 4> metals = {{
-    {"Ag", {{0.155265f, 0.116723f, 0.138381f}, {4.828343f, 3.122246f, 2.146950f}}},
-    {"Al", {{1.657460f, 0.880369f, 0.521229f}, {9.223869f, 6.269523f, 4.837001f}}},
-    {"Au", {{0.143119f, 0.374957f, 1.442479f}, {3.983160f, 2.385721f, 1.603215f}}},
-    {"Cu", {{0.200438f, 0.924033f, 1.102212f}, {3.912949f, 2.452848f, 2.142188f}}},
-}};
-
-struct Illuminant {
-    const char* name;
-    double x, y;
-};
-constexpr std::array<Illuminant, 3> illuminants = {{
-    {"stdillum-A", 0.44758, 0.40745},
-    {"stdillum-D50", 0.34567, 0.35851},
-    {"stdillum-D65", 0.31272, 0.32903},
-}};
-
 double at(const Spectrum& spectrum, double nm) {
     auto after = std::upper_bound(spectrum.begin(), spectrum.end(), nm,
                                   [](double x, const auto& entry) { return x < entry[0]; });
@@ -105,19 +84,12 @@ Rgb mean_rgb(const Spectrum& spectrum) {
     return mean;
 }
 
-std::optional<Rgb> illuminant_rgb(const std::string& name) {
-    for (const Illuminant& illuminant : illuminants) {
-        if (name != illuminant.name) continue;
-        double x = illuminant.x, y = illuminant.y;
-        return with_luminance_1({x / y, 1, (1 - x - y) / y});
-    }
-    return {};
-}
-
-std::vector<std::string> illuminant_names() {
-    std::vector<std::string> names;
-    for (const Illuminant& illuminant : illuminants) names.emplace_back(illuminant.name);
-    return names;
+const NamedColors& illuminants() {
+    auto of = [](double x, double y) { return with_luminance_1({x / y, 1, (1 - x - y) / y}); };
+    static const NamedColors colors = {{"stdillum-A", of(0.44758, 0.40745)},
+                                       {"stdillum-D50", of(0.34567, 0.35851)},
+                                       {"stdillum-D65", of(0.31272, 0.32903)}};
+    return colors;
 }
 
 Rgb blackbody_rgb(double kelvin) {
@@ -139,17 +111,16 @@ Rgb blackbody_rgb(double kelvin) {
     return with_luminance_1({X, Y, Z});
 }
 
-std::optional<MetalIor> metal_ior(const std::string& symbol) {
-    for (const NamedMetal& metal : metals) {
-        if (metal.symbol == symbol) return metal.ior;
-    }
-    return {};
-}
-
-std::vector<std::string> metal_symbols() {
-    std::vector<std::string> symbols;
-    for (const NamedMetal& metal : metals) symbols.push_back(metal.symbol);
-    return symbols;
+const NamedColors& metals() {
+    static const NamedColors colors = {{"metal-Ag-eta", {0.155265f, 0.116723f, 0.138381f}},
+                                       {"metal-Ag-k", {4.828343f, 3.122246f, 2.146950f}},
+                                       {"metal-Al-eta", {1.657460f, 0.880369f, 0.521229f}},
+                                       {"metal-Al-k", {9.223869f, 6.269523f, 4.837001f}},
+                                       {"metal-Au-eta", {0.143119f, 0.374957f, 1.442479f}},
+                                       {"metal-Au-k", {3.983160f, 2.385721f, 1.603215f}},
+                                       {"metal-Cu-eta", {0.200438f, 0.924033f, 1.102212f}},
+                                       {"metal-Cu-k", {3.912949f, 2.452848f, 2.142188f}}};
+    return colors;
 }
 
 const std::vector<Glass>& all_glasses() {

@@ -1,7 +1,7 @@
 // Light and metals whose colors are known as spectra, as linear sRGB.
 #pragma once
 #include <array>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,25 +37,22 @@ Rgb reflectance_rgb(const Spectrum& spectrum);
 /// The mean over the matching curve of each primary, as that of metals below.
 Rgb mean_rgb(const Spectrum& spectrum);
 
-/// pbrt's standard illuminants: "stdillum-A", "-D50" and "-D65", with luminance 1.
+/// Colors by their names in pbrt.
+using NamedColors = std::map<std::string, Rgb>;
+
+/// The standard illuminants "stdillum-A", "-D50" and "-D65", with luminance 1.
 ///
 /// source  chromaticities of CIE 015, table T.3
-std::optional<Rgb> illuminant_rgb(const std::string& name);
-std::vector<std::string> illuminant_names();
+const NamedColors& illuminants();
 
 /// The relative luminance of a linear sRGB color.
 inline float luminance(Rgb a) { return 0.2126f * a.r + 0.7152f * a.g + 0.0722f * a.b; }
 
-/// The complex index of refraction eta + i k of a metal.
-struct MetalIor {
-    Rgb eta, k;
-};
-
-/// By chemical symbol: Ag, Al, Au, Cu.
+/// "metal-Ag-eta" and "metal-Ag-k", the complex index of refraction eta + i k, and those of Al, Au
+/// and Cu.
 ///
 /// source  measured spectra (Palik 1985), averaged over the sRGB primaries' color matching curves
-std::optional<MetalIor> metal_ior(const std::string& symbol);
-std::vector<std::string> metal_symbols();
+const NamedColors& metals();
 
 /// pbrt's measured glasses, such as "glass-BK7".
 ///

@@ -37,7 +37,7 @@ const std::vector<StandIn>& all_stand_ins() {
         {"a part of a sphere or disk", "the whole"},
         {"a sphere or disk scaled differently along its axes", "one of their mean size"},
         {"a light or camera that moves", "one that rests as when the shutter opens"},
-        {"TransformTimes", "from 0 to 1 s"},
+        {"TransformTimes other than 0 1", "from 0 to 1 s"},
         {"LightSource \"goniometric\"", "a point light"},
         {"LightSource \"projection\"", "a point light"},
         {"LightSource \"spot\"", "a point light"},
@@ -65,24 +65,22 @@ const std::vector<StandIn>& all_stand_ins() {
     return all;
 }
 
-static const StandIn* find(const std::string& what) {
-    for (const StandIn& stand_in : all_stand_ins()) {
-        if (stand_in.what == what) return &stand_in;
-    }
-    return nullptr;
-}
-
-bool has_stand_in(const std::string& what) { return find(what) != nullptr; }
-
 std::string or_stand_in(const std::string& what) {
-    const StandIn* stand_in = find(what);
-    return stand_in ? "; --stand-in renders it as " + stand_in->instead : "";
+    for (const StandIn& stand_in : all_stand_ins()) {
+        if (stand_in.what == what) return "; --stand-in renders it as " + stand_in.instead;
+    }
+    return "";
 }
 
 void SceneNotes::stand_in(const Position& at, const std::string& what) {
     auto [place, is_new] = used_.try_emplace(what);
     if (is_new) place->second.first = at;
-    place->second.all[at.file].insert({at.line, at.column});
+    place->second.all.insert(at);
+}
+
+void SceneNotes::need(const Position& at, const std::string& what) {
+    if (!stand_ins_) fail(at, what + " is not supported" + or_stand_in(what));
+    stand_in(at, what);
 }
 
 std::vector<UsedStandIn> SceneNotes::used() const {
@@ -90,9 +88,7 @@ std::vector<UsedStandIn> SceneNotes::used() const {
     for (const auto& [what, instead] : all_stand_ins()) {
         auto found = used_.find(what);
         if (found == used_.end()) continue;
-        size_t places = 0;
-        for (const auto& [file, all] : found->second.all) places += all.size();
-        list.push_back({what, instead, places, found->second.first});
+        list.push_back({what, instead, found->second.all.size(), found->second.first});
     }
     return list;
 }

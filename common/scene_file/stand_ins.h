@@ -13,9 +13,8 @@ struct StandIn {
 };
 /// All of them; scenes/README.md has the same table.
 const std::vector<StandIn>& all_stand_ins();
-/// Whether there is a stand-in for this, by its name in the table.
-bool has_stand_in(const std::string& what);
-/// "; --stand-in renders it as INSTEAD", which ends a message; empty where there is no stand-in.
+/// "; --stand-in renders it as INSTEAD", which ends a message; empty for what has no stand-in in
+/// the table.
 std::string or_stand_in(const std::string& what);
 
 /// Notes, and which stand-ins a scene takes, where they are allowed.
@@ -27,13 +26,15 @@ public:
     bool stand_ins() const { return stand_ins_; }
     /// Remembers that a stand-in is taken at a place in the scene file.
     void stand_in(const Position& at, const std::string& what);
+    /// The same; throws where stand-ins are not allowed.
+    void need(const Position& at, const std::string& what);
     /// Those that were taken, in the order of the table.
     std::vector<UsedStandIn> used() const;
 
 private:
     struct Places {
         Position first;
-        std::map<std::string, std::set<std::pair<int, int>>> all;  // lines and columns, by file
+        std::set<Position> all;
     };
     bool stand_ins_;
     std::map<std::string, Places> used_;

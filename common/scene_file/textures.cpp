@@ -16,8 +16,7 @@ bool read_mapping(Params& params, Texture& texture) {
     bool is_uv = params.string("mapping", "uv") == "uv";
     if (!is_uv) {
         params.ignore("vector3", {"v1", "v2"});
-        params.stand_in(params.at("mapping"), "a mapping other than \"uv\"",
-                        "only the mapping \"uv\" is supported");
+        params.stand_in(params.at("mapping"), "a mapping other than \"uv\"");
     }
     auto number = [&](const char* name, float fallback) {
         return params.number(name, fallback, -1e9f, 1e9f);
@@ -46,8 +45,7 @@ Texture::Wrap read_wrap(Params& params) {
     if (wrap == "clamp") return Texture::Wrap::clamp;
     if (wrap == "black") return Texture::Wrap::black;
     if (wrap == "octahedralsphere") {
-        const std::string row = "wrap \"octahedralsphere\"";
-        params.stand_in(params.at("wrap"), row, row + " is not supported");
+        params.stand_in(params.at("wrap"), "wrap \"octahedralsphere\"");
         return Texture::Wrap::repeat;
     }
     fail_unknown(params.at("wrap"), "wrap", wrap, {"black", "clamp", "repeat"});
@@ -69,9 +67,7 @@ std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
     const Param* param = params.find_exactly("rgb", name, 3);
     if (const Param* listed = params.find("spectrum", name)) {
         if (listed->strings.size() == 1) {
-            params.stand_in(listed->at, "a spectrum of unknown name",
-                            unknown("spectrum", listed->strings[0], {}));
-            return {};
+            return params.named(*listed, {});
         }
         Spectrum spectrum = read_spectrum(*listed);
         for (const auto& [nm, value] : spectrum) check_range(*listed, value, 0, 1);
@@ -129,7 +125,7 @@ std::optional<NamedTexture> TextureReader::find(Params& params, const std::strin
 float TextureReader::number(Params& params, const std::string& name, float fallback, float high) {
     const Param* texture = params.may_stand_in() ? params.find("texture", name) : nullptr;
     if (!texture) return params.number(name, fallback, 0, high);
-    params.stand_in(texture->at, "a texture that is no reflectance", "");
+    params.stand_in(texture->at, "a texture that is no reflectance");
     return std::clamp(mean_input(params, name, fallback, true).r, 0.0f, high);
 }
 
@@ -210,8 +206,7 @@ NamedTexture TextureReader::read_spectrum(Params& params) {
     } else if (params.type() == "checkerboard") {
         bool is_flat = params.integer("dimension", 2, 2, 3) == 2;
         if (!is_flat) {
-            params.stand_in(params.at("dimension"), "a checkerboard of 3 dimensions",
-                            "a checkerboard of 3 dimensions is not supported");
+            params.stand_in(params.at("dimension"), "a checkerboard of 3 dimensions");
         }
         NamedTexture a = read_input(params, "tex1", {1, 1, 1});
         NamedTexture b = read_input(params, "tex2", {0, 0, 0});
@@ -297,8 +292,6 @@ uint32_t TextureReader::picture(Params& params, const Position& at, float gamma)
         known.number = static_cast<uint32_t>(textures_.pictures.size());
         try {
             read_texels(path, at, gamma);
-        } catch (const ReadingEnds&) {
-            throw;
         } catch (const InputError& error) {
             known.error = error.what();
             if (params.may_stand_in()) textures_.pictures.push_back({1, 1, {{0.5f, 0.5f, 0.5f}}});

@@ -284,17 +284,20 @@ TEST_SUITE("reader: materials") {
         auto metal = [](Rgb eta, Rgb k, const char* alpha) {
             return "metal " + in_words(eta) + ", " + in_words(k) + ", " + alpha;
         };
-        const MetalIor gold = *metal_ior("Au"), copper = *metal_ior("Cu");
-        auto rough = [&](const char* alpha) { return metal(copper.eta, copper.k, alpha); };
+        auto named = [](const char* name) { return metals().at(name); };
+        const Rgb gold_k = named("metal-Au-k");
+        auto rough = [&](const char* alpha) {
+            return metal(named("metal-Cu-eta"), named("metal-Cu-k"), alpha);
+        };
         for (const Row& row : std::vector<Row>{
                  {"'conductor' 'rgb eta' [.2 .9 1.1] 'rgb k' [3.9 2.4 2.1]",
                   "metal 0.2 0.9 1.1, 3.9 2.4 2.1, 0"},
                  {"'conductor' 'spectrum eta' 'metal-Au-eta' 'spectrum k' [ 'metal-Au-k' ]",
-                  metal(gold.eta, gold.k, "0")},
+                  metal(named("metal-Au-eta"), gold_k, "0")},
                  {"'conductor' 'spectrum eta' [300 .5 900 .5] 'spectrum k' 'metal-Au-k'",
-                  metal({.5f, .5f, .5f}, gold.k, "0")},
+                  metal({.5f, .5f, .5f}, gold_k, "0")},
                  {"'conductor'", rough("0")},
-                 {"'conductor' 'rgb eta' [1 2 3]", metal({1, 2, 3}, copper.k, "0")},
+                 {"'conductor' 'rgb eta' [1 2 3]", metal({1, 2, 3}, named("metal-Cu-k"), "0")},
                  // R = k^2 / (4 + k^2); white is .9999, as in pbrt.
                  {"'conductor' 'rgb reflectance' [0 .5 1]", "metal 1 1 1, 0 2 199.97, 0"},
                  // Roughness is the square of alpha, unless it is alpha; below .001 it is smooth.
@@ -389,7 +392,7 @@ TEST_SUITE("reader: lights") {
             {"LightSource 'point' 'blackbody I' 2856 'float scale' 3",
              "point " + rgb(3 * blackbody_rgb(2856)) + ", 0 0 0"},
             {"LightSource 'point' 'spectrum I' 'stdillum-A'",
-             "point " + rgb(*illuminant_rgb("stdillum-A")) + ", 0 0 0"},
+             "point " + rgb(illuminants().at("stdillum-A")) + ", 0 0 0"},
             {"LightSource 'point' 'spectrum I' [300 2 900 2] 'float scale' 3",
              "point " + rgb(3 * light_rgb({{300, 2}, {900, 2}})) + ", 0 0 0"},
             {"LightSource 'distant'", "distant 1 1 1, 0 0 -1"},

@@ -29,10 +29,10 @@ TEST_SUITE("spectra") {
             CHECK(std::abs(luminance(c) - 1) < 1e-5);
         }
         // Lines between rows of 10 nm make the observer's curves lower at their tops.
-        CHECK(apart(light_rgb(standard_daylight()), *illuminant_rgb("stdillum-D65")) < 3e-3f);
-        CHECK(apart(*illuminant_rgb("stdillum-A"), blackbody_rgb(2855.6)) < 3e-3f);
+        CHECK(apart(light_rgb(standard_daylight()), illuminants().at("stdillum-D65")) < 3e-3f);
+        CHECK(apart(illuminants().at("stdillum-A"), blackbody_rgb(2855.6)) < 3e-3f);
         // Daylight lies beside the line of black bodies.
-        CHECK(apart(*illuminant_rgb("stdillum-D50"), blackbody_rgb(5000)) < 0.06f);
+        CHECK(apart(illuminants().at("stdillum-D50"), blackbody_rgb(5000)) < 0.06f);
     }
 
     TEST_CASE("truth: the observer's columns have the sums and centres of the CIE's table") {

@@ -132,9 +132,12 @@ TEST_SUITE("stand-ins") {
         const std::string both =
             "MakeNamedMaterial 'a' 'string type' 'diffuse' MakeNamedMaterial 'b' 'string type' "
             "'conductor' Material 'mix' 'string materials' ['a' 'b'] ";
-        const MetalIor gold = *metal_ior("Au"), copper = *metal_ior("Cu");
-        const std::string of_gold = "metal " + in_words(gold.eta) + ", " + in_words(gold.k),
-                          of_copper = "metal " + in_words(copper.eta) + ", " + in_words(copper.k);
+        auto metal = [](const std::string& name) {
+            const NamedColors& known = metals();
+            return "metal " + in_words(known.at("metal-" + name + "-eta")) + ", " +
+                   in_words(known.at("metal-" + name + "-k"));
+        };
+        const std::string of_gold = metal("Au"), of_copper = metal("Cu");
         auto texture = [](const std::string& kind) {
             return "Texture 't' 'spectrum' " + kind +
                    " Material 'diffuse' 'texture reflectance' 't'";
