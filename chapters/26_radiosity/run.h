@@ -5,8 +5,8 @@
 #include "chapters/26_radiosity/check.h"
 #include "common/base/percent.h"
 #include "common/base/position.h"
+#include "common/base/progress.h"
 #include "common/path/method.h"
-#include "common/rendering/progress.h"
 #include "common/rendering/tile_renderer.h"
 #include "common/results/outputs.h"
 #include "common/results/results.h"
@@ -54,7 +54,7 @@ inline Solution refine(const Patches& patches, Matrix& G, const ExchangeOf& exch
     constexpr double enough = 1e-3;  // of the light: may be unshot at the end
     Solution s;
     start(patches.patch, s);
-    Progress progress(o.quiet);
+    Progress progress(60);
     double first = share_to_come(patches.patch, s), last = 1;
     while (!limit.reached() && (most_shots == 0 || s.steps < most_shots)) {
         if (s.steps % 16 == 0) last = share_to_come(patches.patch, s);
@@ -62,7 +62,8 @@ inline Solution refine(const Patches& patches, Matrix& G, const ExchangeOf& exch
         std::optional<size_t> i = brightest(patches.patch, s);
         if (!i) break;
         shoot(patches, *i, row_of(G, *i, o.threads, exchange), s);
-        progress.show(std::log(last / first) / std::log(enough / first), limit.elapsed());
+        double share = std::log(last / first) / std::log(enough / first);
+        if (!o.quiet) progress.show("shooting", share, limit.elapsed());
     }
     return s;
 }

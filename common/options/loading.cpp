@@ -1,14 +1,12 @@
 #include "common/options/loading.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <map>
 
 #include "common/base/position.h"
+#include "common/base/progress.h"
 #include "common/base/report.h"
-#include "common/options/loading_progress.h"
 #include "common/scene/coincident.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
@@ -17,7 +15,7 @@
 namespace {
 
 /// Reads the scene, and prints its notes even if an error follows.
-Scene load_and_tell(const RenderOptions& options, const Report& report, LoadingProgress& progress) {
+Scene load_and_tell(const RenderOptions& options, const Report& report, Progress& progress) {
     std::vector<std::string> notes;
     auto tell_notes = [&] {
         progress.clear();
@@ -75,8 +73,7 @@ Rgb mean_of(const SkyImage& sky) {
 }  // namespace
 
 Scene load(const RenderOptions& options, Features features) {
-    constexpr double pause = 10;  // s
-    LoadingProgress progress(isatty(STDERR_FILENO), pause);
+    Progress progress(10);
     Report report;
     if (!options.quiet) {
         report = [&](const std::string& what, double share) { progress.show(what, share); };

@@ -61,7 +61,6 @@ struct PixelSum {
     void add_part(Rgb L) { add_numbers(double{L.r}, double{L.g}, double{L.b}, 0); }
     /// Whether some numbers can have this sum: a check of sums read from a file.
     bool is_possible() const;
-    bool is_zero() const { return r() == 0 && g() == 0 && b() == 0 && sum_of_squares() == 0; }
     /// Adds the samples of another sum.
     void add(const PixelSum& other);
 

@@ -5,9 +5,9 @@
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
+#include "common/base/progress.h"
 #include "common/rendering/film_keeping.h"
 #include "common/rendering/lamp_edges.h"
-#include "common/rendering/progress.h"
 #include "common/rendering/tile_renderer.h"
 
 namespace {
@@ -37,7 +37,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Method
     bool goes_on = !options.film.empty() && allocation.pilot == 0;
     uint32_t done = goes_on ? fewest_samples(result.film) : 0;
     FilmClock clock(scene, options);
-    Progress progress(options.quiet);
+    Progress progress(60);
     TileRenderer renderer(scene, options, method, allocation, limit, clock, result, wanted.first);
     uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
     uint32_t most_per_pass = std::max(1u, (1u << 20) / pixels), spp = wanted.last - wanted.first;
@@ -64,7 +64,8 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Method
             double of_pass = static_cast<double>(++tiles) / renderer.tiles();
             double seconds = limit.elapsed();
             double by_time = options.time > 0 ? seconds / options.time : 0;
-            progress.show(std::max(by_time, (done + (next - done) * of_pass) / spp), seconds);
+            double by_samples = (done + (next - done) * of_pass) / spp;
+            if (!options.quiet) progress.show("rendering", std::max(by_time, by_samples), seconds);
         });
         if (clock.due()) {
             clock.save(result);  // then continue the same pass

@@ -34,26 +34,6 @@ std::string first_place(const Scene& scene) {
     return "";
 }
 
-/// Why the chapter's way of finding light misses light that could arrive.
-std::string of_search(LightSearch search) {
-    const std::string paths = " begin at the lights, and few of them come to what the camera sees",
-                      camera = ", or a chapter whose paths begin at the camera";
-    switch (search) {
-        case LightSearch::by_chance:
-            return "this chapter finds lights only by chance: more samples find them, or a chapter "
-                   "that samples lights (from 09 on)";
-        case LightSearch::from_lights: return "paths" + paths + ": more samples" + camera;
-        case LightSearch::photons: return "photons" + paths + ": more photons" + camera;
-        case LightSearch::light_sampling:
-        case LightSearch::direct:
-            return "something stands between the lights and what is in view, or too few paths find "
-                   "a way: more samples; if it is glass, chapters 20 to 25";
-        case LightSearch::both_ends:
-        case LightSearch::merging: break;
-    }
-    return "light takes ways here that too few paths find: more samples, or another chapter";
-}
-
 }  // namespace
 
 std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options) {
@@ -80,7 +60,11 @@ std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions
                              ": ReverseOrientation turns a light, \"bool twosided\" true lights "
                              "both sides");
         } else {
-            causes.push_back(of_search(options.search));
+            causes.push_back(options.search == LightSearch::by_chance
+                                 ? "this chapter finds lights only by chance: more samples find "
+                                   "them, or a chapter that samples lights (from 09 on)"
+                                 : "too few paths find a way from the lights to what is in view: "
+                                   "more samples, or a chapter that finds light in another way");
         }
     }
     return causes;

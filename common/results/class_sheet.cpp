@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/base/percent.h"
-#include "common/picture/finite_part.h"
 #include "common/picture/sheet.h"
 
 namespace {
@@ -31,7 +30,7 @@ Image class_sheet(const std::map<std::string, Film>& classes) {
     std::vector<std::pair<double, std::string>> order;
     double all = 0;
     for (const auto& [name, film] : classes) {
-        double mean = finite_part(film).mean;
+        double mean = film.mean();
         order.push_back({std::isnan(mean) ? 0 : -mean, name});
     }
     for (const auto& [minus_mean, name] : order) all -= minus_mean;

@@ -11,7 +11,6 @@
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/options/command_line.h"
-#include "common/picture/finite_part.h"
 #include "common/picture/notes.h"
 #include "common/rendering/film_keeping.h"
 #include "common/results/class_sheet.h"
@@ -34,7 +33,7 @@ Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering
 
 std::string stats_json(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
-    FinitePart finite = finite_part(r.film);
+    Rgb mean_rgb = r.film.mean_rgb();
     double sum = r.film.mean() * static_cast<double>(r.film.samples());
     double pixels = static_cast<double>(r.film.pixels().size());
     JsonObject json;
@@ -54,12 +53,11 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("samples_per_second", per_second(r.film.samples(), s.samples_before, s));
     json.add("rays", s.rays);
     json.add("rays_per_second", per_second(s.rays, s.rays_before, s));
-    json.add("mean", finite.mean);
+    json.add("mean", r.film.mean());
     json.add("mean_rgb",
-             std::vector<double>{double{finite.rgb.r}, double{finite.rgb.g}, double{finite.rgb.b}});
-    json.add("standard_error", finite.error);
+             std::vector<double>{double{mean_rgb.r}, double{mean_rgb.g}, double{mean_rgb.b}});
+    json.add("standard_error", r.film.standard_error());
     json.add("samples_not_finite", s.not_finite);
-    json.add("pixels_not_finite_share", 1 - finite.share);
     json.add("paths_cut_by_depth", s.paths_cut);
     json.add("largest_sample", s.largest);
     json.add("largest_sample_share", sum > 0 ? s.largest / sum : 0);
@@ -141,8 +139,7 @@ private:
             };
             add(
                 name + ".pfm", [=] { write(name + ".pfm"); },
-                "  " + (std::isfinite(film.mean()) ? "mean " + json_number(film.mean())
-                                                   : mean_and_error(film)));
+                "  mean " + (std::isfinite(film.mean()) ? json_number(film.mean()) : "unknown"));
             outputs_.push_back({name + ".png", [=] { write(name + ".png"); }});
         }
         add_image(
@@ -160,20 +157,16 @@ private:
 }  // namespace
 
 std::string mean_and_error(const Film& film) {
-    FinitePart finite = finite_part(film);
-    if (finite.share == 0) return "mean unknown: every pixel has samples that are not finite";
-    std::string of_others = finite.share == 1
-                                ? ""
-                                : " without the " + percent(1 - finite.share) +
-                                      " of the pixels that have samples that are not finite";
+    double mean = film.mean(), error = film.standard_error();
+    if (!std::isfinite(mean)) return "mean unknown: not all samples are finite";
     char text[800];
-    if (std::isnan(finite.error)) {
-        std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", finite.mean,
+    if (std::isnan(error)) {
+        std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", mean,
                       film.spp() > 1 ? "" : " (1 sample)");
     } else {
-        std::snprintf(text, sizeof text, "mean %.6f +- %.6f", finite.mean, finite.error);
+        std::snprintf(text, sizeof text, "mean %.6f +- %.6f", mean, error);
     }
-    return text + of_others;
+    return text;
 }
 
 /// The command without the options that --explain does not accept.

@@ -10,8 +10,6 @@
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
 #include "common/picture/film.h"
-#include "common/picture/finite_part.h"
-#include "tests/damage/films.h"
 #include "tests/support/scenes.h"
 
 namespace {
@@ -203,38 +201,6 @@ TEST_SUITE("film error") {
             // Each pixel: s^2 = 5/3, of its mean 5/12. Mean of 4 pixels: 5/12 together, else 5/48.
             CHECK(film.standard_error() == about(std::sqrt(together ? 5.0 / 12 : 5.0 / 48)));
         }
-    }
-
-    TEST_CASE("truth: where samples are not finite, mean and error are those of the others") {
-        for (int kind : {0, 1, 2, 3, 4})
-            for (bool takes_splats : {false, true}) {
-                if (kind == 2 && takes_splats) continue;
-                CAPTURE(kind);
-                Film film = any_film(kind, takes_splats, 0, 9).film;  // six pixels are not
-                if (takes_splats) film.add_total(99, grey(infinity));
-                FinitePart part = finite_part(film);
-                double sum = 0;
-                for (size_t i = 6; i < 143; i++) {
-                    Rgb L = film.image().pixels[i];
-                    sum += double{L.r} + double{L.g} + double{L.b};
-                }
-                CHECK(part.share == about(137 / 143.0));
-                CHECK(part.mean == about(sum / 3 / 137, 1e-6));
-                CHECK(double{part.rgb.r} + double{part.rgb.g} + double{part.rgb.b} ==
-                      about(sum / 137, 1e-6));
-                auto leave_out = [](auto& sums) {
-                    for (PixelSum& s : sums)
-                        if (!std::isfinite(s.mean())) s = {};
-                };
-                for (size_t i = 0; i < 6; i++) {
-                    film.pixels()[i] = {};
-                    if (kind == 2) film.audits()[i] = {};
-                }
-                leave_out(film.totals());
-                leave_out(film.batches());
-                CHECK(std::isfinite(part.error));
-                CHECK(part.error == film.standard_error());
-            }
     }
 
     TEST_CASE("brute: a comparison's numbers counted in another way") {

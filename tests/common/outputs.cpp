@@ -38,8 +38,8 @@ TEST_SUITE("outputs") {
         write_image(folder / "sky.pfm", sky, "");
         fs::copy_file(file_path(scene), folder / "a.svg");
         fs::create_directory(folder / "d");
-        if (!make_link("../sky.pfm", folder / "d/LDE.pfm"))
-            fs::create_hard_link(folder / "sky.pfm", folder / "d/LDE.pfm");
+        if (!make_link("../sky.pfm", folder / "d/classes.png"))
+            fs::create_hard_link(folder / "sky.pfm", folder / "d/classes.png");
         std::string out = folder / strange + ".pfm";
         auto refuses = [&](const std::string& path, const Words& words) {
             CAPTURE(words[0] + " " + words[1]);

@@ -110,7 +110,6 @@ TEST_SUITE("printed") {
             {"mean", 1},
             {"standard_error", 0.006667},
             {"samples_not_finite", 0},
-            {"pixels_not_finite_share", 0},
             {"paths_cut_by_depth", 12},
             {"largest_sample", 1.1},
             {"largest_sample_share", 0.003667},
@@ -155,13 +154,14 @@ TEST_SUITE("printed") {
     TEST_CASE("truth: the command to see a sample that is not finite is without film and part") {
         TemporaryFolder folder;
         RenderOptions options = options_of(folder.path());
-        options.quiet = true;
         options.command = "build/07_x --film 'a b.film' --film-every=3 --spp 4 --part 1/2 a.pbrt";
         Rendering r = rendering_of();
+        r.film.add(3, {inf, 1, 1});
         r.stats.not_finite = 2, r.stats.bad_x = 3, r.stats.bad_y = 4, r.stats.bad_sample = 6;
         r.stats.interrupted = true;
         Finished end = written(small_scene(), options, r);
         CHECK(end.code == 1);
+        CHECK(end.out.find("\nmean unknown: not all samples are finite\n") != std::string::npos);
         CHECK(end.err.ends_with(": build/07_x --spp 4 a.pbrt --explain 3,4,6\n"));
     }
 

@@ -240,25 +240,6 @@ TEST_SUITE("render loop") {
             }
     }
 
-    TEST_CASE("failure: a summary tells of which pixels its mean is, where some are not finite") {
-        auto summary = [](size_t pixels) {
-            Film film(16, 16);
-            for (size_t i = 0; i < 512; i++) film.add(i % 256, {i < pixels ? infinity : 2, 2, 2});
-            Rendering r{film, {}, {}};
-            r.stats.not_finite = pixels, r.stats.seconds = 1;
-            RenderOptions options = stand_in_options();
-            options.quiet = false;
-            Finished end =
-                captured([&] { return write_results(empty_scene(16, 16, 2), options, r); });
-            CHECK(end.code == 1);
-            return end.out;
-        };
-        CHECK(summary(128).find("mean 2.000000 +- 0.000000 without the 50 % of the pixels") !=
-              std::string::npos);
-        CHECK(summary(256).find("mean unknown: every pixel has samples that are not finite") !=
-              std::string::npos);
-    }
-
     TEST_CASE("files: what a thread throws reaches the caller") {
         for (int threads : {1, 4}) {
             CHECK_THROWS_AS(

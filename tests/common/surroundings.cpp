@@ -1,22 +1,21 @@
 // What surrounds a render: loading, progress, help, and the pixels at the edges of lamps.
 #include <doctest/doctest.h>
 
+#include "common/base/progress.h"
 #include "common/options/loading.h"
-#include "common/options/loading_progress.h"
 #include "common/options/options.h"
 #include "common/rendering/film_clock.h"
 #include "common/rendering/lamp_edges.h"
-#include "common/rendering/progress.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
 TEST_SUITE("surroundings") {
-    TEST_CASE("truth: loading shows a line that goes away, or lines that stay") {
-        auto told = [](bool is_terminal, double pause) {
+    TEST_CASE("truth: progress is a line that goes away, or lines that stay") {
+        auto told = [](bool is_terminal, double pause, double seconds = NAN) {
             return captured([&] {
-                       LoadingProgress progress(is_terminal, pause);
+                       Progress progress(pause, is_terminal);
                        ::usleep(2000);
-                       progress.show("reading 'a\nb'", 0.126);
+                       progress.show("reading 'a\nb'", 0.126, seconds);
                        progress.clear(), tell("!");
                        return 0;
                    })
@@ -24,6 +23,7 @@ TEST_SUITE("surroundings") {
         };
         const std::string end = "\x1b[K";
         CHECK(told(false, 0.001) == "reading 'a?b' ... 13 %\n!");
+        CHECK(told(false, 0.001, 12.6) == "reading 'a?b' ... 13 %, 87 s left\n!");
         CHECK(told(true, 0.001) == "\rreading 'a?b' ... 13 %" + end + "\r" + end + "!");
         CHECK(told(false, 100) == "!");
     }

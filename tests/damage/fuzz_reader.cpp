@@ -1,5 +1,5 @@
-// fuzz_reader [COUNT [FIRST [films]]]: the readers against damaged scenes, meshes and pictures (see
-// scenes.h), or against damaged films (see films.h).
+// fuzz_reader [COUNT [FIRST]]: the readers against damaged scenes, meshes and pictures (see
+// scenes.h).
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #define DOCTEST_CONFIG_DISABLE  // this is no test, though it uses the same helpers
-#include "tests/damage/films.h"
+#include "tests/damage/scenes.h"
 #include "tests/support/folder.cpp"
 
 namespace {
@@ -45,8 +45,7 @@ int main(int argc, char** argv) {
     uint32_t first = argc > 2 ? static_cast<uint32_t>(std::atoi(argv[2])) : 0;
     try {
         std::signal(SIGALRM, end_slow_input);
-        auto run = argc > 3 && argv[3] == std::string("films") ? fuzz_films : fuzz;
-        FuzzResult result = run(first, count, begin_input);
+        FuzzResult result = fuzz(first, count, begin_input);
         std::printf(
             "%u damaged inputs: %llu read, %llu refused, the slowest in %.3f s, %.0f MB at most\n",
             count, static_cast<unsigned long long>(result.read),

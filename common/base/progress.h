@@ -1,0 +1,33 @@
+// What a program shows of its progress.
+#pragma once
+#include <chrono>
+#include <mutex>
+#include <string>
+
+/// Shows the progress of long work on stderr: on a terminal in one line, which disappears at the
+/// end; in a file as a new line now and then. The work never waits for it.
+class Progress {
+public:
+    /// pause   s, between lines in a file; what takes less shows none
+    explicit Progress(double pause);
+    Progress(double pause, bool is_terminal);
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// "WHAT ... 12 %": a `share` of the work, from 0 to 1. Any thread may call it.
+    void show(const std::string& what, double share);
+    /// The same with the time that is left, where the share took `seconds`.
+    void show(const std::string& what, double share, double seconds);
+    /// Clears the line on the terminal, so that other lines can be printed.
+    void clear();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    const bool is_terminal_;
+    const std::chrono::duration<double> pause_;  // between lines, or between drawings of the one
+    std::mutex mutex_;
+    bool is_shown_ = false;
+    Clock::time_point last_ = Clock::now();
+};
