@@ -17,6 +17,22 @@ double to_double(float x) { return static_cast<double>(x); }
 
 }  // namespace
 
+TEST_SUITE("frame") {
+    TEST_CASE("identity: the frame is orthonormal, also where its formula is nearly infinite") {
+        Sampler random = random_numbers(1);
+        float worst = 0;
+        for (int i = 0; i < 100000; i++) {
+            Vec3 n = uniform_direction(random.u2());
+            if (i % 2 == 0) n = normalize({1e-3f * n.x, 1e-3f * n.y, n.z});
+            Frame f(n);
+            for (float error : {dot(f.s, f.t), dot(f.s, n), dot(f.t, n), length(f.s) - 1,
+                                length(f.t) - 1, length(cross(f.s, f.t) - n)})
+                worst = std::isfinite(error) ? std::max(worst, std::abs(error)) : infinity;
+        }
+        CHECK(worst < 1e-6f);
+    }
+}
+
 TEST_SUITE("intersect shapes") {
     TEST_CASE("truth: a small sphere far away keeps its edge and its distance") {
         // In float, b^2 - a c would be wrong by about 10 here, for a radius of 1.
