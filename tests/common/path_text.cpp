@@ -68,4 +68,27 @@ TEST_SUITE("path text") {
               "    sky met: adds (6, 8, 6), mis 1, class LDSE\n"
               "    ends: it has left the scene\n");
     }
+
+    TEST_CASE("truth: the vertex, weight, way and pixel of a connection of two paths") {
+        Material wall;
+        Recorder recorder(true);
+        recorder.start();
+        recorder.start_at_light({});
+        auto meet = [&] {
+            recorder.vertex(hit_at({}, wall));
+            recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});
+        };
+        meet();
+        recorder.start_at_eye();
+        meet(), meet();
+        for (auto [s, t, vertex] : {std::tuple{2, 1, 2}, {1, 3, 4}}) {
+            size_t pixel = t == 1 ? 17 : Contribution::own_pixel;
+            recorder.connected({1, 2, 3}, s, t, 0.5f, pixel);
+            const Contribution& last = recorder.contributions().back();
+            CHECK(last.vertex == vertex);  // from 1, those of the light's path first
+            CHECK(last.mis == 0.5f);
+            CHECK(last.way == "s " + std::to_string(s) + ", t " + std::to_string(t));
+            CHECK(last.pixel == pixel);
+        }
+    }
 }
