@@ -72,7 +72,7 @@ Geometry ball_on_a_plain() {
 
 std::vector<Geometry> meshes() {
     return {furnished_room(2),
-            scan(3),
+            closed_mesh(3),
             tree(2, 6),
             hair(60),
             slivers(300, 1e2f),

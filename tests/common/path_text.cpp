@@ -1,4 +1,4 @@
-// What a recorder keeps and a story tells of events that are made by hand, to the last word.
+// What --explain tells of a path whose events are made by hand, to the last word.
 #include <doctest/doctest.h>
 
 #include "common/recording/recorder.h"
@@ -12,15 +12,6 @@ Hit hit_at(Vec3 p, const Material& material, bool front = true) {
     x.p = p, x.n = x.ng = {0, 0, -1}, x.t = 2.5f, x.front = front, x.material = &material;
     return x;
 }
-
-struct Materials {
-    Material wall, mirror, glass;
-    Materials() {
-        wall.reflectance = {0.5f, 0.5f, 0.5f};
-        mirror.type = MaterialType::conductor;
-        glass.type = MaterialType::dielectric;
-    }
-};
 
 /// The same scene for all: a ball of radius 1 around (9, 0, 0), for rays that meet something.
 const Scene& ball() {
@@ -37,19 +28,20 @@ void shadow_miss() { occluded(ball(), {{0, 0, 0}, {0, 1, 0}}); }
 
 TEST_SUITE("path text") {
     TEST_CASE("truth: the story of a path from the eye, word by word") {
-        Materials m;
+        Material wall, glass;
+        glass.type = MaterialType::dielectric;
         PathStory story(5, false);
         Recorder recorder(true, &story);
         recorder.start();
         story.starts_at_eye();
         trace_hit();
-        recorder.vertex(hit_at({1, 2, 3}, m.glass, false));
+        recorder.vertex(hit_at({1, 2, 3}, glass, false));
         CHECK_FALSE(story.has_left());
         recorder.emitted({1, 0.5f, 0.25f}, 0.5f);
         recorder.scatter({0, 0.6f, 0.8f}, {2, 4, 8}, 1, true, {0.5f, 0.25f, 0.125f});
         recorder.roulette(1, {0.5f, 0.25f, 0.125f});
         trace_hit();
-        recorder.vertex(hit_at({1, 2, 4}, m.wall));
+        recorder.vertex(hit_at({1, 2, 4}, wall));
         shadow_miss();
         recorder.direct({1, 2, 4}, {0, 1, 0}, 0.75f, 0.125f, 0.25f);
         shadow_hit();
@@ -77,89 +69,26 @@ TEST_SUITE("path text") {
               "    ends: it has left the scene\n");
     }
 
-    TEST_CASE("truth: why a path ends") {
-        Materials m;
-        Material soot = m.wall;
-        soot.reflectance = {0, 0, 0};
-        const std::string below =
-            "absorbed at vertex 1: the direction drawn lies below the surface";
-        struct {
-            const Material& material;
-            bool counts_photons, goes_on;
-            std::string why;
-        } cases[] = {
-            {m.wall, false, false, below},
-            {m.wall, true, false, "photons around vertex 1 tell the rest"},
-            {m.mirror, true, false, below},
-            {soot, true, false, "vertex 1 is black: it absorbs all"},
-            {m.wall, false, true, "roulette stops it"},
-        };
-        for (const auto& c : cases) {
-            PathStory story(1, c.counts_photons);
-            Recorder recorder(true, &story);
-            recorder.start();
-            trace_hit();
-            recorder.vertex(hit_at({}, c.material));
-            if (c.goes_on) recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {1, 1, 1});
-            story.ends();
-            CHECK(story.text().ends_with("    ends: " + c.why + "\n"));
-        }
-    }
-
-    TEST_CASE("truth: the class, way, vertex and pixel of each connection of two paths") {
-        // From the light D S D, from the eye S D S: what lies between the two ends that are
-        // connected has the letters of its vertices, and both ends are D.
-        Materials m;
-        const Material* kinds[] = {&m.wall, &m.mirror};
-        auto is_mirror = [&](char letter) { return letter == 'S'; };
-        const std::string light = "DSD", eye = "SDS";
+    TEST_CASE("truth: the vertex, weight, way and pixel of a connection of two paths") {
+        Material wall;
         Recorder recorder(true);
         recorder.start();
-        auto walk = [&](const std::string& letters) {
-            for (char letter : letters) {
-                recorder.vertex(hit_at({}, *kinds[is_mirror(letter)]));
-                recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, is_mirror(letter), {1, 1, 1});
-            }
+        recorder.start_at_light({});
+        auto meet = [&] {
+            recorder.vertex(hit_at({}, wall));
+            recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});
         };
-        recorder.start_at_light({});
-        walk(light);
+        meet();
         recorder.start_at_eye();
-        walk(eye);
-        recorder.vertex(hit_at({}, m.wall));
-        CHECK(recorder.contributions().empty());
-        for (int s = 0; s <= 4; s++) {
-            for (int t = 1; t <= 5; t++) {
-                if (s + t < 2) continue;
-                CAPTURE(s);
-                CAPTURE(t);
-                // Vertices of the eye's path: t = 1 is the eye itself, 2 the first that it met.
-                std::string expected = "L";
-                for (int i = 1; i < s; i++)
-                    expected += i == s - 1 ? 'D' : light[static_cast<size_t>(i - 1)];
-                std::string from_eye;
-                for (int i = 2; i <= t - (s == 0); i++)
-                    from_eye += i == t ? 'D' : eye[static_cast<size_t>(i - 2)];
-                std::reverse(from_eye.begin(), from_eye.end());
-                expected += from_eye + "E";
-                size_t pixel = t == 1 ? 17 : Contribution::own_pixel;
-                recorder.connected({1, 2, 3}, s, t, 0.5f, pixel);
-                const Contribution& last = recorder.contributions().back();
-                CHECK(last.path_class == expected);
-                CHECK(last.way == "s " + std::to_string(s) + ", t " + std::to_string(t));
-                CHECK(last.pixel == pixel);
-                CHECK(last.mis == 0.5f);
-                CHECK(last.L == Rgb{1, 2, 3});
-                // Vertices count from 1: four of the light's path, then those from the eye.
-                CHECK(last.vertex == (t == 1 ? s : 4 + t - 1));
-            }
+        meet(), meet();
+        for (auto [s, t, vertex] : {std::tuple{2, 1, 2}, {1, 3, 4}}) {
+            size_t pixel = t == 1 ? 17 : Contribution::own_pixel;
+            recorder.connected({1, 2, 3}, s, t, 0.5f, pixel);
+            const Contribution& last = recorder.contributions().back();
+            CHECK(last.vertex == vertex);  // from 1, those of the light's path first
+            CHECK(last.mis == 0.5f);
+            CHECK(last.way == "s " + std::to_string(s) + ", t " + std::to_string(t));
+            CHECK(last.pixel == pixel);
         }
-        // The light's path begins anew; so does all.
-        recorder.start_at_light({});
-        recorder.vertex(hit_at({}, m.wall));
-        recorder.connected({1, 1, 1}, 2, 1, 1, 3);
-        CHECK(recorder.contributions().back().path_class == "LDE");
-        recorder.start();
-        CHECK(recorder.contributions().empty());
-        CHECK(recorder.vertices().empty());
     }
 }

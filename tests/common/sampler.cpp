@@ -12,15 +12,9 @@
 
 namespace {
 
-constexpr double pi_variance = std::numbers::pi * (4 - std::numbers::pi);  // of one dart
 constexpr SamplerType all_types[] = {SamplerType::independent, SamplerType::stratified,
                                      SamplerType::sobol};
 
-double product(Vec2 p) { return double{p.x} * double{p.y}; }
-double dart(Vec2 p) {
-    double x = double{p.x}, y = double{p.y};
-    return x * x + y * y <= 1 ? 4 : 0;
-}
 /// The first `n` samples of a pixel: the pair number `pair` of each.
 std::vector<Vec2> pixel_points(Sampler sampler, uint32_t pixel, uint32_t n, int pair = 0) {
     std::vector<Vec2> points;
@@ -106,39 +100,6 @@ TEST_SUITE("sampler: bits") {
             CHECK(sobol_second_reversed(1u << k) == reverse_bits(sobol_second(1u << k)));
     }
 
-    TEST_CASE("identity: a sample is a function of seed, pixel and number, not of the order") {
-        for (SamplerType type : all_types)
-            for (uint32_t i = 0; i < 16; i++) {
-                Sampler a(type, 7, 16), b(type, 7, 16);
-                a.start(3, i);
-                Vec2 first = a.u2();
-                b.start(9, i);  // b wanders off and comes back
-                b.u1();
-                b.start(3, i);
-                Vec2 again = b.u2();
-                CHECK((first.x == again.x && first.y == again.y));
-            }
-    }
-
-    TEST_CASE("identity: after a jump come the numbers of that dimension, whatever was drawn") {
-        // Of stratified numbers this is the stratum, one of 4 x 4.
-        for (SamplerType type : {SamplerType::stratified, SamplerType::sobol}) {
-            std::set<std::pair<float, float>> drawn;
-            float strata = type == SamplerType::stratified ? 4 : 0x1p24f;
-            for (uint32_t dimension : {8u, 16u, 4096u})
-                for (int before : {0, 1, 2, 9}) {
-                    Sampler sampler(type, 7, 16);
-                    sampler.start(3, 5);
-                    for (int i = 0; i < before; i++) sampler.u2();
-                    sampler.jump(dimension);
-                    Vec2 u = sampler.u2();
-                    drawn.insert({std::floor(strata * u.x), std::floor(strata * u.y)});
-                }
-            CHECK(drawn.size() <= 3);  // one for each dimension; strata may be the same
-            CHECK(drawn.size() >= 2);
-        }
-    }
-
     TEST_CASE("identity: hash64 runs backwards, so that no two inputs share a key") {
         // x ^ (x >> s) is undone by x ^ (x >> s) ^ (x >> 2 s) ...; an odd factor by its inverse.
         auto undo_shift = [](uint64_t x, int s) {
@@ -206,20 +167,6 @@ TEST_SUITE("sampler: uniform and independent") {
         check_mean(sample, 0, 1, 0.02);
     }
 
-    TEST_CASE("truth: pairs of different dimensions are shuffled apart, E[xy] is 1/4") {
-        // x from the first pair and y from the second: strata in the same order for both would
-        // give 1/3 - 1/(12 N^2) = 0.3333.
-        for (SamplerType type : all_types) {
-            RunningStats estimates;
-            for (uint32_t pixel = 0; pixel < 2000; pixel++) {
-                std::vector<Vec2> a = pixel_points(Sampler(type, 1, 64), pixel, 64, 0);
-                std::vector<Vec2> b = pixel_points(Sampler(type, 1, 64), pixel, 64, 1);
-                for (size_t i = 0; i < 64; i++) estimates.add(product({a[i].x, b[i].y}));
-            }
-            check_mean(estimates, 0.25, 7.0 / 144, 0.006);
-        }
-    }
-
     TEST_CASE("truth: permute is a permutation for every n, and each place equally likely") {
         for (uint32_t n = 1; n <= 200; n++)
             for (uint32_t seed : {0u, 1u, 0xffffffffu, 0x9e3779b9u}) {
@@ -282,15 +229,6 @@ TEST_SUITE("sampler: strata") {
                     }
                     CHECK(filled.size() == spp);
                 }
-    }
-
-    TEST_CASE("truth: half of the stratified samples are a fair choice, not half of the picture") {
-        // In scan order the lower half of the strata would give 4 E = 3.826 instead of pi.
-        RunningStats darts;
-        for (uint32_t pixel = 0; pixel < 2000; pixel++)
-            for (Vec2 p : pixel_points(Sampler(SamplerType::stratified, 1, 64), pixel, 32))
-                darts.add(dart(p));
-        check_mean(darts, std::numbers::pi, pi_variance, 0.06);
     }
 }
 

@@ -28,32 +28,6 @@ TEST_SUITE("surroundings") {
         CHECK(told(false, 100) == "!");
     }
 
-    TEST_CASE("truth: options replace the scene's size, samples and depth; notes are told") {
-        TemporaryFolder folder;
-        RenderOptions options;
-        options.scene = folder / "a.pbrt";
-        options.threads = 1;
-        write_file_atomically(options.scene,
-                              "Film \"rgb\" \"integer xresolution\" 30 \"integer yresolution\" 20\n"
-                              "Sampler \"sobol\" \"integer pixelsamples\" 5\n"
-                              "Integrator \"path\" \"integer maxdepth\" 6\n"
-                              "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
-                              "Shape \"sphere\"\n");
-        auto loaded = [&] {
-            Finished end = captured([&] {
-                Scene s = load(options);
-                std::printf("%d %d %d %d", s.width, s.height, s.spp, s.max_depth);
-                return 0;
-            });
-            CHECK((end.err.find(": note: ") != std::string::npos) == !options.quiet);
-            return end.out;
-        };
-        CHECK(loaded() == "30 20 5 6");
-        options.quiet = true;
-        options.width = 7, options.height = 8, options.spp = 9, options.max_depth = 0;
-        CHECK(loaded() == "7 8 9 0");
-    }
-
     TEST_CASE("truth: the pixels at edges of lamps are those that differ from a neighbour") {
         Scene scene = world_of(
             "LightSource \"infinite\" \"rgb L\" [0.5 0.5 0.5]\n" +

@@ -254,16 +254,6 @@ TEST_SUITE("textures") {
         }
     }
 
-    TEST_CASE("input: a scene without textures keeps no uv; a picture is read once") {
-        CHECK(
-            parse_scene("a.pbrt", unquoted(start + square_with_uv), nullptr).geometry.uvs.empty());
-        Scene twice = Gallery().scene(
-            "Texture 'a' 'spectrum' 'imagemap' 'string filename' './a.pfm' " + square_with_uv);
-        CHECK(twice.textures.all.size() == 2);
-        CHECK(twice.textures.pictures.size() == 1);
-        CHECK(twice.geometry.uvs.size() == 4);
-    }
-
     TEST_CASE("input: pictures that cannot be used, and meshes without uv, are refused in a line") {
         Image image = four_corners();
         image.pixels[0].g = NAN;

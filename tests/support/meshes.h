@@ -162,10 +162,11 @@ inline Geometry thin_diagonals(uint32_t n) {
 }
 
 /// A closed mesh around the origin: an octahedron whose edges are cut in two, again and again, at
-/// the point cut_at(a, b).
-template <typename CutAt>
-Geometry closed_mesh(int cuts, const CutAt& cut_at) {
+/// points that are moved in or out.
+inline Geometry closed_mesh(int cuts) {
     Geometry g;
+    Sampler random(SamplerType::independent, 3, 1);
+    random.start(0, 0);
     g.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (uint32_t x : {0u, 1u})
         for (uint32_t y : {2u, 3u})
@@ -175,7 +176,9 @@ Geometry closed_mesh(int cuts, const CutAt& cut_at) {
         auto middle = [&](uint32_t a, uint32_t b) {
             auto [found, added] =
                 middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(g.positions.size()));
-            if (added) g.positions.push_back(cut_at(g.positions[a], g.positions[b]));
+            if (added)
+                g.positions.push_back((0.8f + 0.4f * random.u1()) *
+                                      normalize(g.positions[a] + g.positions[b]));
             return found->second;
         };
         std::vector<Triangle> finer;
@@ -192,14 +195,4 @@ Geometry closed_mesh(int cuts, const CutAt& cut_at) {
         g.triangles = finer;
     }
     return g;
-}
-
-/// The same with corners moved in and out.
-inline Geometry closed_mesh(int cuts) {
-    Sampler random(SamplerType::independent, 3, 1);
-    random.start(0, 0);
-    return closed_mesh(cuts, [&](Vec3 a, Vec3 b) {
-        Vec3 m = normalize(a + b);
-        return (0.8f + 0.4f * random.u1()) * m;
-    });
 }

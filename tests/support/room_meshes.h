@@ -1,4 +1,4 @@
-// Meshes of the kinds that users bring: a furnished room, a scan, a tree, hair.
+// Meshes of the kinds that users bring: a furnished room, a tree, hair.
 #pragma once
 #include "tests/support/meshes.h"
 
@@ -105,15 +105,6 @@ inline Geometry furnished_room(uint32_t detail) {
         return Vec3{-2.2f + 4.4f * a, 2.8f - 2.7f * b, -2.35f + 0.06f * std::sin(70 * a + 2 * b)};
     });
     return g;
-}
-
-/// A closed surface as a scanner sees one: triangles of about one size, and noise at that size.
-inline Geometry scan(int cuts) {
-    MeshRandom random(22);
-    return closed_mesh(cuts, [&](Vec3 a, Vec3 b) {
-        Vec3 m = 0.5f * (a + b);
-        return m + 0.15f * length(a - b) * random.between(-0.4f, 1) * normalize(m);
-    });
 }
 
 /// A tree: branches that fork `levels` times, each end with a bunch of leaves of two triangles.
