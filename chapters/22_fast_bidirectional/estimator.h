@@ -74,7 +74,7 @@ inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& wa
 ///
 /// A connection changes only two ratios. pdf, in m^-2: of the n-th vertex in a walk from the other
 /// end; pdf_w, in sr^-1: with which that walk continues to the vertex before.
-/// tested by  "identity: by the weights alone, each path brings what it ...", to 1e-4
+/// tested by  "identity: by the weights alone, chapter 22 brings what ...", to 1e-4
 inline double sum_of_fewer(const Subpath& walk, size_t n, size_t fewest, float pdf, float pdf_w) {
     if (n <= fewest) return 0;
     const Kept& last = walk.kept[n - 1];

@@ -1,7 +1,6 @@
 // Chapter 13: rough metal, and the two ways to look for light on it, each of which fails somewhere.
 #include <doctest/doctest.h>
 
-#include "chapters/11_light_importance/estimator.h"
 #include "chapters/13_glossy/estimator.h"
 #include "tests/support/directions.h"
 #include "tests/support/ggx_truth.h"
@@ -89,38 +88,6 @@ TEST_SUITE("ch13 rough metal") {
             }
     }
 
-    TEST_CASE("consistency: samples, values and densities agree; f is the same both ways round") {
-        Sampler random = random_numbers(1);
-        for (int i = 0; i < 5000; i++) {
-            Metal metal(0.01f + 0.99f * random.u1(), 1, 3);
-            const Hit& x = metal.x;
-            Vec3 wo = at(89 * double{random.u1()});
-            BsdfSample s = ch13::sample_bsdf(x, wo, random.u1(), random.u2());
-            CHECK(!s.specular);
-            if (s.pdf_w == 0) continue;
-            CHECK(std::isfinite(s.pdf_w));
-            CHECK(length(s.wi) == nearly(1, 1e-5));
-            CHECK(ch13::pdf_bsdf(x, wo, s.wi) == s.pdf_w);
-            CHECK(ch13::eval_bsdf(x, wo, s.wi) == s.f);
-            CHECK(ch13::eval_bsdf(x, s.wi, wo).g == nearly(double{s.f.g}, 0.002));
-            CHECK(weight_of(s) <= 1.0001f);  // F G2 / G1
-        }
-    }
-
-    TEST_CASE("consistency: f and density are 0, not NaN, for wo along the surface or below it") {
-        // As when two ends of a path meet on the same plane: then wo is at right angles to n.
-        for (float alpha : {0.001f, 0.1f, 1.0f}) {
-            Metal metal(alpha);
-            for (Vec3 wo : {Vec3{1, 0, 0}, Vec3{1, 0, -0.0f}, Vec3{0.6f, 0, -0.8f}}) {
-                for (Vec3 wi : {Vec3{0, 0, 1}, at(89.9), Vec3{0.6f, 0.8f, 0}}) {
-                    CHECK(is_black(ch13::eval_bsdf(metal.x, wo, wi)));
-                    CHECK(ch13::pdf_bsdf(metal.x, wo, wi) == 0);
-                }
-                CHECK(ch13::sample_bsdf(metal.x, wo, 0.5f, {0.3f, 0.7f}).pdf_w == 0);
-            }
-        }
-    }
-
     TEST_CASE(
         "truth: the share of a white sky that rough metal reflects, by quadrature in double") {
         CHECK(RoughMetal{0.5, 0.2, 3.9}.albedo(pi_exact / 3) == nearly(0.66274, 1e-5));
@@ -156,17 +123,6 @@ TEST_SUITE("ch13 rough metal") {
 }
 
 TEST_SUITE("ch13 glossy") {
-    TEST_CASE("identity: without rough metal, light sampling is chapter 11, path by path") {
-        for (std::string name : {"cornell-spheres", "two-lights", "thousand-lights"}) {
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            Film eleven = film_of(scene, method_of<ch11::trace>(ch11::prepare(scene)), 4).film;
-            Film thirteen = film_of(scene, by(Strategy::light, scene), 4).film;
-            for (size_t i = 0; i < eleven.pixels().size(); i++)
-                REQUIRE(eleven.pixels()[i].mean() == thirteen.pixels()[i].mean());
-        }
-    }
-
     TEST_CASE(
         "agreement: both ways on each plate with each lamp, and the page's table of variances" *
         doctest::skip()) {

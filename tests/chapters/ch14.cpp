@@ -154,30 +154,6 @@ TEST_SUITE("ch14 weights") {
 }
 
 TEST_SUITE("ch14 mis") {
-    TEST_CASE("truth: irradiance of all lights, by every strategy") {
-        for (const auto& [light, E] : lights_of_known_irradiance) {
-            Scene scene = floor_under(light);
-            check_bounded(irradiance(scene, by_bsdf(scene), 60000), E, 0.025);
-            check_bounded(irradiance(scene, by_light(scene), 20000), E, 0.025);
-            for (Heuristic heuristic : both_heuristics)
-                check_bounded(irradiance(scene, by_mis(scene, heuristic), 20000), E, 0.025);
-        }
-    }
-
-    TEST_CASE("truth: light that only one strategy finds has weight 1, and no noise") {
-        for (const auto& [light, E] : lights_without_size) {
-            Scene scene = floor_under(light);
-            for (const Method& trace : {by_light(scene), by_mis(scene)}) {
-                RunningStats s = irradiance(scene, trace, 100);
-                CHECK(s.mean() == nearly(E, 1e-5));
-                CHECK(s.variance() < 1e-10);
-            }
-        }
-        Scene mirror = light_before_mirror();
-        for (const Method& trace : {by_bsdf(mirror), by_light(mirror), by_mis(mirror)})
-            check_light_before_mirror(mirror, trace);
-    }
-
     TEST_CASE("variance: a sky at the horizon: less relMSE than in chapter 10") {
         Scene scene = scene_from("scenes/horizon-sky.pbrt", 32, 8);
         Film ten = film_of(scene, method_of<ch10::trace>(), 512).film;
@@ -191,12 +167,6 @@ TEST_SUITE("ch14 mis") {
             Scene scene = board_beside_lamp(board);
             CHECK(check_classes(scene, by_light(scene), scene, by_mis(scene), 200000) >= 6);
         }
-    }
-
-    TEST_CASE("agreement: classes of path by each strategy on Veach's plates") {
-        Scene scene = scene_from("scenes/veach-mis.pbrt", 32, 6);
-        for (const Method& trace : {by_bsdf(scene), by_light(scene)})
-            CHECK(check_classes(scene, trace, scene, by_mis(scene), 100000) >= 4);
     }
 }
 

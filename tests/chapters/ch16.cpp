@@ -1,13 +1,11 @@
 // Chapter 16: the lens and the shutter.
 #include <doctest/doctest.h>
 
-#include "chapters/15_mis_ris/estimator.h"
 #include "chapters/16_lens_and_shutter/estimator.h"
 #include "tests/support/estimators.h"
 
 namespace {
 
-Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
 Method by_sixteen(const Scene& scene) { return method_of<ch16::trace>(ch16::prepare(scene)); }
 
 /// A camera at the origin that looks along +z, with a lens of radius 0.1 that is sharp at 2.
@@ -60,22 +58,6 @@ double noise_of(Scene scene, bool lens, bool time) {
 }  // namespace
 
 TEST_SUITE("ch16 lens and shutter") {
-    TEST_CASE("identity: where nothing is new, each picture is chapter 15's, bit for bit") {
-        for (std::string name :
-             {"cornell", "cornell-spheres", "thousand-lights", "veach-mis", "leaning wall"}) {
-            CAPTURE(name);
-            Scene scene = name == "leaning wall" ? leaning_wall()
-                                                 : scene_from("scenes/" + name + ".pbrt", 16, 8);
-            for (SamplerType sampler :
-                 {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-                Rendering before = film_of(scene, by_fifteen(scene), 4, 1, sampler);
-                Rendering now = film_of(scene, by_sixteen(scene), 4, 1, sampler);
-                CHECK(before.film.image().pixels == now.film.image().pixels);
-                CHECK(before.stats.rays == now.stats.rays);
-            }
-        }
-    }
-
     TEST_CASE("variance: which dimensions of a pixel carry the noise" * doctest::skip()) {
         Scene bokeh = scene_from("scenes/bokeh.pbrt", 24, 8);
         Scene ball = scene_from("scenes/moving-ball.pbrt", 24, 8);

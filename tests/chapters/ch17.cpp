@@ -1,13 +1,11 @@
 // Chapter 17: light from an image of the sky.
 #include <doctest/doctest.h>
 
-#include "chapters/16_lens_and_shutter/estimator.h"
 #include "chapters/17_sky_image/estimator.h"
 #include "tests/support/estimators.h"
 
 namespace {
 
-Method by_sixteen(const Scene& scene) { return method_of<ch16::trace>(ch16::prepare(scene)); }
 Method by_seventeen(const Scene& scene) { return method_of<ch17::trace>(ch17::prepare(scene)); }
 /// The same with pixels drawn in proportion to all of their light.
 Method without_compensation(const Scene& scene) {
@@ -46,22 +44,6 @@ double irradiance_of(const SkyImage& sky) {
 }  // namespace
 
 TEST_SUITE("ch17 sky image") {
-    TEST_CASE("identity: where nothing is new, each picture is chapter 16's, bit for bit") {
-        for (std::string name :
-             {"cornell-spheres", "thousand-lights", "bokeh", "moving-ball", "leaning wall"}) {
-            CAPTURE(name);
-            Scene scene = name == "leaning wall" ? leaning_wall()
-                                                 : scene_from("scenes/" + name + ".pbrt", 16, 8);
-            for (SamplerType sampler :
-                 {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-                Rendering before = film_of(scene, by_sixteen(scene), 4, 1, sampler);
-                Rendering now = film_of(scene, by_seventeen(scene), 4, 1, sampler);
-                CHECK(before.film.image().pixels == now.film.image().pixels);
-                CHECK(before.stats.rays == now.stats.rays);
-            }
-        }
-    }
-
     TEST_CASE("identity: each map of the sky and its inverse") {
         Sampler random = random_numbers(1);
         for (SkyImage::Map map : maps) {

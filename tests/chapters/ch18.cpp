@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include "chapters/15_mis_ris/estimator.h"
-#include "chapters/17_sky_image/estimator.h"
 #include "chapters/18_dispersion/estimator.h"
 #include "common/base/error.h"
 #include "common/options/loading.h"
@@ -12,7 +11,6 @@
 namespace {
 
 Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
-Method by_seventeen(const Scene& scene) { return method_of<ch17::trace>(ch17::prepare(scene)); }
 Method by_eighteen(const Scene& scene) {
     return method_of<ch18::trace>(ch18::prepare(scene), shares_of_white());
 }
@@ -20,21 +18,6 @@ Method by_eighteen(const Scene& scene) {
 }  // namespace
 
 TEST_SUITE("ch18 dispersion") {
-    TEST_CASE("identity: where nothing is new, each picture is chapter 17's, bit for bit") {
-        for (std::string name : {"cornell-spheres", "moving-ball", "bokeh", "leaning wall"}) {
-            CAPTURE(name);
-            Scene scene = name == "leaning wall" ? leaning_wall()
-                                                 : scene_from("scenes/" + name + ".pbrt", 16, 8);
-            for (SamplerType sampler :
-                 {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-                Rendering before = film_of(scene, by_seventeen(scene), 4, 1, sampler);
-                Rendering now = film_of(scene, by_eighteen(scene), 4, 1, sampler);
-                CHECK(before.film.image().pixels == now.film.image().pixels);
-                CHECK(before.stats.rays == now.stats.rays);
-            }
-        }
-    }
-
     TEST_CASE("identity: all wavelengths together are white") {
         std::vector<Rgb> white = shares_of_white();
         Rgb sum;

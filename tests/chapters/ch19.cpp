@@ -5,10 +5,8 @@
 
 #include "chapters/18_dispersion/estimator.h"
 #include "chapters/19_adaptive/estimator.h"
-#include "common/base/files.h"
 #include "common/options/loading.h"
 #include "common/picture/comparison.h"
-#include "common/rendering/film_keeping.h"
 #include "tests/support/folder.h"
 #include "tests/support/run_program.h"
 #include "tests/support/stand_ins.h"
@@ -167,22 +165,6 @@ TEST_SUITE("ch19 adaptive") {
             }
     }
 
-    TEST_CASE("consistency: the reported error is the spread over seeds, with either sampler" *
-              doctest::skip()) {
-        Scene scene = empty_scene(64, 32, 32);
-        for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
-            RunningStats means, squares;
-            for (uint32_t seed = 0; seed < 200; seed++) {
-                Film film = adaptive(scene, smooth_and_rough, 32, seed, {}, sampler).film;
-                means.add(film.mean());
-                squares.add(film.standard_error() * film.standard_error());
-            }
-            double ratio = std::sqrt(squares.mean() / means.variance());
-            CHECK(ratio > 1 / 1.25);  // the spread of 200 has a standard error of 5 %
-            CHECK(ratio < 1.25);
-        }
-    }
-
     TEST_CASE("agreement: with chapter 18, block by block, on scenes with all that it renders") {
         for (std::string name : {"cornell", "prism", "moving-ball", "high-contrast"}) {
             CAPTURE(name);
@@ -213,40 +195,6 @@ TEST_SUITE("ch19 adaptive") {
         }
         CAPTURE(shared / even);
         CHECK(shared < 0.5 * even);
-    }
-
-    TEST_CASE("identity: the same bytes for any threads, parts and stops") {
-        TemporaryFolder folder;
-        Scene scene = scene_from("scenes/high-contrast.pbrt", 24, 4);
-        scene.spp = 40;
-        Method trace = with_halves(by_nineteen(scene));
-        auto render_to = [&](const std::string& film, int part, int parts, int threads) {
-            RenderOptions options = quiet_options();
-            options.film = folder / film, options.part = part, options.parts = parts;
-            options.threads = threads;
-            Rendering r = render_film(scene, options, trace);
-            save_film(scene, options, r);
-            return r.film.image();
-        };
-        Image whole = render_to("whole.film", 1, 1, 1);
-        CHECK(render_to("two.film", 1, 1, 2).pixels == whole.pixels);
-        CHECK(read_file(folder / "two.film") == read_file(folder / "whole.film"));
-
-        // Parts, in any order.
-        for (int part : {1, 2, 3}) render_to(std::to_string(part) + ".part", part, 3, 2);
-        LabeledFilm sum = read_film(folder / "3.part");
-        for (const char* part : {"1.part", "2.part"}) add_film(sum, part, read_film(folder / part));
-        CHECK(sum.film.image().pixels == whole.pixels);
-
-        // In the pilot, at its end, after it: a render with fewer samples that goes on.
-        for (int first : {5, 16, 17, 30}) {
-            std::string film = std::to_string(first) + ".film";
-            scene.spp = first;
-            render_to(film, 1, 1, 2);
-            scene.spp = 40;
-            CHECK(render_to(film, 1, 1, 2).pixels == whole.pixels);
-            CHECK(read_file(folder / film) == read_file(folder / "whole.film"));
-        }
     }
 }
 

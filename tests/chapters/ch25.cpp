@@ -152,16 +152,6 @@ TEST_SUITE("ch25 weights") {
 }
 
 TEST_SUITE("ch25 vertex merging") {
-    TEST_CASE("identity: where nothing is a mirror or glass, the path of chapter 22") {
-        for (const char* name : {"cornell", "two-lights", "lamp", "horizon-sky", "veach-mis"}) {
-            Scene scene = scene_from(std::string("scenes/") + name + ".pbrt", 16, 6);
-            Film own = film_of(scene, by_25(scene), 4).film;
-            Method by_22 = method_of<ch22::trace>(ch22::prepare(scene, 0));
-            CHECK(own.mean() > 0);
-            CHECK(own.image().pixels == film_of(scene, by_22, 4).film.image().pixels);
-        }
-    }
-
     TEST_CASE("agreement: light through glass, seen through glass, with chapter 23" *
               doctest::skip()) {
         // No connection finds this light (chapter 21); photons do.

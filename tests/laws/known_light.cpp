@@ -100,6 +100,36 @@ TEST_SUITE("law: known light") {
             }
     }
 
+    TEST_CASE("truth: flux onto a floor, from every light and by a mirror") {
+        // The picture shows a square of 1 m: its mean is that of its irradiance.
+        auto floor_in_sight = [](const std::string& lights) {
+            Scene scene = scene_of(
+                "LookAt 0 0.5 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 90\n"
+                "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n" +
+                thing("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]", square(0, true)) + lights);
+            scene.max_depth = 2;
+            return scene;
+        };
+        const std::string lamp_above = black_lamp("1", unit_square(1));
+        for (const auto& [lights, E] : std::vector<std::pair<std::string, double>>{
+                 {lamp_above, 0.1998248956984 * pi_exact},
+                 {"LightSource \"point\" \"point3 from\" [0 1 0]", 4 * std::asin(0.2)},
+                 {"LightSource \"distant\" \"point3 from\" [0 3 4] \"point3 to\" [0 0 0]", 0.6},
+                 {white_sky, pi_exact}}) {
+            CAPTURE(lights);
+            check_light(floor_in_sight(lights), {0.5 * E / pi_exact, 0.03, 0, true});
+        }
+        // A lamp aside that shines up into a mirror, as its image would down.
+        auto aside = [](double h, bool up) {
+            return black_lamp("1", at(1.5, h, 0) + "Scale 0.5 1 0.5 " + square(0, up));
+        };
+        Measured image =
+            brightness(floor_in_sight(aside(1.5, false)), methods_named({"15"})[0], 400000);
+        check_light(
+            floor_in_sight(aside(0.5, true) + thing(mirror, "Scale 9 1 9 " + square(1, false))),
+            {image.mean, 0.03, image.se, true});
+    }
+
     TEST_CASE("truth: a lamp close to the floor is as bright when it is cut into many lamps") {
         // Both strategies of MIS count, each with the choice among the lamps in its density.
         for (int n : {1, 2, 3}) {

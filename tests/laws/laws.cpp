@@ -95,7 +95,8 @@ Census census_of(const Scene& scene, const NamedMethod& row, int paths, uint32_t
     if (!method.prepare) return census(0, paths);
     // Paths of a pass depend on each other.
     Census passes;
-    for (int pass = 0, each = paths / 64; pass < 64; pass++) {
+    int count = std::clamp(paths / 64, 64, 512), each = paths / count;
+    for (int pass = 0; pass < count; pass++) {
         method.prepare(static_cast<uint32_t>(pass), 1, [] { return false; });
         passes.add_pass(census(pass * each, each));
     }

@@ -14,27 +14,6 @@ inline Scene bulb_over_a_floor() {
     return scene;
 }
 
-/// A point light, and a mirror that throws a spot of its light, 1 m wide, onto a floor. The picture
-/// shows the spot and what is blurred around it; mean: by the mirror's solid angle.
-struct SpotByMirror {
-    Scene scene = scene_of(
-        "LookAt 0 1.9 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 60\n"
-        "Film \"rgb\" \"integer xresolution\" 32 \"integer yresolution\" 32\nWorldBegin\n"
-        "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [0 1.5 0]\n"
-        "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] AttributeBegin Scale 2 1 2\n" +
-        square(0, true) +
-        "AttributeEnd Material \"conductor\" \"rgb reflectance\" [1 1 1]\n"
-        "Translate 0 2 0 Scale .1 1 .1\n" +
-        square(0, false));
-    double mean = 0;
-
-    SpotByMirror() {
-        scene.max_depth = 2;
-        double side = 2 * 1.9 * std::tan(pi_exact / 6), solid_angle = 4 * std::asin(0.01 / 0.26);
-        mean = 0.5 / pi_exact * solid_angle / (side * side);
-    }
-};
-
 /// The mean over pixels of the square of the relative error.
 inline double mean_squared_error(const Film& film, const Film& exact) {
     double sum = 0, n = static_cast<double>(film.pixels().size());
