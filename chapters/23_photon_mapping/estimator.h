@@ -95,7 +95,7 @@ inline float choose_radius(const Scene& scene, const Endpoints& endpoints,
     PhotonSettings few = settings;
     few.light_paths = std::min(settings.light_paths, 1 << 14);
     auto vertices = trace_light_paths(scene, endpoints, few, 0, 1, [] { return false; });
-    PhotonMaps maps = build_maps(std::move(vertices), 3.3f * pixel_width(scene), false);
+    PhotonMaps maps = build_maps(std::move(vertices), 3.6f * pixel_width(scene), false);
     double share = static_cast<double>(few.light_paths) / settings.light_paths;
     return first_radius(maps, share);
 }

@@ -43,7 +43,7 @@ inline float pixel_width(const Scene& scene) {
 }
 
 /// The first radius: within it a photon of a caustic has 50 others of any kind around it, on
-/// average; at most the radius of the maps, 3.3 pixels. Where there are no caustics, all photons
+/// average; at most the radius of the maps, 3.6 pixels. Where there are no caustics, all photons
 /// count. `share`: how many of a pass's light paths made the maps.
 ///
 ///   mean over caustic photons of the number of others nearer than r = 50 share
