@@ -1,5 +1,5 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check checkers
+.PHONY: exercise check checkers mine
 
 #: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you
 exercise:
@@ -21,3 +21,6 @@ check: checkers $(made) \
        $(if $(filter $(CH),$(draw_alone)),$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
+#: teaching: make mine CH=09       run your own file as a program: out/mine/09_light_sampling.ppm (ARGS='--spp 64')
+mine: $(common) $(made)
+	@ARGS='$(ARGS)' tests/check/mine $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS)) -- $(common) $(LIBS)

@@ -4,6 +4,7 @@ methods   := $(filter-out $(measuring:%=tests/measure/%.cpp),$(wildcard tests/me
 comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))
+of_reader  = $(filter mine/%,$(A) $(B))
 
 .PHONY: chart front stability agree efficiency compare radiosity references bench teeth break
 
@@ -29,9 +30,9 @@ agree: $(BUILD)/agree $(made)
 #: measuring: make efficiency CH=14   a chapter's error, time and efficiency beside the one before (3 minutes)
 efficiency: $(BUILD)/efficiency $(made)
 	@$< $(or $(CH),$(SCENE),cornell) $(chosen)
-#: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time (2 minutes)
-compare: $(BUILD)/efficiency $(made)
-	@$< $(or $(SCENE),cornell) $(chosen) --equal-time
+#: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time (A=mine/09: yours; 2 minutes)
+compare: $(if $(of_reader),programs,$(BUILD)/efficiency) $(made)
+	@$(if $(of_reader),tests/check/beside $(BUILD) '$(A)' '$(B)' '$(SCENE)',$< $(or $(SCENE),cornell) $(chosen) --equal-time)
 #: maintaining: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
 radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
 	@$< $(SCENE)
