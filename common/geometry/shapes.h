@@ -1,5 +1,5 @@
 // The tests of a ray against each kind of primitive, and against all of them in turn: the formulas
-// of chapter 05, made safe against rounding (appendix of its page).
+// of chapter 05, made safe against rounding.
 #pragma once
 #include <optional>
 
