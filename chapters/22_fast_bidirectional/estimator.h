@@ -228,7 +228,6 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
             if (s == 0 && settings.chances > 0 && has_chances(eye, t)) continue;
             if (direct && s + t == 3) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
-            if (s == 2) place_light(scene, light.path[0], light.path[1]);
             Splat splat = unweighted(scene, endpoints, light.path, s, eye.path, t);
             if (is_black(splat.L)) continue;
             float mis = mis_weight(scene, endpoints, light, s, eye, t);

@@ -167,7 +167,6 @@ inline Rgb trace(const Scene& scene, const Merging& merging, Ray ray, Splats& sp
         for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
             if (direct && s + t == 3) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
-            if (s == 2) place_light(scene, light.path[0], light.path[1]);
             Splat splat = unweighted(scene, merging.endpoints, light.path, s, eye.path, t);
             if (is_black(splat.L)) continue;
             float mis = mis_weight(scene, merging, light, s, eye, t);
