@@ -75,10 +75,16 @@ struct Mis {
 
 TEST_SUITE("ch14 weights") {
     TEST_CASE("identity: MIS weights sum to 1") {
-        std::vector<std::pair<float, float>> table = {
-            {1, 2},          {0, 5},           {3e19f, 1},        {3e19f, 3e19f}, {1e-23f, 1e-24f},
-            {3e38f, 1e-38f}, {3e38f, 3e38f},   {1e-38f, 1e-38f},  {infinity, 1},  {infinity, 0},
-            {0, 1e-45f},     {1e-45f, 1e-40f}, {1e-23f, infinity}};
+        std::vector<std::pair<float, float>> table = {{1, 2},
+                                                      {0, 5},
+                                                      {3e19f, 1},
+                                                      {3e19f, 3e19f},
+                                                      {1e-23f, 1e-24f},
+                                                      {densest, 1e-38f},
+                                                      {densest, densest},
+                                                      {1e-38f, 1e-38f},
+                                                      {0, 1e-45f},
+                                                      {1e-45f, 1e-40f}};
         Sampler random = random_numbers(1);
         for (int i = 0; i < 10000; i++) {
             float a = std::pow(10.0f, 20 * random.u1() - 10);
