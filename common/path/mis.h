@@ -8,7 +8,7 @@
 ///
 ///   balance: a / (a + b);  power: a^2 / (a^2 + b^2)
 ///
-/// Computed from b / a, so that no square overflows. a > 0; an infinite a has weight 1.
+/// Computed from b / a, so that no square overflows. a > 0; no density is above 1e36 (densest).
 /// source  Veach, Guibas 1995      tested by  "identity: MIS weights sum to 1", to 1e-6
 inline float balance_heuristic(float a, float b) { return 1 / (1 + b / a); }
 inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / a)); }
