@@ -16,7 +16,7 @@ $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -MMD -MP -MF $(BUILD)/obj/check_support.d \
 	    -x c++-header $< -o $@
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
-#: teaching: make check CH=09      is it right? one line for each claim, and what is off; NAME=1: the function with the mistake
+#: teaching: make check CH=09      is it right? what is off, and where (NAME=1: in which function; MINE=FILE, LIMIT=30)
 check: checkers $(made) \
        $(if $(filter $(CH),$(draw_alone)),$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
        $(BUILD)/compare
