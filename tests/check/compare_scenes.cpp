@@ -122,6 +122,8 @@ std::string worst_of(const std::vector<Off>& off) {
     std::string factor = name_factor(o.ratio.mean);
     std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.scene->what + " is ";
     if (o.leaks) return what + "there, and should not be";
+    if (!std::isfinite(o.ratio.mean))
+        return what + "not a number: make mine prints the first such pixel, and how to see its path";
     return what + short_number(o.ratio.mean) + (factor.empty() ? "" : " (" + factor + ")") +
            " of what it should be";
 }
@@ -139,6 +141,8 @@ bool print_off(const Findings& found, const std::string& way) {
         std::printf("    %-18s %-10s ", o.scene->name.c_str(), o.name.c_str());
         if (o.leaks)
             std::printf("light where there should be none\n");
+        else if (!std::isfinite(o.ratio.mean))
+            std::printf("not a number\n");
         else
             std::printf("%8.4f +- %.4f\n", o.ratio.mean, o.ratio.se);
     }
