@@ -123,7 +123,7 @@ std::string worst_of(const std::vector<Off>& off) {
     std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.scene->what + " is ";
     if (o.leaks) return what + "there, and should not be";
     if (!std::isfinite(o.ratio.mean))
-        return what + "not a number: make mine prints the first such pixel, and how to see its path";
+        return what + "not a number: make mine names such a pixel, and what shows its path";
     return what + short_number(o.ratio.mean) + (factor.empty() ? "" : " (" + factor + ")") +
            " of what it should be";
 }

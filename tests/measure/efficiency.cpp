@@ -92,30 +92,25 @@ void take_equal_time(std::vector<Contender>& contenders) {
     }
 }
 
-/// The least and the largest efficiency of c, in those of the first: of all renders, and when one
-/// render of each is left out.
-std::string range_of(const Contender& c, const Contender& first) {
-    if (&c == &first || c.without.size() < 3) return "";
+/// The efficiency of c divided by that of the first; and the least and the largest such number when
+/// one render of each is left out.
+std::string times_of(const Contender& c, const Contender& first) {
     std::vector<double> times = {c.all.efficiency() / first.all.efficiency()};
+    std::string of_all = short_number(times[0]);
+    if (&c == &first || c.without.size() < 3) return of_all;
     for (size_t i = 0; i < c.without.size(); i++)
         times.push_back(c.without[i].efficiency() / first.without[i].efficiency());
     auto [least, most] = std::minmax_element(times.begin(), times.end());
-    return short_number(*least) + " to " + short_number(*most);
+    return of_all + " (" + short_number(*least) + " to " + short_number(*most) + ")";
 }
 
 Table table_of(const std::string& scene, const std::vector<Contender>& contenders) {
     const Contender& first = contenders[0];
-    Table table{{scene, "spp", "relMSE", "seconds", "M samples/s", "efficiency",
-                 "times " + first.method->name, "range"},
-                {}};
+    Table table{{scene, "spp", "relMSE", "efficiency", "times " + first.method->name}, {}};
     for (const Contender& c : contenders) {
         if (!c.listed) continue;
-        double seconds = median(c.all.seconds), efficiency = c.all.efficiency();
-        double samples = double(c.scene.width) * c.scene.height * c.spp;
-        table.rows.push_back(
-            {c.method->label, std::to_string(c.spp), short_number(c.all.rel_mse),
-             short_number(seconds), short_number(samples / seconds / 1e6), short_number(efficiency),
-             short_number(efficiency / first.all.efficiency()), range_of(c, first)});
+        table.rows.push_back({c.method->label, std::to_string(c.spp), short_number(c.all.rel_mse),
+                              short_number(c.all.efficiency()), times_of(c, first)});
     }
     return table;
 }
