@@ -49,6 +49,6 @@ teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's) (15 minutes)
 teeth: $(harness) $(made)
 	@$(teeth)
-#: teaching: make break CH=09 N=2   plant the second mistake of that page's "Break it", and show its test red
+#: teaching: make break CH=09 N=2   plant the second mistake of that page, and show its test red
 break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
