@@ -16,11 +16,13 @@ local function is_file(path)
     return file and file:close()
 end
 
--- The glossary: what a word means, by its anchor.
+-- The glossary: what a word means, by its anchors.
 local glossary = {}
 for line in io.lines("chapters/README.md") do
-    local anchor, meaning = line:match('^| <a id="([^"]+)"></a>%*%*.-%*%* | (.-) | ')
-    if anchor then glossary[anchor] = meaning:gsub("%[(.-)%]%(.-%)", "%1"):gsub("[$*`\\]", "") end
+    local anchors, meaning = line:match('^| (<a id=.-)%*%*.-%*%* | (.-) | ')
+    for anchor in (anchors or ""):gmatch('"(.-)"') do
+        glossary[anchor] = meaning:gsub("%[(.-)%]%(.-%)", "%1"):gsub("[$*`\\]", "")
+    end
 end
 
 function Link(link)

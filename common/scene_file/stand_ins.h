@@ -11,7 +11,7 @@
 struct StandIn {
     std::string what, instead;
 };
-/// All of them; scenes/README.md has the same table.
+/// All of them; scenes/README.md sums them up.
 const std::vector<StandIn>& all_stand_ins();
 /// "; --stand-in renders it as INSTEAD", which ends a message; empty for what has no stand-in in
 /// the table.
