@@ -63,12 +63,4 @@ TEST_SUITE("ch07 path tracing") {
             CHECK(std::abs(all.mean - (1 - std::pow(a, longest + 1)) / (1 - a)) < 5 * all.se);
         }
     }
-
-    TEST_CASE("furnace: every pixel of the closed sphere is Le / (1 - a)") {
-        Rendering r = film_of(closed_sphere(0.5, 25), trace_07, 64);
-        for (const PixelSum& p : r.film.pixels())  // variance 1/2, kurtosis 4, 1024 pixels
-            CHECK(std::abs(p.mean() - 2) < 5.5 * std::sqrt(0.5 / 64));
-        // Without roulette no path ends by itself.
-        CHECK(r.stats.paths_cut == 64 * 32 * 32);
-    }
 }
