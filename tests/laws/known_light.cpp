@@ -101,14 +101,6 @@ TEST_SUITE("law: known light") {
         check_light(seen_along(scene, onto_origin), {0.5 * 0.3874136329362 / pi_exact});
     }
 
-    TEST_CASE("truth: lights of every kind, alone and together") {
-        for (const auto& all : {lights_of_known_irradiance, lights_without_size})
-            for (const auto& [lights, E] : all) {
-                CAPTURE(lights);
-                check_light(lit_floor(lights), {E / pi_exact});
-            }
-    }
-
     TEST_CASE("truth: flux onto a floor, from every light and by a mirror") {
         // The picture shows a square of 1 m: its mean is that of its irradiance.
         auto floor_in_sight = [](const std::string& lights) {

@@ -11,20 +11,6 @@ inline std::string black_lamp(const std::string& L, const std::string& shape) {
            "] Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + shape + "AttributeEnd\n";
 }
 
-/// Lights, and their irradiance at the origin of floor_under().
-inline const std::vector<std::pair<std::string, double>> lights_of_known_irradiance = {
-    {shining + disk(1, 1), 1.570796326795},
-    {shining + unit_square(0.1), 3.04212843837},
-    {shining + "Translate 2 0 0 Shape \"sphere\"", 0.09058607370608},
-    {"AttributeBegin " + shining + unit_square(1) + "AttributeEnd AttributeBegin " + shining +
-         "Rotate 90 0 1 0 " + unit_square(1, 1.5) + "AttributeEnd\n",
-     0.7522746884541 + 0.1046370751909},
-    {"LightSource \"infinite\"", pi_exact},
-    {"LightSource \"infinite\" " + shining + unit_square(1), pi_exact}};
-inline const std::vector<std::pair<std::string, double>> lights_without_size = {
-    {"LightSource \"point\" \"point3 from\" [1 2 0]", 0.1788854382},
-    {"LightSource \"distant\" \"point3 from\" [0 3 4] \"point3 to\" [0 0 0]", 0.6}};
-
 /// Chapter 12's target by a formula for each type of light, in double precision.
 ///
 ///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
