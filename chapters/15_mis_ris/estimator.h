@@ -142,7 +142,7 @@ inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidat
 ///
 /// Systematic sampling: put the inclusions end to end, a line of length 2; choose at u and u + 1.
 /// Mirrors and glass: 0, since their f is 0 for every direction that light sampling finds.
-/// source  Madow 1949      tested by  "truth: irradiance of all lights", within 5 standard errors
+/// source  Madow 1949      tested by  "truth: floors under known lamps", within 5 standard errors
 inline Rgb direct_light(const Scene& scene, const Lights& lights, const Candidates& c,
                         const TwoLightNumbers& u, Recorder& recorder) {
     Rgb Ld;

@@ -81,7 +81,7 @@ T normalize(T a) {
 ///
 /// Taylor's series around the nearest quarter turn, right to 1e-7, and without a branch: of a
 /// random u the processor could not foresee it.
-/// tested by  "identity: cylindrical coordinates"
+/// tested by  "density: uniform hemisphere"
 inline Vec3 from_cylindrical(float r, float u, float z) {
     int quarter = static_cast<int>(4 * u + 0.5f);
     float x = 2 * pi * (u - 0.25f * static_cast<float>(quarter)), q = x * x;

@@ -13,7 +13,7 @@ struct Quaternion {
 ///   M = T R S: moved by T, turned by R, stretched by S; T and S go straight, R along the arc
 ///
 /// source  Shoemake 1985 (arcs); Higham 1986 (R of R S); as in pbrt-v4
-/// tested by  "brute: at each time, hits as of the same scene at rest"
+/// tested by  "brute: a mesh with normals of its own is met as the same mesh at rest is"
 class Motion {
 public:
     Motion(const Transform& start, const Transform& end);

@@ -73,6 +73,16 @@ TEST_SUITE("ch03 low discrepancy") {
         CHECK(ch03::radical_inverse(2, 0xffffffffu) == 0x1.fffffep-1f);  // 1 - 2^-32 is no float
     }
 
+    TEST_CASE("identity: scrambled Sobol points are one in each box of area 1/64, of any shape") {
+        for (uint32_t seed = 0; seed < 20; seed++)
+            for (int a = 0; a <= 6; a++) {
+                std::set<std::pair<int, int>> boxes;
+                for (Vec2 p : ch03::sobol_points(64, seed))
+                    boxes.insert({int(std::ldexp(p.x, a)), int(std::ldexp(p.y, 6 - a))});
+                CHECK(boxes.size() == 64);
+            }
+    }
+
     TEST_CASE("failure: Halton in bases 17 and 19 starts on a line") {
         auto correlation = [](uint32_t n, uint32_t seed_x, uint32_t seed_y) {
             RunningStats x, y, xy;
@@ -149,7 +159,7 @@ TEST_SUITE("ch03 Poisson disc") {
               doctest::Approx(0.1074569931824).epsilon(1e-6).scale(0));
         CHECK(regularity(PointSet::uniform) < 0.55);
         CHECK(regularity(PointSet::poisson) < 0.87);
-        CHECK(regularity(PointSet::repelled) > 0.90);
+        CHECK(std::abs(regularity(PointSet::repelled) - 0.916) < 0.005);  // by the size of steps
     }
 }
 
@@ -213,16 +223,6 @@ TEST_SUITE("ch03 pairs of dimensions") {
 }
 
 TEST_SUITE("ch03 slopes") {
-    TEST_CASE("truth: the table's efficiency is 1 / (relative error^2 seconds)") {
-        Table table = ch03::compare_sets(64, 1).first;
-        for (const auto& row : table.rows) {
-            if (row[6] == "0") continue;  // less than a coarse clock can tell
-            double relative = std::stod(row[3]) / std::stod(row[2]);
-            CHECK(std::stod(row[7]) * relative * relative * std::stod(row[6]) ==
-                  doctest::Approx(1).epsilon(0.12).scale(0));  // two digits of each
-        }
-    }
-
     TEST_CASE(
         "variance: in one, two and four dimensions the error falls with the slope of theory") {
         auto check = [](PointSet set, const std::vector<double>& theory) {

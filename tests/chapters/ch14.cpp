@@ -103,14 +103,6 @@ TEST_SUITE("ch14 weights") {
             }
     }
 
-    TEST_CASE("failure: p^2 / (p^2 + q^2) is NaN for large and for small densities") {
-        auto naive = [](float a, float b) { return a * a / (a * a + b * b); };
-        CHECK(std::isnan(naive(3e19f, 1)));
-        CHECK(std::isnan(naive(1e-23f, 1e-24f)));
-        CHECK(power_heuristic(3e19f, 1) == 1);
-        CHECK(power_heuristic(1e-23f, 1e-24f) == nearly(1 / 1.01));
-    }
-
     TEST_CASE("truth: MIS in one dimension") {
         struct Row {
             const Line& line;
@@ -166,13 +158,6 @@ TEST_SUITE("ch14 mis") {
         Film both = film_of(scene, by_mis(scene), 256, 2).film;
         CHECK(rel_mse(both) < rel_mse(ten) * 2 / 3);
         check_agreement(hold_against(ten, both), 0.02);
-    }
-
-    TEST_CASE("agreement: each weight belongs to the last vertex, also after several") {
-        for (const std::string& board : boards) {
-            Scene scene = board_beside_lamp(board);
-            CHECK(check_classes(scene, by_light(scene), scene, by_mis(scene), 200000) >= 6);
-        }
     }
 }
 

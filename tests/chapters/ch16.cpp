@@ -184,54 +184,6 @@ TEST_SUITE("ch16 shutter") {
         }
     }
 
-    TEST_CASE("brute: at each time, hits as of the same scene at rest") {
-        // A tetrahedron that is stretched, a ball and a disk: all turn and move, each for itself.
-        auto moved = [](double t, double stretch) {
-            return "Translate " + std::to_string(0.5 * t) + " " + std::to_string(-0.2 * t) +
-                   " 0.3 Rotate " + std::to_string(100 * t) + " 1 2 3 Scale " +
-                   std::to_string(1 + stretch * t) + " 1 1 ";
-        };
-        Sampler random = random_numbers(5);
-        int hits = 0, missed = 0;
-        for (const auto& [shape, stretch] :
-             {std::pair("Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 1 3 1 2 3 0 3 2] "
-                        "\"point3 P\" [-.5 -.5 -.5  .5 -.5 -.5  0 -.5 .5  0 .5 0]",
-                        2.0),
-              {"Shape \"sphere\" \"float radius\" 0.4", 0.0},
-              {"Shape \"disk\" \"float radius\" 0.6", 0.0}}) {
-            CAPTURE(shape);
-            Scene moving = world_of("LightSource \"infinite\" ActiveTransform StartTime " +
-                                    moved(0, stretch) + "ActiveTransform EndTime " +
-                                    moved(1, stretch) + "ActiveTransform All " + shape);
-            REQUIRE(moving.movers.size() == 1);
-            for (float time : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
-                Scene still =
-                    world_of("LightSource \"infinite\" " + moved(double{time}, stretch) + shape);
-                for (int i = 0; i < 500; i++) {
-                    Vec3 o = 3 * uniform_direction(random.u2());
-                    Vec3 at = 0.7f * uniform_direction(random.u2());
-                    Ray ray = {o, normalize(at - o), infinity, time};
-                    std::optional<Hit> a = intersect(moving, ray), b = intersect(still, ray);
-                    missed += a.has_value() != b.has_value();  // at a rim, by rounding
-                    if (a.has_value() != b.has_value()) continue;
-                    CHECK(occluded(moving, ray) == a.has_value());
-                    if (!a) continue;
-                    hits++;
-                    CHECK(std::abs(a->t - b->t) < 2e-5f);
-                    CHECK(length(a->p - b->p) < 2e-5f);
-                    CHECK(length(a->n - b->n) < 1e-3f);
-                    CHECK(length(a->ng - b->ng) < 1e-3f);
-                    CHECK(a->front == b->front);
-                    // A ray that leaves does not meet the same side of the shape again.
-                    std::optional<Hit> again = intersect(moving, spawn_ray(*a, a->ng));
-                    CHECK((!again || again->t > 1e-3f));
-                }
-            }
-        }
-        CHECK(hits > 1000);
-        CHECK(missed < 5);
-    }
-
     TEST_CASE("identity: the box of what moves holds it at all times") {
         Sampler random = random_numbers(6);
         for (int i = 0; i < 200; i++) {
@@ -253,15 +205,5 @@ TEST_SUITE("ch16 shutter") {
                     CHECK((q.x <= box.high.x && q.y <= box.high.y && q.z <= box.high.z));
                 }
         }
-    }
-
-    TEST_CASE("truth: shadows and bounces see the shape at the path's own time") {
-        // A roof over the origin for 800 of the 2000 m of its way: it hides the sun.
-        Scene scene = floor_under(
-            "LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] " + black +
-            "Translate 1000 1 0 ActiveTransform EndTime Translate -2000 0 0 ActiveTransform All "
-            "Scale 400 1 400 " +
-            square(0, false));
-        check_mean(irradiance(scene, by_sixteen(scene), 100000), 0.6, 0.24, 0.013);
     }
 }

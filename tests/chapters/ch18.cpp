@@ -1,7 +1,6 @@
 // Chapter 18: dispersion.
 #include <doctest/doctest.h>
 
-#include "chapters/15_mis_ris/estimator.h"
 #include "chapters/18_dispersion/estimator.h"
 #include "common/base/error.h"
 #include "common/options/loading.h"
@@ -10,7 +9,6 @@
 
 namespace {
 
-Method by_fifteen(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
 Method by_eighteen(const Scene& scene) {
     return method_of<ch18::trace>(ch18::prepare(scene), shares_of_white());
 }
@@ -104,15 +102,5 @@ TEST_SUITE("ch18 dispersion") {
                 CHECK(std::abs(double{channel} - 1) < 5 * se);
             CHECK(std::abs(film.mean() - 1) < 1e-4);
         }
-    }
-
-    TEST_CASE("agreement: glass of one index, rendered by wavelengths, with chapter 15") {
-        Scene scene = scene_from("scenes/caustic.pbrt", 16, 8), by_colors = scene;
-        const Glass plain = {"plain", {1.25, 0, 0}, {0, 0, 0}};
-        for (Material& m : by_colors.materials)
-            if (m.type == MaterialType::dielectric) m.glass = &plain, m.ior = 1;
-        for (Material& m : scene.materials) m.ior = 1.5f;
-        CHECK(check_classes(scene, by_fifteen(scene), by_colors, by_eighteen(by_colors), 100000) >=
-              4);
     }
 }

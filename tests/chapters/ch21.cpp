@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include "chapters/15_mis_ris/estimator.h"
-#include "chapters/20_light_tracing/estimator.h"
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "tests/support/light_paths.h"
@@ -11,27 +10,9 @@
 namespace {
 
 Method by_15(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
-Method by_20(const Scene& scene) { return method_of<ch20::trace_light>(ch20::endpoints_of(scene)); }
 Method by_21(const Scene& scene) { return method_of<ch21::trace>(endpoints_of(scene)); }
 Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
-/// The mean of strategy (s, t) alone, without its weight, over paths of this class.
-Measured of_strategy(const Scene& scene, int s, int t, const std::string& classes, int paths) {
-    std::string way = "s " + std::to_string(s) + ", t " + std::to_string(t);
-    Method all = by_21(scene);
-    Method alone = [&](const Scene& its, Ray ray, Splats& splats, Sampler& sampler,
-                       Recorder& recorder) {
-        all.trace(its, ray, splats, sampler, recorder);
-        splats.clear();
-        Rgb sum;
-        for (const Contribution& part : recorder.contributions()) {
-            if (part.way == way && part.path_class == classes) sum += part.L / part.mis;
-        }
-        return sum;
-    };
-    return census_of(scene, alone, paths, 2).all.measured(paths);
-}
-
-/// The same weight by the lesson.
+/// The weight of strategy s by the lesson.
 double lesson_weight(const Scene& scene, const Endpoints& endpoints,
                      const WholePath<ch21::Path>& path, size_t s) {
     ch21::Path whole = path.from_light;
@@ -107,48 +88,6 @@ TEST_SUITE("ch21 weights") {
 }
 
 TEST_SUITE("ch21 bidirectional") {
-    TEST_CASE("truth: each strategy alone has the mean of its paths" * doctest::skip()) {
-        Scene scene = scene_from("scenes/cornell.pbrt", 32, 3);
-        for (int edges : {2, 3, 4}) {
-            std::string classes = "L";
-            classes.append(static_cast<size_t>(edges - 1), 'D');
-            classes += "E";
-            constexpr int paths = 100000;
-            Measured truth = census_of(scene, by_15(scene), paths, 1, classes).all.measured(paths);
-            for (int s = 0; s <= edges; s++) {
-                CAPTURE(edges);
-                CAPTURE(s);
-                if (edges == 2 && s == 2) continue;  // no strategy
-                Measured m = of_strategy(scene, s, edges + 1 - s, classes, paths);
-                CHECK(z_between(truth, m) < 5);
-                CHECK(m.se < 0.3 * m.mean);
-            }
-        }
-    }
-
-    TEST_CASE("agreement: caustics with chapter 20, which finds them at once" * doctest::skip()) {
-        for (std::string name : {"caustic", "cornell-spheres", "light-in-glass"}) {
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            for (const auto& [by, paths] : {std::pair(&by_21, 100000), {&by_22, 400000}})
-                CHECK(check_classes(scene, by_20(scene), scene, by(scene), paths, 1,
-                                    shown_by_light) >= 6);
-        }
-    }
-
-    TEST_CASE("agreement: each block of the picture with chapter 15, by both ends" *
-              doctest::skip()) {
-        for (std::string name : {"cornell-spheres", "two-lights"}) {
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 5);
-            BlockMeans by_light = blocks_of(scene, by_20(scene), 16, 32, 8, shown_by_light);
-            for (const auto& by : {by_15, by_21, by_22}) {
-                BlockMeans own = blocks_of(scene, by(scene), 16, 32, 8, shown_by_light);
-                check_agreement(hold_against(own, by_light), 0.02);
-            }
-        }
-    }
-
     TEST_CASE("variance: a lamp in a shade: a tenth of the error of chapter 15" * doctest::skip()) {
         Scene scene = scene_from("scenes/lamp.pbrt", 32, 8);
         auto error_of = [&](const Method& method) {

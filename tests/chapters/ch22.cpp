@@ -64,16 +64,6 @@ TEST_SUITE("ch22 fast bidirectional") {
         CHECK(added > 100);
     }
 
-    TEST_CASE("agreement: with and without chances through mirrors, by length and class" *
-              doctest::skip()) {
-        // Not in caustic: without chances, one path in 200,000 carries most light of length 4.
-        for (std::string name : {"cornell-spheres", "light-in-glass"}) {
-            CAPTURE(name);
-            Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 8);
-            CHECK(check_classes(scene, by_22(scene, 0), scene, by_22(scene, 16), 400000) >= 8);
-        }
-    }
-
     TEST_CASE("variance: direct light has the error of chapter 15" * doctest::skip()) {
         // In chapter 21 it would have three times as much with splats of direct light.
         for (std::string name : {"cornell-spheres", "thousand-lights", "near-light"}) {

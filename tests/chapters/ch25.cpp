@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include "chapters/22_fast_bidirectional/estimator.h"
-#include "chapters/23_photon_mapping/estimator.h"
 #include "chapters/25_vertex_merging/estimator.h"
 #include "tests/support/light_paths.h"
 #include "tests/support/whole_paths.h"
@@ -152,18 +151,6 @@ TEST_SUITE("ch25 weights") {
 }
 
 TEST_SUITE("ch25 vertex merging") {
-    TEST_CASE("agreement: light through glass, seen through glass, with chapter 23" *
-              doctest::skip()) {
-        // No connection finds this light (chapter 21); photons do.
-        Scene scene = scene_from("scenes/sds.pbrt", 32, 6);
-        Method by_23 = ch23::photon_passes(scene, ch23::PhotonSettings{.light_paths = 20000});
-        Method method = by_25(scene, {.light_paths = 20000, .radius = scene.radius / 120});
-        Measured own = picture_of(scene, method, 96, "LS+DS+E");
-        CHECK(own.mean > 0);
-        CHECK(z_between(own, picture_of(scene, by_23, 96, "LS+DS+E")) < 5);
-        CHECK(own.se < 0.02 * own.mean);
-    }
-
     TEST_CASE("variance: light in mirrors: a fourth of the error of chapter 22" * doctest::skip()) {
         Scene scene = scene_from("scenes/sds.pbrt", 32, 8);
         BlockMeans own{32, 8};

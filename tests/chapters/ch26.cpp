@@ -68,11 +68,6 @@ double B_of(const Matrix& G, const std::vector<Patch>& patch, size_t i) {
     return ch26::radiosity_of(patch[i], s.H[i]).g;
 }
 
-/// Within a share of the truth.
-doctest::Approx about(double truth, double share) {
-    return doctest::Approx(truth).epsilon(share).scale(0);
-}
-
 /// A room as a matrix of its patches.
 struct Room {
     Scene scene;
@@ -130,7 +125,7 @@ TEST_SUITE("ch26 form factors") {
         Patch low = gray(1, 0, 0), high = gray(1, 0, 0);
         auto G = [&](Vec3 n, Vec3 to) {
             low.n = {0, 0, 1}, high.n = n;
-            return about(ch26::by_centres(low, high, {}, to), 1e-6);
+            return nearly(ch26::by_centres(low, high, {}, to), 1e-6);
         };
         CHECK(G({0, 0, -1}, {0, 0, 0.1f}) == 31.83098861838);
         CHECK(G({0, 0, -1}, {0, 0, 1}) == 0.3183098861838);
@@ -150,8 +145,8 @@ TEST_SUITE("ch26 form factors") {
                 });
                 std::vector<Vec3> corners(small.begin(), small.end());
                 double back = form_factor(large, corners) / double{size} / double{size};
-                CHECK(form_factor(corners, large) == about(F.mean(), 1e-3));
-                CHECK(back == about(F.mean(), 1e-3));
+                CHECK(form_factor(corners, large) == nearly(F.mean(), 1e-3));
+                CHECK(back == nearly(F.mean(), 1e-3));
             }
     }
 
@@ -204,7 +199,7 @@ TEST_SUITE("ch26 patches") {
                 CHECK(length(Vec3{found.r, found.g, found.b} - at) < 1e-5f);
             }
         }
-        CHECK(area == about(6 + 2 * 0.13, 1e-5));  // the board in it has light on both sides
+        CHECK(area == nearly(6 + 2 * 0.13, 1e-5));  // the board in it has light on both sides
     }
 
     TEST_CASE("input: what has no radiosity is refused, with its place in the file") {
@@ -234,26 +229,26 @@ TEST_SUITE("ch26 patches") {
 TEST_SUITE("ch26 solvers") {
     TEST_CASE("truth: parallel plates, concentric spheres and the cube as matrices") {
         std::vector<Patch> plates = {gray(1, 0.5f, 1), gray(1, 0.8f, 0)};
-        CHECK(B_of({{0, 1}, {1, 0}}, plates, 0) == about(5.0 / 3, 1e-7));
-        CHECK(B_of({{0, 1}, {1, 0}}, plates, 1) == about(4.0 / 3, 1e-7));
+        CHECK(B_of({{0, 1}, {1, 0}}, plates, 0) == nearly(5.0 / 3, 1e-7));
+        CHECK(B_of({{0, 1}, {1, 0}}, plates, 1) == nearly(4.0 / 3, 1e-7));
         // Areas 1 and 4: the inner sees the outer alone, the outer also itself.
         std::vector<Patch> spheres = {gray(1, 0.5f, 1), gray(4, 0.5f, 0)};
-        CHECK(B_of({{0, 1}, {1, 3}}, spheres, 0) == about(10.0 / 9, 1e-9));
-        CHECK(B_of({{0, 1}, {1, 3}}, spheres, 1) == about(2.0 / 9, 1e-9));
+        CHECK(B_of({{0, 1}, {1, 3}}, spheres, 0) == nearly(10.0 / 9, 1e-9));
+        CHECK(B_of({{0, 1}, {1, 3}}, spheres, 1) == nearly(2.0 / 9, 1e-9));
         Matrix G(6, std::vector<float>(6, static_cast<float>(beside)));
         for (size_t i = 0; i < 6; i++) G[i][i] = 0, G[i][i ^ 1] = static_cast<float>(opposite);
         std::vector<Patch> faces(6, gray(1, 0.8f, 0));
         faces[0].E = {1, 1, 1};
-        CHECK(B_of(G, faces, 0) == about(1.551724153645, 5e-7));
-        CHECK(B_of(G, faces, 1) == about(0.6895510707376, 2e-6));
-        CHECK(B_of(G, faces, 2) == about(0.6896811939044, 2e-6));
+        CHECK(B_of(G, faces, 0) == nearly(1.551724153645, 5e-7));
+        CHECK(B_of(G, faces, 1) == nearly(0.6895510707376, 2e-6));
+        CHECK(B_of(G, faces, 2) == nearly(0.6896811939044, 2e-6));
         // Half of all light leaves. What has arrived and what will makes 2/3 in the mean.
         Patches open;
         open.patch = {gray(1, 0.5f, 1), gray(1, 0.5f, 1)};
         Solution s;
         ch26::start(open.patch, s);
         ch26::shoot(open, 0, std::array{0.0f, 0.5f}, s);
-        CHECK(s.H[1].g / 2 + ch26::ambient(open.patch, s).g == about(2.0 / 3, 1e-6));
+        CHECK(s.H[1].g / 2 + ch26::ambient(open.patch, s).g == nearly(2.0 / 3, 1e-6));
     }
 
     TEST_CASE("truth: sweeps end by what is still to come, not by the change") {
@@ -287,8 +282,8 @@ TEST_SUITE("ch26 solvers") {
             Solution some = shoot(raw, 777), shots = shoot(room, 30000);
             CHECK(a.steps > b.steps);
             for (size_t i = 0; i < patch.size(); i++) {
-                CHECK(a.H[i].r == about(b.H[i].r, 1e-8));
-                CHECK(shots.H[i].r == about(b.H[i].r, 1e-6));
+                CHECK(a.H[i].r == nearly(b.H[i].r, 1e-8));
+                CHECK(shots.H[i].r == nearly(b.H[i].r, 1e-6));
             }
             for (const Solution& s : {b, some, shots}) {
                 ch26::Balance balance = balance_of(patch, s);
@@ -311,7 +306,7 @@ TEST_SUITE("ch26 solvers") {
         CHECK(tessellate(after, 2) == 2 * 512 + 2 * 32);
         CHECK(after.geometry.size() == 4 + 2 * 512 + 2 * 32);
         for (size_t i = 0; i < 3; i++)
-            CHECK(double{light_power(after, i)} == about(double{light_power(before, i)}, 1e-4));
+            CHECK(double{light_power(after, i)} == nearly(double{light_power(before, i)}, 1e-4));
         // All triangles shine where the shape did, and are as large in all.
         std::map<uint32_t, double> area;
         for (uint32_t prim = 0; prim < after.geometry.triangles.size(); prim++) {
@@ -328,7 +323,7 @@ TEST_SUITE("ch26 solvers") {
             }
         }
         for (auto [shape, truth] : {std::pair{0u, 1}, {2u, 4}, {3u, 4}, {5u, 1}})
-            CHECK(area[shape] == about(truth, 1e-4));
+            CHECK(area[shape] == nearly(truth, 1e-4));
     }
 }
 
@@ -344,8 +339,8 @@ TEST_SUITE("ch26 radiosity") {
             for (Show how : {Show::constant, Show::smooth}) {
                 Shown shown = ch26::show(scene, room.patches, s, how, all_threads());
                 Film film = film_of(scene, method_of<ch26::trace>(shown), 4).film;
-                CHECK(film.mean() == about(2 / pi_exact, 1e-5));
-                for (Rgb L : film.image().pixels) CHECK(double{L.g} == about(2 / pi_exact, 1e-4));
+                CHECK(film.mean() == nearly(2 / pi_exact, 1e-5));
+                for (Rgb L : film.image().pixels) CHECK(double{L.g} == nearly(2 / pi_exact, 1e-4));
             }
     }
 
@@ -459,7 +454,7 @@ TEST_SUITE("ch26 program") {
             CHECK(bytes == first);
         }
         for (Rgb L : read_image(folder / "a.pfm").pixels)
-            CHECK(double{L.g} == about(2 / pi_exact, 2e-3));
+            CHECK(double{L.g} == nearly(2 / pi_exact, 2e-3));
     }
 
     TEST_CASE("files: --time soon ends solution and picture, which are written") {

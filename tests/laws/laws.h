@@ -1,6 +1,7 @@
 // Laws: what must hold for every method of the table (tests/methods), in each scene that the method
 // can render.
 #pragma once
+#include "tests/known/scenes.h"
 #include "tests/methods/table.h"
 #include "tests/support/estimators.h"
 
@@ -22,7 +23,9 @@ struct KnownLight {
     double relative_se = 0.02;  // 3 times as much where a method rarely finds the light
     double se = 0;              // of `mean`, which is 0 for a closed form
     bool even = false;  // all surfaces have the same radiance: methods that blur light show it, too
-    std::vector<std::string> except = {};  // methods that need too many paths
+    std::vector<std::string> except = {};        // methods that need too many paths
+    int most = 1 << 20;                          // paths, for methods that rarely find the light
+    std::map<std::string, Quantity> parts = {};  // by class of path
 };
 
 /// Law: each method's mean is within 5 standard errors of the known light, and has a small standard

@@ -11,20 +11,6 @@ inline std::string black_lamp(const std::string& L, const std::string& shape) {
            "] Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + shape + "AttributeEnd\n";
 }
 
-/// Lights, and their irradiance at the origin of floor_under().
-inline const std::vector<std::pair<std::string, double>> lights_of_known_irradiance = {
-    {shining + disk(1, 1), 1.570796326795},
-    {shining + unit_square(0.1), 3.04212843837},
-    {shining + "Translate 2 0 0 Shape \"sphere\"", 0.09058607370608},
-    {"AttributeBegin " + shining + unit_square(1) + "AttributeEnd AttributeBegin " + shining +
-         "Rotate 90 0 1 0 " + unit_square(1, 1.5) + "AttributeEnd\n",
-     0.7522746884541 + 0.1046370751909},
-    {"LightSource \"infinite\"", pi_exact},
-    {"LightSource \"infinite\" " + shining + unit_square(1), pi_exact}};
-inline const std::vector<std::pair<std::string, double>> lights_without_size = {
-    {"LightSource \"point\" \"point3 from\" [1 2 0]", 0.1788854382},
-    {"LightSource \"distant\" \"point3 from\" [0 3 4] \"point3 to\" [0 0 0]", 0.6}};
-
 /// Chapter 12's target by a formula for each type of light, in double precision.
 ///
 ///   area:  p_hat = L A cos_x cos_y / d^2;  point:  L cos_x / d^2;  distant:  L cos_x;  sky:  pi L
@@ -72,14 +58,6 @@ inline Scene light_before_mirror() {
     return world_of("Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] Shape \"sphere\"\n" +
                     shining + "Translate 0 0 -9 Rotate -90 1 0 0 Scale 9 1 9 " + square(0, false));
 }
-inline void check_light_before_mirror(const Scene& mirror, const Method& trace) {
-    RunningStats s = repeat(mirror, {{0, 0, -4}, {0, 0, 1}}, trace, 100);
-    CHECK(s.mean() == nearly(0.9, 1e-5));
-    CHECK(s.variance() < 1e-10);
-    s = repeat(mirror, {{0, 0, -4}, {0, 0, -1}}, trace, 100);
-    CHECK(s.mean() == 1);
-    CHECK(s.variance() == 0);
-}
 
 /// Black lamps of the same size in a row, far above a floor; the radiance of number i is i + 1.
 inline Scene ten_lamps() {
@@ -119,24 +97,3 @@ inline Scene floor_without_lights() {
     for (Shape& shape : none.shapes) shape.light = -1;
     return none;
 }
-
-/// A board beside a floor close under a lamp, seen from between the two, and two weaker lamps. On
-/// the floor both strategies have about the same density, at the board other ones: weights that
-/// belong to another vertex than the last one show in the light of two bounces and more.
-inline Scene board_beside_lamp(const std::string& material) {
-    Scene scene = scene_of(
-        "LookAt -0.4 0.1 0  1 0.1 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
-        "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n"
-        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Scale 20 1 20 " +
-        square(0, true) + "AttributeEnd\nAttributeBegin " + material +
-        " Translate 0.7 0.5 0 Rotate 90 0 0 1 Scale 0.5 0.5 0.5 " + square(0, true) +
-        "AttributeEnd\n" + black_lamp("1", unit_square(0.2)) +
-        black_lamp(".3", unit_square(1.5, 0, 1.2)) + black_lamp(".1", unit_square(1.5, 0, -1.2)));
-    scene.max_depth = 4;
-    return scene;
-}
-inline const std::vector<std::string> boards = {
-    "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]",
-    "Material \"conductor\" \"rgb reflectance\" [.9 .9 .9]",
-    "Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] \"float roughness\" 0.2"
-    " \"bool remaproughness\" false"};
