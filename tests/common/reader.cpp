@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "common/base/files.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
@@ -43,7 +44,7 @@ const std::string sphere = " Shape 'sphere' ", grey = " 0.5 0.5 0.5";
 
 }  // namespace
 
-TEST_SUITE("reader: language") {
+TEST_SUITE("reader") {
     TEST_CASE("input: camera, film, sampler and integrator, and pbrt's defaults") {
         for (const Row& row : std::vector<Row>{
                  {camera, "1280x720 16 5 90 at 0 0 0, 1 0 0, 0 1 0, 0 0 1"},
@@ -66,6 +67,10 @@ TEST_SUITE("reader: language") {
                   "'float lensradius' .5 'float focaldistance' 7",
                   "320x200 16 5 19.5 at 0 0 0, 1 0 0, 0 1 0, 0 0 1, lens 0.5 7, frame 2, "
                   "window -1 2 -3 4"},
+                 // The axes of a pinhole come near 1, those of a lens keep their size.
+                 {"Scale 3 3 3" + camera, "1280x720 16 5 90 at 0 0 0, 1.3333 0 0, 0 1.3333 0"},
+                 {"Scale .5 .5 .5 Camera 'perspective' 'float lensradius' 1",
+                  "1280x720 16 5 90 at 0 0 0, 2 0 0, 0 2 0, 0 0 2, lens 1 1e+06"},
                  // The camera takes the transform where it stands, left-handed.
                  {"LookAt 1 2 3  1 2 -7  0 9 0" + camera + "Translate 1 1 1",
                   "1280x720 16 5 90 at 1 2 3, -1 0 0, 0 1 0, 0 0 -1"},
@@ -127,6 +132,21 @@ TEST_SUITE("reader: language") {
         std::string places;
         for (const std::string& note : notes) places += note.substr(1, note.find(": note: "));
         CHECK(places == ":1:1::2:1::3:1::4:3::4:24::5:8::6:1::7:36::8:3::9:1:");
+        // One note says that there is no filter, and one each what is not as pbrt has it.
+        for (auto [text, count] : {std::pair("PixelFilter 'box'", 0u),
+                                   {"PixelFilter 'box' 'float xradius' .6", 1},
+                                   {"PixelFilter 'box' 'float yradius' .6", 1},
+                                   {"PixelFilter 'box' 'float xradius' .4", 0},
+                                   {"PixelFilter 'mitchell'", 1},
+                                   {"Sampler 'independent' Integrator 'path' Accelerator 'bvh'", 1},
+                                   {"ColorSpace 'srgb' Option 'disablepixeljitter' true", 2}}) {
+            CAPTURE(text);
+            notes.clear();
+            parse_scene("s",
+                        unquoted(text + camera + "WorldBegin LightSource 'point' Shape 'sphere'"),
+                        &notes);
+            CHECK(notes.size() == count);
+        }
         notes.clear();
         described("Shape 'cylinder'", &notes);
         CHECK(notes.at(0).starts_with("scene.pbrt:2:1: note: "));
@@ -168,9 +188,7 @@ TEST_SUITE("reader: language") {
             check_described({{row.text + " LightSource 'point' 'point3 from' [1 2 3]",
                               "point 1 1 1, " + row.expected}});
     }
-}
 
-TEST_SUITE("reader: shapes") {
     TEST_CASE("input: the order of a triangle's corners is the side that shines") {
         // A transform that mirrors does not change the side: the normal is carried along. The
         // vertices' normals decide, whatever the corners say, unless they say nothing.
@@ -226,8 +244,10 @@ TEST_SUITE("reader: shapes") {
              "(0 0.37798 1.0079)" +
                  grey},
             // Lengths are kept, by which pbrt weighs them, unless their squares leave a float.
-            {leaning("[0 0 2  0 0 3e30  0 0 1e-30]"),
+            {leaning("[0 0 2  0 0 1.1e6  0 0 9e-7]"),
              "triangle 0 0 0 (0 0 2) 1 0 0 (0 0 1) 0 1 0 (0 0 1)" + grey},
+            {leaning("[0 0 2  0 0 9e5  0 0 2e-5]"),
+             "triangle 0 0 0 (0 0 2) 1 0 0 (0 0 9e+05) 0 1 0 (0 0 2e-05)" + grey},
             // Every position has a normal once one has; meshes without get zeros.
             {triangle + slanted + triangle, corners("1", "(0 0 0)") + "\n" +
                                                 corners("1", "(0 0.6 0.8)") + "\n" +
@@ -266,20 +286,26 @@ TEST_SUITE("reader: shapes") {
     }
 
     TEST_CASE("input: a cylinder is read as triangles") {
-        Geometry g =
-            read_world("Shape 'cylinder' 'float radius' 2 'float zmin' 1 'float zmax' 4").geometry;
-        double area = 0;
-        for (const Triangle& t : g.triangles) {
-            Vec3 p = g.positions[t.v[0]], n = normal_of(g, t);
-            CHECK(dot(n, {p.x, p.y, 0}) > 0);
-            CHECK(std::abs(std::hypot(p.x, p.y) - 2) < 1e-5f);
-            area += double{length(n)} / 2;
-        }
-        CHECK(area == doctest::Approx(2 * double{pi} * 2 * 3).scale(0).epsilon(2e-4));
+        Geometry g = read_world(
+                         "Shape 'cylinder' 'float radius' 2 'float zmin' 4 'float zmax' 1 "
+                         "'float phimax' 90 LightSource 'point'")
+                         .geometry;
+        REQUIRE(g.positions.size() == 2 * 129);
+        REQUIRE(g.triangles.size() == 2 * 128);
+        for (uint32_t i = 0; i <= 128; i++)
+            for (uint32_t end : {0u, 1u}) {
+                double phi = i / 256.0 * double{pi};
+                Vec3 n = to_vec3({std::cos(phi), std::sin(phi), 0});
+                CHECK(length(g.positions[2 * i + end] - Vec3{2 * n.x, 2 * n.y, end ? 4.f : 1.f}) <
+                      1e-5f);
+                CHECK(length(g.normals[2 * i + end] - n) < 1e-5f);
+                if (i == 128) continue;
+                auto [a, b, c] = g.triangles[2 * i + end].v;
+                CHECK(std::array{a, b, c} == (end ? std::array{2 * i, 2 * i + 3, 2 * i + 1}
+                                                  : std::array{2 * i, 2 * i + 2, 2 * i + 3}));
+            }
     }
-}
 
-TEST_SUITE("reader: materials") {
     TEST_CASE("input: metals by their reflectance, by eta and k, and by name; glass") {
         auto metal = [](Rgb eta, Rgb k, const char* alpha) {
             return "metal " + in_words(eta) + ", " + in_words(k) + ", " + alpha;
@@ -337,9 +363,7 @@ TEST_SUITE("reader: materials") {
                  "\ndisk 0 0 3, 0 0 1, 2 1 0 0"},
         });
     }
-}
 
-TEST_SUITE("reader: lights") {
     TEST_CASE("input: each Shape of an area light is one light with its range of primitives") {
         Scene scene = read_world(
             "AreaLightSource 'diffuse' 'rgb L' [1 2 3] 'float scale' 2 'bool twosided' true\n"
@@ -420,9 +444,7 @@ TEST_SUITE("reader: lights") {
             }
         }
     }
-}
 
-TEST_SUITE("reader: files") {
     TEST_CASE("input: an object is copied to each of its instances, within the limits") {
         const std::string object =
             "Material 'diffuse' 'rgb reflectance' [1 0 0] ObjectBegin 'two' Translate 1 0 0 "
@@ -456,6 +478,21 @@ TEST_SUITE("reader: files") {
         CHECK(box.lights[0].prims == 2);
         // The lamp's normals point down into the room.
         CHECK(normal_of(box.geometry, box.geometry.triangles[box.lights[0].first_prim]).y < 0);
+    }
+
+    TEST_CASE("teeth: bytes that move to the next file of a scene make it another scene") {
+        TemporaryFolder folder;
+        auto checksum_of = [&](const std::string& a, const std::string& b) {
+            write_file_atomically(folder / "a", a);
+            write_file_atomically(folder / "b", b);
+            write_file_atomically(folder / "s",
+                                  unquoted(camera + "WorldBegin LightSource 'infinite' Include 'a' "
+                                                    "Include 'b'"));
+            return load_scene(folder / "s", nullptr).files_checksum;
+        };
+        const std::string ball = unquoted(sphere);
+        CHECK(checksum_of(ball + "\n", ball) != checksum_of(ball, "\n" + ball));
+        CHECK(checksum_of(ball, ball) == checksum_of(ball, ball));
     }
 
     TEST_CASE("files: an included file continues where its Include stands") {

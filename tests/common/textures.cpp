@@ -238,22 +238,6 @@ TEST_SUITE("textures") {
         CHECK(F.b == 0);
     }
 
-    TEST_CASE("input: uv of a mesh in a PLY file, by all the names that they have") {
-        Gallery gallery;
-        for (const char* names : {"u v", "s t", "texture_u texture_v", "texture_s texture_t"}) {
-            std::string header = "ply\nformat ascii 1.0\nelement vertex 3\n", name;
-            for (std::istringstream words("x y z " + std::string(names)); words >> name;)
-                header += "property float " + name + '\n';
-            write_file_atomically(gallery.folder / "a.ply",
-                                  header +
-                                      "element face 1\nproperty list uchar int vertex_indices\n"
-                                      "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
-            Scene scene = gallery.scene("Shape 'plymesh' 'string filename' 'a.ply'");
-            CHECK(seen(scene, {0.2f, 0.7f, -1}, {0.2f, 0.7f, 0}) == red);
-            CHECK(seen(scene, {0.7f, 0.2f, -1}, {0.7f, 0.2f, 0}) == white);
-        }
-    }
-
     TEST_CASE("input: pictures that cannot be used, and meshes without uv, are refused in a line") {
         Image image = four_corners();
         image.pixels[0].g = NAN;
