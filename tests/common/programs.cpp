@@ -3,9 +3,7 @@
 #include <sys/stat.h>
 
 #include "common/options/loading.h"
-#include "common/picture/film_file.h"
 #include "common/picture/image.h"
-#include "common/picture/notes.h"
 #include "common/picture/stats_file.h"
 #include "tests/support/run_program.h"
 
@@ -18,22 +16,7 @@ Words joined(Words words, const Words& more) {
     return words;
 }
 
-/// Options for a render of a few milliseconds.
-Words small(const std::string& program, const Words& more = {}) {
-    Words words = {spheres, "--size", "33x17", "--spp", "3", "--max-depth", "6"};
-    return joined(joined(words, few_photons(program)), more);
-}
-
 bool is_one_line(const std::string& text) { return text.find('\n') == text.size() - 1; }
-
-/// The words that make the picture again that has these notes.
-Words words_of(const std::string& ppm, const std::string& scene) {
-    const std::set<std::string> is_no_option = {"chapter", "scene", "checksum", "strata"};
-    Words words = scene.empty() ? Words{} : Words{scene};
-    for (const auto& [name, value] : notes_in(decode_comment("a.ppm", read_file(ppm))))
-        if (!is_no_option.contains(name) && value != "all") append(words, {"--" + name, value});
-    return words;
-}
 
 }  // namespace
 
@@ -150,74 +133,6 @@ TEST_SUITE("programs") {
             bool both = number == "21" || number == "22" || number == "25";
             bool photons = number == "23" || number == "24";
             CHECK(black.number("rays") == (both ? 256 : photons ? 4128 : 128));
-        }
-    }
-
-    TEST_CASE("identity: the same bytes again by the notes in a picture" * doctest::skip()) {
-        for (bool render : {false, true})
-            for (const std::string& program : programs(render)) {
-                CAPTURE(program);
-                std::set<std::string> different;
-                for (const char* sampler : {"independent", "stratified", "sobol"}) {
-                    TemporaryFolder folder;
-                    auto bytes_by = [&](Words words) {
-                        for (const char* file : {"a.pfm", "a.ppm", "a.png"})
-                            append(words, {"--out", folder / file});
-                        Finished end = run(program, joined(words, {"--quiet"}));
-                        CHECK(end.code == 0);
-                        CHECK(end.out + end.err == "");
-                        return read_file(folder / "a.pfm") + read_file(folder / "a.png");
-                    };
-                    Words words = {"--n", "100", "--seed", "5"};
-                    if (render)
-                        words = small(program,
-                                      {"--seed", "5", "--sampler", sampler, "--paths", "L.*D.*E"});
-                    std::string bytes = bytes_by(words);
-                    different.insert(bytes);
-                    CHECK(bytes_by(words_of(folder / "a.ppm", render ? spheres : "")) == bytes);
-                }
-                CHECK(different.size() == (render ? 3 : 1));
-            }
-    }
-
-    TEST_CASE("identity: what Ctrl-C stops is a whole picture, and goes on to the same bytes" *
-              doctest::skip()) {
-        for (auto [program, sampler, signal] :
-             {std::tuple(path_tracer, "independent", SIGINT), {light_tracer, "sobol", SIGTERM}}) {
-            TemporaryFolder folder;
-            auto words = [&, s = sampler](const std::string& name, const std::string& spp) {
-                return Words{spheres,
-                             "--size",
-                             "33x17",
-                             "--spp",
-                             spp,
-                             "--sampler",
-                             s,
-                             "--threads",
-                             "2",
-                             "--film",
-                             folder / name + ".film",
-                             "--out",
-                             folder / name + ".pfm",
-                             "--stats",
-                             folder / name + ".json"};
-            };
-            Process process = start(program, words("a", "100000000"));
-            REQUIRE(comes_to_be(folder / "a.film"));
-            ::usleep(300'000);
-            process.kill(signal);
-            Finished end = process.wait();
-            CHECK(end.code == 3);
-            CHECK(end.err == "");
-            CHECK(end.out.find(" (interrupted)\n") != std::string::npos);
-            CHECK(read_image(folder / "a.pfm").width == 33);
-            StatsFile stats(read_file(folder / "a.json"));
-            CHECK(stats.number("empty_pixels_share") == 0);
-            std::string spp =
-                std::to_string(read_film(folder / "a.film").label.samples[0].last + 10);
-            for (const char* name : {"a", "b"}) REQUIRE(run(program, words(name, spp)).code == 0);
-            CHECK(read_file(folder / "b.film") == read_file(folder / "a.film"));
-            CHECK(read_file(folder / "b.pfm") == read_file(folder / "a.pfm"));
         }
     }
 

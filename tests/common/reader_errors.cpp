@@ -223,6 +223,8 @@ TEST_SUITE("reader: malformed input") {
         const std::string sphere = "Shape \"sphere\"\n", disk = "Shape \"disk\"\n",
                           identity = "Identity ",
                           moves = "ActiveTransform EndTime Scale 2 2 2 ActiveTransform All\n",
+                          triangle =
+                              unquoted("Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 1 1 0]\n"),
                           triangles = unquoted(
                               "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 1 1 0 0 1 0] "
                               "'integer indices' [0 1 2 0 2 3]\n");
@@ -244,6 +246,9 @@ TEST_SUITE("reader: malformed input") {
             {primitives, sphere, triangles + triangles, "4:1", "3 triangles, spheres and disks"},
             {primitives, sphere + moves + sphere + disk, sphere, "6:1", "spheres and disks"},
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
+            {vertices, triangle, moves + triangle, "4:1", "more than 3 vertices"},
+            {vertices, sphere, "ObjectBegin \"a\"\n" + triangles + triangles, "5:1",
+             "objects of more than 24 numbers"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
             {{}, sphere, repeated("AttributeBegin ", 1001), "3:15001", "more than 1000 deep"},
             {{}, sphere, many + " \"float x\" 1", "3:1406", "has more than 100 parameters"},

@@ -72,6 +72,7 @@ TEST_SUITE("scene") {
             {ball() + lamp + ball(), with_shape},
             {small + "Material \"conductor\"\n" + small,
              "5:1: note: this Shape and the Shape at test.pbrt:3:1 lie "},
+            {mesh(half, false) + "Material \"conductor\"\n" + mesh(half, false), some},
             {lamp + small + "ReverseOrientation\n" + disk, some},
             {lamp + "Shape \"trianglemesh\" \"integer indices\" [0 1 2 2 0 1] \"point3 P\" [" +
                  half + "]",

@@ -202,6 +202,7 @@ TEST_SUITE("stand-ins") {
         for (auto [kind, mean] : {std::pair("'constant' 'float value' .3", "0.3"),
                                   {"'constant'", "1"},
                                   {"'scale' 'float tex' .5 'float scale' .4", "0.2"},
+                                  {"'scale' 'float scale' .4", "0.4"},
                                   {"'checkerboard' 'float tex1' .5 'float tex2' .1", "0.3"},
                                   {"'checkerboard'", "0.5"},
                                   {"'dots' 'float outside' .3", "0.3"},
@@ -241,15 +242,12 @@ TEST_SUITE("stand-ins") {
             CHECK(camera.fov == static_cast<float>(fov));
             CHECK(camera.lens_radius == 0);
         }
-        // An orthographic camera shows [-1, 1] of a distant plane, and nearly so of a near one.
-        Scene from_far = files.read("LookAt 0 0 -5 0 0 0 0 1 0 Camera 'orthographic' WorldBegin " +
-                                    light + "Shape 'sphere'");
-        CameraView view = camera_view(from_far.camera, 64, 64);
-        for (float z : {-4.0f, 0.0f, 4.0f}) {
-            Ray ray = camera_ray(view, {64, 32});
-            float t = (z - ray.o.z) / ray.d.z;
-            CHECK(std::abs(std::abs(ray.o.x + t * ray.d.x) - 1) < 0.05f);
-        }
+        // An orthographic camera shows [-1, 1], now from 200 units away.
+        Camera from_far =
+            files.read("LookAt 0 0 -5 0 0 0 0 1 0 Camera 'orthographic' WorldBegin " + light)
+                .camera;
+        CHECK(from_far.o == Vec3{0, 0, -205});
+        CHECK(std::abs(200 * std::tan(from_far.fov * pi / 360) - 1) < 1e-4f);
         // What is left out leaves no light behind; a clear shape is no shape, unless it shines.
         Scene left = files.world(
             light +
@@ -264,6 +262,8 @@ TEST_SUITE("stand-ins") {
         CHECK_NOTHROW(files.world(light + "NamedMaterial 'none' Material 'diffuse'"));
         CHECK_NOTHROW(files.world(light + "Scale 1 0 1 Identity"));
         CHECK_THROWS_AS(files.world(light + "Scale 1 0 1 "), InputError);
+        CHECK_THROWS_AS(files.world(light + "Scale 1 0 1 CoordinateSystem 'a' Identity"),
+                        InputError);
 
         // A picture of the sky stands for its mean in chapters without one.
         Scene sky = files.read(

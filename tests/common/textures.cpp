@@ -196,6 +196,59 @@ TEST_SUITE("textures") {
         }
     }
 
+    TEST_CASE("truth: the picture on a cylinder goes around it, from its lower end to its upper") {
+        Scene tube = Gallery().scene("Shape 'cylinder' 'float radius' 2");
+        CHECK(near(seen(tube, {-0.1f, 20, 0.5f}, {0, 0, 0.5f}), red));
+        CHECK(near(seen(tube, {-0.1f, -20, 0.5f}, {0, 0, 0.5f}), green));
+        CHECK(near(seen(tube, {-0.1f, 20, -0.5f}, {0, 0, -0.5f}), blue));
+        CHECK(near(seen(tube, {-0.1f, -20, -0.5f}, {0, 0, -0.5f}), white));
+    }
+
+    TEST_CASE("input: pictures of the sky: their maps, axes and scale, and what they may not be") {
+        TemporaryFolder folder;
+        auto read = [&](int width, int height, Rgb L, const std::string& before) {
+            Image image(width, height);
+            for (Rgb& p : image.pixels) p = L;
+            write_image(folder / "a.pfm", image, "");
+            std::string text = "Camera 'perspective' WorldBegin Shape 'sphere' " + before +
+                               " LightSource 'infinite' 'string filename' 'a.pfm' 'float scale' 2";
+            return *parse_scene(folder / "s.pbrt", unquoted(text), nullptr).sky_image;
+        };
+        const std::string shear = "ConcatTransform [1 0 0 0  0 1 0 0  ";
+        for (int width : {2, 4}) {
+            SkyImage sky = read(width, 2, {1, 2, 3}, "Rotate 90 0 0 1 Scale 2 3 -1");
+            CHECK(sky.map == (width == 2 ? SkyImage::Map::square : SkyImage::Map::wide));
+            CHECK(sky.width == width);
+            CHECK(sky.height == 2);
+            CHECK(sky.pixels == std::vector<Rgb>(static_cast<size_t>(2 * width), Rgb{2, 4, 6}));
+            CHECK(length(sky.x - Vec3{0, 1, 0}) < 1e-6f);
+            CHECK(length(sky.y - Vec3{-1, 0, 0}) < 1e-6f);
+            CHECK(sky.z == Vec3{0, 0, -1});
+        }
+        const Rgb some = {1, 1, 1};
+        struct {
+            int width, height;
+            Rgb L;
+            std::string before;
+            bool is_read;
+        } cases[] = {
+            {2, 2, {4e14f, 0, 0}, "", true},
+            {2, 2, {6e14f, 0, 0}, "", false},
+            {2, 2, {1, -1, 1}, "", false},
+            {2, 2, {0, 0, 0}, "", false},
+            {3, 2, some, "", false},
+            {2, 4, some, "", false},
+            {2, 2, some, shear + "9e-5 0 1 0  0 0 0 1]", true},
+            {2, 2, some, shear + "11e-5 0 1 0  0 0 0 1]", false},
+            {2, 2, some, shear + "0 11e-5 1 0  0 0 0 1]", false},
+            {2, 2, some, "ConcatTransform [1 0 0 0  11e-5 1 0 0  0 0 1 0  0 0 0 1]", false},
+        };
+        for (const auto& c : cases) {
+            std::string said = error_of([&] { read(c.width, c.height, c.L, c.before); });
+            CHECK(said.empty() == c.is_read);
+        }
+    }
+
     TEST_CASE("truth: codes of a .png are sRGB, linear, or a power, and a .pfm has none") {
         Image grey(1, 1);
         grey.pixels = {{0.5f, 0.5f, 0.5f}};
@@ -211,6 +264,10 @@ TEST_SUITE("textures") {
         CHECK(near(value("linear", "a.png"), code));
         CHECK(near(value("gamma 3", "a.png"), code * code * code));
         CHECK(near(value("gamma 3", "a.pfm"), 0.5));
+        CHECK(near(value("gamma .01", "a.png"), std::pow(code, 0.01)));
+        CHECK(near(value("gamma 100", "a.png"), 0));
+        for (const char* none : {"srgb", "gamma .009", "gamma 101", "gamma x"})
+            CHECK_THROWS_AS(value(none, "a.png"), InputError);
     }
 
     TEST_CASE("truth: checkerboards, scaled and constant textures, and metal") {
