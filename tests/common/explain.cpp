@@ -1,14 +1,12 @@
-// --explain: a path in words, as a table that adds up, and as a drawing.
-#include "common/explaining/explain.h"
-
+// --explain: the table of a path, which adds up.
 #include <doctest/doctest.h>
 
 #include <map>
 #include <sstream>
 
+#include "common/base/vec.h"
 #include "common/picture/stats_file.h"
 #include "tests/support/run_program.h"
-#include "tests/support/scenes.h"
 
 namespace {
 
@@ -44,36 +42,6 @@ bool near(double a, double b) { return std::abs(a - b) <= 1e-5 * std::abs(b) + 1
 }  // namespace
 
 TEST_SUITE("explain") {
-    TEST_CASE("identity: a path from the eye is the same, however many numbers the light's took") {
-        TemporaryFolder folder;
-        auto eye_path = [&](const std::string& program, const char* light) {
-            write_file_atomically(
-                folder / "a.pbrt",
-                "LookAt 0 0 -0.5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material "
-                "\"diffuse\" "
-                "\"rgb reflectance\" [.5 .5 .5] Shape \"sphere\" \"float radius\" 2 " +
-                    std::string(light));
-            std::string text = run(program, {folder / "a.pbrt", "--size", "8x8", "--spp", "4",
-                                             "--sampler", "sobol", "--max-depth", "4", "--explain",
-                                             "3,3,1", "--out", folder / "a.pfm"})
-                                   .out;
-            std::string path;  // without the numbers of its vertices
-            std::istringstream lines(text.substr(text.find("from the eye:\n")));
-            for (std::string line; std::getline(lines, line) && !line.starts_with("    s ");) {
-                if (line.starts_with("vertex ")) path += line.substr(line.find("  ")) + "\n";
-                if (line.starts_with("    goes on ")) path += line + "\n";
-            }
-            CHECK(std::count(path.begin(), path.end(), '\n') >= 4);
-            return path;
-        };
-        for (const char* program :
-             {"21_bidirectional", "22_fast_bidirectional", "25_vertex_merging"})
-            CHECK(eye_path(program, "LightSource \"point\"") ==
-                  eye_path(program,
-                           "AreaLightSource \"diffuse\" Translate 0 1 0 Shape \"sphere\" "
-                           "\"float radius\" 0.01"));
-    }
-
     TEST_CASE("identity: --explain-brightest explains the largest sample of the picture") {
         TemporaryFolder folder;
         const Words words = {spheres, "--size", "9x8", "--spp", "4", "--out", folder / "a.ppm"};

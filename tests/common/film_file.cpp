@@ -267,16 +267,5 @@ TEST_SUITE("film files") {
         CHECK(missing({{0, 0, 4}, {1, 0, 2}}, {{0, 4, 2}, {0, 8, 2}, {0, 6, 3}, {1, 4, 2}}) ==
               Lines{"samples 4 to 7 of seed 0 are missing: part 2/2",
                     "samples 2 to 3 of seed 1 are missing: part 2/2"});
-        for (uint32_t samples = 1; samples < 12; samples++)
-            for (uint32_t parts = 1; parts <= samples; parts++) {
-                Goal goal = {0, samples, parts};
-                CHECK(goal.first_of(1) == 0);
-                CHECK(goal.first_of(static_cast<int>(parts) + 1) == samples);
-                for (uint32_t s = 0; s < samples; s++) {
-                    int part = static_cast<int>(goal.part_of(s));
-                    CHECK(goal.first_of(part) <= s);
-                    CHECK(s < goal.first_of(part + 1));
-                }
-            }
     }
 }

@@ -263,28 +263,6 @@ TEST_SUITE("reader") {
         CHECK(read_world("ReverseOrientation " + slanted).geometry.normals[0].y == -0.6f);
     }
 
-    TEST_CASE("input: a shape is whole where pbrt clamps its limits to the whole") {
-        auto is_whole = [](const std::string& shape) {
-            try {
-                return read_world("Shape " + shape).geometry.size() > 1;
-            } catch (const InputError&) {
-                return false;
-            }
-        };
-        for (const char* limits :
-             {"'float zmin' -2", "'float zmax' 7", "'float zmin' 1 'float zmax' -1",
-              "'float zmin' 3 'float zmax' -3", "'float phimax' 360.5"})
-            CHECK(is_whole(std::string("'sphere' ") + limits));
-        for (const char* limits :
-             {"'float zmin' -.99", "'float zmax' .5", "'float zmin' 2", "'float zmax' -2",
-              "'float zmin' .5 'float zmax' -1", "'float zmin' 3 'float zmax' 5",
-              "'float phimax' 359", "'float phimax' 0", "'float phimax' -360"})
-            CHECK(!is_whole(std::string("'sphere' ") + limits));
-        CHECK(is_whole("'disk' 'float phimax' 1e9"));
-        CHECK(!is_whole("'disk' 'float innerradius' -.5"));
-        CHECK(is_whole("'cylinder' 'float phimax' 400"));
-    }
-
     TEST_CASE("input: a cylinder is read as triangles") {
         Geometry g = read_world(
                          "Shape 'cylinder' 'float radius' 2 'float zmin' 4 'float zmax' 1 "

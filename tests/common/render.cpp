@@ -4,18 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstring>
-#include <memory>
-#include <thread>
 
-#include "common/base/stats.h"
+#include "common/base/system.h"
 #include "common/path/camera_sample.h"
-#include "common/rendering/stop.h"
-#include "common/results/results.h"
-#include "common/scene/intersect.h"
-#include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
 namespace {
@@ -145,24 +138,6 @@ TEST_SUITE("render loop") {
                       static_cast<float>(sum / static_cast<double>(std::max<uint64_t>(n, 1))));
             }
         }
-    }
-
-    TEST_CASE("truth: a signal before the first sample, or in the last one, is not forgotten") {
-        StopOnSignal outer;
-        std::raise(SIGTERM);
-        Scene scene = empty_scene(3, 3, 2);
-        Rendering r = render_film(scene, stand_in_options(), counting);
-        CHECK(r.stats.interrupted);
-        CHECK(r.film.samples() == 0);
-        CHECK(outer.take_request());
-        CHECK_FALSE(outer.requested());
-        CHECK_FALSE(render_film(scene, stand_in_options(), counting).stats.interrupted);
-        auto raising = [](const Scene&, Ray, Sampler&, Recorder&) {
-            std::raise(SIGINT);
-            return Rgb{};
-        };
-        render_film(empty_scene(1, 1, 1), stand_in_options(), raising);
-        CHECK(outer.requested());
     }
 
     TEST_CASE("files: what a thread throws reaches the caller") {

@@ -73,7 +73,7 @@ struct Gallery {
 };
 
 const std::string square_with_uv =
-    "Shape 'trianglemesh' 'integer indices' [0 1 2 0 2 3] 'point2 uv' [0 0 1 0 1 1 0 1] "
+    "Shape 'trianglemesh' 'integer indices' [1 2 0 2 3 0] 'point2 uv' [0 0 1 0 1 1 0 1] "
     "'point3 P' [0 0 0  1 0 0  1 1 0  0 1 0] ";
 
 /// A hit keeps reflectances to 2e-5.
@@ -113,8 +113,9 @@ TEST_SUITE("textures") {
             Vec2 uv = {4 * random.u1() - 2, 4 * random.u1() - 2};
             texture.scale = {2 * random.u1() - 1, 2 * random.u1() - 1};
             texture.shift = {random.u1(), random.u1()};
+            texture.picture = 1;
             textures.all.push_back(texture);
-            textures.pictures.push_back(picture);
+            textures.pictures = {{1, 1, {{9, 9, 9}}}, picture};
             double s = double{texture.scale.x} * double{uv.x} + double{texture.shift.x};
             double t = double{texture.scale.y} * double{uv.y} + double{texture.shift.y};
             auto near_an_edge = [](double x) { return std::abs(x - std::round(x)) < 1e-4; };
