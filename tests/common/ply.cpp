@@ -32,6 +32,7 @@ TEST_SUITE("ply") {
                   std::vector<Vec3>{{0, 0, 0.5f}, {1, 0, 0.5f}, {1, 1, 0.5f}, {0, 1, 0.5f}});
             CHECK(mesh.indices == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
             CHECK(mesh.normals == std::vector<Vec3>(normals, Vec3{0, 0, 1}));
+            CHECK(mesh.uvs.empty());
         };
         check(square, "\n", "\r\n");
         check(square, "\n", "\r");
@@ -50,7 +51,7 @@ TEST_SUITE("ply") {
             REQUIRE(mesh.uvs.size() == 4);
             for (Vec2 uv : mesh.uvs) CHECK(uv.x + 2 * uv.y == 2);
         }
-        check(square, "float nz", "float curvature", 0);  // normals that are not whole are none
+        check(square, "float nz", "float u", 0);  // normals and places that are not whole are none
         // A number that is cut short is a number, and so the last one may lose digits.
         for (size_t length = 0; length <= square.rfind('3'); length++) {
             CAPTURE(length);

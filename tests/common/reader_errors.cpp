@@ -243,8 +243,11 @@ TEST_SUITE("reader: malformed input") {
             for (int i = 0; i < count; i++) text += " \"float x" + std::to_string(i) + "\" 1";
             return text;
         };
-        Limits primitives, vertices, directives;
+        Limits primitives, vertices, directives, placed;
         primitives.primitives = 3, vertices.vertices = 3, directives.directives = 5;
+        placed.directives = 20;
+        const std::string instance = "ObjectInstance \"a\"\n",
+                          object = "ObjectBegin \"a\"\n" + repeated(sphere, 5) + "ObjectEnd\n";
         const std::string many = named("Shape \"sphere\"", 100),
                           attributes = named("Attribute \"light\"", 100);
         struct {
@@ -260,6 +263,8 @@ TEST_SUITE("reader: malformed input") {
             {vertices, sphere, "ObjectBegin \"a\"\n" + triangles + triangles, "5:1",
              "objects of more than 24 numbers"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
+            {placed, object + repeated(instance, 4), instance, "13:1",
+             "more than 20 shapes of objects are placed"},
             {{}, sphere, repeated("AttributeBegin ", 1001), "3:15001", "more than 1000 deep"},
             {{}, sphere, many + " \"float x\" 1", "3:1406", "has more than 100 parameters"},
             {{},

@@ -145,6 +145,7 @@ TEST_SUITE("textures") {
         Scene inverted = gallery.scene(
             square_with_uv, "'string filter' 'point' 'bool invert' true 'float scale' 0.5");
         check(inverted, 0.25f, 0.75f, {0.5f, 1, 1});
+        CHECK(inverted.materials[inverted.shapes[0].material].reflectance == white);  // at most
         // The way of chapter 05.
         Ray ray = {{0.25f, 0.75f, -1}, {0, 0, 1}};
         Hit hit;
