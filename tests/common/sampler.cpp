@@ -179,6 +179,27 @@ TEST_SUITE("sampler") {
         }
     }
 
+    TEST_CASE("variance: two shuffled dimensions meet as in a random order, also for n = 4") {
+        // Centres of n strata, c = cos(2 pi x) and so for y: over all pairs of random orders,
+        // Var (1/n) sum c(x) c(y) = (sum c^2)^2 / (n^2 (n-1)) = 1 / (4 (n-1)).
+        for (uint32_t n : {4u, 7u, 16u}) {
+            CAPTURE(n);
+            auto wave = [&](uint32_t i) {
+                return std::cos(2 * std::numbers::pi * (i + 0.5) / static_cast<double>(n));
+            };
+            RunningStats estimates;
+            for (uint32_t run = 0; run < 20000; run++) {
+                uint32_t x = hash32(run, 1), y = hash32(run, 2);
+                double sum = 0;
+                for (uint32_t i = 0; i < n; i++)
+                    sum += wave(permute(i, n, x)) * wave(permute(i, n, y));
+                estimates.add(sum / n);
+            }
+            check_mean(estimates, 0, 1 / (4.0 * (n - 1)), 0.02);
+            check_variance(estimates, 1 / (4.0 * (n - 1)), 3);
+        }
+    }
+
     TEST_CASE("identity: n strata of area 1/n tile the square for every n from 1 to 200") {
         for (uint32_t n = 1; n <= 200; n++) {
             CAPTURE(n);
