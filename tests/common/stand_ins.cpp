@@ -206,6 +206,7 @@ TEST_SUITE("stand-ins") {
                                   {"'constant'", "1"},
                                   {"'scale' 'float tex' .5 'float scale' .4", "0.2"},
                                   {"'scale' 'float scale' .4", "0.4"},
+                                  {"'scale' 'float tex' .3", "0.3"},
                                   {"'checkerboard' 'float tex1' .5 'float tex2' .1", "0.3"},
                                   {"'checkerboard'", "0.5"},
                                   {"'dots' 'float outside' .3", "0.3"},

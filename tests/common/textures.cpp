@@ -196,6 +196,18 @@ TEST_SUITE("textures") {
                 CHECK(seen(scene, centre + from, sphere ? centre : centre + d) == colors[i]);
             }
         }
+        // Rows of a picture: by the angle from the pole, or by the distance from the middle.
+        Image rows(1, 8);
+        for (int i = 0; i < 8; i++) rows.at(0, i).g = static_cast<float>(i) / 8;
+        Gallery striped(rows);
+        Scene ball = striped.scene("Shape 'sphere'"), disk = striped.scene("Shape 'disk'");
+        for (int i = 0; i < 8; i++) {
+            float part = (static_cast<float>(i) + 0.5f) / 8, sine = std::sin(part * pi);
+            Vec3 d = {0.6f * sine, 0.8f * sine, std::cos(part * pi)};
+            Vec3 on_it = {0.6f * part, 0.8f * part, 0};
+            CHECK(near(seen(ball, 3 * d, {}), rows.at(0, i)));
+            CHECK(near(seen(disk, on_it + Vec3{0, 0, 1}, on_it), rows.at(0, i)));
+        }
     }
 
     TEST_CASE("truth: the picture on a cylinder goes around it, from its lower end to its upper") {
@@ -212,8 +224,10 @@ TEST_SUITE("textures") {
             Image image(width, height);
             for (Rgb& p : image.pixels) p = L;
             write_image(folder / "a.pfm", image, "");
-            std::string text = "Camera 'perspective' WorldBegin Shape 'sphere' " + before +
-                               " LightSource 'infinite' 'string filename' 'a.pfm' 'float scale' 2";
+            std::string text = "Film 'rgb' 'float iso' 50 Camera 'perspective' WorldBegin " +
+                               before +
+                               " LightSource 'infinite' 'string filename' 'a.pfm' 'float scale' 4 "
+                               "Identity Shape 'sphere'";
             return *parse_scene(folder / "s.pbrt", unquoted(text), nullptr).sky_image;
         };
         const std::string shear = "ConcatTransform [1 0 0 0  0 1 0 0  ";
@@ -234,8 +248,8 @@ TEST_SUITE("textures") {
             std::string before;
             bool is_read;
         } cases[] = {
-            {2, 2, {4e14f, 0, 0}, "", true},
-            {2, 2, {6e14f, 0, 0}, "", false},
+            {2, 2, {2e14f, 0, 0}, "", true},
+            {2, 2, {3e14f, 0, 0}, "", false},
             {2, 2, {1, -1, 1}, "", false},
             {2, 2, {0, 0, 0}, "", false},
             {3, 2, some, "", false},
@@ -305,13 +319,14 @@ TEST_SUITE("textures") {
         limits.texels = 3;
         auto refused = [&](const std::string& file, const std::string& place,
                            const Limits& own = {}) {
-            std::string world = "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]";
+            std::string world =
+                square_with_uv + "\nShape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]";
             return error_of([&] { gallery.scene(world, "", file, own); })
                 .starts_with(gallery.folder / "scene.pbrt:" + place + ": error: ");
         };
         CHECK(refused("b.png", "2:35"));
         CHECK(refused("a.pfm", "2:35"));  // not a number
-        CHECK(refused("a.png", "4:1"));   // the mesh has no uv
+        CHECK(refused("a.png", "5:1"));   // a mesh has no uv
         CHECK(refused("a.png", "2:35", limits));
     }
 }
