@@ -38,6 +38,7 @@ TEST_SUITE("ply") {
         check(square, "\n", "\r");
         check(square, "vertex_indices", "vertex_index");
         check(square, " 4 ", "\n4\n");
+        check(square, "comment made by hand", "");
         check(square + "what follows is not read", "obj_info nothing\n", "");
         // A place in textures, by all the names that it has.
         for (auto [u, v] : {std::pair("u", "v"),
