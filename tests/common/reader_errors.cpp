@@ -167,6 +167,8 @@ TEST_SUITE("reader: malformed input") {
             {"Sampler 'sobol' 'integer pixelsamples' @ " + end, "16777216", "16777217"},
             {"Sampler 'stratified' 'integer xsamples' @ " + end, "4096", "4097"},
             {"Sampler 'stratified' 'integer ysamples' @ " + end, "4096", "4097"},
+            {"Sampler 'stratified' 'integer xsamples' @ " + end, "1", "0"},
+            {"Sampler 'stratified' 'integer ysamples' @ " + end, "1", "0"},
             {"Integrator 'path' 'integer maxdepth' @ " + end, "1073741824", "1073741825"},
             {lit + "'point3 from' [0 0 @]", "1e9", "1.1e9"},
             {lit + "'float scale' @", "9e14", "1.1e15"},
