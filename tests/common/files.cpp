@@ -171,10 +171,9 @@ TEST_SUITE("files") {
         CHECK(error_of([] { read_file("/proc/self/mem"); }) ==
               "/proc/self/mem: error: cannot read: Input/output error");
     }
-}
 
-TEST_SUITE("pictures on disk") {
-    TEST_CASE("identity: a .pfm picture is read back bit for bit") {
+    TEST_CASE(
+        "identity: a .pfm file keeps all bits, its bottom row first; a .ppm file its top row") {
         TemporaryFolder folder;
         for (auto [w, h] : {std::pair(1, 1), std::pair(7, 3), std::pair(2, 5)}) {
             Image image = numbered(w, h);
@@ -182,96 +181,57 @@ TEST_SUITE("pictures on disk") {
             write_image(folder / "a.pfm", image, "");
             CHECK(same_bits(read_image(folder / "a.pfm"), image));
         }
-    }
-
-    TEST_CASE("truth: a .pfm file has its bottom row first, a .ppm file its top row") {
-        TemporaryFolder folder;
-        Image image(1, 2);
-        image.at(0, 0) = {1, 0, 0};
-        image.at(0, 1) = {0, 0.5f, 1};
-        write_image(folder / "a.pfm", image, "");
-        write_image(folder / "a.ppm", image, "");
-        CHECK(read_file(folder / "a.pfm") == "PF\n1 2\n-1.0\n" + bytes_of({0, 0.5f, 1, 1, 0, 0}));
-        CHECK(read_file(folder / "a.ppm") == std::string("P6\n1 2\n255\n\xff\0\0\0\xbc\xff", 17));
+        Image image(1, 3);
+        image.pixels = {{1, 0, 0}, {0, 0.5f, 1}, {0, infinity, 0}};  // the last one is magenta
+        for (const char* name : {"a.pfm", "a.ppm"}) write_image(folder / name, image, "");
+        CHECK(read_file(folder / "a.pfm") ==
+              "PF\n1 3\n-1.0\n" + bytes_of({0, infinity, 0, 0, 0.5f, 1, 1, 0, 0}));
+        CHECK(read_file(folder / "a.ppm") ==
+              std::string("P6\n1 3\n255\n\xff\0\0\0\xbc\xff\xff\0\xff", 20));
     }
 
     TEST_CASE(
         "truth: the scale of a .pfm file multiplies its values, and its sign is their order") {
-        // As pbrt-v4 reads it: |scale| times the value; below 0: little endian.
-        TemporaryFolder folder;
-        const std::vector<float> values = {0.5f, 1.25f, 3};
-        std::vector<float> swapped;
+        // As pbrt-v4 reads it: |scale| times the value; below 0: little endian. One blank ends the
+        // header, or CR LF; the first value begins with such bytes.
+        std::vector<float> values = {std::bit_cast<float>(0x3f000d0au), 1.25f, 3}, swapped;
         for (float v : values) swapped.push_back(big_endian_float(v));
         for (auto [text, scale] : {std::pair("1", 1.0f),
                                    {"0.25", 0.25f},
                                    {".5", 0.5f},
                                    {"1e3", 1000},
-                                   {"+3", 3},
-                                   {"1e-30", 1e-30f}}) {
-            for (const char* kind : {"PF", "Pf"}) {
-                for (bool is_little : {true, false}) {
-                    std::string name = std::string(is_little ? "-" : "") + text;
-                    if (name == "-+3") continue;
-                    CAPTURE(name);
-                    size_t n = kind[1] == 'F' ? 1 : 3;  // pixels
-                    Image image = decode_image(
-                        "a.pfm", std::string(kind) + "\n" + std::to_string(n) + " 1\n" + name +
-                                     "\n" + bytes_of(is_little ? values : swapped));
-                    REQUIRE(image.pixels.size() == n);
-                    Rgb last = image.pixels[n - 1], first = image.pixels[0];
-                    CHECK(first.r == scale * 0.5f);
-                    CHECK(last.b == scale * 3);
-                    CHECK(last.g == scale * (n == 1 ? 1.25f : 3));
-                }
-            }
-        }
+                                   {"1e-30", 1e-30f}})
+            for (const std::string kind : {"PF", "Pf"})
+                for (const std::string blank : {"\n", "\r\n", "\r", " "})
+                    for (const std::string sign : {"-", ""}) {
+                        size_t n = kind == "PF" ? 1 : 3;  // pixels
+                        std::string header = kind + blank + std::to_string(n) + " 1" + blank + sign;
+                        Image image =
+                            decode_image("a.pfm", header + text + blank +
+                                                      bytes_of(sign == "-" ? values : swapped));
+                        REQUIRE(image.pixels.size() == n);
+                        CHECK(image.pixels[0].r == scale * values[0]);
+                        CHECK(image.pixels[n - 1].g == scale * values[n == 1 ? 1 : 2]);
+                        CHECK(image.pixels[n - 1].b == scale * 3);
+                    }
     }
 
-    TEST_CASE("truth: one blank ends a header, or CR LF; pixels may begin with such bytes") {
-        std::string pixel = bytes_of({1.5f});
-        pixel[0] = '\n', pixel[1] = '\r';  // in the last digits
-        for (const char* end : {"\n", "\r\n", "\r", " "}) {
-            CAPTURE(end);
-            std::string header = "Pf" + std::string(end) + "1 1" + end + "-1" + end;
-            CHECK(decode_image("a.pfm", header + pixel).at(0, 0).r ==
-                  doctest::Approx(1.5).epsilon(1e-3).scale(0));
-        }
-    }
-
-    TEST_CASE("truth: codes of sRGB, and what lies outside them") {
+    TEST_CASE("truth: codes of sRGB, what lies outside them, and a .ppm file with all 256") {
         // From IEC 61966-2-1: linear below 0.0031308, then 1.055 x^(1/2.4) - 0.055.
-        CHECK(to_srgb8(0) == 0);
-        CHECK(to_srgb8(1) == 255);
-        CHECK(to_srgb8(0.5f) == 188);
-        CHECK(to_srgb8(0.18f) == 118);
-        CHECK(to_srgb8(0.003f) == 10);
-        CHECK(to_srgb8(0.2158605f) == 128);
-        CHECK(to_srgb8(-1) == 0);
-        CHECK(to_srgb8(7) == 255);
-        CHECK(to_srgb8(std::nanf("")) == 0);
-        CHECK(to_srgb8(infinity) == 255);
-    }
-
-    TEST_CASE("identity: each of the 256 codes of a .ppm file is read and written as itself") {
+        for (auto [x, code] : {std::pair(0.5f, 188),
+                               {0.18f, 118},
+                               {0.003f, 10},
+                               {0.2158605f, 128},
+                               {-1.0f, 0},
+                               {7.0f, 255},
+                               {std::nanf(""), 0},
+                               {infinity, 255}})
+            CHECK(to_srgb8(x) == code);
         TemporaryFolder folder;
         std::string ppm = "P6\n# a comment\n16 16\n255\n";
         for (int i = 0; i < 256; i++) ppm += std::string(3, static_cast<char>(i));
-        write_file_atomically(folder / "a.ppm", ppm);
-        write_image(folder / "b.ppm", read_image(folder / "a.ppm"), "");
-        std::string written = read_file(folder / "b.ppm");
-        CHECK(written.starts_with("P6\n16 16\n255\n"));
-        CHECK(written.substr(written.size() - 768) == ppm.substr(ppm.size() - 768));
-    }
-
-    TEST_CASE("failure: a pixel that is not finite is NaN in a .pfm, and magenta in a .ppm") {
-        TemporaryFolder folder;
-        Image image(2, 1);
-        image.at(0, 0) = {std::nanf(""), 0, 0};
-        image.at(1, 0) = {0, infinity, 0};
-        write_image(folder / "a.pfm", image, "");
-        write_image(folder / "a.ppm", image, "");
-        CHECK(same_bits(read_image(folder / "a.pfm"), image));
-        CHECK(read_file(folder / "a.ppm").substr(11) == std::string("\xff\0\xff\xff\0\xff", 6));
+        write_image(folder / "b.ppm", decode_image("a.ppm", ppm), "");
+        CHECK(read_file(folder / "b.ppm") == "P6\n16 16\n255\n" + ppm.substr(ppm.size() - 768));
     }
 
     TEST_CASE("truth: a .png file holds the picture, a comment without commands, and checksums") {
@@ -288,18 +248,9 @@ TEST_SUITE("pictures on disk") {
         CHECK(decode_image("a.png", png).pixels == read_image(folder / "a.ppm").pixels);
         for (size_t size = 8; size < png.find("IEND") - 8; size++)
             CHECK_THROWS_AS(decode_image("a.png", png.substr(0, size)), InputError);
-    }
-
-    TEST_CASE("input: one wrong bit anywhere in a .png file is an error") {
-        Image image(5, 3);
-        for (size_t i = 0; i < image.pixels.size(); i++)
-            image.pixels[i] = Rgb{1, 1, 1} * (static_cast<float>(i) / 15);
-        const std::string png = encode_png(image, "a comment");
-        CHECK(decode_image("a.png", png).width == 5);
         for (size_t bit = 0; bit < 8 * png.size(); bit++) {
             std::string damaged = png;
             damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ 1 << bit % 8);
-            CAPTURE(bit);
             CHECK_THROWS_AS(decode_image("a.png", damaged), InputError);
         }
     }

@@ -3,10 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cstring>
 #include <limits>
-
-#include "common/path/sampler.h"
 
 namespace {
 
@@ -19,19 +16,6 @@ Film film_of(const std::vector<std::vector<float>>& rows) {
         for (float sample : rows[x]) film.add(x, grey(sample));
     }
     return film;
-}
-
-/// 1e5 splats over 30 decades.
-Splats random_splats(size_t pixels) {
-    Sampler sampler(SamplerType::independent, 5, 1);
-    Splats splats;
-    for (uint32_t i = 0; i < 100000; i++) {
-        sampler.start(i, 0);
-        auto any_size = [&] { return std::pow(10.0f, 30 * sampler.u1() - 15); };
-        size_t pixel = static_cast<size_t>(sampler.u1() * static_cast<float>(pixels));
-        splats.push_back({pixel, Rgb{any_size(), any_size(), any_size()}});
-    }
-    return splats;
 }
 
 /// A film of 5 x 3 with two samples of 0.25 in each pixel, and these splats, shared out among as
@@ -47,11 +31,6 @@ Film film_with(const Splats& splats, size_t parts) {
         whole.add(film);
     }
     return whole;
-}
-
-template <typename T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 doctest::Approx about(double x) { return doctest::Approx(x).epsilon(1e-14).scale(0); }
@@ -128,20 +107,6 @@ TEST_SUITE("film") {
         CHECK(film.mean() == about(0.625));
         CHECK(film.standard_error() == about(0.375 / std::sqrt(15.0)));
         CHECK(film.effective_samples() == about(15 * 1.25 * 1.25 / 1.0625));
-    }
-
-    TEST_CASE("identity: splats make the same bits in any order and any grouping") {
-        Splats splats = random_splats(15);
-        std::vector<Rgb> image = film_with(splats, 1).image().pixels;
-        double mean = film_with(splats, 1).mean();
-        for (size_t parts : {1u, 2u, 7u}) {
-            std::reverse(splats.begin(), splats.end());
-            for (size_t i = 1; i < splats.size(); i++)
-                std::swap(splats[i], splats[7919 * i % (i + 1)]);
-            Film film = film_with(splats, parts);
-            CHECK(same_bits(film.image().pixels, image));
-            CHECK(film.mean() == mean);
-        }
     }
 
     TEST_CASE("failure: a sample or splat that is not finite shows in its pixel and in the mean") {

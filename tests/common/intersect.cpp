@@ -15,9 +15,68 @@ namespace {
 
 double to_double(float x) { return static_cast<double>(x); }
 
+/// Where a line meets the plane of a triangle, and how far outside of the triangle it passes there:
+/// across the line, in parts of the distance of the farthest corner; negative inside. In double
+/// precision, without shear and without boxes.
+std::pair<double, double> meet(const Geometry& g, const Triangle& triangle, const Ray& ray) {
+    Vec3d o(ray.o), d(ray.d), p[3];
+    double far = 0;
+    for (size_t k = 0; k < 3; k++) {
+        p[k] = Vec3d(g.positions[triangle.v[k]]) - o;
+        far = std::max(far, length(p[k]));
+    }
+    Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
+    double t = dot(n, p[0]) / dot(n, d), outside = -1, turn = dot(n, d) < 0 ? 1 : -1;
+    for (size_t k = 0; k < 3; k++) {
+        Vec3d across = cross(p[(k + 1) % 3] - p[k], d);
+        outside = std::max(outside, turn * dot(p[k], across) / length(across) / far);
+    }
+    return {t, outside};
+}
+
+/// Triangles with one side of length 1, and a height of 1 / aspect.
+Geometry slivers(float aspect) {
+    Geometry g;
+    Sampler random = random_numbers(5);
+    for (uint32_t i = 0; i < 900; i += 3) {
+        Vec3 centre = uniform_direction(random.u2()), along = uniform_direction(random.u2());
+        Vec3 across = normalize(cross(along, uniform_direction(random.u2())));
+        g.positions.insert(g.positions.end(), {centre - 0.5f * along, centre + 0.5f * along,
+                                               centre + (1 / aspect) * across});
+        g.triangles.push_back({{i, i + 1, i + 2}, 0});
+    }
+    return g;
+}
+
+/// A point of a triangle drawn by number, and not by area, so that thin and small ones come up.
+Vec3 on_triangle(const Geometry& g, Sampler& random) {
+    float i = random.u1() * static_cast<float>(g.triangles.size());
+    auto [a, b, c] = g.triangles[static_cast<size_t>(i)].v;
+    float u = std::sqrt(random.u1()), v = random.u1();
+    return (1 - u) * g.positions[a] + u * (1 - v) * g.positions[b] + u * v * g.positions[c];
+}
+
+/// Calls visit(scene, ray) for rays from one triangle of a mesh to another, from near it and from
+/// far away.
+template <class Visit>
+void for_rays_to_thin_meshes(const Visit& visit) {
+    for (const Geometry& g : {closed_mesh(3), slivers(1e2f), slivers(1e4f), slivers(1e6f)}) {
+        Scene scene;
+        scene.materials.emplace_back(), scene.shapes.emplace_back();
+        scene.geometry = g;
+        prepare(scene, 1);
+        Sampler random = random_numbers(7);
+        for (int i = 0; i < 2000; i++) {
+            Vec3 to = on_triangle(g, random), from = on_triangle(g, random);
+            Vec3 o = from + std::exp2(14 * random.u1() - 10) * (from - to);
+            visit(scene, {o, to - o});
+        }
+    }
+}
+
 }  // namespace
 
-TEST_SUITE("frame") {
+TEST_SUITE("intersect") {
     TEST_CASE("identity: the frame is orthonormal, also where its formula is nearly infinite") {
         Sampler random = random_numbers(1);
         float worst = 0;
@@ -31,9 +90,7 @@ TEST_SUITE("frame") {
         }
         CHECK(worst < 1e-6f);
     }
-}
 
-TEST_SUITE("intersect shapes") {
     TEST_CASE("truth: a small sphere far away keeps its edge and its distance") {
         // In float, b^2 - a c would be wrong by about 10 here, for a radius of 1.
         Sampler random = random_numbers(1);
@@ -132,9 +189,50 @@ TEST_SUITE("intersect shapes") {
             CHECK(late == 0);
         }
     }
-}
 
-TEST_SUITE("intersect hits") {
+    TEST_CASE("truth: every hit as in double precision") {
+        constexpr double rounding = 64 * 0x1p-24;  // of a corner, in parts of its distance
+        int hits = 0, ghosts = 0, lost = 0, off = 0, open = 0;
+        for_rays_to_thin_meshes([&](const Scene& scene, const Ray& ray) {
+            const Geometry& g = scene.geometry;
+            auto x = intersect(scene, ray);
+            double nearest = double{infinity}, reach = x ? double{x->t} : nearest;
+            for (const Triangle& triangle : g.triangles) {
+                auto [t, outside] = meet(g, triangle, ray);
+                if (outside < -rounding && t > 0) nearest = std::min(nearest, t);
+            }
+            open += occluded(scene, ray) != x.has_value();
+            // What is surely in the way must be found, or something before it.
+            lost += nearest * (1 + 0x1p-7) < reach;
+            if (!x) return;
+            hits++;
+            auto [t, outside] = meet(g, g.triangles[x->prim], ray);
+            ghosts += !(outside < rounding);
+            off += outside < 0 && !(std::abs(t - reach) <= 0x1p-8 * t);
+        });
+        CHECK(hits > 2000);
+        for (int wrong : {ghosts, lost, off, open}) CHECK(wrong == 0);
+    }
+
+    TEST_CASE("truth: no ray meets the triangle that it leaves") {
+        Sampler random = random_numbers(8);
+        int left = 0, again = 0;
+        for_rays_to_thin_meshes([&](const Scene& scene, const Ray& ray) {
+            auto x = intersect(scene, ray);
+            if (!x) return;
+            // Any direction on the front side, half of them nearly along the surface.
+            Vec3 wi = uniform_direction(random.u2());
+            float cos = dot(wi, x->ng);
+            if (left++ % 2 == 0) wi = normalize(wi - (1 - 1e-3f * random.u1()) * cos * x->ng);
+            Ray leaves = spawn_ray(*x, dot(wi, x->ng) < 0 ? -wi : wi), unaware = leaves;
+            unaware.from = PrimHit::none;
+            for (const Ray& next : {leaves, unaware})
+                again += closest_hit(scene.bvh, scene.geometry, next).prim == x->prim;
+        });
+        CHECK(left > 2000);
+        CHECK(again == 0);
+    }
+
     TEST_CASE(
         "failure: a ray that only touches a ball sees it at an angle, so that 1 / cos is finite") {
         Scene ball = world_of("LightSource \"infinite\" Shape \"sphere\"");

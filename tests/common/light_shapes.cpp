@@ -80,7 +80,7 @@ double off(Vec3 a, Vec3 b) { return static_cast<double>(length(a - b)); }
 
 }  // namespace
 
-TEST_SUITE("solid angle") {
+TEST_SUITE("light shapes") {
     TEST_CASE("truth: solid angles of triangles and rectangles") {
         struct {
             double found, truth, error = 1e-12;
@@ -127,9 +127,7 @@ TEST_SUITE("solid angle") {
                   pdf_spherical_triangle(omega));
         }
     }
-}
 
-TEST_SUITE("light shapes") {
     TEST_CASE("consistency: a light's samples agree with its density") {
         // Which integrates to 1, or to the share of directions that meet the light as aimed.
         for (const auto& [name_of, shape] : shapes) {

@@ -237,9 +237,7 @@ TEST_SUITE("comparison") {
             CHECK(average(false_colour(x + 0.01)) > average(false_colour(x)));
         }
     }
-}
 
-TEST_SUITE("measuring") {
     TEST_CASE("truth: relMSE from the spread of renders") {
         // Two pixels: one of mean 2 and variance 1/2, one of mean 0.
         Image a(2, 1), b(2, 1);

@@ -49,7 +49,8 @@ const std::string bent_mesh =
 
 Scene moving_mesh(const Transform& start, const Transform& end) {
     return world_of(
-        "LightSource \"infinite\" AttributeBegin ActiveTransform StartTime "
+        "LightSource \"infinite\" AttributeBegin Translate 0 0 1e5 Shape \"sphere\" "
+        "AttributeEnd AttributeBegin ActiveTransform StartTime "
         "ConcatTransform " +
         as_text(start) + "ActiveTransform EndTime ConcatTransform " + as_text(end) +
         "ActiveTransform All " + bent_mesh + "AttributeEnd");

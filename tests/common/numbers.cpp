@@ -3,15 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include <bit>
 #include <clocale>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <limits>
 
 #include "common/base/percent.h"
-#include "common/path/sampler.h"
 
 TEST_SUITE("numbers") {
     TEST_CASE("truth: numbers are rounded to the nearest double, halves to the even one") {
@@ -23,21 +19,6 @@ TEST_SUITE("numbers") {
         CHECK(to_number("2.2250738585072011e-308") == 0x0.fffffffffffffp-1022);
         CHECK(to_number("4.9406564584124654e-324") == std::numeric_limits<double>::denorm_min());
         CHECK(to_number("1.7976931348623157e308") == std::numeric_limits<double>::max());
-    }
-
-    TEST_CASE("identity: a double printed with 17 digits is read back") {
-        Sampler sampler(SamplerType::independent, 5, 1);
-        auto bits = [&] {
-            return static_cast<uint64_t>(static_cast<double>(sampler.u1()) * 0x1p16);
-        };
-        for (uint32_t i = 0; i < 20000; i++) {
-            sampler.start(0, i);
-            double x = std::bit_cast<double>(bits() << 48 | bits() << 32 | bits() << 16 | bits());
-            if (!std::isfinite(x)) continue;
-            char text[64];
-            std::snprintf(text, sizeof text, "%.17g", x);
-            REQUIRE(to_number(text) == x);
-        }
     }
 
     TEST_CASE("input: what is a number, and what is none, in every country") {

@@ -118,9 +118,7 @@ TEST_SUITE("optics") {
         double p = std::sqrt(5.0) - 2;
         check_mean(trapped, p, p * (1 - p), 0.03);
     }
-}
 
-TEST_SUITE("metal") {
     TEST_CASE("identity: a metal's reflectance is Fresnel's with a complex index") {
         Sampler random = random_numbers(1);
         for (int i = 0; i < 10000; i++) {

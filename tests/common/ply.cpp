@@ -32,13 +32,27 @@ TEST_SUITE("ply") {
                   std::vector<Vec3>{{0, 0, 0.5f}, {1, 0, 0.5f}, {1, 1, 0.5f}, {0, 1, 0.5f}});
             CHECK(mesh.indices == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
             CHECK(mesh.normals == std::vector<Vec3>(normals, Vec3{0, 0, 1}));
+            CHECK(mesh.uvs.empty());
         };
         check(square, "\n", "\r\n");
         check(square, "\n", "\r");
         check(square, "vertex_indices", "vertex_index");
         check(square, " 4 ", "\n4\n");
+        check(square, "comment made by hand", "");
         check(square + "what follows is not read", "obj_info nothing\n", "");
-        check(square, "float nz", "float curvature", 0);  // normals that are not whole are none
+        // A place in textures, by all the names that it has.
+        for (auto [u, v] : {std::pair("u", "v"),
+                            {"s", "t"},
+                            {"texture_u", "texture_v"},
+                            {"texture_s", "texture_t"}}) {
+            std::string text = square;
+            for (auto [from, to] : {std::pair("nx", u), {"nz", v}})
+                text.replace(text.find(from), 2, to);
+            TriangleMesh mesh = parse_ply("mesh.ply", text);
+            REQUIRE(mesh.uvs.size() == 4);
+            for (Vec2 uv : mesh.uvs) CHECK(uv.x + 2 * uv.y == 2);
+        }
+        check(square, "float nz", "float u", 0);  // normals and places that are not whole are none
         // A number that is cut short is a number, and so the last one may lose digits.
         for (size_t length = 0; length <= square.rfind('3'); length++) {
             CAPTURE(length);

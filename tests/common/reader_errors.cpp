@@ -130,19 +130,128 @@ TEST_SUITE("reader: malformed input") {
         write(folder, "100", "Identity");
         CHECK(refuse_file(folder / "0").ends_with("more than 10000 files are included"));
     }
-}
 
-TEST_SUITE("reader: large scenes") {
+    TEST_CASE("input: numbers up to their limits are read, and those beyond are refused") {
+        const std::string view = "Camera 'perspective' ", end = view + "WorldBegin ",
+                          ball = "Shape 'sphere' ", lit = "LightSource 'point' ",
+                          metal = "Material 'conductor' ", glass = "Material 'dielectric' ",
+                          mesh = "Shape 'trianglemesh' 'point3 P' ",
+                          board =
+                              "Texture 't' "
+                              "'spectrum' 'checkerboard' ";
+        struct {
+            std::string text, inside, outside;  // @: the number
+        } cases[] = {
+            {view + "'float fov' @ WorldBegin ", ".001", ".0009"},
+            {view + "'float fov' @ WorldBegin ", "179.999", "179.9995"},
+            {view + "'float frameaspectratio' @ WorldBegin ", "1e-4", ".9e-4"},
+            {view + "'float frameaspectratio' @ WorldBegin ", "1e4", "1.1e4"},
+            {view + "'float screenwindow' [0 1 0 @] WorldBegin ", "1.8e-5", "1.7e-5"},
+            {view + "'float screenwindow' [0 @ 0 1] WorldBegin ", "1e4", "10001"},
+            {view + "'float screenwindow' [@ 1 0 1] WorldBegin ", "-1e4", "-10001"},
+            {view + "'float lensradius' @ WorldBegin ", "1e6", "1.1e6"},
+            {view + "'float lensradius' @ WorldBegin ", "0", "-1"},
+            {view + "'float lensradius' 1 'float focaldistance' @ WorldBegin ", "1e-6", ".9e-6"},
+            {view + "'float lensradius' 1 'float focaldistance' @ WorldBegin ", "1e9", "1.1e9"},
+            {view + "'float shutterclose' @ WorldBegin ", ".01", "0"},
+            {"Translate @ 0 0 " + end, "1e9", "1.1e9"},
+            {"Scale @ @ @ " + end, "9e5", "1.1e6"},
+            {"Scale @ @ @ " + end, "1.1e-6", ".9e-6"},
+            {"Film 'rgb' 'integer xresolution' @ " + end, "65536", "65537"},
+            {"Film 'rgb' 'integer yresolution' @ " + end, "65536", "65537"},
+            {"Film 'rgb' 'integer yresolution' @ " + end, "1", "0"},
+            {"Film 'rgb' 'integer xresolution' 16384 'integer yresolution' @ " + end, "16384",
+             "16385"},
+            {"Film 'rgb' 'float iso' @ " + end, "9e16", "1.1e17"},
+            {"Film 'rgb' 'float iso' @ " + end, "1e-30", ".9e-30"},
+            {"Sampler 'sobol' 'integer pixelsamples' @ " + end, "16777216", "16777217"},
+            {"Sampler 'stratified' 'integer xsamples' @ " + end, "4096", "4097"},
+            {"Sampler 'stratified' 'integer ysamples' @ " + end, "4096", "4097"},
+            {"Sampler 'stratified' 'integer xsamples' @ " + end, "1", "0"},
+            {"Sampler 'stratified' 'integer ysamples' @ " + end, "1", "0"},
+            {"Integrator 'path' 'integer maxdepth' @ " + end, "1073741824", "1073741825"},
+            {lit + "'point3 from' [0 0 @]", "1e9", "1.1e9"},
+            {lit + "'float scale' @", "9e14", "1.1e15"},
+            {lit + "'blackbody I' @", "500", "499"},
+            {lit + "'blackbody I' @", "1e6", "1.1e6"},
+            {"AreaLightSource 'diffuse' 'float scale' @ " + ball, "9e14", "1.1e15"},
+            {"Material 'diffuse' 'rgb reflectance' [0 0 @]", "1", "1.1"},
+            {"Material 'diffuse' 'spectrum reflectance' [400 0 500 @]", "1", "1.1"},
+            {metal + "'float roughness' @", "100", "101"},
+            {metal + "'rgb eta' [1 @ 1]", "1e4", "1.1e4"},
+            {metal + "'spectrum k' [300 @ 900 @]", "9.9e3", "1.1e4"},
+            {glass + "'float eta' @", "1e-4", ".9e-4"},
+            {glass + "'float eta' @", "1e4", "1.1e4"},
+            {glass + "'bool remaproughness' false 'float roughness' @", ".0009", ".0011"},
+            {ball + "'float radius' @", "1.1e-19", "1e-19"},
+            {ball + "'float radius' @", "1e9", "1.1e9"},
+            {"Translate 9e8 0 0 " + ball + "'float radius' @", "9e7", "1.1e8"},
+            {"Translate 0 9e8 0 Shape 'disk' 'float radius' @", "9e7", "1.1e8"},
+            {"Scale @ @ @ " + ball, "1.1e-19", "1.07e-19"},
+            {"Scale 1 1 @ " + ball, "1.0009", "1.0011"},
+            {"Scale 1 @ 1 " + ball, "1.0009", "1.0011"},
+            {"Scale 1 @ 9 Shape 'disk'", "1.0009", "1.0011"},
+            {"ConcatTransform [1 0 0 0 @ 1 0 0 0 0 1 0 0 0 0 1]" + ball, ".0009", ".0011"},
+            {mesh + "[0 0 0 1 0 0 0 @ 0]", "1e9", "1.1e9"},
+            {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [0 1 @]", "2", "3"},
+            {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [@ 1 2]", "0", "-1"},
+            // A shape is whole where pbrt clamps its limits to the whole.
+            {ball + "'float zmin' @", "-2", "-.99"},
+            {ball + "'float zmin' @", "-1", "2"},
+            {ball + "'float zmax' @", "7", ".5"},
+            {ball + "'float zmax' @", "1", "-2"},
+            {ball + "'float zmax' -1 'float zmin' @", "1", ".5"},
+            {ball + "'float zmin' 3 'float zmax' @", "-3", "5"},
+            {ball + "'float phimax' @", "360.5", "359"},
+            {"Shape 'disk' 'float phimax' @", "1e9", "-360"},
+            {"Shape 'disk' 'float innerradius' @", "0", "-.5"},
+            {"Shape 'cylinder' 'float phimax' @", ".001", ".0009"},
+            {"Texture 't' 'spectrum' 'scale' 'float scale' @", "1e9", "1.1e9"},
+            {board + "'float uscale' @", "1e9", "1.1e9"},
+            {board + "'float vdelta' @", "-1e9", "-1.1e9"},
+            {board + "'integer dimension' @", "2", "1"},
+            {"Scale @ 1 1 " + lit, "9e29", "1.1e30"},
+            {"Scale 1e-20 1e-20 @ " + lit, "1.1e-20", ".9e-20"},
+            {"Transform [1 0 0 @ 0 1 0 0 0 0 1 0 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
+            {"Transform [1 0 0 0 0 1 0 @ 0 0 1 0 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
+            {"Transform [1 0 0 0 0 1 0 0 0 0 1 @ 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
+            {"Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 @] " + lit, "1.0000009", "1.0000011"},
+        };
+        for (const auto& c : cases)
+            for (const std::string& number : {c.inside, c.outside}) {
+                std::string text = c.text;
+                for (size_t at; (at = text.find('@')) != std::string::npos;)
+                    text.replace(at, 1, number);
+                CAPTURE(text);
+                bool in_world = text.find("WorldBegin") == std::string::npos;
+                std::string said = refuse((in_world ? world : "") + unquoted(text) +
+                                          " LightSource \"infinite\" Identity Shape \"sphere\"");
+                if (number == c.inside) CHECK(said == "");
+                if (number == c.outside) CHECK(said.starts_with("scene.pbrt:"));
+            }
+    }
+
     TEST_CASE("input: a scene ends at the limits, each with its place") {
         const std::string sphere = "Shape \"sphere\"\n", disk = "Shape \"disk\"\n",
                           identity = "Identity ",
+                          moves = "ActiveTransform EndTime Scale 2 2 2 ActiveTransform All\n",
+                          triangle =
+                              unquoted("Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 1 1 0]\n"),
                           triangles = unquoted(
                               "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 1 1 0 0 1 0] "
                               "'integer indices' [0 1 2 0 2 3]\n");
-        Limits primitives, vertices, directives;
+        auto named = [](const std::string& begin, int count) {
+            std::string text = begin;
+            for (int i = 0; i < count; i++) text += " \"float x" + std::to_string(i) + "\" 1";
+            return text;
+        };
+        Limits primitives, vertices, directives, placed;
         primitives.primitives = 3, vertices.vertices = 3, directives.directives = 5;
-        std::string parameters = "Shape \"sphere\"";
-        for (int i = 0; i < 100; i++) parameters += " \"float x" + std::to_string(i) + "\" 1";
+        placed.directives = 20;
+        const std::string instance = "ObjectInstance \"a\"\n",
+                          object = "ObjectBegin \"a\"\n" + repeated(sphere, 5) + "ObjectEnd\n";
+        const std::string many = named("Shape \"sphere\"", 100),
+                          attributes = named("Attribute \"light\"", 100);
         struct {
             Limits limits;
             std::string begin, one_more, place, message;
@@ -150,10 +259,26 @@ TEST_SUITE("reader: large scenes") {
             {primitives, sphere + sphere + disk, sphere, "5:1", "3 triangles, spheres and disks"},
             {primitives, sphere + triangles, sphere, "4:1", "3 triangles, spheres and disks"},
             {primitives, sphere, triangles + triangles, "4:1", "3 triangles, spheres and disks"},
+            {primitives, sphere + moves + sphere + disk, sphere, "6:1", "spheres and disks"},
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
+            {vertices, triangle, moves + triangle, "4:1", "more than 3 vertices"},
+            {vertices, sphere, "ObjectBegin \"a\"\n" + triangles + triangles, "5:1",
+             "objects of more than 24 numbers"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
+            {placed, object + repeated(instance, 4), instance, "13:1",
+             "more than 20 shapes of objects are placed"},
             {{}, sphere, repeated("AttributeBegin ", 1001), "3:15001", "more than 1000 deep"},
-            {{}, sphere, parameters + " \"float x\" 1", "3:1406", "has more than 100 parameters"},
+            {{}, sphere, many + " \"float x\" 1", "3:1406", "has more than 100 parameters"},
+            {{},
+             sphere + attributes + '\n',
+             "Attribute \"light\" \"float x\" 1",
+             "4:19",
+             "more than 100 attributes of \"light\""},
+            {{},
+             moves + repeated(sphere, 1000),
+             sphere,
+             "1003:1",
+             "more than 1000 shapes that move"},
         };
         for (const auto& c : cases) {
             CHECK(refuse(world + c.begin, c.limits) == "");

@@ -97,9 +97,7 @@ TEST_SUITE("recorder") {
         for (const Contribution& part : recorder.contributions()) found[part.path_class] = part.L;
         CHECK(found == std::map<std::string, Rgb>{{"LDSE", {0, 2, 0}}, {"LSDDSE", {2, 0, 2}}});
     }
-}
 
-TEST_SUITE("class filter") {
     TEST_CASE("identity: a selection has the classes that its filter matches, or all") {
         ClassSelection scattered("LD(S|D)*E"), part("DE"), all("");
         for (int again = 0; again < 2; again++) {  // then it remembers

@@ -4,18 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstring>
-#include <memory>
-#include <thread>
 
-#include "common/base/stats.h"
+#include "common/base/system.h"
 #include "common/path/camera_sample.h"
-#include "common/rendering/stop.h"
-#include "common/results/results.h"
-#include "common/scene/intersect.h"
-#include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
 namespace {
@@ -88,21 +81,6 @@ constexpr SamplerType samplers[] = {SamplerType::independent, SamplerType::strat
 }  // namespace
 
 TEST_SUITE("render loop") {
-    TEST_CASE("identity: the same bits for any number of threads and each sampler") {
-        Scene scene = empty_scene(53, 37, 3);
-        for (SamplerType type : samplers) {
-            RenderOptions options = stand_in_options(1);
-            options.sampler = type;
-            Rendering one = render_film(scene, options, noise);
-            for (int threads : {2, 3, 7, 1000}) {
-                options.threads = threads;
-                Rendering many = render_film(scene, options, noise);
-                CHECK(same_bits(many.film.image(), one.film.image()));
-                CHECK(many.film.standard_error() == one.film.standard_error());
-            }
-        }
-    }
-
     TEST_CASE("identity: each sample is the function of seed, pixel and number that it should be") {
         Scene scene = empty_scene(21, 18, 3);
         for (SamplerType type : samplers) {
@@ -119,35 +97,6 @@ TEST_SUITE("render loop") {
                     CHECK(image.at(x, y).r == static_cast<float>(r / 3));
                 }
             }
-        }
-    }
-
-    TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler" *
-              doctest::skip()) {
-        Scene scene = empty_scene(64, 32, 16);
-        for (SamplerType type : samplers) {
-            RunningStats means, squares;
-            double covered = 0, naive_squares = 0;
-            constexpr uint32_t seeds = 200;
-            for (uint32_t seed = 0; seed < seeds; seed++) {
-                RenderOptions options = stand_in_options();
-                options.sampler = type;
-                options.seed = seed;
-                Film film = render_film(scene, options, smooth_and_rough).film;
-                double se = film.standard_error(), naive = 0;
-                for (const PixelSum& p : film.pixels()) naive += p.m2() / 15 / 16;
-                naive_squares += naive / 2048 / 2048 / seeds;
-                means.add(film.mean());
-                squares.add(se * se);
-                double truth = 3.5 / 3 * (1.0 / 3 + 0.5 + 0.045);
-                covered += std::abs(film.mean() - truth) < 1.96 * se;
-            }
-            double ratio = std::sqrt(squares.mean() / means.variance());
-            CHECK(ratio > 1 / 1.25);  // the spread of 200 has a standard error of 5 %
-            CHECK(ratio < 1.25);
-            CHECK(covered / seeds > 0.95 - 5 * std::sqrt(0.95 * 0.05 / seeds));
-            double naive_ratio = std::sqrt(naive_squares / means.variance());
-            CHECK((naive_ratio > 1.5) == (type != SamplerType::independent));  // why it is audited
         }
     }
 
@@ -189,55 +138,6 @@ TEST_SUITE("render loop") {
                       static_cast<float>(sum / static_cast<double>(std::max<uint64_t>(n, 1))));
             }
         }
-    }
-
-    TEST_CASE("truth: a signal before the first sample, or in the last one, is not forgotten") {
-        StopOnSignal outer;
-        std::raise(SIGTERM);
-        Scene scene = empty_scene(3, 3, 2);
-        Rendering r = render_film(scene, stand_in_options(), counting);
-        CHECK(r.stats.interrupted);
-        CHECK(r.film.samples() == 0);
-        CHECK(outer.take_request());
-        CHECK_FALSE(outer.requested());
-        CHECK_FALSE(render_film(scene, stand_in_options(), counting).stats.interrupted);
-        auto raising = [](const Scene&, Ray, Sampler&, Recorder&) {
-            std::raise(SIGINT);
-            return Rgb{};
-        };
-        render_film(empty_scene(1, 1, 1), stand_in_options(), raising);
-        CHECK(outer.requested());
-    }
-
-    TEST_CASE("truth: a path that does not end is given up at the limit, and counts nowhere" *
-              doctest::skip()) {
-        // The left half of the picture sees a path without end, the right one a short path.
-        Scene scene = empty_scene(32, 32, 1 << 20);
-        auto half_endless = [](const Scene& s, Ray ray, Sampler& sampler, Recorder& recorder) {
-            Rgb L = {1, 1, 1};
-            recorder.emitted(L);
-            do intersect(s, ray);
-            while (ray.d.x < 0);
-            return L * sampler.u1();
-        };
-        for (SamplerType type : samplers)
-            for (bool by_signal : {false, true}) {
-                RenderOptions options = stand_in_options();
-                options.sampler = type;
-                options.split = "unused";
-                if (!by_signal) options.time = 0.2;
-                std::thread sender([&] {
-                    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-                    if (by_signal) std::raise(SIGINT);
-                });
-                Rendering r = render_film(scene, options, half_endless);
-                sender.join();
-                CHECK(r.stats.seconds < 2);
-                CHECK(r.stats.interrupted == by_signal);
-                uint64_t in_classes = 0;
-                for (const auto& [name, film] : r.classes) in_classes += film.samples();
-                CHECK(in_classes == r.film.samples());
-            }
     }
 
     TEST_CASE("files: what a thread throws reaches the caller") {

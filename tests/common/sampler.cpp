@@ -86,7 +86,7 @@ bool are_equal_tiles(const std::vector<Rectangle>& boxes) {
 
 }  // namespace
 
-TEST_SUITE("sampler: bits") {
+TEST_SUITE("sampler") {
     TEST_CASE("identity: random bits become numbers that are never 1") {
         CHECK(to_unit_float(0xffffffffu) == 0x1.fffffep-1f);
         CHECK(to_unit_float(0) == 0);
@@ -112,9 +112,7 @@ TEST_SUITE("sampler: bits") {
             CHECK(undo_shift(back * 0x96de1b173f119089u, 30) == x);
         }
     }
-}
 
-TEST_SUITE("sampler: uniform and independent") {
     TEST_CASE("density: every number is in [0,1), and as many fall into each of 10 x 10 cells") {
         // One pair per pixel: however a pixel spreads its samples, a single one is uniform.
         for (SamplerType type : all_types)
@@ -201,9 +199,7 @@ TEST_SUITE("sampler: uniform and independent") {
             check_variance(estimates, 1 / (4.0 * (n - 1)), 3);
         }
     }
-}
 
-TEST_SUITE("sampler: strata") {
     TEST_CASE("identity: n strata of area 1/n tile the square for every n from 1 to 200") {
         for (uint32_t n = 1; n <= 200; n++) {
             CAPTURE(n);
@@ -230,9 +226,7 @@ TEST_SUITE("sampler: strata") {
                     CHECK(filled.size() == spp);
                 }
     }
-}
 
-TEST_SUITE("sampler: Sobol") {
     TEST_CASE("truth: every dyadic box holds one of the first 2^m Sobol points") {
         for (int m = 1; m <= 10; m++) CHECK(fills_all_dyadic_boxes(plain_sobol(0, 1u << m), m));
     }

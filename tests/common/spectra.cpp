@@ -49,6 +49,22 @@ TEST_SUITE("spectra") {
         }
     }
 
+    TEST_CASE("truth: what metals reflect at normal incidence") {
+        // By their measured eta and k, at the wavelengths of red, green and blue.
+        for (const auto& [name, R] : {std::pair("Ag", Rgb{0.975f, 0.958f, 0.906f}),
+                                      std::pair("Al", Rgb{0.928f, 0.918f, 0.919f}),
+                                      std::pair("Au", Rgb{0.967f, 0.802f, 0.324f}),
+                                      std::pair("Cu", Rgb{0.952f, 0.620f, 0.511f})}) {
+            Rgb n = metals().at("metal-" + std::string(name) + "-eta"),
+                k = metals().at("metal-" + std::string(name) + "-k");
+            auto F = [](float eta, float kappa) {
+                float square = kappa * kappa;
+                return ((eta - 1) * (eta - 1) + square) / ((eta + 1) * (eta + 1) + square);
+            };
+            CHECK(apart(R, {F(n.r, k.r), F(n.g, k.g), F(n.b, k.b)}) < 2e-3f);
+        }
+    }
+
     TEST_CASE("truth: colors of spectra, by quadrature") {
         // The observer and the spectrum as straight lines between what is known, in steps of 0.01
         // nm.

@@ -73,7 +73,7 @@ struct Gallery {
 };
 
 const std::string square_with_uv =
-    "Shape 'trianglemesh' 'integer indices' [0 1 2 0 2 3] 'point2 uv' [0 0 1 0 1 1 0 1] "
+    "Shape 'trianglemesh' 'integer indices' [1 2 0 2 3 0] 'point2 uv' [0 0 1 0 1 1 0 1] "
     "'point3 P' [0 0 0  1 0 0  1 1 0  0 1 0] ";
 
 /// A hit keeps reflectances to 2e-5.
@@ -113,8 +113,9 @@ TEST_SUITE("textures") {
             Vec2 uv = {4 * random.u1() - 2, 4 * random.u1() - 2};
             texture.scale = {2 * random.u1() - 1, 2 * random.u1() - 1};
             texture.shift = {random.u1(), random.u1()};
+            texture.picture = 1;
             textures.all.push_back(texture);
-            textures.pictures.push_back(picture);
+            textures.pictures = {{1, 1, {{9, 9, 9}}}, picture};
             double s = double{texture.scale.x} * double{uv.x} + double{texture.shift.x};
             double t = double{texture.scale.y} * double{uv.y} + double{texture.shift.y};
             auto near_an_edge = [](double x) { return std::abs(x - std::round(x)) < 1e-4; };
@@ -144,6 +145,7 @@ TEST_SUITE("textures") {
         Scene inverted = gallery.scene(
             square_with_uv, "'string filter' 'point' 'bool invert' true 'float scale' 0.5");
         check(inverted, 0.25f, 0.75f, {0.5f, 1, 1});
+        CHECK(inverted.materials[inverted.shapes[0].material].reflectance == white);  // at most
         // The way of chapter 05.
         Ray ray = {{0.25f, 0.75f, -1}, {0, 0, 1}};
         Hit hit;
@@ -194,6 +196,73 @@ TEST_SUITE("textures") {
                 CHECK(seen(scene, centre + from, sphere ? centre : centre + d) == colors[i]);
             }
         }
+        // Rows of a picture: by the angle from the pole, or by the distance from the middle.
+        Image rows(1, 8);
+        for (int i = 0; i < 8; i++) rows.at(0, i).g = static_cast<float>(i) / 8;
+        Gallery striped(rows);
+        Scene ball = striped.scene("Shape 'sphere'"), disk = striped.scene("Shape 'disk'");
+        for (int i = 0; i < 8; i++) {
+            float part = (static_cast<float>(i) + 0.5f) / 8, sine = std::sin(part * pi);
+            Vec3 d = {0.6f * sine, 0.8f * sine, std::cos(part * pi)};
+            Vec3 on_it = {0.6f * part, 0.8f * part, 0};
+            CHECK(near(seen(ball, 3 * d, {}), rows.at(0, i)));
+            CHECK(near(seen(disk, on_it + Vec3{0, 0, 1}, on_it), rows.at(0, i)));
+        }
+    }
+
+    TEST_CASE("truth: the picture on a cylinder goes around it, from its lower end to its upper") {
+        Scene tube = Gallery().scene("Shape 'cylinder' 'float radius' 2");
+        CHECK(near(seen(tube, {-0.1f, 20, 0.5f}, {0, 0, 0.5f}), red));
+        CHECK(near(seen(tube, {-0.1f, -20, 0.5f}, {0, 0, 0.5f}), green));
+        CHECK(near(seen(tube, {-0.1f, 20, -0.5f}, {0, 0, -0.5f}), blue));
+        CHECK(near(seen(tube, {-0.1f, -20, -0.5f}, {0, 0, -0.5f}), white));
+    }
+
+    TEST_CASE("input: pictures of the sky: their maps, axes and scale, and what they may not be") {
+        TemporaryFolder folder;
+        auto read = [&](int width, int height, Rgb L, const std::string& before) {
+            Image image(width, height);
+            for (Rgb& p : image.pixels) p = L;
+            write_image(folder / "a.pfm", image, "");
+            std::string text = "Film 'rgb' 'float iso' 50 Camera 'perspective' WorldBegin " +
+                               before +
+                               " LightSource 'infinite' 'string filename' 'a.pfm' 'float scale' 4 "
+                               "Identity Shape 'sphere'";
+            return *parse_scene(folder / "s.pbrt", unquoted(text), nullptr).sky_image;
+        };
+        const std::string shear = "ConcatTransform [1 0 0 0  0 1 0 0  ";
+        for (int width : {2, 4}) {
+            SkyImage sky = read(width, 2, {1, 2, 3}, "Rotate 90 0 0 1 Scale 2 3 -1");
+            CHECK(sky.map == (width == 2 ? SkyImage::Map::square : SkyImage::Map::wide));
+            CHECK(sky.width == width);
+            CHECK(sky.height == 2);
+            CHECK(sky.pixels == std::vector<Rgb>(static_cast<size_t>(2 * width), Rgb{2, 4, 6}));
+            CHECK(length(sky.x - Vec3{0, 1, 0}) < 1e-6f);
+            CHECK(length(sky.y - Vec3{-1, 0, 0}) < 1e-6f);
+            CHECK(sky.z == Vec3{0, 0, -1});
+        }
+        const Rgb some = {1, 1, 1};
+        struct {
+            int width, height;
+            Rgb L;
+            std::string before;
+            bool is_read;
+        } cases[] = {
+            {2, 2, {2e14f, 0, 0}, "", true},
+            {2, 2, {3e14f, 0, 0}, "", false},
+            {2, 2, {1, -1, 1}, "", false},
+            {2, 2, {0, 0, 0}, "", false},
+            {3, 2, some, "", false},
+            {2, 4, some, "", false},
+            {2, 2, some, shear + "9e-5 0 1 0  0 0 0 1]", true},
+            {2, 2, some, shear + "11e-5 0 1 0  0 0 0 1]", false},
+            {2, 2, some, shear + "0 11e-5 1 0  0 0 0 1]", false},
+            {2, 2, some, "ConcatTransform [1 0 0 0  11e-5 1 0 0  0 0 1 0  0 0 0 1]", false},
+        };
+        for (const auto& c : cases) {
+            std::string said = error_of([&] { read(c.width, c.height, c.L, c.before); });
+            CHECK(said.empty() == c.is_read);
+        }
     }
 
     TEST_CASE("truth: codes of a .png are sRGB, linear, or a power, and a .pfm has none") {
@@ -211,6 +280,10 @@ TEST_SUITE("textures") {
         CHECK(near(value("linear", "a.png"), code));
         CHECK(near(value("gamma 3", "a.png"), code * code * code));
         CHECK(near(value("gamma 3", "a.pfm"), 0.5));
+        CHECK(near(value("gamma .01", "a.png"), std::pow(code, 0.01)));
+        CHECK(near(value("gamma 100", "a.png"), 0));
+        for (const char* none : {"srgb", "gamma .009", "gamma 101", "gamma x"})
+            CHECK_THROWS_AS(value(none, "a.png"), InputError);
     }
 
     TEST_CASE("truth: checkerboards, scaled and constant textures, and metal") {
@@ -238,22 +311,6 @@ TEST_SUITE("textures") {
         CHECK(F.b == 0);
     }
 
-    TEST_CASE("input: uv of a mesh in a PLY file, by all the names that they have") {
-        Gallery gallery;
-        for (const char* names : {"u v", "s t", "texture_u texture_v", "texture_s texture_t"}) {
-            std::string header = "ply\nformat ascii 1.0\nelement vertex 3\n", name;
-            for (std::istringstream words("x y z " + std::string(names)); words >> name;)
-                header += "property float " + name + '\n';
-            write_file_atomically(gallery.folder / "a.ply",
-                                  header +
-                                      "element face 1\nproperty list uchar int vertex_indices\n"
-                                      "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
-            Scene scene = gallery.scene("Shape 'plymesh' 'string filename' 'a.ply'");
-            CHECK(seen(scene, {0.2f, 0.7f, -1}, {0.2f, 0.7f, 0}) == red);
-            CHECK(seen(scene, {0.7f, 0.2f, -1}, {0.7f, 0.2f, 0}) == white);
-        }
-    }
-
     TEST_CASE("input: pictures that cannot be used, and meshes without uv, are refused in a line") {
         Image image = four_corners();
         image.pixels[0].g = NAN;
@@ -262,13 +319,14 @@ TEST_SUITE("textures") {
         limits.texels = 3;
         auto refused = [&](const std::string& file, const std::string& place,
                            const Limits& own = {}) {
-            std::string world = "Shape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]";
+            std::string world =
+                square_with_uv + "\nShape 'trianglemesh' 'point3 P' [0 0 0 1 0 0 0 1 0]";
             return error_of([&] { gallery.scene(world, "", file, own); })
                 .starts_with(gallery.folder / "scene.pbrt:" + place + ": error: ");
         };
         CHECK(refused("b.png", "2:35"));
         CHECK(refused("a.pfm", "2:35"));  // not a number
-        CHECK(refused("a.png", "4:1"));   // the mesh has no uv
+        CHECK(refused("a.png", "5:1"));   // a mesh has no uv
         CHECK(refused("a.png", "2:35", limits));
     }
 }

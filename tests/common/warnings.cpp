@@ -4,11 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include "common/base/files.h"
 #include "common/results/black_picture.h"
 #include "tests/support/estimators.h"
-#include "tests/support/folder.h"
-#include "tests/support/run_program.h"
 
 namespace {
 
@@ -93,18 +90,6 @@ bool tells(const std::string& world, LightSearch search, const Film& film,
            const std::string& words) {
     Lines lines = told(seen(world), search, film);
     return std::ranges::any_of(lines, [&](const auto& line) { return has(line, words); });
-}
-
-/// What a program says of a scene.
-std::string said_of(const std::string& program, const std::string& scene) {
-    TemporaryFolder folder;
-    std::string file = folder / "scene.pbrt";
-    write_file_atomically(file, scene);
-    Finished end = run(
-        program, {file, "--size", "16x16", "--spp", "16", "--stand-in", "--out", folder / "a.pfm"});
-    CAPTURE(end.err);
-    REQUIRE(end.code == 0);
-    return end.out;
 }
 
 }  // namespace
@@ -327,21 +312,5 @@ TEST_SUITE("warnings") {
         // What a chapter has to say of its own comes last.
         Rendering r{film_with(2, [](size_t, int) { return 0; }), {}, {}, 0, {"its own"}};
         CHECK(are(warnings_of(lit, {}, r), {"the picture is black", between, "its own"}));
-    }
-
-    TEST_CASE("failure: the program of every chapter says that a picture is black, and why") {
-        for (const std::string& program : programs(true)) {
-            CAPTURE(program);
-            std::string dark = said_of(program, camera() + grey_floor + turned_lamp);
-            CHECK(has(dark, "warning: the picture is black: no sample found light\n"));
-            CHECK(has(dark, "warning: possible cause: the lights and all that is in view face"));
-            // A sky alone is as bright as it is; light paths do not show it.
-            if (program == "20_light_tracing") continue;
-            for (std::string shapes : {"", "Material \"interface\" Shape \"sphere\""}) {
-                std::string bright = said_of(program, camera() + sky + shapes);
-                CHECK(has(bright, "mean 1.000000"));
-                CHECK(!has(bright, "warning: "));
-            }
-        }
     }
 }

@@ -7,7 +7,7 @@
 #include "common/path/sampler.h"
 
 /// Whether two hits are the same, as far as float tells: the hierarchy works out most distances in
-/// float, the linear scan all of them in double precision (what is right: exact_hits.cpp). Where
+/// float, the linear scan all of them in double precision (what is right: intersect.cpp). Where
 /// two primitives meet, either may be the one.
 inline bool same_hit(const PrimHit& a, const PrimHit& b) {
     if (a.prim == PrimHit::none || b.prim == PrimHit::none) return a.prim == b.prim;

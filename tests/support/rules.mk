@@ -1,7 +1,7 @@
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 # Most tests run for less time than it takes to compile them by -O3.
-brief := $(filter-out %/exact_hits.o $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
+brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
 $(brief): own_flags += $(briefly)
 
 # Most tests include the same headers: see common/base/rules.mk.

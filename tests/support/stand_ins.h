@@ -33,10 +33,3 @@ inline RenderOptions parsed(std::vector<std::string> words, const std::vector<Op
     return parse_render_options(static_cast<int>(argv.size()), argv.data(), "07_x", "scenes/a.pbrt",
                                 extra, takes);
 }
-
-/// Smooth in two dimensions, rough in a third: what stratification gains is in between.
-inline Rgb smooth_and_rough(const Scene&, Ray, Sampler& sampler, Recorder&) {
-    Vec2 u = sampler.u2(), v = sampler.u2();
-    float L = u.x * u.x + u.y + (v.x + v.y < 0.3f ? 1.0f : 0.0f);
-    return {L, 2 * L, L / 2};
-}
