@@ -4,7 +4,7 @@
 #include "chapters/10_cosine_sampling/estimator.h"
 #include "chapters/13_glossy/estimator.h"
 #include "chapters/14_mis/estimator.h"
-#include "tests/support/known_lights.h"
+#include "tests/known/scenes.h"
 #include "tests/support/plates.h"
 
 using ch14::balance_heuristic, ch14::power_heuristic;
@@ -163,8 +163,8 @@ TEST_SUITE("ch14 mis") {
     }
 
     TEST_CASE("agreement: each weight belongs to the last vertex, also after several") {
-        for (const std::string& board : boards) {
-            Scene scene = board_beside_lamp(board);
+        for (const char* name : {"wall-beside", "mirror-beside", "metal-beside"}) {
+            Scene scene = scene_of(known_scene(name).text);
             CHECK(check_classes(scene, by_light(scene), scene, by_mis(scene), 200000) >= 6);
         }
     }

@@ -73,7 +73,6 @@ Geometry ball_on_a_plain() {
 std::vector<Geometry> meshes() {
     return {furnished_room(2),
             closed_mesh(3),
-            tree(2, 6),
             hair(60),
             slivers(300, 1e2f),
             slivers(300, 1e4f),

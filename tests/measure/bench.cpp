@@ -29,14 +29,11 @@ struct BenchMesh {
 std::vector<BenchMesh> all_meshes() {
     Vec3 hall_eye = {-9, 1.7f, 0.5f}, hall_at = {5, 2.5f, 0}, hall_light = {0, 7.5f, 0};
     auto room = [] { return furnished_room(24); };
-    auto corner = [] { return dense_corner(100); };
     return {
         {"Cornell box", cornell_box, {0.5f, 0.5f, -1.4f}, {0.5f, 0.5f, 0}, {0.5f, 0.98f, 0.5f}, 39},
-        {"dense corner", corner, {0.5f, 3, 0.5f}, {9, 0.5f, 9}, {5, 5.5f, 5}, 60},
         {"hall 68 k", [] { return hall(8); }, hall_eye, hall_at, hall_light, 65},
         {"hall 1.4 M", [] { return hall(36); }, hall_eye, hall_at, hall_light, 65},
         {"furnished room", room, {-2.6f, 1.6f, 1.9f}, {1, 0.8f, -0.5f}, {0, 2.8f, 0}, 65},
-        {"tree", [] { return tree(5, 40); }, {0, 2, -9}, {0, 3.6f, 0}, {10, 20, -10}, 50},
         {"hair", [] { return hair(20000); }, {0, 0.5f, -3.5f}, {0, 0, 0}, {2, 4, -3}, 40},
     };
 }

@@ -6,7 +6,6 @@
 #include "common/base/error.h"
 #include "common/picture/comparison.h"
 #include "tests/measure/finding.h"
-#include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
 #include "tests/measure/reference.h"
 #include "tests/support/work.h"
@@ -52,7 +51,7 @@ const Curve* measure_of_all(const std::vector<Curve>& curves) {
 /// for one that is exact from the first sample on.
 std::string times_faster(const Curve& curve, const Curve* first) {
     if (curve.spp.empty() || !first) return "-";
-    return curve.flat() ? "never" : two_digits(times_faster(curve.rel_mse, first->rel_mse));
+    return curve.flat() ? "never" : short_number(times_faster(curve.rel_mse, first->rel_mse));
 }
 
 /// Renders with 1, 4, 16, ... spp, `runs` of each, for about `seconds` of all processors together,
@@ -126,7 +125,7 @@ void add_summary(const std::string& scene, const std::vector<Curve>& curves, Tab
                    short_number(c.spp.back()),
                    short_number(c.rel_mse.seconds.back()),
                    short_number(c.rel_mse.error.back()),
-                   two_digits(c.slope)};
+                   short_number(c.slope)};
         row.push_back(times_faster(c, first));
         summary.rows.push_back(row);
     }

@@ -2,8 +2,6 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 #include <vector>
 
 /// An error that falls with time: relMSE, which is inverse to the time where all is well.
@@ -33,13 +31,4 @@ inline double times_faster(const ErrorLine& one, const ErrorLine& other) {
     if (one.error.empty() || other.error.empty()) return NAN;
     double error = std::min(one.error.back(), other.error.back());
     return seconds_at(other, error) / seconds_at(one, error);
-}
-
-/// 0.074, 1.3, 74, 110: measured times are not better than that.
-inline std::string two_digits(double x) {
-    char text[64];
-    double unit = x >= 99.5 ? std::pow(10, std::floor(std::log10(x + 0.5)) - 1) : 0;
-    std::snprintf(text, sizeof text, unit > 0 ? "%.0f" : "%.2g",
-                  unit > 0 ? std::round(x / unit) * unit : x);
-    return text;
 }

@@ -22,6 +22,9 @@ struct MeasureOptions {
     std::string out = "out";  // folder for tables and charts
 };
 
+/// The words of "A,B".
+std::vector<std::string> split_list(const std::string& text);
+
 /// Reads the command line over `defaults`.
 MeasureOptions parse_measure_options(int argc, char** argv, const std::string& positional,
                                      const std::string& about, const MeasureOptions& defaults,
@@ -36,11 +39,25 @@ Scene load_scene_for(const std::string& path, const MeasureOptions& options);
 Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOptions& options,
                       int spp, uint32_t seed, bool classes = false);
 
+/// How many samples per pixel it takes in these seconds of one render, by a short one.
+int samples_in(double seconds, const NamedMethod& method, Scene& scene,
+               const MeasureOptions& options, bool classes = false);
+
 /// Writes the table to FOLDER/NAME.tsv, and makes the folder.
 void write_table(const std::string& folder, const std::string& name, const Table& table);
 
 /// x with three significant digits, without an exponent where that is short.
 std::string short_number(double x);
+
+/// One line of a chart: what was measured.
+struct Line {
+    std::string panel, label, color;
+    std::vector<double> x = {}, y = {};
+};
+/// Writes FOLDER/NAME.tsv, which plot.gp draws as NAME.svg and NAME.png.
+void write_lines(const std::string& folder, const std::string& name, const std::string& title,
+                 const std::string& x_label, const std::string& y_label,
+                 const std::vector<Line>& lines);
 
 /// The table in Markdown, its columns aligned so that it reads as plain text too.
 std::string markdown(const Table& table);

@@ -4,7 +4,6 @@
 #include "chapters/26_radiosity/run.h"
 #include "common/picture/comparison.h"
 #include "common/scene/diffuse_meshes.h"
-#include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 

@@ -119,24 +119,3 @@ inline Scene floor_without_lights() {
     for (Shape& shape : none.shapes) shape.light = -1;
     return none;
 }
-
-/// A board beside a floor close under a lamp, seen from between the two, and two weaker lamps. On
-/// the floor both strategies have about the same density, at the board other ones: weights that
-/// belong to another vertex than the last one show in the light of two bounces and more.
-inline Scene board_beside_lamp(const std::string& material) {
-    Scene scene = scene_of(
-        "LookAt -0.4 0.1 0  1 0.1 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
-        "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n"
-        "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Scale 20 1 20 " +
-        square(0, true) + "AttributeEnd\nAttributeBegin " + material +
-        " Translate 0.7 0.5 0 Rotate 90 0 0 1 Scale 0.5 0.5 0.5 " + square(0, true) +
-        "AttributeEnd\n" + black_lamp("1", unit_square(0.2)) +
-        black_lamp(".3", unit_square(1.5, 0, 1.2)) + black_lamp(".1", unit_square(1.5, 0, -1.2)));
-    scene.max_depth = 4;
-    return scene;
-}
-inline const std::vector<std::string> boards = {
-    "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]",
-    "Material \"conductor\" \"rgb reflectance\" [.9 .9 .9]",
-    "Material \"conductor\" \"rgb reflectance\" [.9 .9 .9] \"float roughness\" 0.2"
-    " \"bool remaproughness\" false"};

@@ -4,13 +4,9 @@
 #include "tests/support/estimators.h"
 
 /// A picture of the classes of path that the filter matches.
-inline Film film_of_classes(Scene scene, const Method& method, int spp, const std::string& paths,
-                            uint32_t seed = 1) {
-    scene.spp = spp;
-    RenderOptions options;
-    options.threads = static_cast<int>(std::thread::hardware_concurrency());
-    options.seed = seed, options.quiet = true, options.paths = paths;
-    return render_film(scene, options, method).film;
+inline Film film_of_classes(const Scene& scene, const Method& method, int spp,
+                            const std::string& paths, uint32_t seed = 1) {
+    return film_of(scene, method, spp, seed, SamplerType::independent, paths).film;
 }
 /// Its mean, and the standard error of this.
 inline Measured picture_of(const Scene& scene, const Method& method, int spp,

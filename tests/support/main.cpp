@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "tests/support/process.h"
-#include "tests/support/program.h"
 #include "tests/support/seal.h"
 
 namespace {

@@ -129,22 +129,6 @@ inline Geometry hall(uint32_t detail) {
     return g;
 }
 
-/// A hall of 10 x 6 x 10 of few triangles, and 27 balls of n^2 in one corner of it.
-inline Geometry dense_corner(uint32_t n) {
-    Geometry g;
-    add_box(g, {0, 0, 0}, {10, 6, 10});
-    for (int k = 1; k <= 8; k++) {
-        float x = static_cast<float>(k);
-        add_box(g, {x, 0, 4}, {x + 0.3f, 6, 4.3f});
-    }
-    for (int k = 0; k < 27; k++) {
-        float x = static_cast<float>(k % 3), y = static_cast<float>(k / 3 % 3),
-              z = static_cast<float>(k / 9);
-        add_bumpy_ball(g, Vec3{9.3f, 0.15f, 9.3f} + 0.2f * Vec3{x, y, z}, 0.1f, n);
-    }
-    return g;
-}
-
 /// Long thin triangles across all axes in the unit cube: boxes that hold next to nothing.
 inline Geometry thin_diagonals(uint32_t n) {
     Geometry g;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "tests/support/process.h"
-#include "tests/support/program.h"
 
 using Words = std::vector<std::string>;
 

@@ -52,12 +52,12 @@ std::string square(float y, bool up) {
 }
 
 Rendering film_of(const Scene& scene, const Method& method, int spp, uint32_t seed,
-                  SamplerType sampler) {
+                  SamplerType sampler, const std::string& paths) {
     Scene of_spp = scene;
     of_spp.spp = spp;
     RenderOptions options;
     options.seed = seed;
-    options.sampler = sampler;
+    options.sampler = sampler, options.paths = paths;
     options.threads = static_cast<int>(std::thread::hardware_concurrency());
     options.quiet = true;
     Rendering r = render_film(of_spp, options, method);

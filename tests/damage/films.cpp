@@ -1,4 +1,4 @@
-// The hashes of the code of chapters, which make finds.
+// Films: renders that are killed, parts by job runners, and the hashes of the code of chapters.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -8,6 +8,30 @@
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
+
+namespace {
+
+Finished run_script(const char* script, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {"bash", script, program_folder};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return Process(words).wait();
+}
+
+}  // namespace
+
+TEST_SUITE("films, slow") {
+    TEST_CASE("identity: renders killed 30 times lose nothing") {
+        Finished end = run_script("tests/damage/kills", {"30"});
+        CHECK(end.code == 0);
+        MESSAGE(end.out);
+    }
+
+    TEST_CASE("identity: parts by a job runner have the bytes of one run") {
+        Finished end = run_script("tests/damage/parts", {});
+        CHECK(end.code == 0);
+        MESSAGE(end.out);
+    }
+}
 
 TEST_SUITE("films of parts") {
     TEST_CASE(
