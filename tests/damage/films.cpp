@@ -9,27 +9,14 @@
 
 namespace fs = std::filesystem;
 
-namespace {
-
-Finished run_script(const char* script, const std::vector<std::string>& arguments) {
-    std::vector<std::string> words = {"bash", script, program_folder};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return Process(words).wait();
-}
-
-}  // namespace
-
 TEST_SUITE("films, slow") {
-    TEST_CASE("identity: renders killed 30 times lose nothing") {
-        Finished end = run_script("tests/damage/kills", {"30"});
-        CHECK(end.code == 0);
-        MESSAGE(end.out);
-    }
-
-    TEST_CASE("identity: parts by a job runner have the bytes of one run") {
-        Finished end = run_script("tests/damage/parts", {});
-        CHECK(end.code == 0);
-        MESSAGE(end.out);
+    TEST_CASE("identity: renders that are killed, and parts by job runners, lose nothing") {
+        for (const char* script : {"kills", "parts"}) {
+            Words words = {"bash", "tests/damage/" + std::string(script), program_folder, "30"};
+            Finished end = Process(words).wait();
+            CHECK(end.code == 0);
+            MESSAGE(end.out);
+        }
     }
 }
 

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "common/base/error.h"
-#include "tests/measure/agreement.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 

@@ -5,9 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/picture/comparison.h"
-#include "tests/measure/finding.h"
 #include "tests/measure/measure.h"
-#include "tests/measure/reference.h"
 #include "tests/support/work.h"
 
 namespace {
@@ -103,12 +101,11 @@ void draw_curves(const std::string& folder, const std::string& scene,
 
 /// All curves of a scene.
 std::vector<Curve> measure_scene(const std::string& path, const std::vector<NamedMethod>& methods,
-                                 const MeasureOptions& o, double seconds, Work& work) {
+                                 const MeasureOptions& o, double seconds) {
     Scene scene = load_scene_for(path, o);
     Truth truth = truth_of(scene);
     std::vector<Curve> curves;
     for (const NamedMethod& method : methods) {
-        work.next(scene_name(path) + ", " + method.name);
         if (!can_render(method, scene)) continue;
         curves.push_back(measure_curve(method, scene, truth, o, seconds));
     }
@@ -141,15 +138,6 @@ std::vector<NamedMethod> methods_for(const MeasureOptions& o, const std::string&
     return methods_named(names);
 }
 
-/// One step for each method on each scene.
-size_t steps_of(const MeasureOptions& o) {
-    size_t steps = 0;
-    for (const std::string& word : o.words) {
-        steps += methods_for(o, scene_name(find_scene(word))).size();
-    }
-    return steps;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -159,20 +147,19 @@ int main(int argc, char** argv) {
             "Error against time of every method on every scene, against references of known error "
             "(make references). Writes chart-SCENE.svg, .png and .tsv, and chart-summary.tsv.",
             {.spp = 0, .runs = 4, .width = 64, .height = 64, .seconds = 600});
-        if (o.words.empty()) {
-            o.words = own_scenes();
-        }
+        if (o.words.empty()) o.words = own_scenes();
         Work work("chart: error against time on " + std::to_string(o.words.size()) + " scenes",
-                  static_cast<double>(steps_of(o)), o.seconds);
+                  static_cast<double>(o.words.size()), o.seconds);
         Table summary{{"scene", "method", "spp", "seconds", "relMSE", "slope", "times faster"}, {}};
         for (const std::string& word : o.words) {
             std::string path = find_scene(word), name = scene_name(path);
+            work.next(name);
             std::vector<NamedMethod> methods = methods_for(o, name);
             double seconds = o.seconds * o.threads / static_cast<double>(o.words.size()) /
                              static_cast<double>(methods.size());
             std::vector<Curve> curves;
             try {
-                curves = measure_scene(path, methods, o, seconds, work);
+                curves = measure_scene(path, methods, o, seconds);
             } catch (const InputError& e) {
                 std::printf("left out: %s\n", e.what());
                 continue;

@@ -175,6 +175,20 @@ std::string file_name(std::string scene_name) {
     return scene_name;
 }
 
+std::map<std::string, Reference> read_references() {
+    std::map<std::string, Reference> all;
+    std::istringstream lines(read_file(reference_table));
+    std::string line, scene;
+    std::getline(lines, line);  // the names of the columns
+    while (std::getline(lines, line)) {
+        std::istringstream cells(line);
+        Reference r;
+        cells >> scene >> r.method >> r.spp >> r.max_depth >> r.rmse;
+        all[scene] = r;
+    }
+    return all;
+}
+
 std::string find_scene(const std::string& name) {
     if (std::filesystem::exists(name)) return name;
     std::vector<std::string> known;

@@ -1,12 +1,13 @@
 // What the measuring programs share: their options, renders with different seeds, and what the
 // spread of those says.
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
 #include "common/options/command_line.h"
 #include "common/results/table.h"
-#include "tests/measure/spread.h"
+#include "tests/measure/numbers.h"
 #include "tests/methods/table.h"
 
 /// What all measuring programs understand; each has its own defaults.
@@ -71,6 +72,19 @@ std::string scene_name(const std::string& path);
 
 /// The same as part of a file's name: without a slash.
 std::string file_name(std::string scene_name);
+
+/// How a scene's picture was made, and the error that is expected of it.
+struct Reference {
+    std::string method;
+    int spp = 0, max_depth = 0;
+    double rmse = 0;
+};
+
+inline const std::string reference_folder = "tests/measure/references/";
+inline const std::string reference_table = reference_folder + "table.tsv";
+
+/// The table of all references, by file_name(scene_name) of the scene: the picture's name.
+std::map<std::string, Reference> read_references();
 
 /// The path of a scene from its path or its scene_name, or UsageError.
 std::string find_scene(const std::string& name);

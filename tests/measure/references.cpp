@@ -4,7 +4,6 @@
 
 #include "common/base/error.h"
 #include "tests/measure/measure.h"
-#include "tests/measure/reference.h"
 #include "tests/support/work.h"
 
 namespace {

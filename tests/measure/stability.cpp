@@ -70,20 +70,14 @@ Number measured(const Prediction& p, const Observed& seen, const StabilityCase& 
 constexpr const char* metrics[] = {"relative variance", "coverage", "runs below half the truth",
                                    "runs of 0 +- 0", "mean over truth"};
 
-struct Verdict {
-    std::string word;  // holds, fails as predicted, FAILS
-    std::string said = {};
-    std::string text() const { return said.empty() ? word : word + ": " + said; }
-};
-
 /// Whether the numbers are what was predicted. What nobody predicted to fail must hold: all samples
 /// finite, no bias, and intervals that cover the truth.
-Verdict judge(const Observed& seen, const StabilityCase& c,
-              const std::vector<Prediction>& predictions) {
-    Verdict v{"holds"};
+std::string judge(const Observed& seen, const StabilityCase& c,
+                  const std::vector<Prediction>& predictions) {
+    std::string word = "holds", said;
     bool right = true;
     auto say = [&](const std::string& text, bool agrees) {
-        v.said += (v.said.empty() ? "" : "; ") + text + (agrees ? "" : ", NOT SO");
+        said += (said.empty() ? ": " : "; ") + text + (agrees ? "" : ", NOT SO");
         right = right && agrees;
     };
     std::map<Metric, bool> predicted;
@@ -94,7 +88,7 @@ Verdict judge(const Observed& seen, const StabilityCase& c,
         say(std::string(metrics[static_cast<int>(p.metric)]) + " " + short_number(m.value) +
                 (p.at_most ? " (at most " : " (") + short_number(p.value) + ")",
             p.at_most ? away <= gate : std::abs(away) <= gate);
-        if (p.fails) v.word = "fails as predicted";
+        if (p.fails) word = "fails as predicted";
     }
     double bias = std::abs(seen.mean.mean() - c.truth);
     double gate = 5 * seen.mean.standard_error() + rounding * c.truth;
@@ -103,21 +97,7 @@ Verdict judge(const Observed& seen, const StabilityCase& c,
     bool covers = seen.covered / seen.runs >= 0.87;
     if (!predicted[Metric::coverage] && !covers) say("intervals that cover", false);
     if (seen.not_finite > 0) say("finite samples", false);
-    if (!right) v.word = "FAILS";
-    return v;
-}
-
-std::vector<std::string> row_of(const StabilityCase& c, const NamedMethod& method,
-                                const Observed& seen, const Verdict& verdict) {
-    double se = seen.mean.standard_error(), away = seen.mean.mean() - c.truth;
-    auto percent = [](double share) { return short_number(100 * share); };
-    return {c.name,
-            method.name,
-            short_number(seen.mean.mean()),
-            std::abs(away) <= rounding * c.truth ? "0" : short_number(away / se),
-            percent(seen.covered / seen.runs),
-            short_number(seen.not_finite),
-            verdict.text()};
+    return (right ? word : "FAILS") + said;
 }
 
 void judge_case(const StabilityCase& c, const MeasureOptions& o, Table& rows, Work& work) {
@@ -129,8 +109,13 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Table& rows, Wo
             if (!can_render(method, scene))
                 throw InputError("error: " + method.name + " refuses " + c.name);
             Observed seen = observe(method, scene, c, o);
-            Verdict verdict = judge(seen, c, expected.predictions);
-            rows.rows.push_back(row_of(c, method, seen, verdict));
+            double away = seen.mean.mean() - c.truth;
+            bool exact = std::abs(away) <= rounding * c.truth;
+            rows.rows.push_back({c.name, method.name, short_number(seen.mean.mean()),
+                                 exact ? "0" : short_number(away / seen.mean.standard_error()),
+                                 short_number(100 * (seen.covered / seen.runs)),
+                                 short_number(seen.not_finite),
+                                 judge(seen, c, expected.predictions)});
         }
     }
     for (const NamedMethod& method : methods_named(split_list(c.refuse))) {

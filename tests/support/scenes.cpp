@@ -91,12 +91,8 @@ Agreement hold_against(const Film& a, const Film& b, int block_side) {
 }
 
 void check_agreement(const Agreement& a, double relative_se) {
-    CAPTURE(a.z_image);
-    CAPTURE(a.worst_z);
-    CAPTURE(a.worst_x);
-    CAPTURE(a.worst_y);
-    CAPTURE(a.relative);
-    CAPTURE(a.relative_se);
+    INFO("image " << a.z_image << " standard errors, " << a.relative << " +- " << a.relative_se
+                  << "; block " << a.worst_x << "," << a.worst_y << ": " << a.worst_z);
     CHECK(a.agrees());
     CHECK(a.relative_se <= relative_se);
 }
