@@ -1,6 +1,7 @@
 // Damages scenes and meshes at random, and asks that the reader refuses or reads them, no more.
 #pragma once
 #include <bit>
+#include <ctime>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -193,6 +194,8 @@ inline void check_scene(const Scene& scene) {
     };
     check_geometry(scene.geometry);
     for (const Mover& mover : scene.movers) check_geometry(mover.geometry);
+    if (scene.sky_image)
+        for (Rgb L : scene.sky_image->pixels) require(is_light(L), "pixel of the sky");
     require(scene.width > 0 && scene.height > 0 && scene.spp > 0 && scene.max_depth >= 0, "film");
     const Camera& c = scene.camera;
     require(is_finite(c.o) && is_finite(c.forward), "camera is not finite");
@@ -280,6 +283,7 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
         }
         std::vector<std::string> notes;
         ::alarm(100);  // s, until a signal ends the program
+        std::clock_t start = std::clock();
         try {
             check_scene(parse_scene(path, bytes, &notes, {}, {}, dice.below(2) == 0));
             result.read++;
@@ -290,6 +294,8 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
             throw std::logic_error("input " + std::to_string(i) + ": " + error.what());
         }
         if (notes.size() > 101) throw std::logic_error("notes without an end");
+        if (std::clock() - start > 10 * CLOCKS_PER_SEC)
+            throw std::logic_error("input " + std::to_string(i) + " takes more than 10 s");
     }
     ::alarm(0);
     return result;

@@ -223,6 +223,15 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
                        [&](const std::string& name) { return predicted.contains(name); });
 }
 
+/// Whether two predictions were not measured precisely enough to tell them apart by any tile.
+bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {
+    return std::none_of(evidence.begin(), evidence.end(), [&](const auto& tile) {
+        Quantity p = prediction(a, tile.first, 0.002), r = prediction(b, tile.first, 0.002);
+        double error = std::hypot(4 * p.se, 4 * r.se, 0.01 * p.mean) + 1e-3;
+        return std::abs(p.mean - r.mean) > error;
+    });
+}
+
 }  // namespace
 
 Folder read_folder(const std::string& folder) {
@@ -308,7 +317,8 @@ Diagnosis judge(const Folder& folder, const std::vector<Hypothesis>& effects) {
     std::vector<std::string> best;
     for (const Fit& fit : fits) {
         const Hypothesis& h = *fit.hypothesis;
-        if (fit.log_likelihood < fits[0].log_likelihood - std::log(1000)) break;
+        bool is_less_likely = fit.log_likelihood < fits[0].log_likelihood - std::log(1000);
+        if (is_less_likely && !are_alike(h, *fits[0].hypothesis, evidence)) continue;
         if (std::find(best.begin(), best.end(), h.text) == best.end()) best.push_back(h.text);
     }
     if (best.size() <= 2)

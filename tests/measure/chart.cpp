@@ -29,13 +29,12 @@ struct Truth {
 Truth truth_of(const Scene& scene) {
     std::string name = file_name(scene_name(scene.file));
     auto references = read_references();
-    auto found = references.find(name);
-    if (found == references.end() || found->second.max_depth != scene.max_depth)
-        throw InputError(name + ": error: no reference of this depth; run: make references");
+    const Reference& reference = references[name];
     Image image = read_image(reference_folder + name + ".pfm");
-    if (image.width != scene.width || image.height != scene.height)
-        throw InputError(name + ": error: no reference of this size; run: make references");
-    return {image, found->second.rmse};
+    if (reference.max_depth != scene.max_depth || image.width != scene.width ||
+        image.height != scene.height)
+        throw InputError(name + ": error: no reference like this; run: make references");
+    return {image, reference.rmse};
 }
 
 /// The first of those whose error falls: the measure of the others; null: none.
