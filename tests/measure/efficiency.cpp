@@ -85,31 +85,27 @@ void take_equal_time(std::vector<Contender>& contenders) {
     }
 }
 
-/// The least and the largest efficiency of c, in those of the first: of all renders, and when one
-/// render of each is left out.
-std::string range_of(const Contender& c, const Contender& first, const Image& truth) {
-    if (&c == &first || c.images.size() < 3) return "";
+/// The efficiency of c divided by that of the first; and the least and the largest such number when
+/// one render of each is left out.
+std::string times_of(const Contender& c, const Contender& first, const Image& truth) {
     std::vector<double> times = {c.efficiency(truth) / first.efficiency(truth)};
+    std::string of_all = short_number(times[0]);
+    if (&c == &first || c.images.size() < 3) return of_all;
     for (size_t i = 0; i < c.images.size(); i++)
         times.push_back(c.efficiency(truth, i) / first.efficiency(truth, i));
     auto [least, most] = std::minmax_element(times.begin(), times.end());
-    return short_number(*least) + " to " + short_number(*most);
+    return of_all + " (" + short_number(*least) + " to " + short_number(*most) + ")";
 }
 
 Table table_of(const std::string& scene, const std::vector<Contender>& contenders,
                const Image& truth) {
     const Contender& first = contenders[0];
-    Table table{{scene, "spp", "relMSE", "seconds", "M samples/s", "efficiency",
-                 "times " + first.method->name, "range"},
-                {}};
+    Table table{{scene, "spp", "relMSE", "efficiency", "times " + first.method->name}, {}};
     for (const Contender& c : contenders) {
         if (!c.listed) continue;
-        double seconds = median(c.seconds), efficiency = c.efficiency(truth);
-        double samples = double(c.scene.width) * c.scene.height * c.spp;
-        table.rows.push_back(
-            {c.method->label, std::to_string(c.spp), short_number(c.spread().rel_mse(truth)),
-             short_number(seconds), short_number(samples / seconds / 1e6), short_number(efficiency),
-             short_number(efficiency / first.efficiency(truth)), range_of(c, first, truth)});
+        table.rows.push_back({c.method->label, std::to_string(c.spp),
+                              short_number(c.spread().rel_mse(truth)),
+                              short_number(c.efficiency(truth)), times_of(c, first, truth)});
     }
     return table;
 }
