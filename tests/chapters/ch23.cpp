@@ -7,7 +7,6 @@
 #include "chapters/22_fast_bidirectional/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "tests/support/light_paths.h"
-#include "tests/support/photons.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "chapters/23_photon_mapping/estimator.h"
 // In this order: names of a lower chapter must not be found through a higher one.
 #include "chapters/24_progressive_photons/estimator.h"
-#include "tests/support/photons.h"
+#include "tests/support/light_paths.h"
 
 namespace {
 

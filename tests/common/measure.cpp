@@ -10,9 +10,7 @@
 #include "common/picture/comparison.h"
 #include "common/picture/stats_file.h"
 #include "common/picture/verdict.h"
-#include "tests/measure/agreement.h"
-#include "tests/measure/finding.h"
-#include "tests/measure/spread.h"
+#include "tests/measure/numbers.h"
 #include "tests/support/folder.h"
 
 namespace {

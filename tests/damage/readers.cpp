@@ -15,10 +15,10 @@ TEST_SUITE("reader: malformed input") {
     }
 
     TEST_CASE("identity: a PLY file of any types, orders and formats is read as it was written") {
-        // Among them is number 565: lines end with CR, and the first byte of the body is an LF.
         size_t read = 0;
         for (uint32_t i = 0; i < 2000; i++) {
-            Dice dice(i);
+            // Number 25931: lines end with CR, and the first byte of the body is an LF.
+            Dice dice(i == 0 ? 25931 : i);
             RandomPly ply = random_ply(dice);
             if (ply.mesh.indices.empty()) continue;
             CAPTURE(i);

@@ -76,10 +76,8 @@ struct Off {
     bool noisy = false;
 };
 std::string place(size_t tile) {
-    static const char* rows[] = {"top", "upper middle", "lower middle", "bottom"};
-    static const char* columns[] = {"left", "left of the middle", "right of the middle", "right"};
-    std::string channel = tile < 16 ? "" : tile < 32 ? ", green" : ", blue";
-    return std::string("(") + rows[tile / 4 % 4] + ", " + columns[tile % 4] + channel + ")";
+    static const char* channels[] = {"", ", green", ", blue"};
+    return format("(row %zu, column %zu%s)", tile / 4 % 4 + 1, tile % 4 + 1, channels[tile / 16]);
 }
 std::string times(double ratio) {
     std::string factor = name_factor(ratio);
@@ -211,8 +209,8 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
         double weight = 1 / (q.se * q.se + 1e-6);
         s.weights += weight, s.differences += weight * (q.mean - p.mean);
         s.predictions += weight * p.mean, s.squares += weight * weight * p.se * p.se;
-        double least = dark ? 1e-3 : 0.01 * std::max(p.mean, 0.3);
-        s.chi2 += std::pow((q.mean - p.mean) / std::hypot(q.se, p.se, least), 2), s.n++;
+        double error = std::hypot(q.se, p.se, model_error(key, p.mean));
+        s.chi2 += std::pow((q.mean - p.mean) / error, 2), s.n++;
     }
     for (const auto& [name, s] : scenes) {
         double model = 0.01 * std::max(s.predictions / s.weights, 0.3);
@@ -225,27 +223,12 @@ bool fits_scenes(const Hypothesis& h, const Evidence& evidence,
                        [&](const std::string& name) { return predicted.contains(name); });
 }
 
-/// Whether two predictions were not measured precisely enough to tell them apart: neither by a tile
-/// nor by the mean of a scene.
+/// Whether two predictions were not measured precisely enough to tell them apart by any tile.
 bool are_alike(const Hypothesis& a, const Hypothesis& b, const Evidence& evidence) {
-    struct Sum {
-        double differences = 0, squares = 0, model = 0;
-    };
-    std::map<std::string, Sum> scenes;
-    auto differ = [](double distance, double error, double model) {
-        return std::abs(distance) > std::hypot(4 * error, model) + 1e-3;
-    };
-    for (const auto& [key, q] : evidence) {
-        Quantity p = prediction(a, key, 0.002), r = prediction(b, key, 0.002);
-        double error = std::hypot(p.se, r.se);
-        if (differ(p.mean - r.mean, error, 0.01 * p.mean)) return false;
-        Sum& s = scenes[scene_of(key)];
-        s.differences += p.mean - r.mean, s.squares += error * error,
-            s.model += 0.01 * p.mean + 1e-3;
-    }
-    return std::none_of(scenes.begin(), scenes.end(), [&](const auto& scene) {
-        const Sum& s = scene.second;
-        return differ(s.differences, std::sqrt(s.squares), s.model);
+    return std::none_of(evidence.begin(), evidence.end(), [&](const auto& tile) {
+        Quantity p = prediction(a, tile.first, 0.002), r = prediction(b, tile.first, 0.002);
+        double error = std::hypot(4 * p.se, 4 * r.se, 0.01 * p.mean) + 1e-3;
+        return std::abs(p.mean - r.mean) > error;
     });
 }
 
@@ -333,26 +316,21 @@ Diagnosis judge(const Folder& folder, const std::vector<Hypothesis>& effects) {
                   [&](const Fit& fit) { return !fits_scenes(*fit.hypothesis, evidence, off); });
     std::vector<std::string> best;
     for (const Fit& fit : fits) {
-        const Hypothesis &h = *fit.hypothesis, &first = *fits[0].hypothesis;
+        const Hypothesis& h = *fit.hypothesis;
         bool is_less_likely = fit.log_likelihood < fits[0].log_likelihood - std::log(1000);
-        if (is_less_likely && !are_alike(h, first, evidence)) continue;
+        if (is_less_likely && !are_alike(h, *fits[0].hypothesis, evidence)) continue;
         if (std::find(best.begin(), best.end(), h.text) == best.end()) best.push_back(h.text);
     }
-    if (best.size() == 1) {
-        d.name = best[0];
-        d.text +=
-            "It looks like this mistake: " + d.name + ".\n    This explains all " +
-            std::to_string(evidence.size()) +
-            " numbers that were measured, a thousand times better than any other known mistake.\n";
-    } else if (best.size() == 2) {
-        d.name = best[0] + "; or " + best[1];
-        d.text += "Two mistakes explain all numbers about equally well:\n    " + best[0] +
-                  "; or\n    " + best[1] + ".\n";
-    } else {
-        d.text += best.empty()
-                      ? "No known mistake explains all numbers.\n"
-                      : format("%zu known mistakes explain all numbers about equally well.\n",
-                               best.size());
-    }
+    if (best.size() <= 2)
+        for (const std::string& name : best) d.name += (d.name.empty() ? "" : "; or ") + name;
+    d.text +=
+        best.empty() ? "No known mistake explains all numbers.\n"
+        : best.size() == 1
+            ? "It looks like this mistake: " + d.name + ".\n    This explains all " +
+                  std::to_string(evidence.size()) +
+                  " numbers that were measured, a thousand times better than any other known "
+                  "mistake.\n"
+            : format("%zu known mistakes explain all numbers about equally well", best.size()) +
+                  (d.name.empty() ? "" : ": " + d.name) + ".\n";
     return d;
 }

@@ -1,11 +1,10 @@
-#include "tests/diagnose/scenes.h"
-
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 
 #include "common/base/files.h"
 #include "common/scene_file/reader.h"
+#include "tests/diagnose/tiles.h"
 
 namespace {
 

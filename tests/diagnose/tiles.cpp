@@ -37,47 +37,11 @@ std::string key_of(const SmallScene& scene, size_t tile) {
     return scene.name + "/" + std::to_string(tile) + (is_dark(scene, tile) ? " dark" : "");
 }
 
-std::string effect_text(const SmallScene& scene, const Tiles& tiles) {
-    double weights = 0, sum = 0, squares = 0, most = 0, chi2 = 0, n = 0;
-    double all_off = 0, dark = 0;
-    bool is_off = false, is_even = true;
-    for (size_t i = 0; i < tiles.size(); i++) {
-        double should = is_dark(scene, i) ? 0 : 1, off = std::abs(tiles[i].mean - should);
-        is_off |= off > std::max(3.5 * tiles[i].se, should > 0 ? 0.005 : 2e-3);
-        all_off += std::pow(off / (tiles[i].se + 0.003), 2), dark += should == 0;
-        squares += tiles[i].se * tiles[i].se;
-        if (should == 0) is_even &= off < 2e-3;
-        if (should == 0) continue;
-        double weight = 1 / (tiles[i].se * tiles[i].se + 1e-6);
-        weights += weight, sum += weight * tiles[i].mean;
-    }
-    double count = static_cast<double>(tiles.size());
-    is_off |= dark == 0 && all_off > count + 5 * std::sqrt(2 * count);  // a little, but everywhere
-    if (!is_off) return "";
-    double mean = sum / weights;
-    for (size_t i = 0; i < tiles.size(); i++) {
-        if (is_dark(scene, i)) continue;
-        double z = std::abs(tiles[i].mean - mean) / (tiles[i].se + 5e-4 * mean + 1e-6);
-        most = std::max(most, z), chi2 += z * z, n++;
-    }
-    is_even &= most < 4 && chi2 < n + 3 * std::sqrt(2 * n);
-    std::string text = scene.name + "=";
-    char number[40];
-    for (size_t i = 0; i < (is_even ? 1 : tiles.size()); i++) {
-        std::snprintf(number, sizeof number, "%s%.3g", i == 0 ? "" : " ",
-                      is_even ? mean : tiles[i].mean);
-        text += number;
-    }
-    double se = std::sqrt(is_even ? 1 / weights : squares / static_cast<double>(tiles.size()));
-    std::snprintf(number, sizeof number, "~%.1g", se);
-    return text + number;
-}
-
 std::vector<Hypothesis> read_effects() {
     std::map<std::string, const SmallScene*> scenes;
     for (const SmallScene& scene : small_scenes()) scenes[scene.name] = &scene;
     std::vector<Hypothesis> effects;
-    for (const std::string& line : split(read_file(effects_file), '\n')) {
+    for (const std::string& line : split(read_file("tests/diagnose/effects.tsv"), '\n')) {
         std::vector<std::string> cells = split(line, '\t');
         if (line[0] == '#' || cells.size() < 3) continue;
         Hypothesis h{cells[1], {}};

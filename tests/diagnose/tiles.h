@@ -1,7 +1,22 @@
-// The small scenes' pictures as numbers: the means of their tiles, and what mistakes make of these.
+// The known scenes that any path tracer can render (quads, spheres, and one material each), their
+// pictures as numbers (the means of their tiles), and what mistakes make of these.
 #pragma once
 #include "common/picture/image.h"
-#include "tests/diagnose/scenes.h"
+#include "tests/known/scenes.h"
+
+/// Numbers of one scene: of its 4 x 4 tiles, row by row; of a coloured scene first those of red.
+using Tiles = std::vector<Quantity>;
+
+struct SmallScene {
+    std::string name;       // of its files
+    std::string pbrt = {};  // the scene, with one object on each line
+    Tiles should = {};      // what its tiles should be
+    int width = 16;         // pixels
+    bool coloured = false;  // its channels differ
+};
+
+/// Those of tests/known/tiles.tsv.
+const std::vector<SmallScene>& small_scenes();
 
 /// Calls visit(x, y, channel) for each number of a picture of this size that belongs to a tile.
 template <typename Visit>
@@ -31,7 +46,3 @@ struct Hypothesis {
 
 /// The effects of mistakes that were planted (effects.tsv).
 std::vector<Hypothesis> read_effects();
-/// What stands in effects.tsv of one scene; "" where all is as it should be. `tiles` over scale_of.
-std::string effect_text(const SmallScene& scene, const Tiles& tiles);
-
-inline constexpr const char* effects_file = "tests/diagnose/effects.tsv";

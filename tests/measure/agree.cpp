@@ -3,7 +3,6 @@
 #include <map>
 
 #include "common/base/error.h"
-#include "tests/measure/agreement.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 
@@ -56,13 +55,10 @@ Batches measure(const NamedMethod& method, size_t index, Scene& scene, const Mea
     auto seed = [&](int run) {
         return static_cast<uint32_t>(1000 * index) + static_cast<uint32_t>(run);
     };
-    constexpr int trial = 16;
-    Stopwatch watch;
-    render_once(method, scene, o, trial, seed(999), true);
-    int spp = static_cast<int>(trial * seconds * o.threads / o.runs / watch.seconds());
+    int spp = samples_in(seconds / o.runs, method, scene, o, true);
     Batches batches;
     for (int run = 0; run < o.runs; run++) {
-        Rendering r = render_once(method, scene, o, std::max(1, spp), seed(run), true);
+        Rendering r = render_once(method, scene, o, spp, seed(run), true);
         add_batch(r, static_cast<size_t>(run), static_cast<size_t>(o.runs), batches);
     }
     return batches;
@@ -74,10 +70,6 @@ struct Column {
     Batches batches;
     std::map<std::string, double> worst = {};  // |z| by kind
     double z_total = NAN, relative_se = NAN;
-};
-struct SceneResult {
-    std::string scene;
-    std::vector<Column> columns;  // of the methods that can render it
 };
 
 /// Judges one quantity of one method: a row of the details, and a line where it fails.
@@ -121,28 +113,28 @@ double missed_by(const Column& c, const std::vector<Column>& all, const std::str
     return missed;
 }
 
-void judge_scene(SceneResult& result, Table& details, std::string& failures) {
+void judge_scene(const std::string& scene, std::vector<Column>& columns, Table& details,
+                 std::string& failures) {
     Batches all;
-    for (const Column& c : result.columns) all.insert(c.batches.begin(), c.batches.end());
+    for (const Column& c : columns) all.insert(c.batches.begin(), c.batches.end());
     for (const auto& [key, unused] : all) {
         if (key.starts_with("part of ")) continue;
         bool is_class = key.starts_with("class "), is_rest = key.ends_with(" longer");
         bool is_block = key.starts_with("block ");
         std::string parts = is_block ? "part of " + key.substr(6) + ": " : "class ";
         std::vector<Estimate> estimates;
-        for (size_t i = 0; i < result.columns.size(); i++) {
-            const Batches& batches = result.columns[i].batches;
+        for (size_t i = 0; i < columns.size(); i++) {
+            const Batches& batches = columns[i].batches;
             auto found = batches.find(key);
             Estimate e = found == batches.end() ? Estimate{} : estimate_of(found->second);
             // Who misses some classes by chance may miss some of those that are counted together.
-            double missed = missed_by(result.columns[i], result.columns, parts);
+            double missed = missed_by(columns[i], columns, parts);
             if (is_rest && missed > 0) missed = INFINITY;
             if (is_rest || !is_class) e.missed = missed;
             estimates.push_back(e);
         }
         for (size_t i = 0; i < estimates.size(); i++) {
-            judge_one(result.scene, key, result.columns[i], estimates[i], judge(estimates, i),
-                      details, failures);
+            judge_one(scene, key, columns[i], estimates[i], judge(estimates, i), details, failures);
         }
     }
 }
@@ -153,35 +145,6 @@ std::string cell(const Column& c) {
     char text[64];
     std::snprintf(text, sizeof text, "%+.1f %4.1f", c.z_total, worst);
     return std::isnan(c.z_total) ? "?" : text + std::string(c.relative_se > 0.01 ? "*" : " ");
-}
-
-Table matrix_of(const std::vector<SceneResult>& results, const std::vector<NamedMethod>& methods) {
-    Table matrix{{"scene"}, {}};
-    for (const NamedMethod& m : methods) matrix.columns.push_back(m.name);
-    for (const SceneResult& result : results) {
-        matrix.rows.push_back({result.scene});
-        for (const NamedMethod& m : methods) {
-            std::string text = "-";
-            for (const Column& c : result.columns) {
-                if (c.method->name == m.name) text = cell(c);
-            }
-            matrix.rows.back().push_back(text);
-        }
-    }
-    return matrix;
-}
-
-/// Measures one scene with every method that can render it, and judges.
-SceneResult agree_on(const std::string& path, const std::vector<NamedMethod>& methods,
-                     const MeasureOptions& o, double cell_seconds, Work& work) {
-    Scene scene = load_scene_for(path, o);
-    SceneResult result{scene_name(path), {}};
-    for (size_t m = 0; m < methods.size(); m++) {
-        work.next(result.scene + ", " + methods[m].name);
-        if (!can_render(methods[m], scene)) continue;
-        result.columns.push_back({&methods[m], measure(methods[m], m, scene, o, cell_seconds)});
-    }
-    return result;
 }
 
 }  // namespace
@@ -200,7 +163,8 @@ int main(int argc, char** argv) {
         std::vector<NamedMethod> methods = methods_named(o.methods);
         // Photons blur light: with these few passes their picture is meant to be another one.
         if (all) std::erase_if(methods, [](const NamedMethod& m) { return m.biased(); });
-        std::vector<SceneResult> results;
+        Table matrix{{"scene"}, {}};
+        for (const NamedMethod& m : methods) matrix.columns.push_back(m.name);
         Table details{{"scene", "chapter", "quantity", "mean", "standard error", "mean of others",
                        "standard error of others", "z"},
                       {}};
@@ -211,14 +175,27 @@ int main(int argc, char** argv) {
                   static_cast<double>(o.words.size() * methods.size()), o.seconds);
         for (const std::string& word : o.words) {
             try {
-                results.push_back(agree_on(find_scene(word), methods, o, cell_seconds, work));
+                Scene scene = load_scene_for(find_scene(word), o);
+                std::string name = scene_name(scene.file);
+                std::vector<Column> columns;  // of the methods that can render it
+                for (size_t m = 0; m < methods.size(); m++) {
+                    work.next(name + ", " + methods[m].name);
+                    if (!can_render(methods[m], scene)) continue;
+                    columns.push_back(
+                        {&methods[m], measure(methods[m], m, scene, o, cell_seconds)});
+                }
+                judge_scene(name, columns, details, failures);
+                matrix.rows.emplace_back(matrix.columns.size(), "-");
+                matrix.rows.back()[0] = name;
+                for (const Column& c : columns) {
+                    auto column = static_cast<size_t>(c.method - methods.data()) + 1;
+                    matrix.rows.back()[column] = cell(c);
+                }
             } catch (const InputError& e) {
                 std::printf("left out: %s\n", e.what());
-                continue;
             }
-            judge_scene(results.back(), details, failures);
         }
-        std::printf("%s", aligned(matrix_of(results, methods)).c_str());
+        std::printf("%s", aligned(matrix).c_str());
         std::printf(
             "z of the image mean, then the largest |z| of blocks, lengths and classes.\n"
             "*: its standard error is above 1 %% of the mean; ?: too few lucky samples.\n%s",

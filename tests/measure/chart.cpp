@@ -5,10 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/picture/comparison.h"
-#include "tests/measure/finding.h"
-#include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
-#include "tests/measure/reference.h"
 #include "tests/support/work.h"
 
 namespace {
@@ -32,13 +29,12 @@ struct Truth {
 Truth truth_of(const Scene& scene) {
     std::string name = file_name(scene_name(scene.file));
     auto references = read_references();
-    auto found = references.find(name);
-    if (found == references.end() || found->second.max_depth != scene.max_depth)
-        throw InputError(name + ": error: no reference of this depth; run: make references");
+    const Reference& reference = references[name];
     Image image = read_image(reference_folder + name + ".pfm");
-    if (image.width != scene.width || image.height != scene.height)
-        throw InputError(name + ": error: no reference of this size; run: make references");
-    return {image, found->second.rmse};
+    if (reference.max_depth != scene.max_depth || image.width != scene.width ||
+        image.height != scene.height)
+        throw InputError(name + ": error: no reference like this; run: make references");
+    return {image, reference.rmse};
 }
 
 /// The first of those whose error falls: the measure of the others; null: none.
@@ -52,7 +48,7 @@ const Curve* measure_of_all(const std::vector<Curve>& curves) {
 /// for one that is exact from the first sample on.
 std::string times_faster(const Curve& curve, const Curve* first) {
     if (curve.spp.empty() || !first) return "-";
-    return curve.flat() ? "never" : two_digits(times_faster(curve.rel_mse, first->rel_mse));
+    return curve.flat() ? "never" : short_number(times_faster(curve.rel_mse, first->rel_mse));
 }
 
 /// Renders with 1, 4, 16, ... spp, `runs` of each, for about `seconds` of all processors together,
@@ -104,12 +100,11 @@ void draw_curves(const std::string& folder, const std::string& scene,
 
 /// All curves of a scene.
 std::vector<Curve> measure_scene(const std::string& path, const std::vector<NamedMethod>& methods,
-                                 const MeasureOptions& o, double seconds, Work& work) {
+                                 const MeasureOptions& o, double seconds) {
     Scene scene = load_scene_for(path, o);
     Truth truth = truth_of(scene);
     std::vector<Curve> curves;
     for (const NamedMethod& method : methods) {
-        work.next(scene_name(path) + ", " + method.name);
         if (!can_render(method, scene)) continue;
         curves.push_back(measure_curve(method, scene, truth, o, seconds));
     }
@@ -126,7 +121,7 @@ void add_summary(const std::string& scene, const std::vector<Curve>& curves, Tab
                    short_number(c.spp.back()),
                    short_number(c.rel_mse.seconds.back()),
                    short_number(c.rel_mse.error.back()),
-                   two_digits(c.slope)};
+                   short_number(c.slope)};
         row.push_back(times_faster(c, first));
         summary.rows.push_back(row);
     }
@@ -142,15 +137,6 @@ std::vector<NamedMethod> methods_for(const MeasureOptions& o, const std::string&
     return methods_named(names);
 }
 
-/// One step for each method on each scene.
-size_t steps_of(const MeasureOptions& o) {
-    size_t steps = 0;
-    for (const std::string& word : o.words) {
-        steps += methods_for(o, scene_name(find_scene(word))).size();
-    }
-    return steps;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -160,20 +146,19 @@ int main(int argc, char** argv) {
             "Error against time of every method on every scene, against references of known error "
             "(make references). Writes chart-SCENE.svg, .png and .tsv, and chart-summary.tsv.",
             {.spp = 0, .runs = 4, .width = 64, .height = 64, .seconds = 600});
-        if (o.words.empty()) {
-            o.words = own_scenes();
-        }
+        if (o.words.empty()) o.words = own_scenes();
         Work work("chart: error against time on " + std::to_string(o.words.size()) + " scenes",
-                  static_cast<double>(steps_of(o)), o.seconds);
+                  static_cast<double>(o.words.size()), o.seconds);
         Table summary{{"scene", "method", "spp", "seconds", "relMSE", "slope", "times faster"}, {}};
         for (const std::string& word : o.words) {
             std::string path = find_scene(word), name = scene_name(path);
+            work.next(name);
             std::vector<NamedMethod> methods = methods_for(o, name);
             double seconds = o.seconds * o.threads / static_cast<double>(o.words.size()) /
                              static_cast<double>(methods.size());
             std::vector<Curve> curves;
             try {
-                curves = measure_scene(path, methods, o, seconds, work);
+                curves = measure_scene(path, methods, o, seconds);
             } catch (const InputError& e) {
                 std::printf("left out: %s\n", e.what());
                 continue;

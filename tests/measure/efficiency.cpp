@@ -6,27 +6,27 @@
 
 namespace {
 
-/// Renders of a method on a scene.
-struct Renders {
-    Spread spread = {};
-    std::vector<double> seconds = {};
-    double rel_mse = 0;  // of one render
-
-    void add(const Rendering& r) {
-        spread.add(r.film.image());
-        seconds.push_back(r.stats.seconds);
-    }
-    double efficiency() const { return 1 / (rel_mse * median(seconds)); }
-};
-
-/// A method on a scene.
+/// A method on a scene, and its renders.
 struct Contender {
     const NamedMethod* method;
     Scene scene;
     int spp;
-    Renders all = {};
-    std::vector<Renders> without = {};  // i: all but render i
     bool listed = true;
+    std::vector<Image> images = {};
+    std::vector<double> seconds = {};  // of each
+
+    /// Of all renders but number `left_out`.
+    Spread spread(size_t left_out = SIZE_MAX) const {
+        Spread spread;
+        for (size_t i = 0; i < images.size(); i++)
+            if (i != left_out) spread.add(images[i]);
+        return spread;
+    }
+    double efficiency(const Image& truth, size_t left_out = SIZE_MAX) const {
+        std::vector<double> times = seconds;
+        if (left_out < times.size()) times.erase(times.begin() + static_cast<int>(left_out));
+        return 1 / (spread(left_out).rel_mse(truth) * median(times));
+    }
 };
 
 std::vector<Contender> contenders_on(const std::string& path,
@@ -54,63 +54,58 @@ std::vector<Contender> contenders_on(const std::string& path,
     return contenders;
 }
 
-/// Renders by turns, so that what else the machine does slows all of them alike.
-void run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& work) {
-    for (Contender& c : contenders) c.all = {}, c.without.assign(static_cast<size_t>(o.runs), {});
+/// Renders by turns, so that what else the machine does slows all of them alike. Returns what all
+/// are compared with, one long render of the quietest: the means of so few renders as these miss
+/// pixels that are bright in one of them only.
+Image run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& work) {
+    for (Contender& c : contenders) c.images.clear(), c.seconds.clear();
     for (int run = 0; run < o.runs; run++) {
         work.next(contenders[0].scene.file + ", render " + std::to_string(run + 1) + " of each");
         for (Contender& c : contenders) {
             Rendering r = render_once(*c.method, c.scene, o, c.spp, static_cast<uint32_t>(run));
-            c.all.add(r);
-            for (int i = 0; i < o.runs; i++)
-                if (i != run) c.without[static_cast<size_t>(i)].add(r);
+            c.images.push_back(r.film.image());
+            c.seconds.push_back(r.stats.seconds);
         }
     }
-
-    // Compare all of them with one long render of the quietest: the means of so few renders as
-    // these miss pixels that are bright in one of them only.
-    auto noise = [](const Contender& c) { return c.all.spread.rel_mse(c.all.spread.mean()); };
+    auto noise = [](const Contender& c) { return c.spread().rel_mse(c.spread().mean()); };
     Contender& best =
         *std::min_element(contenders.begin(), contenders.end(),
                           [&](const auto& a, const auto& b) { return noise(a) < noise(b); });
     work.next(best.scene.file + ", the long render that all are compared with");
-    Image truth =
-        render_once(*best.method, best.scene, o, 8 * best.spp, static_cast<uint32_t>(o.runs))
-            .film.image();
-    for (Contender& c : contenders) {
-        c.all.rel_mse = c.all.spread.rel_mse(truth);
-        for (Renders& r : c.without) r.rel_mse = r.spread.rel_mse(truth);
-    }
+    return render_once(*best.method, best.scene, o, 8 * best.spp, static_cast<uint32_t>(o.runs))
+        .film.image();
 }
 
 /// Gives each as many samples as it makes in the time of the first.
 void take_equal_time(std::vector<Contender>& contenders) {
-    double seconds = median(contenders[0].all.seconds);
+    double seconds = median(contenders[0].seconds);
     for (Contender& c : contenders) {
-        double spp = c.spp * seconds / median(c.all.seconds);
+        double spp = c.spp * seconds / median(c.seconds);
         c.spp = std::max(1, static_cast<int>(std::lround(spp)));
     }
 }
 
 /// The efficiency of c divided by that of the first; and the least and the largest such number when
 /// one render of each is left out.
-std::string times_of(const Contender& c, const Contender& first) {
-    std::vector<double> times = {c.all.efficiency() / first.all.efficiency()};
+std::string times_of(const Contender& c, const Contender& first, const Image& truth) {
+    std::vector<double> times = {c.efficiency(truth) / first.efficiency(truth)};
     std::string of_all = short_number(times[0]);
-    if (&c == &first || c.without.size() < 3) return of_all;
-    for (size_t i = 0; i < c.without.size(); i++)
-        times.push_back(c.without[i].efficiency() / first.without[i].efficiency());
+    if (&c == &first || c.images.size() < 3) return of_all;
+    for (size_t i = 0; i < c.images.size(); i++)
+        times.push_back(c.efficiency(truth, i) / first.efficiency(truth, i));
     auto [least, most] = std::minmax_element(times.begin(), times.end());
     return of_all + " (" + short_number(*least) + " to " + short_number(*most) + ")";
 }
 
-Table table_of(const std::string& scene, const std::vector<Contender>& contenders) {
+Table table_of(const std::string& scene, const std::vector<Contender>& contenders,
+               const Image& truth) {
     const Contender& first = contenders[0];
     Table table{{scene, "spp", "relMSE", "efficiency", "times " + first.method->name}, {}};
     for (const Contender& c : contenders) {
         if (!c.listed) continue;
-        table.rows.push_back({c.method->label, std::to_string(c.spp), short_number(c.all.rel_mse),
-                              short_number(c.all.efficiency()), times_of(c, first)});
+        table.rows.push_back({c.method->label, std::to_string(c.spp),
+                              short_number(c.spread().rel_mse(truth)),
+                              short_number(c.efficiency(truth)), times_of(c, first, truth)});
     }
     return table;
 }
@@ -157,14 +152,14 @@ int main(int argc, char** argv) {
             std::string path = find_scene(word), name = file_name(scene_name(path));
             std::vector<Contender> contenders = contenders_on(path, methods, o);
             if (contenders.empty()) continue;
-            run(contenders, o, work);
-            Table table = table_of(scene_name(path), contenders);
+            Image truth = run(contenders, o, work);
+            Table table = table_of(scene_name(path), contenders, truth);
             std::printf("\n%s", markdown(table).c_str());
             write_table(o.out, "efficiency-" + name, table);
             if (!equal_time) continue;
             take_equal_time(contenders);
-            run(contenders, o, work);
-            table = table_of("in equal time", contenders);
+            truth = run(contenders, o, work);
+            table = table_of("in equal time", contenders, truth);
             std::printf("\n%s", markdown(table).c_str());
             write_table(o.out, "equal-time-" + name, table);
         }

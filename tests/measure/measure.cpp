@@ -14,13 +14,6 @@
 
 namespace {
 
-std::vector<std::string> split_list(const std::string& text) {
-    std::vector<std::string> words;
-    std::istringstream stream(text);
-    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-    return words;
-}
-
 std::vector<std::string> scenes_in(const char* folder) {
     std::vector<std::string> scenes;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -31,6 +24,13 @@ std::vector<std::string> scenes_in(const char* folder) {
 }
 
 }  // namespace
+
+std::vector<std::string> split_list(const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream stream(text);
+    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+    return words;
+}
 
 MeasureOptions parse_measure_options(int argc, char** argv, const std::string& positional,
                                      const std::string& about, const MeasureOptions& defaults,
@@ -101,11 +101,37 @@ Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOpti
     return r;
 }
 
+int samples_in(double seconds, const NamedMethod& method, Scene& scene,
+               const MeasureOptions& options, bool classes) {
+    constexpr int trial = 16;
+    double took = render_once(method, scene, options, trial, 0, classes).stats.seconds;
+    return std::max(1, static_cast<int>(trial * seconds / took));
+}
+
 void write_table(const std::string& folder, const std::string& name, const Table& table) {
     std::filesystem::create_directories(folder);
     std::string file = folder + "/" + name + ".tsv";
     write_file_atomically(file, tab_separated(table));
     say_wrote(file);
+}
+
+void write_lines(const std::string& folder, const std::string& name, const std::string& title,
+                 const std::string& x_label, const std::string& y_label,
+                 const std::vector<Line>& lines) {
+    Table table{{"panel", "line", x_label, y_label, "colour"}, {}};
+    for (const Line& line : lines) {
+        for (size_t i = 0; i < line.x.size(); i++) {
+            table.rows.push_back(
+                {line.panel, line.label, digits(line.x[i]), digits(line.y[i]), line.color});
+        }
+    }
+    write_table(folder, name, table);
+    std::string path = folder + "/" + name, words = title;
+    std::replace(words.begin(), words.end(), '\'', ' ');
+    std::string command = "gnuplot -c tests/measure/plot.gp '" + path + ".tsv' '" + words + "'";
+    if (std::system(command.c_str()) != 0)
+        throw InputError(path + ".tsv: error: gnuplot failed, or is not installed");
+    say_wrote(path + ".svg and .png");
 }
 
 std::string short_number(double x) {
@@ -147,6 +173,20 @@ std::string scene_name(const std::string& path) {
 std::string file_name(std::string scene_name) {
     std::replace(scene_name.begin(), scene_name.end(), '/', '-');
     return scene_name;
+}
+
+std::map<std::string, Reference> read_references() {
+    std::map<std::string, Reference> all;
+    std::istringstream lines(read_file(reference_table));
+    std::string line, scene;
+    std::getline(lines, line);  // the names of the columns
+    while (std::getline(lines, line)) {
+        std::istringstream cells(line);
+        Reference r;
+        cells >> scene >> r.method >> r.spp >> r.max_depth >> r.rmse;
+        all[scene] = r;
+    }
+    return all;
 }
 
 std::string find_scene(const std::string& name) {

@@ -1,12 +1,13 @@
 // What the measuring programs share: their options, renders with different seeds, and what the
 // spread of those says.
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
 #include "common/options/command_line.h"
 #include "common/results/table.h"
-#include "tests/measure/spread.h"
+#include "tests/measure/numbers.h"
 #include "tests/methods/table.h"
 
 /// What all measuring programs understand; each has its own defaults.
@@ -22,6 +23,9 @@ struct MeasureOptions {
     std::string out = "out";  // folder for tables and charts
 };
 
+/// The words of "A,B".
+std::vector<std::string> split_list(const std::string& text);
+
 /// Reads the command line over `defaults`.
 MeasureOptions parse_measure_options(int argc, char** argv, const std::string& positional,
                                      const std::string& about, const MeasureOptions& defaults,
@@ -36,11 +40,25 @@ Scene load_scene_for(const std::string& path, const MeasureOptions& options);
 Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOptions& options,
                       int spp, uint32_t seed, bool classes = false);
 
+/// How many samples per pixel it takes in these seconds of one render, by a short one.
+int samples_in(double seconds, const NamedMethod& method, Scene& scene,
+               const MeasureOptions& options, bool classes = false);
+
 /// Writes the table to FOLDER/NAME.tsv, and makes the folder.
 void write_table(const std::string& folder, const std::string& name, const Table& table);
 
 /// x with three significant digits, without an exponent where that is short.
 std::string short_number(double x);
+
+/// One line of a chart: what was measured.
+struct Line {
+    std::string panel, label, color;
+    std::vector<double> x = {}, y = {};
+};
+/// Writes FOLDER/NAME.tsv, which plot.gp draws as NAME.svg and NAME.png.
+void write_lines(const std::string& folder, const std::string& name, const std::string& title,
+                 const std::string& x_label, const std::string& y_label,
+                 const std::vector<Line>& lines);
 
 /// The table in Markdown, its columns aligned so that it reads as plain text too.
 std::string markdown(const Table& table);
@@ -54,6 +72,19 @@ std::string scene_name(const std::string& path);
 
 /// The same as part of a file's name: without a slash.
 std::string file_name(std::string scene_name);
+
+/// How a scene's picture was made, and the error that is expected of it.
+struct Reference {
+    std::string method;
+    int spp = 0, max_depth = 0;
+    double rmse = 0;
+};
+
+inline const std::string reference_folder = "tests/measure/references/";
+inline const std::string reference_table = reference_folder + "table.tsv";
+
+/// The table of all references, by file_name(scene_name) of the scene: the picture's name.
+std::map<std::string, Reference> read_references();
 
 /// The path of a scene from its path or its scene_name, or UsageError.
 std::string find_scene(const std::string& name);

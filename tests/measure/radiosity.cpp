@@ -4,7 +4,6 @@
 #include "chapters/26_radiosity/run.h"
 #include "common/picture/comparison.h"
 #include "common/scene/diffuse_meshes.h"
-#include "tests/measure/lines.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 
@@ -42,28 +41,6 @@ Solved solve_and_compare(Scene& scene, size_t wanted, const Image& reference,
     return result;
 }
 
-void report(const std::vector<Solved>& solved, const std::vector<std::array<double, 3>>& paths,
-            const MeasureOptions& o, const std::string& name) {
-    Table table{{name, "seconds", "relMSE, constant", "relMSE, smooth"}, {}};
-    Line constant{name, "26, constant", "#8c564b"}, smooth{name, "26, smooth", "#17becf"},
-        traced{name, "15", "#d62728"};
-    for (const Solved& s : solved) {
-        table.rows.push_back({"26, " + std::to_string(s.patches) + " patches",
-                              short_number(s.seconds), short_number(s.constant),
-                              short_number(s.smooth)});
-        constant.x.push_back(s.seconds), constant.y.push_back(s.constant);
-        smooth.x.push_back(s.seconds), smooth.y.push_back(s.smooth);
-    }
-    for (auto [spp, seconds, error] : paths) {
-        table.rows.push_back({"15, " + short_number(spp) + " paths a pixel", short_number(seconds),
-                              short_number(error), ""});
-        traced.x.push_back(seconds), traced.y.push_back(error);
-    }
-    std::printf("%s", markdown(table).c_str());
-    write_lines(o.out, "chart-radiosity", "Radiosity beside path tracing: " + name, "seconds",
-                "relMSE", {constant, smooth, traced});
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -82,19 +59,32 @@ int main(int argc, char** argv) {
         Work work("radiosity: patches of chapter 26 beside paths of 15, " + name, 10);
         work.next("reference");
         Image reference = render_once(fifteen, scene, o, o.spp, 0).film.image();
-        std::vector<Solved> solved;
+        Table table{{name, "seconds", "relMSE, constant", "relMSE, smooth"}, {}};
+        std::vector<Line> lines = {{name, "26, constant", "#8c564b"},
+                                   {name, "26, smooth", "#17becf"},
+                                   {name, "15", "#d62728"}};
+        auto add = [&](size_t line, double seconds, double error) {
+            lines[line].x.push_back(seconds), lines[line].y.push_back(error);
+            return short_number(error);
+        };
         for (size_t patches : {size_t{80}, size_t{320}, size_t{1280}, size_t{5120}}) {
             work.next(std::to_string(patches) + " patches");
-            solved.push_back(solve_and_compare(scene, patches, reference, o));
+            Solved s = solve_and_compare(scene, patches, reference, o);
+            table.rows.push_back({"26, " + std::to_string(s.patches) + " patches",
+                                  short_number(s.seconds), add(0, s.seconds, s.constant),
+                                  add(1, s.seconds, s.smooth)});
         }
-        std::vector<std::array<double, 3>> paths;
         for (int spp : {1, 4, 16, 64, 256}) {
             work.next(std::to_string(spp) + " paths a pixel");
             Rendering r = render_once(fifteen, scene, o, spp, 1);
-            paths.push_back(
-                {double(spp), r.stats.seconds, compare(r.film.image(), reference).rel_mse});
+            double error = compare(r.film.image(), reference).rel_mse;
+            table.rows.push_back({"15, " + std::to_string(spp) + " paths a pixel",
+                                  short_number(r.stats.seconds), add(2, r.stats.seconds, error),
+                                  ""});
         }
-        report(solved, paths, o, name);
+        std::printf("%s", markdown(table).c_str());
+        write_lines(o.out, "chart-radiosity", "Radiosity beside path tracing: " + name, "seconds",
+                    "relMSE", lines);
         return 0;
     });
 }

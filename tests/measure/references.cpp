@@ -4,23 +4,17 @@
 
 #include "common/base/error.h"
 #include "tests/measure/measure.h"
-#include "tests/measure/reference.h"
 #include "tests/support/work.h"
 
 namespace {
 
-/// How many samples a run takes: a power of two, as o.seconds allow.
-int samples_of_run(const NamedMethod& method, Scene& scene, const MeasureOptions& o) {
-    constexpr int trial = 16;
-    double seconds = render_once(method, scene, o, trial, 0).stats.seconds / trial;
-    auto samples = static_cast<unsigned>(o.seconds / o.runs / seconds);
-    return std::max(1, static_cast<int>(std::bit_floor(samples)));
-}
-
 /// The mean of all runs; how far they lie apart says how sure it is.
 Reference make_reference(const NamedMethod& method, Scene& scene, const MeasureOptions& o,
                          const std::string& file, const std::string& command) {
-    int spp = o.spp > 0 ? o.spp : samples_of_run(method, scene, o);
+    int spp = o.spp;
+    if (spp == 0)  // a power of two
+        spp = static_cast<int>(std::bit_floor(
+            static_cast<unsigned>(samples_in(o.seconds / o.runs, method, scene, o))));
     Spread spread;
     for (int run = 1; run <= o.runs; run++)
         spread.add(render_once(method, scene, o, spp, static_cast<uint32_t>(run)).film.image());

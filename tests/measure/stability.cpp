@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <set>
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
@@ -19,27 +18,27 @@ struct Observed {
     RunningStats mean;     // of each run
     RunningStats squares;  // mean of (X - truth)^2 of each run
     double runs = 0, covered = 0, below_half = 0, black = 0;
-    double not_finite = 0, samples = 0;
+    double not_finite = 0;
 };
 
 constexpr double rounding = 1e-5;  // relative, of float
+constexpr int N = 1000;            // samples of a run
 
 Observed observe(const NamedMethod& method, Scene& scene, const StabilityCase& c,
                  const MeasureOptions& o) {
     Observed seen;
     for (int run = 0; run < o.runs; run++) {
-        Rendering r = render_once(method, scene, o, c.spp, static_cast<uint32_t>(run));
+        Rendering r = render_once(method, scene, o, N, static_cast<uint32_t>(run));
         double mean = r.film.mean(), se = r.film.standard_error();
-        double sum = mean * c.spp, effective = r.film.effective_samples();
+        double sum = mean * N, effective = r.film.effective_samples();
         double sum_of_squares = effective > 0 ? sum * sum / effective : 0;
         seen.runs++;
         seen.mean.add(mean);
-        seen.squares.add(sum_of_squares / c.spp - 2 * mean * c.truth + c.truth * c.truth);
+        seen.squares.add(sum_of_squares / N - 2 * mean * c.truth + c.truth * c.truth);
         seen.covered += std::abs(mean - c.truth) <= 1.96 * se + rounding * c.truth;
         seen.below_half += mean < c.truth / 2;
         seen.black += mean == 0;
         seen.not_finite += static_cast<double>(r.stats.not_finite);
-        seen.samples += c.spp;
     }
     return seen;
 }
@@ -50,50 +49,35 @@ struct Number {
 };
 
 Number measured(const Prediction& p, const Observed& seen, const StabilityCase& c) {
-    auto share = [&](double count, double of) {
-        double variance = std::max(p.value * (1 - p.value), 1 / of);
-        return Number{count / of, std::sqrt(variance / of)};
+    auto share = [&](double count) {
+        double variance = std::max(p.value * (1 - p.value), 1 / seen.runs);
+        return Number{count / seen.runs, std::sqrt(variance / seen.runs)};
     };
     double truth2 = c.truth * c.truth;
     switch (p.metric) {
-        case Metric::relative_variance:
-            // Rare samples that carry much have perhaps not come: theory knows of them.
-            return {seen.squares.mean() / truth2, std::max(seen.squares.standard_error() / truth2,
-                                                           p.spread / std::sqrt(seen.samples))};
-        case Metric::coverage: return share(seen.covered, seen.runs);
-        case Metric::below_half: return share(seen.below_half, seen.runs);
-        case Metric::black: return share(seen.black, seen.runs);
+        case Metric::coverage: return share(seen.covered);
+        case Metric::below_half: return share(seen.below_half);
+        case Metric::black: return share(seen.black);
         case Metric::mean:
             return {seen.mean.mean() / c.truth, seen.mean.standard_error() / c.truth};
+        default:
+            // Rare samples that carry much have perhaps not come: theory knows of them.
+            return {seen.squares.mean() / truth2, std::max(seen.squares.standard_error() / truth2,
+                                                           p.spread / std::sqrt(seen.runs * N))};
     }
-    return {NAN, NAN};
 }
 
-const char* name_of(Metric metric) {
-    switch (metric) {
-        case Metric::relative_variance: return "relative variance";
-        case Metric::coverage: return "coverage";
-        case Metric::below_half: return "runs below half the truth";
-        case Metric::black: return "runs of 0 +- 0";
-        case Metric::mean: return "mean over truth";
-    }
-    return "";
-}
-
-struct Verdict {
-    std::string word;  // holds, fails as predicted, FAILS
-    std::string said = {};
-    std::string text() const { return said.empty() ? word : word + ": " + said; }
-};
+constexpr const char* metrics[] = {"relative variance", "coverage", "runs below half the truth",
+                                   "runs of 0 +- 0", "mean over truth"};
 
 /// Whether the numbers are what was predicted. What nobody predicted to fail must hold: all samples
 /// finite, no bias, and intervals that cover the truth.
-Verdict judge(const Observed& seen, const StabilityCase& c,
-              const std::vector<Prediction>& predictions) {
-    Verdict v{"holds"};
+std::string judge(const Observed& seen, const StabilityCase& c,
+                  const std::vector<Prediction>& predictions) {
+    std::string word = "holds", said;
     bool right = true;
     auto say = [&](const std::string& text, bool agrees) {
-        v.said += (v.said.empty() ? "" : "; ") + text + (agrees ? "" : ", NOT SO");
+        said += (said.empty() ? ": " : "; ") + text + (agrees ? "" : ", NOT SO");
         right = right && agrees;
     };
     std::map<Metric, bool> predicted;
@@ -101,10 +85,10 @@ Verdict judge(const Observed& seen, const StabilityCase& c,
         predicted[p.metric] = true;
         Number m = measured(p, seen, c);
         double away = m.value - p.value, gate = 5 * m.se + rounding * (1 + p.value);
-        say(std::string(name_of(p.metric)) + " " + short_number(m.value) +
+        say(std::string(metrics[static_cast<int>(p.metric)]) + " " + short_number(m.value) +
                 (p.at_most ? " (at most " : " (") + short_number(p.value) + ")",
             p.at_most ? away <= gate : std::abs(away) <= gate);
-        if (p.fails) v.word = "fails as predicted";
+        if (p.fails) word = "fails as predicted";
     }
     double bias = std::abs(seen.mean.mean() - c.truth);
     double gate = 5 * seen.mean.standard_error() + rounding * c.truth;
@@ -113,39 +97,7 @@ Verdict judge(const Observed& seen, const StabilityCase& c,
     bool covers = seen.covered / seen.runs >= 0.87;
     if (!predicted[Metric::coverage] && !covers) say("intervals that cover", false);
     if (seen.not_finite > 0) say("finite samples", false);
-    if (!right) v.word = "FAILS";
-    return v;
-}
-
-std::vector<std::string> row_of(const StabilityCase& c, const NamedMethod& method,
-                                const Observed& seen, const Verdict& verdict) {
-    double se = seen.mean.standard_error(), away = seen.mean.mean() - c.truth;
-    auto percent = [](double share) { return short_number(100 * share); };
-    return {c.name,
-            method.name,
-            short_number(seen.mean.mean()),
-            std::abs(away) <= rounding * c.truth ? "0" : short_number(away / se),
-            percent(seen.covered / seen.runs),
-            short_number(seen.not_finite),
-            verdict.text()};
-}
-
-/// The verdicts of such rows: scenes down, methods across.
-Table matrix_of(const Table& rows) {
-    std::set<std::string> methods;
-    for (const auto& row : rows.rows) methods.insert(row[1]);
-    Table table{{"scene"}, {}};
-    table.columns.insert(table.columns.end(), methods.begin(), methods.end());
-    for (const auto& row : rows.rows) {
-        if (table.rows.empty() || table.rows.back()[0] != row[0]) {
-            table.rows.push_back({row[0]});
-            table.rows.back().resize(table.columns.size());
-        }
-        auto column = static_cast<size_t>(std::distance(methods.begin(), methods.find(row[1])));
-        std::string word = row.back().substr(0, row.back().find(':'));
-        table.rows.back()[1 + column] = word == "fails as predicted" ? "as predicted" : word;
-    }
-    return table;
+    return (right ? word : "FAILS") + said;
 }
 
 void judge_case(const StabilityCase& c, const MeasureOptions& o, Table& rows, Work& work) {
@@ -153,15 +105,20 @@ void judge_case(const StabilityCase& c, const MeasureOptions& o, Table& rows, Wo
     Scene scene = parse_scene(c.name, c.scene, nullptr);
     prepare(scene, 1);
     for (const StabilityCase::Expected& expected : c.expected) {
-        for (const NamedMethod& method : methods_named(expected.methods)) {
+        for (const NamedMethod& method : methods_named(split_list(expected.methods))) {
             if (!can_render(method, scene))
                 throw InputError("error: " + method.name + " refuses " + c.name);
             Observed seen = observe(method, scene, c, o);
-            Verdict verdict = judge(seen, c, expected.predictions);
-            rows.rows.push_back(row_of(c, method, seen, verdict));
+            double away = seen.mean.mean() - c.truth;
+            bool exact = std::abs(away) <= rounding * c.truth;
+            rows.rows.push_back({c.name, method.name, short_number(seen.mean.mean()),
+                                 exact ? "0" : short_number(away / seen.mean.standard_error()),
+                                 short_number(100 * (seen.covered / seen.runs)),
+                                 short_number(seen.not_finite),
+                                 judge(seen, c, expected.predictions)});
         }
     }
-    for (const NamedMethod& method : methods_named(c.refuse)) {
+    for (const NamedMethod& method : methods_named(split_list(c.refuse))) {
         std::string verdict = can_render(method, scene) ? "FAILS" : "refuses";
         rows.rows.push_back({c.name, method.name, "-", "-", "-", "-", verdict});
     }
@@ -172,13 +129,6 @@ constexpr const char* legend =
     "samples.\n"
     "In brackets: what theory predicts, within 5 standard errors. Below, \"as predicted\":\n"
     "fails as predicted; \"refuses\": says that it cannot render the scene.\n";
-
-/// Whether the name contains one of the words.
-bool wanted(const std::string& name, const std::vector<std::string>& words) {
-    return words.empty() || std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-               return name.find(word) != std::string::npos;
-           });
-}
 
 }  // namespace
 
@@ -192,16 +142,28 @@ int main(int argc, char** argv) {
             {.spp = 0, .runs = 200});
         Table rows{
             {"scene", "method", "mean", "bias (s.e.)", "coverage %", "not finite", "verdict"}, {}};
-        std::vector<StabilityCase> cases;
-        for (const StabilityCase& c : stability_cases()) {
-            if (wanted(c.name, o.words)) cases.push_back(c);
-        }
+        std::vector<StabilityCase> cases = stability_cases();
+        std::erase_if(cases, [&](const StabilityCase& c) {
+            auto has = [&](const std::string& word) {
+                return c.name.find(word) != std::string::npos;
+            };
+            return !o.words.empty() && std::none_of(o.words.begin(), o.words.end(), has);
+        });
         Work work("stability: " + std::to_string(cases.size()) + " scenes on which methods fail",
                   static_cast<double>(cases.size()));
         for (const StabilityCase& c : cases) judge_case(c, o, rows, work);
+        Table verdicts{{"scene", "holds", "as predicted", "refuses", "FAILS"}, {}};
+        for (const auto& row : rows.rows) {
+            if (verdicts.rows.empty() || verdicts.rows.back()[0] != row[0])
+                verdicts.rows.push_back({row[0], "", "", "", ""});
+            size_t column = 1;
+            while (row.back().find(verdicts.columns[column]) == std::string::npos) column++;
+            std::string& methods = verdicts.rows.back()[column];
+            methods += (methods.empty() ? "" : " ") + row[1];
+        }
         std::printf("%s\n", markdown(rows).c_str());
         std::printf(legend, o.runs);
-        std::printf("\n%s", markdown(matrix_of(rows)).c_str());
+        std::printf("\n%s", markdown(verdicts).c_str());
         write_table(o.out, "stability", rows);
         return std::any_of(rows.rows.begin(), rows.rows.end(),
                            [](const auto& row) { return row.back().starts_with("FAILS"); });

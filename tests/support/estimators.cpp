@@ -50,9 +50,7 @@ RunningStats irradiance(const Scene& scene, const Method& trace, int paths, uint
 }
 
 void check_bounded(const RunningStats& s, double truth, double relative_se) {
-    CAPTURE(s.mean());
-    CAPTURE(truth);
-    CAPTURE(s.standard_error());
+    INFO(s.mean() << " +- " << s.standard_error() << ", truth " << truth);
     CHECK(std::isfinite(s.mean()));
     CHECK(std::abs(s.mean() - truth) <= 5 * s.standard_error() + 2e-6 * truth);
     CHECK(s.standard_error() <= relative_se * truth);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <random>
 #include <set>
 #include <string>
 
@@ -14,15 +15,29 @@
 /// A new folder, removed with all that is in it.
 class TemporaryFolder {
 public:
-    TemporaryFolder();
+    TemporaryFolder() {
+        std::random_device random;
+        auto name = "path-" + std::to_string(random()) + std::to_string(random());
+        std::filesystem::path path = std::filesystem::temp_directory_path() / name;
+        if (!std::filesystem::create_directory(path)) throw std::runtime_error("no folder");
+        path_ = file_name(path);
+    }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder();
+    ~TemporaryFolder() {
+        std::error_code none;
+        std::filesystem::remove_all(path_, none);
+    }
     const std::string& path() const { return path_; }
-    std::string operator/(const std::string& name) const;
+    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
 
     /// The names of all that is in it.
-    std::set<std::string> names() const;
+    std::set<std::string> names() const {
+        std::set<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path_))
+            names.insert(file_name(entry.path().filename()));
+        return names;
+    }
 
 private:
     std::string path_;

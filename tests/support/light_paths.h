@@ -4,13 +4,9 @@
 #include "tests/support/estimators.h"
 
 /// A picture of the classes of path that the filter matches.
-inline Film film_of_classes(Scene scene, const Method& method, int spp, const std::string& paths,
-                            uint32_t seed = 1) {
-    scene.spp = spp;
-    RenderOptions options;
-    options.threads = static_cast<int>(std::thread::hardware_concurrency());
-    options.seed = seed, options.quiet = true, options.paths = paths;
-    return render_film(scene, options, method).film;
+inline Film film_of_classes(const Scene& scene, const Method& method, int spp,
+                            const std::string& paths, uint32_t seed = 1) {
+    return film_of(scene, method, spp, seed, SamplerType::independent, paths).film;
 }
 /// Its mean, and the standard error of this.
 inline Measured picture_of(const Scene& scene, const Method& method, int spp,
@@ -110,3 +106,25 @@ inline void change(Scene& scene, const std::string& how) {
 
 /// Paths that a light can show to a pinhole: those whose last vertex is no mirror and no glass.
 inline const std::string shown_by_light = "L((D|S)*D)?E";
+
+/// A floor under a point light, by direct light alone: irradiance h / (h^2 + d^2)^(3/2).
+inline Scene bulb_over_a_floor() {
+    Scene scene = scene_of(
+        "LookAt 0 1 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 60\n"
+        "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
+        "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [0 0.5 0]\n"
+        "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Scale 2 1 2\n" +
+        square(0, true));
+    scene.max_depth = 1;
+    return scene;
+}
+
+/// The mean over pixels of the square of the relative error.
+inline double mean_squared_error(const Film& film, const Film& exact) {
+    double sum = 0, n = static_cast<double>(film.pixels().size());
+    for (size_t i = 0; i < film.pixels().size(); i++) {
+        double error = film.pixels()[i].mean() / exact.pixels()[i].mean() - 1;
+        sum += error * error / n;
+    }
+    return sum;
+}

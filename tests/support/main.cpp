@@ -9,10 +9,10 @@
 #endif
 
 #include <cmath>
+#include <ctime>
 #include <utility>
 
 #include "tests/support/process.h"
-#include "tests/support/program.h"
 #include "tests/support/seal.h"
 
 namespace {
@@ -20,17 +20,6 @@ namespace {
 bool ran_none = false;
 
 #ifdef _WIN32
-double of_programs = 0;  // s of processor time
-
-double seconds_of(HANDLE process) {
-    FILETIME none, kernel, user;
-    GetProcessTimes(process, &none, &none, &kernel, &user);
-    double sum = 0;
-    for (FILETIME t : {kernel, user})
-        sum += 429.4967296 * t.dwHighDateTime + 1e-7 * t.dwLowDateTime;
-    return sum;
-}
-
 /// A word as the programs that are started take it from their command line.
 std::wstring quoted(const std::wstring& word) {
     std::wstring text = L"\"";
@@ -72,7 +61,7 @@ private:
     /// Of processor time so far, with that of the programs that tests start.
     static double seconds() {
 #ifdef _WIN32
-        return seconds_of(GetCurrentProcess()) + of_programs;
+        return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 #else
         double sum = 0;
         for (int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -153,7 +142,6 @@ Finished Process::wait() {
     bool by_signal = killed_by_ == SIGKILL || code == ended_by_signal;
     end.code = by_signal ? -1 : static_cast<int>(code);
     end.signal = by_signal ? killed_by_ : 0;
-    of_programs += end.seconds = seconds_of(handle_);
     CloseHandle(std::exchange(handle_, nullptr));
     end.out = read_file(folder_ / "out");
     end.err = read_file(folder_ / "err");

@@ -63,29 +63,6 @@ inline void add_bumpy_ball(Geometry& g, Vec3 centre, float r, uint32_t n) {
     });
 }
 
-/// The Cornell box without its front: 36 triangles, one unit wide, light and two blocks included.
-inline Geometry cornell_box() {
-    Geometry g;
-    add_parallelogram(g, {0, 0, 0}, {1, 0, 0}, {0, 0, 1});
-    add_parallelogram(g, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
-    add_parallelogram(g, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
-    add_parallelogram(g, {0, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    add_parallelogram(g, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    add_parallelogram(g, {0.35f, 0.999f, 0.35f}, {0.3f, 0, 0}, {0, 0, 0.3f});
-    auto add_block = [&](float x, float z, float height, float angle) {
-        size_t first = g.positions.size();
-        add_box(g, {-0.15f, 0, -0.15f}, {0.15f, height, 0.15f});
-        float cos = std::cos(angle), sin = std::sin(angle);
-        for (size_t i = first; i < g.positions.size(); i++) {
-            Vec3& p = g.positions[i];
-            p = {cos * p.x - sin * p.z + x, p.y, sin * p.x + cos * p.z + z};
-        }
-    };
-    add_block(0.68f, 0.3f, 0.3f, -0.3f);
-    add_block(0.3f, 0.65f, 0.6f, 0.3f);
-    return g;
-}
-
 /// A hall of 20 x 8 x 10 with two rows of columns, arches, drapes and rough balls; the number of
 /// triangles grows with detail^2 (10: 66 thousand, 45: 1.3 million).
 inline Geometry hall(uint32_t detail) {
@@ -125,22 +102,6 @@ inline Geometry hall(uint32_t detail) {
     for (int k = 0; k < 6; k++) {
         float x = -7.5f + 3 * static_cast<float>(k), z = k % 2 == 1 ? 1.0f : -1.2f;
         add_bumpy_ball(g, {x, 0.6f, z}, 0.45f, 6 * detail);
-    }
-    return g;
-}
-
-/// A hall of 10 x 6 x 10 of few triangles, and 27 balls of n^2 in one corner of it.
-inline Geometry dense_corner(uint32_t n) {
-    Geometry g;
-    add_box(g, {0, 0, 0}, {10, 6, 10});
-    for (int k = 1; k <= 8; k++) {
-        float x = static_cast<float>(k);
-        add_box(g, {x, 0, 4}, {x + 0.3f, 6, 4.3f});
-    }
-    for (int k = 0; k < 27; k++) {
-        float x = static_cast<float>(k % 3), y = static_cast<float>(k / 3 % 3),
-              z = static_cast<float>(k / 9);
-        add_bumpy_ball(g, Vec3{9.3f, 0.15f, 9.3f} + 0.2f * Vec3{x, y, z}, 0.1f, n);
     }
     return g;
 }

@@ -5,7 +5,9 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
+#include <sstream>
 #ifndef _WIN32
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -15,6 +17,14 @@
 #include "common/base/files.h"
 #include "common/base/system.h"
 #include "tests/support/folder.h"
+
+/// The folder of the test binary, which main() sets: the programs are there too.
+inline std::filesystem::path program_folder;
+
+std::string program_file(const std::string& name);
+
+/// The words that start a program: first those of $RUN, such as an emulator of its processor.
+std::vector<std::string> program_words(const std::string& name);
 
 /// How a process ended: its exit code, or -1 after a signal; and the seconds of processor time that
 /// it took, which do not depend on what else the machine does.

@@ -1,4 +1,4 @@
-// Meshes of the kinds that users bring: a furnished room, a tree, hair.
+// Meshes of the kinds that users bring: a furnished room, hair.
 #pragma once
 #include "tests/support/meshes.h"
 
@@ -104,31 +104,6 @@ inline Geometry furnished_room(uint32_t detail) {
     add_surface(g, 8 * detail, 6 * detail, [](float a, float b) {  // a curtain
         return Vec3{-2.2f + 4.4f * a, 2.8f - 2.7f * b, -2.35f + 0.06f * std::sin(70 * a + 2 * b)};
     });
-    return g;
-}
-
-/// A tree: branches that fork `levels` times, each end with a bunch of leaves of two triangles.
-inline void add_branch(Geometry& g, MeshRandom& random, Vec3 from, Vec3 along, int levels,
-                       int leaves) {
-    Vec3 to = from + along;
-    float r = 0.03f * length(along);
-    add_tube(g, from, to, r, 0.8f * r, 8, 3);
-    for (int k = 0; levels == 0 && k < leaves; k++) {
-        Vec3 at = to + 0.5f * length(along) * random.in_cube();
-        Vec3 u = 0.08f * length(along) * random.in_cube(),
-             v = 0.1f * length(along) * random.in_cube();
-        add_parallelogram(g, at, u, v);
-    }
-    for (int k = 0; levels > 0 && k < 4; k++) {
-        Vec3 turned = normalize(normalize(along) + 0.8f * random.in_cube() + Vec3{0, 0.2f, 0});
-        add_branch(g, random, to, 0.72f * length(along) * turned, levels - 1, leaves);
-    }
-}
-inline Geometry tree(int levels, int leaves) {
-    Geometry g;
-    MeshRandom random(23);
-    add_parallelogram(g, {-20, 0, -20}, {40, 0, 0}, {0, 0, 40});
-    add_branch(g, random, {0, 0, 0}, {0, 2, 0}, levels, leaves);
     return g;
 }
 

@@ -1,19 +1,5 @@
 #include "tests/support/run_program.h"
 
-Words with_words(const std::string& program, const Words& words) {
-    Words all = program_words(program);
-    all.insert(all.end(), words.begin(), words.end());
-    return all;
-}
-
-Process start(const std::string& program, const Words& words) {
-    return Process(with_words(program, words));
-}
-
-Finished run(const std::string& program, const Words& words) {
-    return start(program, words).wait();
-}
-
 std::vector<std::string> programs(bool render) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator("chapters")) {
@@ -29,10 +15,6 @@ std::vector<std::string> programs(bool render) {
     return names;
 }
 
-void append(Words& words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-}
-
 bool comes_to_be(const std::string& path) {
     std::error_code none;
     auto has_content = [&] {
@@ -40,9 +22,4 @@ bool comes_to_be(const std::string& path) {
     };
     for (int i = 0; i < 20000 && !has_content(); i++) ::usleep(1000);
     return has_content();
-}
-
-Words few_photons(const std::string& program) {
-    if (program.find("photon") == std::string::npos) return {};
-    return {"--photons", "2000"};
 }

@@ -52,12 +52,12 @@ std::string square(float y, bool up) {
 }
 
 Rendering film_of(const Scene& scene, const Method& method, int spp, uint32_t seed,
-                  SamplerType sampler) {
+                  SamplerType sampler, const std::string& paths) {
     Scene of_spp = scene;
     of_spp.spp = spp;
     RenderOptions options;
     options.seed = seed;
-    options.sampler = sampler;
+    options.sampler = sampler, options.paths = paths;
     options.threads = static_cast<int>(std::thread::hardware_concurrency());
     options.quiet = true;
     Rendering r = render_film(of_spp, options, method);
@@ -91,12 +91,8 @@ Agreement hold_against(const Film& a, const Film& b, int block_side) {
 }
 
 void check_agreement(const Agreement& a, double relative_se) {
-    CAPTURE(a.z_image);
-    CAPTURE(a.worst_z);
-    CAPTURE(a.worst_x);
-    CAPTURE(a.worst_y);
-    CAPTURE(a.relative);
-    CAPTURE(a.relative_se);
+    INFO("image " << a.z_image << " standard errors, " << a.relative << " +- " << a.relative_se
+                  << "; block " << a.worst_x << "," << a.worst_y << ": " << a.worst_z);
     CHECK(a.agrees());
     CHECK(a.relative_se <= relative_se);
 }

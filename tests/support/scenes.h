@@ -35,8 +35,9 @@ Scene scene_from(const std::string& path, int size, int max_depth);
 /// A square of side 2 at height y (before the transforms in front of it), facing +y or -y.
 std::string square(float y, bool up);
 
+/// A render; of the classes of path that the filter matches.
 Rendering film_of(const Scene& scene, const Method& method, int spp, uint32_t seed = 1,
-                  SamplerType sampler = SamplerType::independent);
+                  SamplerType sampler = SamplerType::independent, const std::string& paths = "");
 
 /// A measured mean and its standard error.
 struct Measured {

@@ -7,18 +7,6 @@
 #include "common/options/command_line.h"
 #include "tests/diagnose/judge.h"
 
-namespace {
-
-int write_scenes(const std::string& folder) {
-    make_folder(folder);
-    for (const SmallScene& scene : small_scenes())
-        write_file_atomically(folder + "/" + scene.name + ".pbrt", scene.pbrt);
-    std::printf("wrote %zu scenes\n", small_scenes().size());
-    return 0;
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
     return run_program([&] {
         std::string to;
@@ -28,7 +16,13 @@ int main(int argc, char** argv) {
             "Says what is wrong with a renderer, from its pictures of the small scenes.",
             {{"write", "DIR", "write the scenes", [&](const std::string& text) { to = text; }}},
             [&](const std::string& word) { words.push_back(word); });
-        if (!to.empty()) return write_scenes(to);
+        if (!to.empty()) {
+            make_folder(to);
+            for (const SmallScene& scene : small_scenes())
+                write_file_atomically(to + "/" + scene.name + ".pbrt", scene.pbrt);
+            std::printf("wrote %zu scenes\n", small_scenes().size());
+            return 0;
+        }
         if (words.size() != 1) throw UsageError("error: one folder of pictures is needed");
         Folder folder = read_folder(words[0]);
         for (const std::string& note : folder.notes) std::fprintf(stderr, "%s\n", note.c_str());

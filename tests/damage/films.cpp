@@ -1,4 +1,4 @@
-// The hashes of the code of chapters, which make finds.
+// Films: renders that are killed, parts by job runners, and the hashes of the code of chapters.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -8,6 +8,17 @@
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
+
+TEST_SUITE("films, slow") {
+    TEST_CASE("identity: renders that are killed, and parts by job runners, lose nothing") {
+        for (const char* script : {"kills", "parts"}) {
+            Words words = {"bash", "tests/damage/" + std::string(script), program_folder, "30"};
+            Finished end = Process(words).wait();
+            CHECK(end.code == 0);
+            MESSAGE(end.out);
+        }
+    }
+}
 
 TEST_SUITE("films of parts") {
     TEST_CASE(
