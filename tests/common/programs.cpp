@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "common/options/loading.h"
+#include "common/picture/film_file.h"
 #include "common/picture/image.h"
 #include "common/picture/stats_file.h"
 #include "tests/support/run_program.h"
@@ -14,6 +15,12 @@ namespace {
 Words joined(Words words, const Words& more) {
     append(words, more);
     return words;
+}
+
+/// Options for a render of a few milliseconds.
+Words small(const std::string& program, const Words& more = {}) {
+    Words words = {spheres, "--size", "33x17", "--spp", "3", "--max-depth", "6"};
+    return joined(joined(words, few_photons(program)), more);
 }
 
 bool is_one_line(const std::string& text) { return text.find('\n') == text.size() - 1; }
@@ -182,6 +189,75 @@ TEST_SUITE("programs") {
             CHECK(end.err.starts_with(folder / "a.film" + ": error: it"));
             CHECK(is_one_line(end.err));
             CHECK(read_file(folder / "a.film") == before);
+        }
+    }
+
+    TEST_CASE("identity: what Ctrl-C stops is a whole picture, and goes on to the same bytes" *
+              doctest::skip()) {
+        for (auto [program, sampler, signal] :
+             {std::tuple(path_tracer, "independent", SIGINT), {light_tracer, "sobol", SIGTERM}}) {
+            TemporaryFolder folder;
+            auto words = [&, s = sampler](const std::string& name, const std::string& spp) {
+                return Words{spheres,
+                             "--size",
+                             "33x17",
+                             "--spp",
+                             spp,
+                             "--sampler",
+                             s,
+                             "--threads",
+                             "2",
+                             "--film",
+                             folder / name + ".film",
+                             "--out",
+                             folder / name + ".pfm",
+                             "--stats",
+                             folder / name + ".json"};
+            };
+            Process process = start(program, words("a", "100000000"));
+            REQUIRE(comes_to_be(folder / "a.film"));
+            ::usleep(300'000);
+            process.kill(signal);
+            Finished end = process.wait();
+            CHECK(end.code == 3);
+            CHECK(end.err == "");
+            CHECK(end.out.find(" (interrupted)\n") != std::string::npos);
+            CHECK(read_image(folder / "a.pfm").width == 33);
+            StatsFile stats(read_file(folder / "a.json"));
+            CHECK(stats.number("empty_pixels_share") == 0);
+            std::string spp =
+                std::to_string(read_film(folder / "a.film").label.samples[0].last + 10);
+            for (const char* name : {"a", "b"}) REQUIRE(run(program, words(name, spp)).code == 0);
+            CHECK(read_file(folder / "b.film") == read_file(folder / "a.film"));
+            CHECK(read_file(folder / "b.pfm") == read_file(folder / "a.pfm"));
+        }
+    }
+
+    TEST_CASE("identity: the pictures of --split sum to the whole, in each chapter" *
+              doctest::skip()) {
+        for (const std::string& program : programs(true)) {
+            CAPTURE(program);
+            TemporaryFolder folder;
+            auto render = [&](const Words& words) {
+                REQUIRE(run(program, small(program, words)).code == 0);
+            };
+            render({"--split", folder / "d", "--out", folder / "a.pfm"});
+            if (program == path_tracer) {
+                render({"--paths", "LDE", "--out", folder / "b.pfm", "--out", folder / "b.png"});
+                CHECK(read_file(folder / "d/LDE.pfm") == read_file(folder / "b.pfm"));
+                CHECK(read_file(folder / "d/LDE.png") == read_file(folder / "b.png"));
+            }
+            CHECK(read_image(folder / "d/classes.png").width > 33);
+            Image whole = read_image(folder / "a.pfm"), sum(33, 17);
+            for (const auto& entry : fs::directory_iterator(folder / "d")) {
+                if (entry.path().extension() == ".png") continue;
+                Image part = read_image(entry.path().string());
+                for (size_t i = 0; i < sum.pixels.size(); i++) sum.pixels[i] += part.pixels[i];
+            }
+            for (size_t i = 0; i < sum.pixels.size(); i++) {
+                double a = double{sum.pixels[i].g}, b = double{whole.pixels[i].g};
+                CHECK(std::abs(a - b) <= 1e-5 * b);
+            }
         }
     }
 }
