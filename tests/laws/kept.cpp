@@ -1,0 +1,44 @@
+// What common/ keeps of a chapter, for later ones, beside the chapter itself.
+#include <doctest/doctest.h>
+
+#include "chapters/17_sky_image/estimator.h"
+#include "chapters/18_dispersion/estimator.h"
+#include "common/path/dispersion.h"
+#include "common/path/image_light.h"
+#include "tests/support/estimators.h"
+
+TEST_SUITE("law: kept chapters") {
+    TEST_CASE("identity: an image of the sky is sampled by common/ as by chapter 17") {
+        Sampler random = random_numbers(17);
+        for (SkyImage::Map map : {SkyImage::Map::square, SkyImage::Map::wide})
+            for (bool compensate : {false, true}) {
+                SkyImage sky;
+                sky.map = map, sky.height = 9, sky.width = map == SkyImage::Map::square ? 9 : 18;
+                sky.x = {1, 0, 0}, sky.y = {0, 0, -1}, sky.z = {0, 1, 0};
+                for (int i = 0; i < sky.width * sky.height; i++)
+                    sky.pixels.push_back({random.u1(), random.u1(), random.u1()});
+                std::vector<double> cdf = ch17::image_cdf(sky, compensate);
+                CHECK(sky_light::image_cdf(sky, compensate) == cdf);
+                for (int i = 0; i < 1000; i++) {
+                    double u = to_unit_double(random.u2());
+                    Vec2 u2 = random.u2();
+                    LightSample a = ch17::sample_image(sky, cdf, u, u2),
+                                b = sky_light::sample_image(sky, cdf, u, u2);
+                    CHECK(a.wi == b.wi);
+                    CHECK(a.Le == b.Le);
+                    CHECK(a.pdf_w == b.pdf_w);
+                }
+            }
+    }
+
+    TEST_CASE("identity: a wavelength is sampled by common/ as by chapter 18") {
+        std::vector<Rgb> white = shares_of_white();
+        for (int i = 0; i < 1000; i++) {
+            float u = (static_cast<float>(i) + 0.5f) / 1000;
+            auto a = ch18::sample_wavelength(white, u);
+            auto b = dispersion::sample_wavelength(white, u);
+            CHECK(a.micrometres == b.micrometres);
+            CHECK(a.weight == b.weight);
+        }
+    }
+}
