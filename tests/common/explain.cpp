@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "common/base/vec.h"
@@ -42,6 +43,42 @@ bool near(double a, double b) { return std::abs(a - b) <= 1e-5 * std::abs(b) + 1
 }  // namespace
 
 TEST_SUITE("explain") {
+    TEST_CASE("truth: the densities that are told, under a small ball in the zenith") {
+        TemporaryFolder folder;
+        std::string scene = folder / "a.pbrt";
+        write_file_atomically(scene, R"(LookAt 0 1 -2 0 0 0 0 1 0 PixelFilter "box"
+            Camera "perspective" "float fov" 10
+            Film "rgb" "integer xresolution" 3 "integer yresolution" 3 WorldBegin
+            AttributeBegin Translate 0 2 0 AreaLightSource "diffuse" "rgb L" [10 10 10]
+            Shape "sphere" "float radius" 0.01 AttributeEnd
+            Material "diffuse" "rgb reflectance" [.5 .5 .5] 
+            Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+            "point3 P" [-20 0 -20  -20 0 20  20 0 20  20 0 -20])");
+        const double cone = 2 / (0.01 * 0.01 / 4) / (2 * std::numbers::pi);  // 1 / its solid angle
+        for (const std::string& program : programs(true)) {
+            int number = std::stoi(program.substr(0, 2));
+            if (number < 7 || number > 19) continue;
+            CAPTURE(program);
+            Words words = {scene, "--explain", "1,1", "--out", folder / "a.ppm", "--spp", "1"};
+            std::string told = run(program, words).out;
+            auto after = [&](const std::string& word) {
+                size_t at = told.find(word);
+                REQUIRE(at != std::string::npos);
+                return std::stod(told.substr(at + word.size()));
+            };
+            double cosine = 1 / std::numbers::pi, uniform = cosine / 2;
+            std::string on = "goes on along wi (";
+            double y = std::stod(told.substr(told.find(", ", told.find(on)) + 2));
+            CHECK(after("f (") == doctest::Approx(0.5 / std::numbers::pi).epsilon(1e-4).scale(0));
+            CHECK(after("pdf_w ") ==
+                  doctest::Approx(number < 10 ? uniform : cosine * y).epsilon(1e-3).scale(0));
+            if (number < 9) continue;
+            CHECK(after("pdf_l ") == doctest::Approx(cone).epsilon(1e-2).scale(0));
+            CHECK(after("pdf_b ") ==
+                  doctest::Approx(number < 10 ? uniform : cosine).epsilon(1e-2).scale(0));
+        }
+    }
+
     TEST_CASE("identity: --explain-brightest explains the largest sample of the picture") {
         TemporaryFolder folder;
         const Words words = {spheres, "--size", "9x8", "--spp", "4", "--out", folder / "a.ppm"};

@@ -260,4 +260,30 @@ TEST_SUITE("programs") {
             }
         }
     }
+
+    TEST_CASE("truth: compare tells the means, errors and difference of two even pictures") {
+        TemporaryFolder folder;
+        Image a(16, 16), b(16, 16);
+        std::fill(a.pixels.begin(), a.pixels.end(), Rgb{0.5f, 0.5f, 0.5f});
+        std::fill(b.pixels.begin(), b.pixels.end(), Rgb{0.25f, 0.25f, 0.25f});
+        write_image(folder / "a.pfm", a, ""), write_image(folder / "b.pfm", b, "");
+        for (bool ranged : {false, true}) {
+            Words words = {folder / "a.pfm", folder / "b.pfm", "--out", folder / "e.pfm"};
+            if (ranged) append(words, {"--range", "0.5"});
+            Finished end = run("compare", words);
+            CHECK(end.code == 0);
+            std::string white = ranged ? "white 0.5\n" : "white 0.928\n";  // .25 / sqrt(.0725)
+            for (const std::string& line :
+                 {"A  " + folder / "a.pfm" + "  mean 0.5, standard error unknown\n",
+                  "B  " + folder / "b.pfm" + "  mean 0.25, standard error unknown\n",
+                  std::string("A - B  0.25 (100 %)"), std::string("    below 5 standard errors"),
+                  std::string("\nMSE 0.0625   RMSE 0.25   relMSE 0.8621\n    mean of (a-b)^2"),
+                  std::string("\nmedian of A/B over the pixels: 2\n    of the middle pixel"),
+                  std::string("\nverdict: other means: "), white}) {
+                CAPTURE(line);
+                CHECK(end.out.find(line) != std::string::npos);
+            }
+            CHECK(read_image(folder / "e.pfm").pixels[7].r == 1);
+        }
+    }
 }
