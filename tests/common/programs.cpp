@@ -286,4 +286,55 @@ TEST_SUITE("programs") {
             CHECK(read_image(folder / "e.pfm").pixels[7].r == 1);
         }
     }
+
+    TEST_CASE("truth: --radius is the first radius that 23 to 25 print") {
+        TemporaryFolder folder;
+        for (const std::string& program : programs(true)) {
+            if (program < "23" || program > "26") continue;
+            CAPTURE(program);
+            Finished end =
+                run(program, small(program, {"--radius", "0.321", "--out", folder / "a.pfm"}));
+            CHECK(end.out.find("\nfirst radius 0.321 m\n") != std::string::npos);
+        }
+    }
+
+    TEST_CASE("truth: the pyramid of 21 has a row for each length; weights make it darker") {
+        TemporaryFolder folder;
+        std::string pyramid = folder / "b.pfm";
+        REQUIRE(run("21_bidirectional", {"--size", "32x32", "--spp", "1", "--max-depth", "4",
+                                         "--pyramid", pyramid, "--out", folder / "a.pfm"})
+                    .code == 0);
+        Image all = read_image(pyramid);
+        CHECK(all.width >= 12 * 96);  // s = 0 to 5, without weights and with them
+        CHECK(all.width < 14 * 96);
+        CHECK(all.height >= 4 * 96);
+        CHECK(all.height < 7 * 96);
+        double dark[2] = {};
+        for (size_t i = 0; i < all.pixels.size(); i++) {
+            bool right = i % static_cast<size_t>(all.width) >= static_cast<size_t>(all.width) / 2;
+            dark[right] += all.pixels[i].g > 0 ? 0 : 1;
+        }
+        CHECK(dark[0] < dark[1]);
+    }
+
+    TEST_CASE("truth: 26 tells its patches, and where the light of an open room went") {
+        TemporaryFolder folder;
+        for (bool few : {false, true}) {
+            Words words = {"scenes/cornell.pbrt", "--patches", "200", "--size", "16x16", "--out",
+                           folder / "a.pfm"};
+            if (few) append(words, {"--shots", "20"});
+            std::string out = run("26_radiosity", words).out;
+            CHECK(out.find(" patches in an open room\nrow sums 0.") != std::string::npos);
+            CHECK((out.find("\n20 shots: of ") != std::string::npos) == few);
+            auto share = [&](const std::string& word) {  // the number before it, in percent
+                size_t end = out.find(" % " + word);
+                REQUIRE(end != std::string::npos);
+                return std::stod(out.substr(out.rfind(' ', end - 1)));
+            };
+            double absorbed = share("absorbed"), escaped = share("out"), unshot = share("unshot");
+            CHECK(absorbed + escaped + unshot == doctest::Approx(100).epsilon(0.01).scale(0));
+            CHECK(absorbed > 1.5 * escaped);  // 69 % and 31 %
+            CHECK((few ? unshot > 10 : unshot < 0.1));
+        }
+    }
 }
