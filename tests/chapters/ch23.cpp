@@ -116,17 +116,27 @@ TEST_SUITE("ch23 first radius") {
                 }
             }
         }
+        // Counted one by one.
+        ch23::PhotonMaps some = maps(10000, 0);
+        float r = ch23::first_radius(some, 1);
+        double others = 0;
+        for (const Photon& p : some.global.photons())
+            for (const Photon& q : some.global.photons())
+                others += &p != &q && length(p.p - q.p) < r;
+        CHECK(others / 10000 == doctest::Approx(50).epsilon(0.01).scale(0));
         CHECK(ch23::first_radius(maps(30, 0), 1) == 0.2f);
         CHECK(ch23::first_radius(maps(0, 0), 1) == 0.2f);
         // A floor 1 m below a camera of 60 degrees. The median ray is 1.1 times as long as the
         // one in the middle. A picture with fewer than 128x128 pixels counts as one with as many.
-        Scene scene = bulb_over_a_floor();
-        for (int pixels : {32, 256}) {
+        auto width_of = [](int pixels) {
+            Scene scene = bulb_over_a_floor();
             scene.width = scene.height = pixels;
-            double width = 1.1 * 2 * std::tan(pi_exact / 6) / std::max(pixels, 128);
-            CHECK(double{ch23::pixel_width(scene)} ==
-                  doctest::Approx(width).epsilon(0.03).scale(0));
-        }
+            return double{ch23::pixel_width(scene)};
+        };
+        double width = 1.1 * 2 * std::tan(pi_exact / 6) / 128;
+        CHECK(width_of(128) == doctest::Approx(width).epsilon(0.03).scale(0));
+        CHECK(width_of(32) == doctest::Approx(width_of(128)).epsilon(1e-4).scale(0));
+        CHECK(width_of(256) == doctest::Approx(width_of(128) / 2).epsilon(1e-4).scale(0));
     }
 
     TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {

@@ -3,8 +3,11 @@
 
 #include "chapters/17_sky_image/estimator.h"
 #include "chapters/18_dispersion/estimator.h"
+#include "chapters/23_photon_mapping/estimator.h"
 #include "common/path/dispersion.h"
 #include "common/path/image_light.h"
+#include "common/path/photons.h"
+#include "tests/known/scenes.h"
 #include "tests/support/estimators.h"
 
 TEST_SUITE("law: kept chapters") {
@@ -40,5 +43,18 @@ TEST_SUITE("law: kept chapters") {
             CHECK(a.micrometres == b.micrometres);
             CHECK(a.weight == b.weight);
         }
+    }
+
+    TEST_CASE("identity: the first radius of common/ is that of chapter 23") {
+        for (const char* name : {"mirror-beside", "three"})
+            for (int pixels : {16, 200}) {
+                Scene scene = scene_of(known_scene(name).text);
+                scene.width = scene.height = pixels;
+                Endpoints endpoints = endpoints_of(scene);
+                CHECK(pixel_width(scene) == ch23::pixel_width(scene));
+                float radius = choose_radius(scene, endpoints, {.light_paths = 3000});
+                CHECK(radius > 0);
+                CHECK(radius == ch23::choose_radius(scene, endpoints, {.light_paths = 3000}));
+            }
     }
 }
