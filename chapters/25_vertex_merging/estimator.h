@@ -13,15 +13,6 @@
 
 namespace ch25 {
 
-/// What is prepared for a scene, and for each pass.
-struct Merging {
-    Endpoints endpoints;
-    many_lights::Lights lights;
-    float area = 0;  // m^2, N pi r^2: of the disks of N light paths; 0: nothing merges
-    LightPaths paths = {};
-    PhotonMap map = {};
-};
-
 /// Computes what the vertices of a walk store, as in chapter 22, with one more term.
 ///
 ///   sum_j = c_j-1 + m_j-1 area pdf_j-1 + r_j-2 sum_j-1
@@ -205,15 +196,36 @@ inline void trace_light_paths(const Scene& scene, const PhotonSettings& settings
     merging.map = PhotonMap(merging.paths.photons, r);
 }
 
+/// The first radius, as in chapter 23, by light paths of a trial. A photon counts as much as
+/// merging does beside the strategies on the light's side; on the eye's side they hardly matter.
+///
+///   mis_merge ~ 1 / (1 + sum of p_i / p_merge on the light's side)
+inline float choose_radius(const Scene& scene, const PhotonSettings& settings, Merging merging) {
+    std::vector<SeenPoint> points = seen_points(scene);
+    if (points.empty()) return scene.radius / 100;
+    PhotonSettings trial = {.light_paths = std::min(settings.light_paths, 1 << 15)};
+    Stopped never = [] { return false; };
+    auto vertices = ::trace_light_paths(scene, merging.endpoints, trial, 0, 1, never);
+    PhotonMaps maps = build_maps(std::move(vertices), 4 * pixel_width(points), false);
+
+    // The weights are those of a pass with a radius of two pixels: N pi r^2 is the same.
+    trial.light_paths *= 4;
+    double share = static_cast<double>(trial.light_paths) / settings.light_paths;
+    trial.radius = 2 * pixel_width(points) / static_cast<float>(std::sqrt(share));
+    trace_light_paths(scene, trial, 0, 1, never, merging);
+    weigh(merging.paths);
+    return first_radius(points, maps.global, merging.paths.photons, share);
+}
+
 /// The settings, where the user leaves them open: two light paths for each pixel, at most a
-/// million, and a first radius as in chapter 23. No light paths where nothing is a mirror or glass.
-inline PhotonSettings settings_for(const Scene& scene, const Endpoints& endpoints,
-                                   PhotonSettings settings) {
+/// million, and a first radius. No light paths where nothing is a mirror or glass.
+inline PhotonSettings settings_for(const Scene& scene, PhotonSettings settings,
+                                   const Merging& merging) {
     auto any = std::find_if(scene.materials.begin(), scene.materials.end(), is_specular);
     if (any == scene.materials.end()) return {.light_paths = 0};
     double most = 2.0 * scene.width * scene.height;
     if (settings.light_paths == 0) settings.light_paths = static_cast<int>(std::min(most, 1e6));
-    settings.radius = choose_radius(scene, endpoints, settings);
+    if (settings.radius == 0) settings.radius = choose_radius(scene, settings, merging);
     return settings;
 }
 
@@ -221,7 +233,7 @@ inline PhotonSettings settings_for(const Scene& scene, const Endpoints& endpoint
 inline Method merging_passes(const Scene& scene, PhotonSettings settings) {
     auto merging =
         std::make_shared<Merging>(Merging{endpoints_of(scene), many_lights::prepare(scene)});
-    settings = settings_for(scene, merging->endpoints, settings);
+    settings = settings_for(scene, settings, *merging);
     Method method;
     method.prepare = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         trace_light_paths(scene, settings, pass, threads, stopped, *merging);

@@ -61,4 +61,24 @@ inline void add_light_path(const Scene& scene, const Subpath& walk, float area, 
     }
 }
 
+/// Multiplies the flux of photons by the weight of merging, without strategies on the eye's side.
+///
+///   mis_merge ~ 1 / (1 + sum of p_i / p_merge on the light's side)
+inline void weigh(LightPaths& paths) {
+    for (Photon& photon : paths.photons) {
+        const LightVertex& y = paths.vertices[photon.vertex];
+        float back_w = pdf_cosine_hemisphere(std::max(0.0f, dot(y.wi, photon.ng)));
+        photon.flux /= 1 + back_w * static_cast<float>(y.others);
+    }
+}
+
+/// What is prepared for a scene, and for each pass.
+struct Merging {
+    Endpoints endpoints;
+    many_lights::Lights lights;
+    float area = 0;  // m^2, N pi r^2: of the disks of N light paths; 0: nothing merges
+    LightPaths paths = {};
+    PhotonMap map = {};
+};
+
 }  // namespace ch25

@@ -26,7 +26,7 @@ struct Photon {
 class PhotonMap {
 public:
     PhotonMap() = default;
-    PhotonMap(const std::vector<Photon>& photons, float radius)
+    PhotonMap(std::span<const Photon> photons, float radius)
         : radius_(radius), photons_(photons.size()) {
         // Counting sort: count each entry's photons, turn counts into ends, fill from the ends.
         begin_.resize(std::max(std::bit_ceil(photons.size()), size_t{32}) + 1);
@@ -79,6 +79,9 @@ private:
     std::vector<Photon> photons_;
     std::vector<uint32_t> begin_;  // of each entry, among the photons
 };
+
+/// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.
+inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
 
 inline bool is_diffuse(const Material& m) { return m.type == MaterialType::diffuse; }
 

@@ -73,14 +73,19 @@ inline std::vector<LightVertex> trace_light_paths(const Scene& scene, const Endp
     return vertices;
 }
 
-/// The first radius: what the user asks for, or one that suits the photons.
+/// The first radius: what the user asks for, or one that suits the photons of a trial. The trial's
+/// photons are independent of each other and of the seed.
 inline float choose_radius(const Scene& scene, const Endpoints& endpoints,
                            const PhotonSettings& settings) {
     if (settings.radius > 0) return settings.radius;
-    PhotonSettings few = settings;
-    few.light_paths = std::min(settings.light_paths, 1 << 14);
-    auto vertices = trace_light_paths(scene, endpoints, few, 0, 1, [] { return false; });
-    PhotonMaps maps = build_maps(std::move(vertices), 3.6f * pixel_width(scene), false);
-    double share = static_cast<double>(few.light_paths) / settings.light_paths;
-    return first_radius(maps, share);
+    std::vector<SeenPoint> points = seen_points(scene);
+    if (points.empty()) return scene.radius / 100;
+    PhotonSettings trial = settings;
+    trial.sampler = SamplerType::independent, trial.seed = 0;
+    trial.light_paths = 4 * std::min(settings.light_paths, 1 << 15);
+    auto vertices = trace_light_paths(scene, endpoints, trial, 0, 1, [] { return false; });
+    double share = static_cast<double>(trial.light_paths) / settings.light_paths;
+    PhotonMaps maps = build_maps(std::move(vertices), 4 * pixel_width(points), false);
+    const PhotonMap& sharp = maps.caustic.size() > 0 ? maps.caustic : maps.global;
+    return first_radius(points, maps.global, sharp.photons(), share);
 }

@@ -42,7 +42,7 @@ std::vector<double> lesson_weights(const Scene& scene, ch25::Merging& merging,
             if (photon.depth != static_cast<int>(at)) continue;
             size_t t = n + 1 - at;  // of the vertex from the eye at the same place
             photon.flux = {1, 1, 1}, photon.p = eye.path[t - 1].x.p;
-            merging.paths = all, merging.map = PhotonMap({photon}, r);
+            merging.paths = all, merging.map = PhotonMap(std::span(&photon, 1), r);
             Recorder recorder;
             Rgb L = ch25::merge(scene, merging, eye, t, recorder);
             double rho = static_cast<double>(eye.path[t - 1].x.material->reflectance.g);

@@ -51,7 +51,6 @@ TEST_SUITE("law: kept chapters") {
                 Scene scene = scene_of(known_scene(name).text);
                 scene.width = scene.height = pixels;
                 Endpoints endpoints = endpoints_of(scene);
-                CHECK(pixel_width(scene) == ch23::pixel_width(scene));
                 float radius = choose_radius(scene, endpoints, {.light_paths = 3000});
                 CHECK(radius > 0);
                 CHECK(radius == ch23::choose_radius(scene, endpoints, {.light_paths = 3000}));
