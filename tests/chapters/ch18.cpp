@@ -31,15 +31,16 @@ TEST_SUITE("ch18 dispersion") {
         for (float channel : {sum.r, sum.g, sum.b}) CHECK(std::abs(channel - 1) < 3e-4f);
         CHECK(last < 0.7851);
         CHECK(ch18::sample_wavelength(white, 0).micrometres > 0.37f);
-        // Each interval is drawn by its share of white, and its middle is the observer's
+        // Each interval is drawn by its share of white, evenly; its middle is the observer's
         // wavelength.
         double u = 0;
         for (size_t i = 0; i < white.size(); i++) {
-            double p = double{average(white[i])};
-            auto drawn = ch18::sample_wavelength(white, static_cast<float>(u + p / 2));
+            double p = double{average(white[i])}, part = i % 2 == 0 ? 0.5 : 0.25;
+            auto drawn = ch18::sample_wavelength(white, static_cast<float>(u + part * p));
             u += p;
             if (p < 1e-3) continue;
-            double nm = observer_first_nm + observer_step_nm * static_cast<double>(i);
+            double at = static_cast<double>(i) - 0.5 + part;
+            double nm = observer_first_nm + observer_step_nm * at;
             CHECK(1000 * double{drawn.micrometres} == doctest::Approx(nm).epsilon(1e-4).scale(0));
             CHECK(drawn.weight == white[i] / average(white[i]));
         }
@@ -67,13 +68,21 @@ TEST_SUITE("ch18 dispersion") {
     }
 
     TEST_CASE("truth: a prism of 60 degrees bends each color by its own angle") {
-        const Glass& BK7 = all_glasses()[1];
         struct {
             double micrometres, degrees;
         } cases[] = {
             {0.4861327, 39.14097361135}, {0.5875618, 38.65363675922}, {0.6562725, 38.43841179471}};
         for (auto [micrometres, degrees] : cases) {
-            float n = index_of_refraction(BK7, micrometres), rad = pi / 180;
+            // The light comes through another glass before.
+            ch18::Wavelength light = {static_cast<float>(micrometres), {}};
+            Material materials[2];
+            Hit x;
+            for (size_t i : {0, 1}) {
+                materials[i].glass = &all_glasses()[i];
+                x.material = &materials[i];
+                ch18::set_index(x, light);
+            }
+            float n = x.material->ior, rad = pi / 180;
             // Faces whose normals, towards the light and away from it, are 60 degrees apart.
             Vec3 in = {-std::cos(60 * rad / 2), std::sin(60 * rad / 2), 0};
             Vec3 out = {-in.x, in.y, 0};

@@ -1,7 +1,7 @@
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
 .PHONY: exercise check checkers mine
 
-#: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you (ALL=1: all that change)
+#: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you (ALL=1: also those that change)
 exercise:
 	@common/tools/exercise '$(CH)'
 checkers := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp tests/known/*.cpp) \

@@ -186,7 +186,7 @@ void add_skies(std::vector<KnownScene>& p) {
     p.push_back({"sphere", "the inside of a sphere that shines and reflects half",
                  shining_sphere(paint(0.5), 6), 7, 21, 256});
     // Before chapter 10 its long paths are too noisy.
-    p.push_back({"red", "the same, that reflects red alone, 97 % of it",
+    p.push_back({"red", "the inside of a shining red sphere",
                  shining_sphere("Material \"diffuse\" \"rgb reflectance\" [0.97 0.02 0.02] ", 60),
                  10, 21, 16});
     p.push_back({"room", "a grey room with a lamp", room(3), 7, 21, 128});
@@ -371,7 +371,7 @@ std::string pattern(int width) {
 /// What is for any renderer: quads and spheres, and one material each.
 void add_for_any_renderer(std::vector<KnownScene>& p) {
     p.push_back({"frame", "lamps that the camera sees", pattern(16)});
-    p.push_back({"wide", "the same in a wide picture", pattern(32)});
+    p.push_back({"wide", "lamps that the camera sees, in a wide picture", pattern(32)});
     p.push_back({"paint", "a coloured floor under a coloured lamp",
                  above + floor_of("Material \"diffuse\" \"rgb reflectance\" [.8 .4 .2] ") +
                      group("AreaLightSource \"diffuse\" \"rgb L\" [1 2 6] " + paint(0) +
