@@ -11,11 +11,11 @@ namespace ch22 {
 struct Bidirectional {
     Endpoints endpoints;
     many_lights::Lights lights;
-    int chances;          // 0: none, as in chapter 21
+    int samples;          // 0: none, as in chapter 21
     bool light_sampling;  // direct light as in chapter 15; false: as in chapter 21
 };
-inline Bidirectional prepare(const Scene& scene, int chances = 16, bool light_sampling = true) {
-    return {endpoints_of(scene), many_lights::prepare(scene), chances, light_sampling};
+inline Bidirectional prepare(const Scene& scene, int samples = 16, bool light_sampling = true) {
+    return {endpoints_of(scene), many_lights::prepare(scene), samples, light_sampling};
 }
 
 /// What a vertex stores for the weights of all its connections.
@@ -145,27 +145,27 @@ inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, c
 
 /// Whether no connection finds light that reaches the t-th vertex from the eye via mirrors or
 /// glass.
-inline bool only_chance(const Subpath& eye, size_t t) {
+inline bool only_random_hits(const Subpath& eye, size_t t) {
     const Path& path = eye.path;
     return t > 2 && path[t - 1].connectible && !path[t - 2].connectible && eye.kept[t - 1].sum == 0;
 }
 
 /// Whether the t-th vertex from the eye, a light, is one of those that through_mirrors() finds.
-inline bool has_chances(const Subpath& eye, size_t t) {
+inline bool is_sampled_again(const Subpath& eye, size_t t) {
     size_t z = t - 1;  // number of the last vertex before the mirrors
     while (z > 1 && !eye.path[z - 1].connectible) z--;
-    return z < t - 1 && only_chance(eye, z);
+    return z < t - 1 && only_random_hits(eye, z);
 }
 
 /// Light that reaches z, the t-th vertex from the eye, via mirrors or glass only: mean of samples.
 ///
 /// Unbiased: it replaces the eye path's own estimate of this light, which has the same mean.
 /// tested by  "agreement: all methods, by length and class of path", within 5 standard errors
-inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chances,
+inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int samples,
                            Sampler& sampler, Recorder& recorder) {
     sampler.jump((1u << 13) + 512 * static_cast<uint32_t>(t));
     Rgb sum;
-    for (int i = 0; i < chances; i++) {
+    for (int i = 0; i < samples; i++) {
         recorder.back_to(t);
         Vertex v = z;
         for (int n = t + 1; n <= scene.max_depth + 2; n++) {
@@ -185,9 +185,9 @@ inline Rgb through_mirrors(const Scene& scene, const Vertex& z, int t, int chanc
             recorder.vertex(y);
             if (n > t + 1) {
                 Rgb Le = y ? emission(scene, *y) : sky_towards(scene, s.wi);
-                Rgb L = v.beta * Le / static_cast<float>(chances);
+                Rgb L = v.beta * Le / static_cast<float>(samples);
                 sum += L;
-                recorder.connected(L, 0, n, 1.0f / static_cast<float>(chances));
+                recorder.connected(L, 0, n, 1.0f / static_cast<float>(samples));
             }
             if (!y || !is_specular(*y->material)) break;
             v.x = *y, v.back = -s.wi;
@@ -225,7 +225,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
     size_t longest = static_cast<size_t>(scene.max_depth) + 2;
     for (size_t t = 1; t <= eye.path.size(); t++) {
         for (size_t s = t == 1 ? 3 : 0; s <= light.path.size() && s + t <= longest; s++) {
-            if (s == 0 && settings.chances > 0 && has_chances(eye, t)) continue;
+            if (s == 0 && settings.samples > 0 && is_sampled_again(eye, t)) continue;
             if (direct && s + t == 3) continue;
             if (s == 1) place_light(scene, light.path[0], eye.path[t - 1]);
             Splat splat = unweighted(scene, endpoints, light.path, s, eye.path, t);
@@ -239,9 +239,9 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
     }
 
     // Take more samples of light that only random hits find.
-    for (size_t t = eye.path.size(); t > 2 && settings.chances > 0; t--)
-        if (only_chance(eye, t))
-            sum += through_mirrors(scene, eye.path[t - 1], static_cast<int>(t), settings.chances,
+    for (size_t t = eye.path.size(); t > 2 && settings.samples > 0; t--)
+        if (only_random_hits(eye, t))
+            sum += through_mirrors(scene, eye.path[t - 1], static_cast<int>(t), settings.samples,
                                    sampler, recorder);
     return direct ? sum + direct_light(scene, settings.lights, eye.path, sampler, recorder) : sum;
 }
