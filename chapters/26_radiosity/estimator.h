@@ -16,7 +16,7 @@
 
 namespace ch26 {
 
-// Steps 1 and 2 of the page: form factors.
+// Step 1 of the page: form factors.
 
 /// The formula that is often shown: G_ij, m^2, from the value of the integrand between one point x
 /// of patch p and one point y of patch q.
@@ -112,7 +112,7 @@ inline ExchangeOf form_factors(const Scene& scene, const Patches& patches, uint3
     };
 }
 
-// Step 3: gathering. Each patch takes light from all others.
+// Step 2: gathering. Each patch takes light from all others.
 
 /// The equation.      B_i = E_i + rho_i H_i,      H_i = sum over j of F_ij B_j,  both W m^-2
 inline Radiosity radiosity_of(const Patch& p, Radiosity H) { return p.E + p.rho * H; }
@@ -158,7 +158,7 @@ inline void solve(const Matrix& G, const std::vector<Patch>& patch, Sweep kind, 
     }
 }
 
-// Step 4: shooting. The brightest patch sends its light to all others.
+// Step 3: shooting. The brightest patch sends its light to all others.
 
 /// Begins progressive refinement (Southwell): all that lamps emit is unshot.
 inline void start(const std::vector<Patch>& patch, Solution& s) {
@@ -221,7 +221,7 @@ inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s,
     return ratio(keep * unshot, all - min(keep * rho, most * all));
 }
 
-// Step 5: the picture.
+// Step 4: the picture.
 
 /// The radiance that arrives along the ray: that of the patch it meets.      L = B / pi
 ///
