@@ -111,8 +111,7 @@ TEST_SUITE("ch23 first radius") {
             for (int caustic : {0, n / 20}) {
                 for (double share : {1.0, 0.25}) {
                     double r = std::sqrt(50 * share / (pi_exact * n));
-                    CHECK(double{ch23::first_radius(maps(n, caustic), share)} ==
-                          doctest::Approx(r).epsilon(0.06).scale(0));
+                    CHECK(double{ch23::first_radius(maps(n, caustic), share)} == nearly(r, 0.06));
                 }
             }
         }
@@ -123,7 +122,7 @@ TEST_SUITE("ch23 first radius") {
         for (const Photon& p : some.global.photons())
             for (const Photon& q : some.global.photons())
                 others += &p != &q && length(p.p - q.p) < r;
-        CHECK(others / 10000 == doctest::Approx(50).epsilon(0.01).scale(0));
+        CHECK(others / 10000 == nearly(50, 0.01));
         CHECK(ch23::first_radius(maps(30, 0), 1) == 0.2f);
         CHECK(ch23::first_radius(maps(0, 0), 1) == 0.2f);
         // A floor 1 m below a camera of 60 degrees. The median ray is 1.1 times as long as the
@@ -134,27 +133,27 @@ TEST_SUITE("ch23 first radius") {
             return double{ch23::pixel_width(scene)};
         };
         double width = 1.1 * 2 * std::tan(pi_exact / 6) / 128;
-        CHECK(width_of(128) == doctest::Approx(width).epsilon(0.03).scale(0));
-        CHECK(width_of(32) == doctest::Approx(width_of(128)).epsilon(1e-4).scale(0));
-        CHECK(width_of(256) == doctest::Approx(width_of(128) / 2).epsilon(1e-4).scale(0));
+        CHECK(width_of(128) == nearly(width, 0.03));
+        CHECK(width_of(32) == nearly(width_of(128), 1e-4));
+        CHECK(width_of(256) == nearly(width_of(128) / 2, 1e-4));
     }
 
     TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {
-        auto radius = [](const Scene& scene) { return double{by_23(scene, {}).first_radius}; };
-        const std::string glass =
-            "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
-            "\"float radius\" 0.4 AttributeEnd LightSource \"point\" \"point3 from\" [1 2 0] "
-            "Translate 0 -1 0 Scale ";
-        double small = radius(world_of(glass + "3 1 3 " + square(0, true)));
-        double large = radius(world_of(glass + "3000 1 3000 " + square(0, true)));
-        CHECK(small > 0.01);
-        CHECK(large == doctest::Approx(small).epsilon(0.1).scale(0));
-        const std::string path = "scenes/cornell-spheres.pbrt";
-        double whole = radius(in_units(path, 1, 32, 5));
-        for (float unit : {0.001f, 1000.0f}) {
-            CHECK(radius(in_units(path, unit, 32, 5)) / double{unit} ==
-                  doctest::Approx(whole).epsilon(0.01).scale(0));
-        }
+        auto radius = [](float unit, const std::string& floor) {
+            std::string u = std::to_string(unit) + " ";
+            Scene scene = world_of(
+                "Scale " + u + u + u +
+                "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
+                "\"float radius\" 0.4 AttributeEnd LightSource \"point\" \"point3 from\" [1 2 0] "
+                "Translate 0 -1 0 Scale " +
+                floor + square(0, true));
+            scene.camera.o = unit * scene.camera.o;
+            return double{by_23(scene, {}).first_radius} / double{unit};
+        };
+        double whole = radius(1, "3 1 3 ");
+        CHECK(whole > 0.01);
+        CHECK(radius(1, "3000 1 3000 ") == nearly(whole, 0.1));
+        for (float unit : {0.001f, 1000.0f}) CHECK(radius(unit, "3 1 3 ") == nearly(whole, 0.01));
     }
 }
 
@@ -234,7 +233,7 @@ TEST_SUITE("ch23 photon mapping") {
             return mse.mean();
         };
         double few = error(128), many = error(1024);
-        CHECK(many == doctest::Approx(few).epsilon(0.1).scale(0));
+        CHECK(many == nearly(few, 0.1));
         CHECK(many > 0.005);
     }
 
