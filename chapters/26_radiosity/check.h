@@ -10,7 +10,7 @@ namespace ch26 {
 
 /// What x reflects to wo, W m^-2 sr^-1, by a path of 16 bounces. Lights are sampled at each bounce;
 /// the last bounce finds the radiosity of a patch, without what it emits.
-/// tested by  "agreement: a gray Cornell box with chapter 15, ..."
+/// tested by  "furnace: a closed cube that emits 1 ..."
 inline Rgb by_path(const Scene& scene, const Shown& shown, const LightTable& lights, Hit x, Vec3 wo,
                    Sampler& sampler) {
     Rgb L, beta = {1, 1, 1};

@@ -62,7 +62,7 @@ TEST_SUITE("ch01 monte carlo pi") {
         RunningStats s = throw_darts(ch01::score_dart, 1000000, 1);
         check_mean(s, pi_exact, dart_variance, 0.015);
         check_variance(s, dart_variance, dart_kurtosis);
-        CHECK(s.standard_error() == doctest::Approx(0.00164218).epsilon(0.01).scale(0));
+        CHECK(s.standard_error() == nearly(0.00164218, 0.01));
     }
 
     TEST_CASE("variance: four times the darts, half the standard error") {
@@ -89,10 +89,9 @@ TEST_SUITE("ch01 monte carlo pi") {
         ch01::RunningStats a = ch01::throw_darts(ch01::score_dart, 0, 300, 3);
         a.merge(ch01::throw_darts(ch01::score_dart, 300, 1000, 3));
         CHECK(a.count() == 1000);
-        CHECK(a.mean() == doctest::Approx(whole.mean()).epsilon(1e-14).scale(0));
-        CHECK(a.variance() == doctest::Approx(whole.variance()).epsilon(1e-12).scale(0));
-        CHECK(a.standard_error() ==
-              doctest::Approx(whole.standard_error()).epsilon(1e-12).scale(0));
+        CHECK(a.mean() == nearly(whole.mean(), 1e-14));
+        CHECK(a.variance() == nearly(whole.variance(), 1e-12));
+        CHECK(a.standard_error() == nearly(whole.standard_error(), 1e-12));
     }
 
     TEST_CASE("identity: darts beyond number 2^32 are new ones") {
@@ -131,7 +130,7 @@ TEST_SUITE("ch01 dart board") {
             }
             previous = ring.radius;
         }
-        CHECK(ch01::expected_score() == doctest::Approx(integral).epsilon(1e-7).scale(0));
+        CHECK(ch01::expected_score() == nearly(integral, 1e-7));
         RunningStats s = throw_darts(score_hit, 1000000, 1);
         check_mean(s, ch01::expected_score(), square - integral * integral, 0.02);
     }

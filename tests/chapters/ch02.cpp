@@ -87,9 +87,9 @@ TEST_SUITE("ch02 pictures and slopes") {
     TEST_CASE("truth: the penumbra of a straight edge") {
         CHECK(ch02::fraction_seen(-0.1) == 0);
         CHECK(ch02::fraction_seen(0) == 0);
-        CHECK(ch02::fraction_seen(0.7) == doctest::Approx(0.5).epsilon(1e-14).scale(0));
-        CHECK(ch02::fraction_seen(1.4) == doctest::Approx(1).epsilon(1e-14).scale(0));
-        CHECK(ch02::fraction_seen(9) == doctest::Approx(1).epsilon(1e-12).scale(0));
+        CHECK(ch02::fraction_seen(0.7) == nearly(0.5, 1e-14));
+        CHECK(ch02::fraction_seen(1.4) == nearly(1, 1e-14));
+        CHECK(ch02::fraction_seen(9) == nearly(1, 1e-12));
         for (double p : {0.1, 0.3, 0.65, 0.9, 1.3}) {
             Points points = grid(1000);
             double counted = ch02::estimate(points, [&](Vec2 u) { return ch02::sees_light(u, p); });

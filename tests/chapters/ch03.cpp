@@ -155,8 +155,7 @@ TEST_SUITE("ch03 Poisson disc") {
             }
             return s.mean();
         };
-        CHECK(ch03::hexagonal_distance(100) ==
-              doctest::Approx(0.1074569931824).epsilon(1e-6).scale(0));
+        CHECK(ch03::hexagonal_distance(100) == nearly(0.1074569931824));
         CHECK(regularity(PointSet::uniform) < 0.55);
         CHECK(regularity(PointSet::poisson) < 0.87);
         CHECK(std::abs(regularity(PointSet::repelled) - 0.916) < 0.005);  // by the size of steps

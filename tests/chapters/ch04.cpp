@@ -102,8 +102,8 @@ TEST_SUITE("ch04 sums") {
         Experiment e = find(ch04::sums(), "lights 1, 1", "1/4, 3/4");
         CHECK(e.X(0.1) == 4);
         CHECK(e.X(0.9) == 4.0 / 3);
-        CHECK(250 * e.X(0.1) + 750 * e.X(0.9) == doctest::Approx(2000).epsilon(1e-15).scale(0));
-        CHECK(250 * 4 + 750 * 1.3333 == doctest::Approx(1999.975).epsilon(1e-15).scale(0));
+        CHECK(250 * e.X(0.1) + 750 * e.X(0.9) == nearly(2000, 1e-15));
+        CHECK(250 * 4 + 750 * 1.3333 == nearly(1999.975, 1e-15));
     }
 }
 

@@ -34,16 +34,32 @@ Method trace_11(const Scene& scene) { return method_of<ch11::trace>(ch11::prepar
 TEST_SUITE("ch11 light table") {
     TEST_CASE("identity: over all 2^24 random numbers each light gets its share") {
         Sampler random = random_numbers(2);
-        std::vector<double> pmf(100), counts(pmf.size());
-        for (double& p : pmf) p = std::pow(1e-8, double{random.u1()});
-        double sum = std::accumulate(pmf.begin(), pmf.end(), 0.0);
-        for (double& p : pmf) p /= sum;
-        ch11::LightTable table = ch11::build_light_table(pmf);
-        for (uint32_t i = 0; i < 1u << 24; i++)
-            counts[ch11::pick_light(table, static_cast<float>(i) * 0x1p-24f)]++;
-        for (size_t i = 0; i < pmf.size(); i++) {  // each column rounds by one number at most
-            CHECK(std::abs(counts[i] * 0x1p-24 - pmf[i]) < 1e-5);
-            CHECK(table[i].pmf == nearly(pmf[i]));
+        for (size_t N : {100, 1000000}) {
+            CAPTURE(N);
+            std::vector<double> pmf(N), share(N);
+            for (double& p : pmf) p = std::pow(1e-8, double{random.u1()});
+            double sum = std::accumulate(pmf.begin(), pmf.end(), 0.0);
+            for (double& p : pmf) p /= sum;
+            ch11::LightTable table = ch11::build_light_table(pmf);
+            for (size_t i = 0; i < N; i++) {  // what a column has of each of its two lights
+                double own = double{table[i].own};
+                share[i] += own / static_cast<double>(N);
+                share[table[i].other] += (1 - own) / static_cast<double>(N);
+            }
+            int off = 0;
+            for (size_t i = 0; i < N; i++)
+                off +=
+                    std::abs(share[i] - pmf[i]) > 1e-6 * pmf[i] + 1e-7 / static_cast<double>(N) ||
+                    table[i].pmf != nearly(pmf[i]);
+            CHECK(off == 0);
+            // And numbers fall to them accordingly, but for one in each column.
+            constexpr int numbers = 1 << 24;
+            std::vector<double> counts(N);
+            for (int k = 0; k < numbers; k++) counts[ch11::pick_light(table, k * 0x1p-24)]++;
+            double most = 0;
+            for (size_t i = 0; i < N; i++)
+                most = std::max(most, std::abs(counts[i] * 0x1p-24 - share[i]) * 0x1p24);
+            CHECK(most < (N == 100 ? 150 : 2000));
         }
     }
 

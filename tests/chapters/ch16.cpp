@@ -183,27 +183,4 @@ TEST_SUITE("ch16 shutter") {
             check_mean(s, seen, seen * (1 - seen), 0.013);
         }
     }
-
-    TEST_CASE("identity: the box of what moves holds it at all times") {
-        Sampler random = random_numbers(6);
-        for (int i = 0; i < 200; i++) {
-            auto any = [&] { return Vec3d(uniform_direction(random.u2())); };
-            Transform start = translation(3.0 * any()) * rotation(360 * double{random.u1()}, any());
-            Transform end = translation(3.0 * any()) * scaling({2, 0.5, 1});
-            if (i % 2 == 0) end = end * rotation(360 * double{random.u1()}, any());
-            if (i % 3 == 0) end = translation(any()) * start;  // without a turn
-            Mover mover(start, end);
-            for (int k = 0; k < 8; k++) {
-                Vec3 p = 2 * uniform_direction(random.u2());
-                mover.geometry.positions.push_back(to_vec3(transform_point(start, Vec3d(p))));
-            }
-            Box box = box_over_time(mover);
-            for (double t = 0; t <= 1; t += 1.0 / 64)
-                for (Vec3 p : mover.geometry.positions) {
-                    Vec3 q = to_vec3(transform_point(mover.world_from_start(t), Vec3d(p)));
-                    CHECK((q.x >= box.low.x && q.y >= box.low.y && q.z >= box.low.z));
-                    CHECK((q.x <= box.high.x && q.y <= box.high.y && q.z <= box.high.z));
-                }
-        }
-    }
 }

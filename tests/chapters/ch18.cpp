@@ -23,7 +23,7 @@ TEST_SUITE("ch18 dispersion") {
         double last = 0;
         for (int i = 0; i < n; i++) {
             auto drawn = ch18::sample_wavelength(white, (static_cast<float>(i) + 0.5f) / n);
-            CHECK(average(drawn.weight) == doctest::Approx(1).epsilon(1e-5).scale(0));
+            CHECK(average(drawn.weight) == nearly(1, 1e-5));
             CHECK(double{drawn.micrometres} >= last - 1e-6);
             last = double{drawn.micrometres};
             sum += drawn.weight / n;
@@ -41,7 +41,7 @@ TEST_SUITE("ch18 dispersion") {
             if (p < 1e-3) continue;
             double at = static_cast<double>(i) - 0.5 + part;
             double nm = observer_first_nm + observer_step_nm * at;
-            CHECK(1000 * double{drawn.micrometres} == doctest::Approx(nm).epsilon(1e-4).scale(0));
+            CHECK(1000 * double{drawn.micrometres} == nearly(nm, 1e-4));
             CHECK(drawn.weight == white[i] / average(white[i]));
         }
     }

@@ -8,6 +8,7 @@
 #include "common/options/loading.h"
 #include "common/picture/comparison.h"
 #include "tests/support/folder.h"
+#include "tests/support/gates.h"
 #include "tests/support/run_program.h"
 #include "tests/support/stand_ins.h"
 
@@ -67,10 +68,10 @@ TEST_SUITE("ch19 adaptive") {
                 pilot[i].rays = is_left ? rays : 1;
             }
             std::vector<double> densities = ch19::sample_density(pilot, width);
-            CHECK(densities[16 * width + 10] == doctest::Approx(left).epsilon(1e-4).scale(0));
-            CHECK(densities[16 * width + 50] == doctest::Approx(right).epsilon(1e-4).scale(0));
+            CHECK(densities[16 * width + 10] == nearly(left, 1e-4));
+            CHECK(densities[16 * width + 50] == nearly(right, 1e-4));
             double sum = std::accumulate(densities.begin(), densities.end(), 0.0);
-            CHECK(sum / (width * height) == doctest::Approx(1).epsilon(1e-5).scale(0));
+            CHECK(sum / (width * height) == nearly(1, 1e-5));
         }
 
         // One pixel of half 0 varies: averages of 5, twice along each axis, are tents of 9; for
@@ -99,8 +100,7 @@ TEST_SUITE("ch19 adaptive") {
         for (int k = 1; k < 6; k++)
             pixel.add({k % 2 == 0 ? 2.f : 0.f, 0.1f, k % 2 == 0 ? 0.02f : 0.f});
         double v = (1 / 1.01 + 1e-4 / 0.0101) / 3;
-        CHECK(ch19::relative_variance(pixel) ==
-              doctest::Approx(v * 6 / 5).epsilon(1e-6).scale(0));  // 6 / 5: by their own mean
+        CHECK(ch19::relative_variance(pixel) == nearly(v * 6 / 5));  // 6 / 5: by their own mean
     }
 
     TEST_CASE("truth: a spike is sampled within bounds") {
@@ -191,7 +191,7 @@ TEST_SUITE("ch19 adaptive") {
                 compare(film_of(scene, by_eighteen(scene), 64, seed).film.image(), truth).rel_mse;
             Rendering r = adaptive(scene, by_nineteen(scene), 64, seed);
             shared += compare(r.film.image(), truth).rel_mse;
-            CHECK(r.film.spp() == doctest::Approx(64).epsilon(0.005).scale(0));
+            CHECK(r.film.spp() == nearly(64, 0.005));
         }
         CAPTURE(shared / even);
         CHECK(shared < 0.5 * even);
@@ -209,7 +209,7 @@ TEST_SUITE("program of chapter 19") {
         Image numbers = read_image(folder / "m.pfm");
         double sum = 0, most = 0;
         for (Rgb n : numbers.pixels) sum += double{n.r}, most = std::max(most, double{n.r});
-        CHECK(sum / (24 * 24) == doctest::Approx(32).epsilon(0.02).scale(0));
+        CHECK(sum / (24 * 24) == nearly(32, 0.02));
         CHECK(most > 40);
     }
 }

@@ -34,7 +34,7 @@ constexpr double lit_by_sun = 0.1591549430919;  // radiance of the floor, 0.5 / 
 /// errors of the truth.
 void check_picture_mean(const Scene& scene, double truth, int paths, double relative_se,
                         const std::string& classes = "") {
-    Measured m = census_of(scene, by_twenty(scene), paths, 1, classes).all.measured(paths);
+    Measured m = census_of(scene, by_twenty(scene), paths, 1, {classes}).measured("all " + classes);
     CAPTURE(truth);
     CHECK(std::abs(m.mean - truth) < 5 * m.se + 1e-5 * truth);
     CHECK(m.se < relative_se * truth);
@@ -64,7 +64,7 @@ TEST_SUITE("ch20 camera") {
                 Splat splat = ch20::connect_to_camera(scene, camera, floor, {0, 1, 0}, flux);
                 if (is_black(splat.L)) continue;  // in the outermost pixels, by rounding
                 seen++;
-                CHECK(splat.L.g == doctest::Approx(lit_by_sun).epsilon(1e-5).scale(0));
+                CHECK(splat.L.g == nearly(lit_by_sun, 1e-5));
             }
             CHECK(seen > 9990);
         }
@@ -113,14 +113,14 @@ TEST_SUITE("ch20 light tracing") {
             size_t i = pick_light(endpoints.lights, u);
             Vec2 u_y = random.u2();
             ch20::Emission e = ch20::sample_emission(scene, endpoints, u, u_y, random.u2());
-            REQUIRE(length(e.d) == doctest::Approx(1).epsilon(1e-5).scale(0));
+            REQUIRE(length(e.d) == nearly(1, 1e-5));
             bool point = e.type == LightType::point;
             float cos_y = point ? 1 : dot(e.d, e.y.n);
             REQUIRE(cos_y >= 0);
             if (cos_y < 1e-4f) continue;
             CHECK(e.pmf == pmf_light(endpoints.lights, i));
             double flux = static_cast<double>(average(e.Le) * cos_y / (e.y.pdf * e.pdf_w));
-            CHECK(flux == doctest::Approx(light_power(scene, i)).epsilon(1e-4).scale(0));
+            CHECK(flux == nearly(light_power(scene, i), 1e-4));
             if (!scene.lights[i].two_sided) continue;
             n++, backs += e.y.n.y > 0, share += e.d.y > 0;
         }

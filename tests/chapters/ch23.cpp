@@ -137,8 +137,7 @@ TEST_SUITE("ch23 first radius") {
         double even = ch23::blur_to_noise(points, ch23::PhotonMap(photons, 1));
         for (size_t i = 0; i < photons.size() / 2; i++)
             photons[i].flux = 3.0f * photons[i].flux, points[i / 10].L = std::sqrt(0.08);
-        CHECK(ch23::blur_to_noise(points, ch23::PhotonMap(photons, 1)) ==
-              doctest::Approx(even).epsilon(1e-3).scale(0));
+        CHECK(ch23::blur_to_noise(points, ch23::PhotonMap(photons, 1)) == nearly(even, 1e-3));
         CHECK(ch23::blur_to_noise({}, {}) == 0);
     }
 
@@ -154,8 +153,7 @@ TEST_SUITE("ch23 first radius") {
                     ratio = expected_ratio(20, double{c}, r) / share;
                 }
                 r *= std::pow(0.04 / std::max(ratio, 0.04), 0.25);
-                CHECK(double{ch23::first_radius(points, {}, photons, share)} ==
-                      doctest::Approx(r).epsilon(0.05).scale(0));
+                CHECK(double{ch23::first_radius(points, {}, photons, share)} == nearly(r, 0.05));
             }
         }
     }
@@ -169,28 +167,28 @@ TEST_SUITE("ch23 first radius") {
             return double{ch23::pixel_width(ch23::seen_points(scene))};
         };
         double width = 1.1 * 2 * std::tan(pi_exact / 6) / 128;
-        CHECK(width_of(128) == doctest::Approx(width).epsilon(0.03).scale(0));
-        CHECK(width_of(32) == doctest::Approx(width_of(128)).epsilon(1e-4).scale(0));
-        CHECK(width_of(256) == doctest::Approx(width_of(128) / 2).epsilon(1e-4).scale(0));
+        CHECK(width_of(128) == nearly(width, 0.03));
+        CHECK(width_of(32) == nearly(width_of(128), 1e-4));
+        CHECK(width_of(256) == nearly(width_of(128) / 2, 1e-4));
     }
 
     TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {
-        auto radius = [](const Scene& scene) { return double{by_23(scene, {}).first_radius}; };
-        const std::string glass =
-            "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
-            "\"float radius\" 0.4 AttributeEnd LightSource \"point\" \"point3 from\" [1 2 0] "
-            "Translate 0 -1 0 Scale ";
-        double small = radius(world_of(glass + "30 1 30 " + square(0, true)));
-        double large = radius(world_of(glass + "3000 1 3000 " + square(0, true)));
-        CHECK(small > 0.01);
+        auto radius = [](float unit, const std::string& floor) {
+            std::string u = std::to_string(unit) + " ", power = std::to_string(unit * unit) + " ";
+            Scene scene = world_of(
+                "Scale " + u + u + u +
+                "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
+                "\"float radius\" 0.4 AttributeEnd LightSource \"point\" \"point3 from\" [1 2 0] "
+                "\"rgb I\" [" +
+                power + power + power + "] Translate 0 -1 0 Scale " + floor + square(0, true));
+            scene.camera.o = unit * scene.camera.o;
+            return double{by_23(scene, {}).first_radius} / double{unit};
+        };
+        double whole = radius(1, "30 1 30 ");
+        CHECK(whole > 0.01);
         // A larger ground has a few more film points, so the search takes other steps.
-        CHECK(large == doctest::Approx(small).epsilon(0.3).scale(0));
-        const std::string path = "scenes/cornell-spheres.pbrt";
-        double whole = radius(in_units(path, 1, 32, 5));
-        for (float unit : {0.001f, 1000.0f}) {
-            CHECK(radius(in_units(path, unit, 32, 5)) / double{unit} ==
-                  doctest::Approx(whole).epsilon(0.01).scale(0));
-        }
+        CHECK(radius(1, "3000 1 3000 ") == nearly(whole, 0.3));
+        for (float unit : {0.001f, 1000.0f}) CHECK(radius(unit, "30 1 30 ") == nearly(whole, 0.01));
     }
 }
 
@@ -270,7 +268,7 @@ TEST_SUITE("ch23 photon mapping") {
             return mse.mean();
         };
         double few = error(128), many = error(1024);
-        CHECK(many == doctest::Approx(few).epsilon(0.1).scale(0));
+        CHECK(many == nearly(few, 0.1));
         CHECK(many > 0.005);
     }
 

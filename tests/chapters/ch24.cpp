@@ -21,11 +21,10 @@ TEST_SUITE("ch24 radius") {
         CHECK(radius(0) == 1);
         for (uint32_t pass = 1; pass < 1000; pass++) {
             double ratio = radius(pass) / radius(pass - 1);
-            CHECK(ratio * ratio ==
-                  doctest::Approx((pass + 2.0 / 3) / (pass + 1.0)).epsilon(1e-5).scale(0));
+            CHECK(ratio * ratio == nearly((pass + 2.0 / 3) / (pass + 1.0), 1e-5));
         }
         double slope = std::log10(radius(100000) / radius(10000));
-        CHECK(slope == doctest::Approx(-1.0 / 6).epsilon(1e-3).scale(0));
+        CHECK(slope == nearly(-1.0 / 6, 1e-3));
     }
 }
 
@@ -86,6 +85,6 @@ TEST_SUITE("ch24 progressive photons slow") {
         double slope = std::log(last / first) / std::log(64.0);
         CAPTURE(first);
         CAPTURE(last);
-        CHECK(slope == doctest::Approx(-2.0 / 3).epsilon(0.12).scale(0));
+        CHECK(slope == nearly(-2.0 / 3, 0.12));
     }
 }

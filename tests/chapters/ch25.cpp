@@ -16,7 +16,7 @@ Method by_25(const Scene& scene, const PhotonSettings& settings = {.light_paths 
 /// The weights of the lesson: of connections by s, then of merges by the number of their vertex;
 /// -1 where there is none.
 std::vector<double> lesson_weights(const Scene& scene, ch25::Merging& merging,
-                                   const WholePath<Path>& path) {
+                                   const WholePath& path) {
     size_t n = path.from_light.size();
     Subpath light = {true, path.from_light}, eye = {false, Path(1)};
     Vec3 from = eye.path[0].x.p = merging.endpoints.camera.view.o;
@@ -86,7 +86,7 @@ TEST_SUITE("ch25 weights") {
                 size_t n = 3 + i % 5;  // vertices of the path, but the eye
                 if (walk.size() < n) continue;
                 walk.resize(n);
-                WholePath<Path> path{walk, {}, 0};
+                WholePath path{walk, {}, 0};
                 if (!walk.back().connectible) continue;
                 if (is_black(walk.back().x.material->reflectance)) continue;
                 if (!add_eye_vertices(scene, merging.endpoints.camera, path)) continue;
@@ -142,9 +142,8 @@ TEST_SUITE("ch25 weights") {
             ch25::trace_light_paths(
                 scene, settings, pass, 1, [] { return false; }, merging);
             double r{merging.map.radius()};
-            CHECK(r == doctest::Approx(double{radius_of(settings.radius, pass)}).scale(0));
-            CHECK(double{merging.area} ==
-                  doctest::Approx(1000 * pi_exact * r * r).epsilon(1e-5).scale(0));
+            CHECK(r == nearly(double{radius_of(settings.radius, pass)}, 1e-5));
+            CHECK(double{merging.area} == nearly(1000 * pi_exact * r * r, 1e-5));
             CHECK(merging.map.size() > 100);
         }
     }

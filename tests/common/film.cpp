@@ -5,9 +5,9 @@
 
 #include <limits>
 
-namespace {
+#include "tests/support/gates.h"
 
-Rgb grey(float v) { return {v, v, v}; }
+namespace {
 
 /// A film of one row whose pixel x gets the samples rows[x].
 Film film_of(const std::vector<std::vector<float>>& rows) {
@@ -33,8 +33,6 @@ Film film_with(const Splats& splats, size_t parts) {
     return whole;
 }
 
-doctest::Approx about(double x) { return doctest::Approx(x).epsilon(1e-14).scale(0); }
-
 }  // namespace
 
 TEST_SUITE("film") {
@@ -44,18 +42,19 @@ TEST_SUITE("film") {
         CHECK(film.spp() == 2.5);
         CHECK(film.image().at(0, 0) == grey(1));
         CHECK(film.image().at(1, 0) == grey(5));
-        CHECK(film.mean() == about(3));
+        CHECK(film.mean() == nearly(3, 1e-14));
         // Variances 1 and 2 of one sample, 1/3 and 2/2 of the pixel.
-        CHECK(film.standard_error() == about(std::sqrt(1.0 / 3 + 1) / 2));
-        CHECK(film.effective_samples() == about(13.0 * 13.0 / 57));
+        CHECK(film.standard_error() == nearly(std::sqrt(1.0 / 3 + 1) / 2, 1e-14));
+        CHECK(film.effective_samples() == nearly(13.0 * 13.0 / 57, 1e-14));
         CHECK(std::isnan(film_of({{0, 1, 2}, {4}}).standard_error()));
-        CHECK(film_of({{0, 1, 2}, {4, 4, 4}}).effective_samples() == about(15.0 * 15.0 / 53));
+        CHECK(film_of({{0, 1, 2}, {4, 4, 4}}).effective_samples() ==
+              nearly(15.0 * 15.0 / 53, 1e-14));
         CHECK(film_of({{0, 0}, {0, 0}}).effective_samples() == 0);
         // One without samples is black, and not in the mean of the others.
         film = film_of({{}, {4, 6}});
         CHECK(film.image().at(0, 0) == grey(0));
-        CHECK(film.mean() == about(5));
-        CHECK(film.standard_error() == about(1));
+        CHECK(film.mean() == nearly(5, 1e-14));
+        CHECK(film.standard_error() == nearly(1, 1e-14));
         CHECK(Film(3, 2).mean() == 0);
         CHECK(std::isnan(Film(3, 2).standard_error()));
     }
@@ -74,7 +73,7 @@ TEST_SUITE("film") {
             CHECK(std::isnan(film.standard_error()));
             film.add(0, grey(6), 1 - half);
             CHECK(film.mean() == 4);
-            CHECK(film.standard_error() == about(2));
+            CHECK(film.standard_error() == nearly(2, 1e-14));
         }
     }
 
@@ -84,7 +83,7 @@ TEST_SUITE("film") {
         for (uint64_t s = 0; s < n; s++) film.add(0, grey(s % 2 == 0 ? 1000.5f : 1001.5f));
         CHECK(film.image().at(0, 0) == grey(1001));
         double se = 0.5 / std::sqrt(static_cast<double>(n - 1));
-        CHECK(film.standard_error() == doctest::Approx(se).epsilon(1e-9).scale(0));
+        CHECK(film.standard_error() == nearly(se, 1e-9));
     }
 
     TEST_CASE("truth: parts of samples add up, however rare they are") {
@@ -92,7 +91,7 @@ TEST_SUITE("film") {
         film.add_part(0, grey(5));  // of one sample, in two parts
         film.add_part(0, grey(1));
         film.count_as(whole);
-        CHECK(film.mean() == about(0.3));
+        CHECK(film.mean() == nearly(0.3, 1e-14));
         CHECK(film.image().at(0, 0).r == 0.6f);
         CHECK(film.image().at(1, 0).r == 0);
     }
@@ -104,9 +103,9 @@ TEST_SUITE("film") {
             film.add_total(i, grey(0.25f)), film.add_total(i, grey(1));
             film.splat(i * 7 % 15, grey(0.75f));
         }
-        CHECK(film.mean() == about(0.625));
-        CHECK(film.standard_error() == about(0.375 / std::sqrt(15.0)));
-        CHECK(film.effective_samples() == about(15 * 1.25 * 1.25 / 1.0625));
+        CHECK(film.mean() == nearly(0.625, 1e-14));
+        CHECK(film.standard_error() == nearly(0.375 / std::sqrt(15.0), 1e-14));
+        CHECK(film.effective_samples() == nearly(15 * 1.25 * 1.25 / 1.0625, 1e-14));
     }
 
     TEST_CASE("failure: a sample or splat that is not finite shows in its pixel and in the mean") {

@@ -10,17 +10,13 @@
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
 #include "common/picture/film.h"
+#include "tests/support/gates.h"
 #include "tests/support/scenes.h"
 
 namespace {
 
-doctest::Approx about(double x, double by = 1e-9) {
-    return doctest::Approx(x).epsilon(by).scale(0);
-}
-Rgb grey(double v) {
-    float x = static_cast<float>(v);
-    return {x, x, x};
-}
+/// x, but for rounding.
+doctest::Approx about(double x) { return nearly(x, 1e-9); }
 
 double mean_of(const std::vector<double>& x) {
     return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
@@ -271,7 +267,7 @@ TEST_SUITE("film error") {
             double error = std::sqrt(variance[i]) / (width * height);
             CHECK((i < 3 ? c.channels[i].standard_error : c.standard_error) == about(error));
         }
-        CHECK(c.worst_z == about(worst, 1e-3));
+        CHECK(c.worst_z == nearly(worst, 1e-3));
         CHECK(c.worst_x == worst_x);
         CHECK(c.worst_y == worst_y);
         CHECK(c.beyond_5 == beyond);

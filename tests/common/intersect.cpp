@@ -60,13 +60,15 @@ Vec3 on_triangle(const Geometry& g, Sampler& random) {
 /// far away.
 template <class Visit>
 void for_rays_to_thin_meshes(const Visit& visit) {
-    for (const Geometry& g : {closed_mesh(3), slivers(1e2f), slivers(1e4f), slivers(1e6f)}) {
+    for (const Geometry& g :
+         {closed_mesh(0), closed_mesh(2), closed_mesh(3), thin_diagonals(300), slivers(1),
+          slivers(10), slivers(1e2f), slivers(1e3f), slivers(1e4f), slivers(1e6f)}) {
         Scene scene;
         scene.materials.emplace_back(), scene.shapes.emplace_back();
         scene.geometry = g;
         prepare(scene, 1);
         Sampler random = random_numbers(7);
-        for (int i = 0; i < 2000; i++) {
+        for (int i = 0; i < 800; i++) {
             Vec3 to = on_triangle(g, random), from = on_triangle(g, random);
             Vec3 o = from + std::exp2(14 * random.u1() - 10) * (from - to);
             visit(scene, {o, to - o});

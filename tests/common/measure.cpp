@@ -12,6 +12,7 @@
 #include "common/picture/verdict.h"
 #include "tests/measure/numbers.h"
 #include "tests/support/folder.h"
+#include "tests/support/gates.h"
 
 namespace {
 
@@ -228,10 +229,10 @@ TEST_SUITE("comparison") {
         a.at(1, 0) = {5, 5, 5};
         Image e = error_image(a, b, 0.1);
         CHECK(e.at(2, 0) == Rgb{0, 0, 0});
-        CHECK(e.at(0, 0).b == doctest::Approx(1).epsilon(1e-3).scale(0));
+        CHECK(e.at(0, 0).b == nearly(1, 1e-3));
         CHECK(e.at(1, 0) == Rgb{1, 1, 1});
-        CHECK(error_range(a, b) == doctest::Approx(0.1).epsilon(1e-5).scale(0));  // of 100, 1 above
-        for (double x = 0; x < 1; x += 0.01) {                                    // ever brighter
+        CHECK(error_range(a, b) == nearly(0.1, 1e-5));  // of 100, 1 above
+        for (double x = 0; x < 1; x += 0.01) {          // ever brighter
             CHECK(average(false_colour(x + 0.01)) > average(false_colour(x)));
         }
     }
@@ -245,10 +246,9 @@ TEST_SUITE("comparison") {
         spread.add(a);
         spread.add(b);
         CHECK(spread.mean().pixels[0] == Rgb{2, 2, 2});
-        CHECK(spread.rel_mse(spread.mean()) ==
-              doctest::Approx(0.5 / 4.01 / 2).epsilon(1e-12).scale(0));
+        CHECK(spread.rel_mse(spread.mean()) == nearly(0.5 / 4.01 / 2, 1e-12));
         // One bright and rare pixel: a better mean makes it count for what it is.
-        CHECK(spread.rel_mse(grey(2, 1, 0)) == doctest::Approx(25).epsilon(1e-6).scale(0));
+        CHECK(spread.rel_mse(grey(2, 1, 0)) == nearly(25));
     }
 
     TEST_CASE("truth: z of three estimates") {
@@ -256,8 +256,8 @@ TEST_SUITE("comparison") {
         std::vector<Estimate> e = {{13, 1, 0}, {10, 2, 0}, {12, 1, 0}, {99, 0.1, 5}};
         Verdict v = judge(e, 0);
         CHECK(v.known);
-        CHECK(v.others_mean == doctest::Approx(11.6).epsilon(1e-12).scale(0));
-        CHECK(v.z == doctest::Approx(1.4 / std::sqrt(1.8)).epsilon(1e-12).scale(0));
+        CHECK(v.others_mean == nearly(11.6, 1e-12));
+        CHECK(v.z == nearly(1.4 / std::sqrt(1.8), 1e-12));
         CHECK(!judge(e, 3).known);                          // too few lucky samples
         CHECK(!judge({{1, 1, 0}, {1, 1, 3}}, 0).known);     // nothing to compare it with
         CHECK(!judge({{1, 1, 0}, {1, 1, 0, 2}}, 0).known);  // they missed more than their error
@@ -278,8 +278,7 @@ TEST_SUITE("comparison") {
             // What rises again is there for good when it falls for the last time.
             {seconds_at(wavy, 2), 3 * std::pow(4 / 3.0, 0.369070246428)},
         };
-        for (auto [found, truth] : cases)
-            CHECK(found == doctest::Approx(truth).epsilon(1e-9).scale(0));
+        for (auto [found, truth] : cases) CHECK(found == nearly(truth, 1e-9));
         CHECK(std::isnan(times_faster(fast, {})));
     }
 }

@@ -77,7 +77,7 @@ TEST_SUITE("optics") {
         }
         scene.max_depth = 1000;
         CHECK(repeat(scene, {{0.7f, 0, -4}, {0, 0, 1}}, ch07::trace, 10000).mean() ==
-              doctest::Approx(1).epsilon(1e-5).scale(0));
+              nearly(1, 1e-5));
     }
 
     TEST_CASE("truth: inside glass, the sky is n^2 times as bright") {
@@ -85,7 +85,7 @@ TEST_SUITE("optics") {
             "LightSource \"infinite\" Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\"");
         scene.max_depth = 1000;
         RunningStats s = repeat(scene, {{0, 0, 0}, {0, 0, 1}}, ch07::trace, 1000);
-        CHECK(s.mean() == doctest::Approx(2.25).epsilon(1e-5).scale(0));
+        CHECK(s.mean() == nearly(2.25, 1e-5));
         CHECK(s.variance() < 1e-9);
     }
 

@@ -122,6 +122,11 @@ TEST_SUITE("reader: malformed input") {
         std::string b = write(folder, "sub/b.pbrt", "\n  Include \"../a.pbrt\"");
         CHECK(refuse_file(a) ==
               b + ":2:11: error: \"" + folder / "sub/../a.pbrt" + "\" includes itself");
+        // A hundred may include each other in a row.
+        for (int i = 0; i < 100; i++)
+            write(folder, std::to_string(i), "Include \"" + std::to_string(i + 1) + "\"\n");
+        write(folder, "100", world + "Shape \"sphere\"");
+        CHECK(refuse_file(folder / "0") == "");
         // Each of 100 files includes the next one twice: 2^100 files, if nobody counts.
         for (int i = 0; i < 100; i++) {
             std::string next = "Include \"" + std::to_string(i + 1) + "\"\n";
@@ -129,6 +134,7 @@ TEST_SUITE("reader: malformed input") {
         }
         write(folder, "100", "Identity");
         CHECK(refuse_file(folder / "0").ends_with("more than 10000 files are included"));
+        CHECK(refuse_file(null_device).starts_with(null_device + ": error: "));
     }
 
     TEST_CASE("input: numbers up to their limits are read, and those beyond are refused") {

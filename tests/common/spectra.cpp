@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/material/observer.h"
+#include "tests/support/gates.h"
 
 namespace {
 
@@ -44,8 +45,8 @@ TEST_SUITE("spectra") {
                 sum += observer[i][k];
                 centre += observer[i][k] * (380 + 10 * static_cast<double>(i));
             }
-            CHECK(sum == doctest::Approx(sums[k]).epsilon(1e-9).scale(0));
-            CHECK(centre == doctest::Approx(centres[k]).epsilon(1e-9).scale(0));
+            CHECK(sum == nearly(sums[k], 1e-9));
+            CHECK(centre == nearly(centres[k], 1e-9));
         }
     }
 

@@ -23,8 +23,8 @@ TEST_SUITE("stats") {
     TEST_CASE("identity: mean and variance of none, one and four numbers") {
         RunningStats four = stats_of({2, 4, 4, 6});
         CHECK(four.mean() == 4);
-        CHECK(four.variance() == doctest::Approx(8.0 / 3).epsilon(1e-15).scale(0));
-        CHECK(four.standard_error() == doctest::Approx(std::sqrt(2.0 / 3)).epsilon(1e-15).scale(0));
+        CHECK(four.variance() == nearly(8.0 / 3, 1e-15));
+        CHECK(four.standard_error() == nearly(std::sqrt(2.0 / 3), 1e-15));
         for (const std::vector<double>& few : {std::vector<double>{}, {7}}) {
             RunningStats s = stats_of(few);
             CHECK(s.count() == few.size());
@@ -43,8 +43,8 @@ TEST_SUITE("stats") {
             RunningStats a = stats_of({x.begin(), middle});
             a.merge(stats_of({middle, x.end()}));
             CHECK(a.count() == whole.count());
-            CHECK(a.mean() == doctest::Approx(whole.mean()).epsilon(1e-14).scale(0));
-            CHECK(a.variance() == doctest::Approx(whole.variance()).epsilon(1e-10).scale(0));
+            CHECK(a.mean() == nearly(whole.mean(), 1e-14));
+            CHECK(a.variance() == nearly(whole.variance(), 1e-10));
         }
     }
 
@@ -54,7 +54,7 @@ TEST_SUITE("stats") {
             CAPTURE(base);
             RunningStats s;
             for (int i = 0; i < 1000000; i++) s.add(base + i % 2);
-            CHECK(s.mean() == doctest::Approx(base + 0.5).epsilon(1e-15).scale(0));
+            CHECK(s.mean() == nearly(base + 0.5, 1e-15));
             CHECK(std::abs(s.variance() - 0.25 * 1e6 / (1e6 - 1)) < 1e-6);
         }
     }

@@ -22,8 +22,6 @@ bool are(const Lines& lines, const Lines& words) {
     return same;
 }
 
-Rgb grey(double v) { return static_cast<float>(v) * Rgb{1, 1, 1}; }
-
 /// A film of 16 x 16 pixels in which each sample of pixel i is value(i, number of the sample).
 template <class Value>
 Film film_with(int spp, const Value& value) {

@@ -57,25 +57,6 @@ TEST_SUITE("outputs") {
     }
 #endif
 
-    TEST_CASE("files: a signal while results are written loses none of them") {
-        TemporaryFolder folder;
-        std::string pipe = folder / "pipe.ppm";
-        REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-        // The film is written first; then it waits until somebody reads the pipe.
-        Words words = {"--film", folder / "a.film", "--out",   pipe,
-                       "--out",  folder / "a.pfm",  "--stats", folder / "s.json"};
-        Process process = start(path_tracer, brief(spheres, words));
-        REQUIRE(comes_to_be(folder / "a.film"));
-        ::usleep(50'000);
-        for (int signal : {SIGTERM, SIGTERM}) process.kill(signal);  // as timeout does
-        ::usleep(50'000);
-        std::string picture = read_file(pipe);
-        CHECK(picture.size() - picture.find("\n255\n") == 5 + 16 * 16 * 3);
-        CHECK(process.wait().code == 0);
-        CHECK(read_image(folder / "a.pfm").width == 16);
-        CHECK(read_file(folder / "s.json").find("\"interrupted\": false") != std::string::npos);
-    }
-
     TEST_CASE("files: each output is written or named, whatever happens to the others") {
         TemporaryFolder folder;
         fs::create_directory(folder / "split");

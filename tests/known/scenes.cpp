@@ -233,6 +233,8 @@ void add_bent(std::vector<KnownScene>& p) {
         {"curved", "a floor whose normals differ from corner to corner", above + curved + strip});
     p.push_back(
         {"leaning-sky", "a floor whose normals lean, under a sky", from_above(0.5) + bent + sky()});
+    p.push_back({"away", "a floor whose normals lean away from the camera",
+                 view("-1 0.45 0  0 0 0  0 1 0", "\"float fov\" 20") + bent + lamp(at(0, 2, 0))});
     p.push_back({"leaning-mirror", "a floor whose normals lean, lit through a mirror",
                  from_above(0.5, 2) + bent + lamp(at(-1.5, 1, 0) + scale(2), 1, false, true) +
                      group(metal(1) + at(-1.5, 2, 0) + scale(4) + square(false))});

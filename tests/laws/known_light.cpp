@@ -11,13 +11,6 @@ std::string at(double x, double y, double z) {
 std::string thing(const std::string& material, const std::string& shape) {
     return "AttributeBegin Material " + material + " " + shape + " AttributeEnd ";
 }
-/// A lamp of this radiance; two_sided: "false" or "true".
-std::string lamp(const std::string& L, const std::string& shape, const std::string& reflectance,
-                 const std::string& two_sided = "false") {
-    return "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [" + L + " " + L + " " + L +
-           "] \"bool twosided\" " + two_sided + " Material \"diffuse\" \"rgb reflectance\" [" +
-           reflectance + "]\n" + shape + "AttributeEnd\n";
-}
 const std::string white_sky = "LightSource \"infinite\"\n";
 
 /// Irradiance of the unit square at height h, straight overhead.
@@ -158,7 +151,10 @@ TEST_SUITE("law: known light") {
     }
 
     TEST_CASE("failure: without lights a picture is black") {
-        check_light(seen_along(floor_without_lights(), onto_origin), {0});
+        Scene none = lit_floor(black_lamp("1", unit_square(1)));
+        none.lights.clear();
+        for (Shape& shape : none.shapes) shape.light = -1;
+        check_light(none, {0});
     }
 
     /// A floor under n lamps, and others of huge power that light nothing.

@@ -30,56 +30,15 @@ namespace {
 /// from the lights show to a pinhole.
 const std::string sampled = "L(D(S|D)*)?E";
 
-/// What samples bring, each one a path or a pass: by class of path, by length, and all together.
-struct Census {
-    int samples = 0;
-    std::map<std::string, PathSum> parts = {};
-
-    void merge(const Census& b) {
-        samples += b.samples;
-        for (const auto& [name, sum] : b.parts) parts[name].merge(sum);
+/// Adds one sample: the mean over the paths of a pass.
+void add_pass(const Census& paths, Census& passes) {
+    passes.samples++;
+    for (const auto& [name, sum] : paths.parts) {
+        PathSum& part = passes.parts[name];
+        uint64_t met = part.not_zero + sum.not_zero;
+        part.add(sum.sum / paths.samples);
+        part.not_zero = met;
     }
-    /// One sample: the mean over the paths of a pass.
-    void add_pass(const Census& paths) {
-        samples++;
-        for (const auto& [name, sum] : paths.parts) {
-            PathSum& part = parts[name];
-            uint64_t met = part.not_zero + sum.not_zero;
-            part.add(sum.sum / paths.samples);
-            part.not_zero = met;
-        }
-    }
-};
-
-/// The paths [first, last) through random points of the film.
-Census paths_of(const Scene& scene, const Method& method, int first, int last, uint32_t seed,
-                bool classes) {
-    Census census{last - first};
-    CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    Sampler sampler(SamplerType::independent, seed, 1);
-    Recorder recorder(classes);
-    ClassSelection by_eye(sampled), by_light(shown_by_light);
-    Splats splats;
-    Vec2 size = {static_cast<float>(scene.width), static_cast<float>(scene.height)};
-    for (int i = first; i < last; i++) {
-        sampler.start(0, static_cast<uint32_t>(i));
-        recorder.start();
-        splats.clear();
-        Vec2 u = sampler.u2();
-        Ray ray = camera_ray(view, {u.x * size.x, u.y * size.y});
-        Rgb L = method.trace(scene, ray, splats, sampler, recorder);
-        for (const Splat& splat : splats) L += splat.L;
-        std::map<std::string, double> parts = {{"all", double{average(L)}}};
-        for (const Contribution& part : recorder.contributions()) {
-            double y = double{average(part.L)};
-            parts[part.path_class] += y;
-            parts["length " + std::to_string(part.path_class.size() - 2)] += y;
-            if (by_eye.contains(part.path_class)) parts["all " + sampled] += y;
-            if (by_light.contains(part.path_class)) parts["all " + shown_by_light] += y;
-        }
-        for (auto [name, y] : parts) census.parts[name].add(y);
-    }
-    return census;
 }
 
 Census census_of(const Scene& scene, const NamedMethod& row, int paths, uint32_t seed,
@@ -87,10 +46,8 @@ Census census_of(const Scene& scene, const NamedMethod& row, int paths, uint32_t
     RenderOptions options;
     options.seed = seed;
     Method method = row.make(scene, options);
-    auto census = [&](int begin, int count) {
-        return in_blocks<Census>(count, [&](int first, int last) {
-            return paths_of(scene, method, begin + first, begin + last, seed, classes);
-        });
+    auto census = [&](int first, int count) {
+        return census_of(scene, method, count, seed, {sampled, shown_by_light}, classes, first);
     };
     if (!method.prepare) return census(0, paths);
     // Paths of a pass depend on each other.
@@ -98,7 +55,7 @@ Census census_of(const Scene& scene, const NamedMethod& row, int paths, uint32_t
     int count = std::clamp(paths / 64, 64, 512), each = paths / count;
     for (int pass = 0; pass < count; pass++) {
         method.prepare(static_cast<uint32_t>(pass), 1, [] { return false; });
-        passes.add_pass(census(pass * each, each));
+        add_pass(census(pass * each, each), passes);
     }
     return passes;
 }
@@ -106,8 +63,7 @@ Census census_of(const Scene& scene, const NamedMethod& row, int paths, uint32_t
 }  // namespace
 
 Measured brightness(const Scene& scene, const NamedMethod& method, int paths, uint32_t seed) {
-    Census census = census_of(scene, method, paths, seed, false);
-    return census.parts["all"].measured(census.samples);
+    return census_of(scene, method, paths, seed, false).measured("all");
 }
 
 /// Whether the method finds all light of this class of path, or of this sum, where lights may have
@@ -166,7 +122,7 @@ void check_light(const Scene& scene, const KnownLight& light) {
         for (uint64_t met = 0; met < 50 && paths < most; paths *= 8) {
             Census pilot = census_of(scene, method, paths, 2, false);
             met = pilot.parts["all"].not_zero;
-            m = pilot.parts["all"].measured(pilot.samples);
+            m = pilot.measured("all");
             if (light.mean == 0) break;
         }
         if (light.mean > 0) {
@@ -177,7 +133,7 @@ void check_light(const Scene& scene, const KnownLight& light) {
             if ((method.by_chance() || from_lights) && (m.mean == 0 || wanted > most)) continue;
             paths = static_cast<int>(std::clamp<double>(wanted, few, most));
             Census census = census_of(scene, method, paths, 1, !light.parts.empty());
-            m = census.parts["all"].measured(census.samples);
+            m = census.measured("all");
             std::map<std::string, Measured> parts;
             for (const auto& [name, q] : light.parts) parts[name] = {q.mean, q.se + 1e-5 * q.mean};
             compare(method, scene, census, parts);

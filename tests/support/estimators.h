@@ -39,38 +39,6 @@ RunningStats irradiance(const Scene& scene, const Method& trace, int paths, uint
 /// for estimators whose samples are bounded by a few times their mean.
 void check_bounded(const RunningStats& s, double truth, double relative_se);
 
-/// Two chapters bring the same: in all, by length of path, and by class (those that both saw 100
-/// times); of the classes that the filter matches. The log's parts make up the whole. Returns how
-/// many parts were compared. Who knows a part to no better than 30 % may have too little of it:
-/// a few bright paths are then most of the light, and most runs miss them. Too much is wrong.
-template <class TraceA, class TraceB>
-int check_classes(const Scene& scene_a, const TraceA& trace_a, const Scene& scene_b,
-                  const TraceB& trace_b, int paths, uint32_t seed = 1,
-                  const std::string& filter = "") {
-    PathCensus a = census_of(scene_a, trace_a, paths, seed, filter);
-    PathCensus b = census_of(scene_b, trace_b, paths, seed + 1, filter);
-    CHECK(b.worst_sum < 1e-5);
-    CHECK(z_between(a.all.measured(a.paths), b.all.measured(b.paths)) < 5);
-    int compared = 0;
-    auto compare = [&](const auto& parts_a, auto& parts_b) {
-        for (const auto& [name_here, part] : parts_a) {
-            const auto& name = name_here;
-            if (part.not_zero < 100 || parts_b[name].not_zero < 100) continue;
-            Measured in_a = part.measured(a.paths), in_b = parts_b[name].measured(b.paths);
-            auto misses = [](Measured m, Measured other) {
-                return m.se > 0.3 * m.mean && m.mean < other.mean;
-            };
-            if (misses(in_a, in_b) || misses(in_b, in_a)) continue;
-            CAPTURE(name);
-            CHECK(z_between(in_a, in_b) < 5);
-            compared++;
-        }
-    };
-    compare(a.by_length, b.by_length);
-    compare(a.by_class, b.by_class);
-    return compared;
-}
-
 /// relMSE of one sample for each pixel: the mean over the film of variance / (mean^2 + 0.01), with
 /// the means of blocks of 8 x 8 pixels: those of single pixels are too noisy to be divided by.
 double rel_mse(const Film& film);

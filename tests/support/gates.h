@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/stats.h"
+#include "common/base/vec.h"
 
 /// The mean of independent samples is within 5 standard errors of `truth`, by the KNOWN variance of
 /// one sample; a right estimator fails once in 1.7 million seeds. `resolution` is the bias that the
@@ -33,6 +34,11 @@ inline void check_variance(const RunningStats& s, double truth, double kurtosis)
     CHECK(std::isfinite(s.variance()));
     CHECK(std::abs(s.variance() / truth - 1) <= 5 * relative_se);
     CHECK(relative_se <= 0.05);
+}
+
+inline Rgb grey(double v) {
+    float x = static_cast<float>(v);
+    return {x, x, x};
 }
 
 /// x, to this relative error.

@@ -5,10 +5,15 @@
 #include "common/light/light_shapes.h"
 #include "tests/support/estimators.h"
 
-/// A black lamp of this radiance.
-inline std::string black_lamp(const std::string& L, const std::string& shape) {
+/// A lamp of this radiance; two_sided: "false" or "true".
+inline std::string lamp(const std::string& L, const std::string& shape,
+                        const std::string& reflectance, const std::string& two_sided = "false") {
     return "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [" + L + " " + L + " " + L +
-           "] Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + shape + "AttributeEnd\n";
+           "] \"bool twosided\" " + two_sided + " Material \"diffuse\" \"rgb reflectance\" [" +
+           reflectance + "]\n" + shape + "AttributeEnd\n";
+}
+inline std::string black_lamp(const std::string& L, const std::string& shape) {
+    return lamp(L, shape, "0 0 0");
 }
 
 /// Chapter 12's target by a formula for each type of light, in double precision.
@@ -88,12 +93,4 @@ void check_choice(const std::array<double, 10>& pmf, const Sample& sample) {
         CHECK(y.pdf_w == nearly(pmf[light] * pdf_one, 1e-4));
     }
     CHECK(chi_square_tail(chi_square(counts, expected), 9) > 1e-6);
-}
-
-/// floor_under() a shape that does not shine.
-inline Scene floor_without_lights() {
-    Scene none = floor_under(shining + unit_square(1));
-    none.lights.clear();
-    for (Shape& shape : none.shapes) shape.light = -1;
-    return none;
 }

@@ -63,23 +63,6 @@ inline BlockMeans blocks_of(const Scene& scene, const Method& method, int spp, i
         means.add(film_of_classes(scene, method, spp, paths, static_cast<uint32_t>(run)).image());
     return means;
 }
-inline Agreement hold_against(const BlockMeans& a, const BlockMeans& b) {
-    return hold_against(
-        a.size, a.side, [&](int x, int y, int side) { return a.block(x, y, side); },
-        [&](int x, int y, int side) { return b.block(x, y, side); });
-}
-
-/// A scene whose metres are `unit` of those in the file: the same picture.
-inline Scene in_units(const std::string& path, float unit, int size, int max_depth) {
-    Scene scene = parse_scene(path, read_file(path), nullptr);
-    for (Vec3& p : scene.geometry.positions) p = unit * p;
-    for (Sphere& s : scene.geometry.spheres) s.c = unit * s.c, s.r *= unit;
-    scene.camera.o = unit * scene.camera.o;
-    prepare(scene, 1);
-    scene.width = scene.height = size, scene.max_depth = max_depth;
-    return scene;
-}
-
 /// Makes all lights shine to both sides, or makes every surface metal, or lets all normals lean.
 inline void change(Scene& scene, const std::string& how) {
     if (how == "two-sided") {

@@ -97,46 +97,40 @@ void check_agreement(const Agreement& a, double relative_se) {
     CHECK(a.relative_se <= relative_se);
 }
 
-PathCensus part_of_census(const Scene& scene, const Method& method, int first, int last,
-                          uint32_t seed, const std::string& filter) {
-    PathCensus census;
+/// The paths [first, last).
+static Census part_of_census(const Scene& scene, const Method& method, int first, int last,
+                             uint32_t seed, const std::vector<std::string>& filters, bool classes) {
+    Census census{last - first};
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, seed, 1);
-    Recorder recorder(true);
-    ClassSelection chosen(filter);
+    Recorder recorder(classes);
+    std::vector<ClassSelection> chosen(filters.begin(), filters.end());
     Splats splats;
+    Vec2 size = {static_cast<float>(scene.width), static_cast<float>(scene.height)};
     for (int i = first; i < last; i++) {
         sampler.start(0, static_cast<uint32_t>(i));
         recorder.start();
         splats.clear();
         Vec2 u = sampler.u2();
-        Vec2 film = {u.x * static_cast<float>(scene.width), u.y * static_cast<float>(scene.height)};
-        Rgb L = method.trace(scene, camera_ray(view, film), splats, sampler, recorder);
+        Ray ray = camera_ray(view, {u.x * size.x, u.y * size.y});
+        Rgb L = method.trace(scene, ray, splats, sampler, recorder);
         for (const Splat& splat : splats) L += splat.L;
-        std::map<std::string, double> by_class;
-        std::map<size_t, double> by_length;
-        double sum = 0, counted = 0, whole = static_cast<double>(average(L));
+        std::map<std::string, double> parts = {{"all", double{average(L)}}};
         for (const Contribution& part : recorder.contributions()) {
-            double y = static_cast<double>(average(part.L));
-            sum += y;
-            if (!chosen.contains(part.path_class)) continue;
-            by_class[part.path_class] += y;
-            by_length[part.path_class.size() - 2] += y;
-            counted += y;
+            double y = double{average(part.L)};
+            parts[part.path_class] += y;
+            parts["length " + std::to_string(part.path_class.size() - 2)] += y;
+            for (size_t k = 0; k < filters.size(); k++)
+                if (chosen[k].contains(part.path_class)) parts["all " + filters[k]] += y;
         }
-        census.worst_sum = std::max(census.worst_sum, std::abs(sum - whole) / (whole + 1e-20));
-        census.all.add(filter.empty() ? whole : counted);
-        for (auto [name, y] : by_class) census.by_class[name].add(y);
-        for (auto [length, y] : by_length) census.by_length[length].add(y);
+        for (auto [name, y] : parts) census.parts[name].add(y);
     }
     return census;
 }
 
-PathCensus census_of(const Scene& scene, const Method& method, int paths, uint32_t seed,
-                     const std::string& filter) {
-    PathCensus census = in_blocks<PathCensus>(paths, [&](int first, int last) {
-        return part_of_census(scene, method, first, last, seed, filter);
+Census census_of(const Scene& scene, const Method& method, int paths, uint32_t seed,
+                 const std::vector<std::string>& filters, bool classes, int first) {
+    return in_blocks<Census>(paths, [&](int begin, int end) {
+        return part_of_census(scene, method, first + begin, first + end, seed, filters, classes);
     });
-    census.paths = paths;
-    return census;
 }

@@ -100,19 +100,18 @@ struct PathSum {
     }
 };
 
-/// What paths through random points of the film bring: in all, by length and by class.
-struct PathCensus {
-    double paths = 0;
-    PathSum all;
-    std::map<std::string, PathSum> by_class;
-    std::map<size_t, PathSum> by_length;  // scattering events
-    double worst_sum = 0;                 // largest relative difference of parts and whole
+/// What samples bring, each one a path or a pass: "all" of it; each class of path, "LDE"; each
+/// length, "length 2"; and the classes that a filter matches, "all FILTER".
+struct Census {
+    int samples = 0;
+    std::map<std::string, PathSum> parts = {};
 
-    void merge(const PathCensus& b) {
-        all.merge(b.all);
-        for (const auto& [name, sum] : b.by_class) by_class[name].merge(sum);
-        for (const auto& [length, sum] : b.by_length) by_length[length].merge(sum);
-        worst_sum = std::max(worst_sum, b.worst_sum);
+    void merge(const Census& b) {
+        samples += b.samples;
+        for (const auto& [name, sum] : b.parts) parts[name].merge(sum);
+    }
+    Measured measured(const std::string& part) const {
+        return parts.contains(part) ? parts.at(part).measured(samples) : Measured{};
     }
 };
 
@@ -132,9 +131,6 @@ Result in_blocks(int count, const Part& part_of) {
     return all;
 }
 
-/// The paths [first, last) of a census; of those whose class the filter matches.
-PathCensus part_of_census(const Scene& scene, const Method& trace, int first, int last,
-                          uint32_t seed, const std::string& filter);
-
-PathCensus census_of(const Scene& scene, const Method& method, int paths, uint32_t seed,
-                     const std::string& filter = "");
+/// Paths number `first` and so on through random points of the film, in classes or only in all.
+Census census_of(const Scene& scene, const Method& method, int paths, uint32_t seed,
+                 const std::vector<std::string>& filters = {}, bool classes = true, int first = 0);

@@ -5,7 +5,6 @@
 #include "tests/support/ggx_truth.h"
 
 /// All that is seen of a whole path, from the light x[0] on to the eye: x[k] is the last surface.
-template <class Path>
 struct WholePath {
     Path from_light;            // as the walk from the light left them
     std::vector<Hit> from_eye;  // [i]: the vertex i + 1 steps from the eye
@@ -13,8 +12,7 @@ struct WholePath {
 };
 
 /// The same points as a path from the eye meets them; nothing where it does not.
-template <class Path>
-bool add_eye_vertices(const Scene& scene, const Pinhole& camera, WholePath<Path>& path) {
+inline bool add_eye_vertices(const Scene& scene, const Pinhole& camera, WholePath& path) {
     Vec3 o = camera.view.o;
     for (size_t i = path.from_light.size(); i-- > 0;) {
         Vec3 target = path.from_light[i].x.p, d = normalize(target - o);
@@ -50,9 +48,8 @@ inline double density_onwards(const Hit& x, Vec3d from, Vec3d to) {
 /// The balance heuristic as it is written: densities of the whole path by each strategy, in double
 /// and without a line of the lesson. Connections by s; with an area, N pi r^2, then merges by the
 /// number of their vertex.
-template <class Path>
-std::vector<double> densities_of(const Scene& scene, const Endpoints& endpoints,
-                                 const WholePath<Path>& path, double area_of_merges = 0) {
+inline std::vector<double> densities_of(const Scene& scene, const Endpoints& endpoints,
+                                        const WholePath& path, double area_of_merges = 0) {
     const auto& y = path.from_light;
     size_t n = y.size();  // vertices but the eye
     auto p = [&](size_t i) { return Vec3d(i < n ? y[i].x.p : endpoints.camera.view.o); };
