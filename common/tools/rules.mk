@@ -14,7 +14,7 @@ lint:
 	common/tools/check_text
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 #: teaching: make student-edition   student/: the project without solutions, answers and diffs; CH=09: with exercises up to 09
-student-edition: $(made)
+student-edition:
 	@common/tools/student_edition $(CH)
 #: maintaining: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
 pictures: programs
