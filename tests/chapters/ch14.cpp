@@ -4,7 +4,6 @@
 #include "chapters/10_cosine_sampling/estimator.h"
 #include "chapters/13_glossy/estimator.h"
 #include "chapters/14_mis/estimator.h"
-#include "tests/known/scenes.h"
 #include "tests/support/plates.h"
 
 using ch14::balance_heuristic, ch14::power_heuristic;

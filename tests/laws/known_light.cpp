@@ -51,15 +51,18 @@ std::string ball(const std::string& place, const std::string& r) {
 }  // namespace
 
 TEST_SUITE("law: known light") {
-    /// The known scenes from one to another, also by class of path.
-    void check_known(const std::string& first, const std::string& last, double relative_se = 0.03) {
+    /// The known scenes from one to another, also by class of path. The standard error is at most
+    /// `least`, or more, up to `most`, where all chapters together do not know the light well.
+    void check_known(const std::string& first, const std::string& last, double least = 0.02,
+                     double most = 0.03) {
         bool has_begun = false;
         for (const KnownScene& known : known_scenes()) {
             has_begun |= known.name == first;
             if (!has_begun) continue;
             CAPTURE(known.name);
             Quantity all = known.light.at("all");
-            KnownLight light = {all.mean, relative_se, all.se + 1e-5 * all.mean};
+            double hard = all.mean > 0 ? 25 * all.se / all.mean : 0;
+            KnownLight light = {all.mean, std::clamp(hard, least, most), all.se + 1e-5 * all.mean};
             light.most = 1024 * known.samples, light.parts = known.light;
             Scene scene = scene_of(known.text);
             // In `red` paths from both ends have thousands of connections. In `box` one in a
@@ -79,15 +82,15 @@ TEST_SUITE("law: known light") {
     }
     TEST_CASE("truth: floors under known lamps") { check_known("floor", "horizon"); }
     TEST_CASE("truth: known light of two bounces") { check_known("wall-beside", "metal-beside"); }
-    TEST_CASE("truth: known skies and rooms") { check_known("sky", "box"); }
-    TEST_CASE("truth: known lights of other kinds") { check_known("point", "shining-ball"); }
+    TEST_CASE("truth: known skies and rooms") { check_known("sky", "box", 0.03); }
+    TEST_CASE("truth: known lights of other kinds") { check_known("point", "shining-ball", 0.01); }
     TEST_CASE("truth: known normals that lean") { check_known("leaning", "bent-mirror"); }
     TEST_CASE("truth: known mirrors and glass") { check_known("corridor", "tiny"); }
-    TEST_CASE("truth: known rough metal") { check_known("metal-wall", "real-metal", 0.01); }
+    TEST_CASE("truth: known rough metal") { check_known("metal-wall", "real-metal", 0.01, 0.01); }
     TEST_CASE("truth: known cameras, colors and skies") {
-        check_known("corner", "sky-picture", 0.06);
+        check_known("corner", "sky-picture", 0.02, 0.06);
     }
-    TEST_CASE("truth: known scenes for any renderer") { check_known("frame", "sphere-2"); }
+    TEST_CASE("truth: known scenes for any renderer") { check_known("frame", "pearl", 0.03); }
 
     TEST_CASE("truth: a lamp whose normals lean lights as a flat one does") {
         Scene scene = scene_of(known_scene("leaning-lamp").text);  // the unit square at 1.5 m
@@ -118,7 +121,7 @@ TEST_SUITE("law: known light") {
             return black_lamp("1", at(1.5, h, 0) + "Scale 0.5 1 0.5 " + square(0, up));
         };
         Measured image =
-            brightness(floor_in_sight(aside(1.5, false)), methods_named({"15"})[0], 400000);
+            brightness(floor_in_sight(aside(1.5, false)), methods_named({"15"})[0], 100000);
         check_light(
             floor_in_sight(aside(0.5, true) + thing(mirror, "Scale 9 1 9 " + square(1, false))),
             {image.mean, 0.03, image.se, true});
@@ -129,7 +132,7 @@ TEST_SUITE("law: known light") {
         std::string tilted = at(3, 1, 0) + "Rotate -60 0 0 1 Scale 0.5 1 0.5 " + square(0, false);
         std::string overhead = black_lamp("10", unit_square(1)), aside = black_lamp("5", tilted);
         std::string sky = "LightSource \"infinite\" \"float scale\" 2\n";
-        Measured of_aside = brightness(lit_floor(aside), methods_named({"10"})[0], 400000);
+        Measured of_aside = brightness(lit_floor(aside), methods_named({"10"})[0], 100000);
         REQUIRE(of_aside.mean > 0.03);
         double L = 2 + 8 * irradiance_of_square(1) / pi_exact + of_aside.mean * 3 / 5;
         for (const std::string& lights :
@@ -198,7 +201,8 @@ TEST_SUITE("law: known light") {
             // Uniform directions are far more noise, and so many vertices many connections.
             KnownLight known = {1, 0.03, 2e-5};
             for (const NamedMethod& m : methods_for(scene))
-                if (m.number() < 10 || m.number() > 15) known.except.push_back(m.name);
+                if (m.number() < 10 || m.number() > 15 || m.is_variant())
+                    known.except.push_back(m.name);
             check_light(seen_along(scene, {{0, 0, 0}, {0, 0, 1}}), known);
         }
     }

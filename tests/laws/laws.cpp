@@ -79,13 +79,14 @@ static bool finds_all(const NamedMethod& method, bool no_size, const std::string
 
 /// Compares what a method found with what is known of the same light. Who has too few paths of a
 /// class may have met too little of it: such numbers are left out. Returns how many were compared;
-/// adds what the method found to `known`, unless it blurs.
+/// adds what the method found to `known`, unless it blurs. No path is longer than the scene says.
 static int compare(const NamedMethod& method, const Scene& scene, const Census& census,
                    std::map<std::string, Measured>& known) {
     bool no_size = std::ranges::any_of(scene.lights, [](const Light& light) {
         return light.type == LightType::point || light.type == LightType::distant;
     });
     CAPTURE(method.name);
+    CHECK_FALSE(census.parts.contains("length " + std::to_string(scene.max_depth + 1)));
     int compared = 0;
     for (const auto& [its_name, part] : census.parts) {
         const std::string& name = its_name;
