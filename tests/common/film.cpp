@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "common/path/splats.h"
+
 namespace {
 
 Rgb grey(float v) { return {v, v, v}; }
