@@ -69,7 +69,7 @@ bool in_double(const BvhBlock& block, uint32_t hits, const Ray& ray, const Shear
 /// Relative error of t in float at which double precision takes over.
 constexpr float float_error = 0x1p-8f;
 
-/// Corners of eight or sixteen triangles, relative to the origin of the ray, which is the z axis.
+/// Corners of a block of triangles, relative to the origin of the ray, which is the z axis.
 struct Corners {
     Floats x[3], y[3], z[3];
 
@@ -189,11 +189,9 @@ void prefetch(const Bvh& bvh, uint32_t child) {
 
 /// Updates `best` by the hits of the ray with the block. Returns whether `any` is set and a hit was
 /// found.
-template <bool any, bool counting>
+template <bool any>
 [[gnu::always_inline]] inline bool test_block(const BvhBlock& block, bool mixed, const Geometry& g,
-                                              const Ray& ray, const Shear& shear, PrimHit& best,
-                                              BvhCount* count) {
-    if (counting) count->blocks++;
+                                              const Ray& ray, const Shear& shear, PrimHit& best) {
     bool found = test_triangles<any>(block, ray, shear, best);
     if (mixed && !(any && found)) {
         PrimHit other = best;  // a copy, so that `best` can stay in registers
@@ -204,21 +202,21 @@ template <bool any, bool counting>
 }
 
 /// All blocks, one after the other: no boxes.
-template <bool any, bool counting>
-PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count) {
+template <bool any>
+PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray) {
     Shear shear = shear_to_ray(ray.d);
     PrimHit best;
     best.t = next_below(ray.t_max);
     for (size_t i = 0; i < bvh.blocks.size(); i++) {
         bool mixed = i >= (bvh.root & BvhNode::index);
-        if (test_block<any, counting>(bvh.blocks[i], mixed, g, ray, shear, best, count)) return {0};
+        if (test_block<any>(bvh.blocks[i], mixed, g, ray, shear, best)) return {0};
     }
     return best.prim == PrimHit::none ? PrimHit{} : best;
 }
 
-template <bool any, bool counting>
-PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* count) {
-    if (bvh.root & BvhNode::leaf) return scan<any, counting>(bvh, g, ray, count);
+template <bool any>
+PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
+    if (bvh.root & BvhNode::leaf) return scan<any>(bvh, g, ray);
     // A rounded t may come before its box; and boxes at the same t must be looked at.
     constexpr float slack = 1 + 0x1p-12f, tiny = 0x1p-60f;
     PrimHit best;
@@ -259,7 +257,6 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
         // Go down to a leaf.
         while (!(current & BvhNode::leaf)) {
             const BvhNode& node = bvh.nodes[current];
-            if (counting) count->nodes++;
             Floats enter = max(max(x.enter(node), y.enter(node)), max(z.enter(node), splat(0)));
             Floats leave = min(x.leave(node), min(y.leave(node), z.leave(node))) * further;
             leave = min(leave, splat(reach));
@@ -292,7 +289,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
 
         const BvhBlock& block = bvh.blocks[current & BvhNode::index];
         bool mixed = current & BvhNode::mixed;
-        if (test_block<any, counting>(block, mixed, g, ray, shear, best, count)) return {0};
+        if (test_block<any>(block, mixed, g, ray, shear, best)) return {0};
         reach = best.t * scale * slack;
         current = pop();
     }
@@ -302,17 +299,9 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray, BvhCount* co
 }  // namespace
 
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
-    return traverse<false, false>(bvh, geometry, ray, nullptr);
-}
-
-PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count) {
-    return traverse<false, true>(bvh, geometry, ray, &count);
+    return traverse<false>(bvh, geometry, ray);
 }
 
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
-    return traverse<true, false>(bvh, geometry, ray, nullptr).prim != PrimHit::none;
-}
-
-bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count) {
-    return traverse<true, true>(bvh, geometry, ray, &count).prim != PrimHit::none;
+    return traverse<true>(bvh, geometry, ray).prim != PrimHit::none;
 }

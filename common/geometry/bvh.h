@@ -8,7 +8,7 @@
 #include "common/geometry/simd.h"
 
 /// One node of the hierarchy: boxes side by side, and what is in each.
-struct alignas(64) BvhNode {
+struct alignas(sizeof(Floats)) BvhNode {
     float plane[6][lanes];   // row 2 * axis: lower ends; + 1: upper ends; lower > upper: unused
     uint32_t child[lanes];   // index into Bvh::nodes, or leaf | index into Bvh::blocks
     LaneOrder far_first[8];  // for each octant (signs of a direction): children from far to near
@@ -20,7 +20,7 @@ struct alignas(64) BvhNode {
 };
 
 /// One leaf: primitives side by side. Lanes that hold no triangle have NaN for vertices.
-struct alignas(64) BvhBlock {
+struct alignas(sizeof(Floats)) BvhBlock {
     float vertex[9][lanes];  // row 3 * k + axis: vertex k
     uint32_t prim[lanes];    // PrimHit::none: this lane and all after it are unused
 };
@@ -34,20 +34,11 @@ struct Bvh {
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
 };
 
-/// What traversals looked at: nodes, and blocks of primitives.
-struct BvhCount {
-    uint64_t nodes = 0, blocks = 0;
-};
-
 /// The first primitive that the ray hits, as linear_scan() finds it; of two at the same t the one
 /// with the lower number. t is right to 1 part in 256 at the worst, and mostly to 1 in 100,000; of
 /// a triangle seen next to edge-on, as far as the ray is; of one that the ray all but begins on, to
 /// 2^-50 length^2 / height of it. Beyond coordinates of 1e9 float overflows.
 /// tested by  "truth: every hit as in double precision", "truth: no ray meets the triangle that"
 PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
-/// Finds the same hit, and adds to `count` what it looks at.
-PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);
 /// Whether the ray hits anything: stops at the first hit that it finds.
 bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
-/// Gives the same answer, and adds to `count` what it looks at.
-bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray, BvhCount& count);

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/path/sampler.h"
-#include "common/path/splats.h"
+#include "common/base/hash.h"
 #include "common/picture/image.h"
 #include "common/picture/pixel_sum.h"
 

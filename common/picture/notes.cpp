@@ -62,13 +62,3 @@ std::string value_of(const Notes& notes, const std::string& name) {
     }
     return "";
 }
-
-Notes with(Notes notes, const std::string& name, const std::string& value) {
-    for (auto& [its_name, its_value] : notes) {
-        if (its_name != name) continue;
-        its_value = value;
-        return notes;
-    }
-    notes.push_back({name, value});
-    return notes;
-}

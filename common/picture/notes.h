@@ -23,5 +23,3 @@ Notes notes_in(const std::string& comment);
 
 /// The value of a note; empty where there is none.
 std::string value_of(const Notes& notes, const std::string& name);
-/// The notes with this value.
-Notes with(Notes notes, const std::string& name, const std::string& value);

@@ -26,28 +26,10 @@ const char* StatsFile::value(const std::string& name) const {
     return at == std::string::npos ? nullptr : json_.c_str() + at;
 }
 
-std::vector<double> StatsFile::numbers(const std::string& name) const {
-    std::vector<double> list;
-    const char* at = value(name);
-    if (at == nullptr) return list;
-    bool is_list = *at == '[';
-    if (is_list) at++;
-    do {
-        at += std::strspn(at, blanks);
-        size_t length = std::strcspn(at, " \t\r\n,]}");
-        std::optional<double> x = to_number({at, length});
-        if (!x) break;
-        list.push_back(*x);
-        at += length;
-        at += std::strspn(at, blanks);
-    } while (is_list && *at++ == ',');
-    return list;
-}
-
 std::optional<double> StatsFile::number(const std::string& name) const {
-    std::vector<double> list = numbers(name);
-    if (list.empty()) return {};
-    return list[0];
+    const char* at = value(name);
+    if (at == nullptr) return {};
+    return to_number({at, std::strcspn(at, " \t\r\n,}")});
 }
 
 std::vector<std::string> StatsFile::texts(const std::string& name) const {

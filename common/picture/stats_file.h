@@ -14,10 +14,8 @@ public:
     static std::optional<StatsFile> beside(const std::string& picture);
     static std::string path_beside(const std::string& picture);
 
-    /// The number, or the first of the list of numbers, of that name; nothing where it is null or
-    /// missing.
+    /// The number of that name; nothing where it is null or missing.
     std::optional<double> number(const std::string& name) const;
-    std::vector<double> numbers(const std::string& name) const;
     /// The texts of the list of that name; none when missing.
     std::vector<std::string> texts(const std::string& name) const;
 

@@ -95,10 +95,6 @@ std::string about_means(const Comparison& c, double standard_error, bool is_cut_
     return are_same ? "the same mean" : "the same mean within the noise";
 }
 
-double spp_of(const PictureFacts& facts) {
-    return to_number(value_of(facts.notes, "spp")).value_or(NAN);
-}
-
 std::string about_errors(const PictureFacts& a, const PictureFacts& b) {
     bool known = a.standard_error > 0 && b.standard_error > 0;
     if (!known) return "";
@@ -108,15 +104,7 @@ std::string about_errors(const PictureFacts& a, const PictureFacts& b) {
     if (times < 1.1) return "; both have the same error";
     std::string text = std::string("; ") + (b_is_better ? "B" : "A") + " has " +
                        percent(1 - 1 / times) + " less squared error";
-    double spp_a = spp_of(a), spp_b = spp_of(b);
-    bool equal = spp_a == spp_b, spp_known = spp_a > 0 && spp_b > 0;
-    if (equal) return text + ": at equal samples that is " + short_number(times) + " times fewer";
-    if (!spp_known) return text + ", worth " + short_number(times) + " times as many samples";
-    double spp_good = spp_of(good), spp_bad = spp_of(bad), each = times * spp_bad / spp_good;
-    return text + " with " + short_number(spp_good) + " samples against " + short_number(spp_bad) +
-           ": sample by sample " +
-           (each >= 1 ? short_number(each) + " times fewer"
-                      : short_number(1 / each) + " times more");
+    return text + ", worth " + short_number(times) + " times as many samples";
 }
 
 /// Whether both have this note, with different values; and (below) with the same value.

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "common/path/splats.h"
 #include "tests/support/gates.h"
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "common/base/checksum.h"
 #include "common/base/files.h"
+#include "common/path/sampler.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"
 

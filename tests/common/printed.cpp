@@ -120,7 +120,7 @@ TEST_SUITE("printed") {
             CAPTURE(name);
             CHECK(std::abs(stats.number(name).value() - value) <= 1e-4 * value);
         }
-        CHECK(stats.numbers("mean_rgb") == std::vector<double>{1, 2, 0});
+        CHECK(read_file(options.stats).find("\"mean_rgb\": [1, 2, 0]") != std::string::npos);
         CHECK(stats.texts("warnings").size() == 2);
         CHECK(stats.texts("warnings").back() == "its own");
         // A picture without light has no sample that carries a share of it.
