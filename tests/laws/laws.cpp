@@ -58,7 +58,7 @@ Census paths_of(const Scene& scene, const Method& method, int first, int last, u
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, seed, 1);
     Recorder recorder(classes);
-    ClassSelection by_eye(sampled), by_light(shown_by_light);
+    ClassFilter by_eye(sampled), by_light(shown_by_light);
     Splats splats;
     Vec2 size = {static_cast<float>(scene.width), static_cast<float>(scene.height)};
     for (int i = first; i < last; i++) {
@@ -74,8 +74,8 @@ Census paths_of(const Scene& scene, const Method& method, int first, int last, u
             double y = double{average(part.L)};
             parts[part.path_class] += y;
             parts["length " + std::to_string(part.path_class.size() - 2)] += y;
-            if (by_eye.contains(part.path_class)) parts["all " + sampled] += y;
-            if (by_light.contains(part.path_class)) parts["all " + shown_by_light] += y;
+            if (by_eye.matches(part.path_class)) parts["all " + sampled] += y;
+            if (by_light.matches(part.path_class)) parts["all " + shown_by_light] += y;
         }
         for (auto [name, y] : parts) census.parts[name].add(y);
     }
@@ -113,9 +113,9 @@ Measured brightness(const Scene& scene, const NamedMethod& method, int paths, ui
 /// Whether the method finds all light of this class of path, or of this sum, where lights may have
 /// no size: such lights are never met, and no light path reaches a pinhole through a mirror.
 static bool finds_all(const NamedMethod& method, bool no_size, const std::string& name) {
-    static ClassSelection by_eye(sampled), by_light(shown_by_light);
-    bool shown = name[0] == 'L' ? by_light.contains(name) : name == "all " + shown_by_light;
-    bool aimed = name[0] == 'L' ? by_eye.contains(name) : name == "all " + sampled;
+    static ClassFilter by_eye(sampled), by_light(shown_by_light);
+    bool shown = name[0] == 'L' ? by_light.matches(name) : name == "all " + shown_by_light;
+    bool aimed = name[0] == 'L' ? by_eye.matches(name) : name == "all " + sampled;
     if (method.search == LightSearch::from_lights) return shown;
     if (method.biased() || !no_size) return true;
     return aimed || (shown && method.search == LightSearch::both_ends);

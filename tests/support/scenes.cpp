@@ -103,7 +103,7 @@ PathCensus part_of_census(const Scene& scene, const Method& method, int first, i
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, seed, 1);
     Recorder recorder(true);
-    ClassSelection chosen(filter);
+    ClassFilter chosen(filter);
     Splats splats;
     for (int i = first; i < last; i++) {
         sampler.start(0, static_cast<uint32_t>(i));
@@ -119,7 +119,7 @@ PathCensus part_of_census(const Scene& scene, const Method& method, int first, i
         for (const Contribution& part : recorder.contributions()) {
             double y = static_cast<double>(average(part.L));
             sum += y;
-            if (!chosen.contains(part.path_class)) continue;
+            if (!chosen.matches(part.path_class)) continue;
             by_class[part.path_class] += y;
             by_length[part.path_class.size() - 2] += y;
             counted += y;
