@@ -3,17 +3,14 @@
 #include "common/picture/notes.h"
 #include "common/program/render.h"
 #include "common/rendering/film_keeping.h"
-#include "common/results/outputs.h"
+#include "common/results/results.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {
         ch06::Step step = ch06::Step::ordered;
-        Option which{"step", "STEP", "drawn: linear, median, sah, ordered (default) or four",
-                     [&](const std::string& text) {
-                         step =
-                             static_cast<ch06::Step>(parse_choice("step", text, ch06::step_names));
-                     },
-                     "ordered"};
+        Option which =
+            choice_option("step", "STEP", "drawn: linear, median, sah, ordered (default) or four",
+                          ch06::step_names, step);
         RenderOptions options = parse_render_options(argc, argv, "06_bvh", "scenes/knot.pbrt",
                                                      {which}, {"size", "threads", "out", "quiet"});
         Scene scene = load(options);

@@ -6,6 +6,7 @@
 #include "common/material/bsdf.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
+#include "common/scene/intersect.h"
 
 namespace ch08 {
 

@@ -5,12 +5,9 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         auto measure = ch09::LightMeasure::solid_angle;
-        Option light_by = {"light-by", "MEASURE", "draw points of lights by area or by solid-angle",
-                           [&](const std::string& text) {
-                               measure = static_cast<ch09::LightMeasure>(
-                                   parse_choice("light-by", text, {"area", "solid-angle"}));
-                           },
-                           "solid-angle"};
+        Option light_by =
+            choice_option("light-by", "MEASURE", "draw points of lights by area or by solid-angle",
+                          {"area", "solid-angle"}, measure);
         RenderOptions options = parse_render_options(argc, argv, "09_light_sampling",
                                                      "scenes/cornell.pbrt", {light_by});
         Scene scene = load(options);

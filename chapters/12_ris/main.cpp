@@ -5,11 +5,8 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         int M = 16;
-        Option candidates = {"m", "M", "light candidates for each shadow ray (default 16)",
-                             [&](const std::string& text) {
-                                 M = static_cast<int>(parse_integer("m", text, 1, 1024));
-                             },
-                             "16"};
+        Option candidates =
+            whole_option("m", "M", "light candidates for each shadow ray", 1, 1024, M);
         RenderOptions options =
             parse_render_options(argc, argv, "12_ris", "scenes/thousand-lights.pbrt", {candidates});
         Scene scene = load(options);

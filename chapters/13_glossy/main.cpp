@@ -5,13 +5,9 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         auto strategy = ch13::Strategy::light;
-        Option ways = {
-            "strategy", "KIND", "how to find light: sample light (default) or sample bsdf",
-            [&](const std::string& text) {
-                strategy =
-                    static_cast<ch13::Strategy>(parse_choice("strategy", text, {"bsdf", "light"}));
-            },
-            "light"};
+        Option ways = choice_option("strategy", "KIND",
+                                    "how to find light: sample light (default) or sample bsdf",
+                                    {"bsdf", "light"}, strategy);
         RenderOptions options =
             parse_render_options(argc, argv, "13_glossy", "scenes/veach-mis.pbrt", {ways});
         Scene scene = load(options);

@@ -4,17 +4,13 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        auto* heuristic = ch14::power_heuristic;
-        Option kind = {"heuristic", "KIND", "power (default) or balance",
-                       [&](const std::string& text) {
-                           bool power = parse_choice("heuristic", text, {"balance", "power"}) == 1;
-                           heuristic = power ? ch14::power_heuristic : ch14::balance_heuristic;
-                       },
-                       "power"};
+        bool power = true;
+        Option kind = choice_option("heuristic", "KIND", "power (default) or balance",
+                                    {"balance", "power"}, power);
         RenderOptions options =
             parse_render_options(argc, argv, "14_mis", "scenes/veach-mis.pbrt", {kind});
         Scene scene = load(options);
-        auto lights = ch14::prepare(scene, heuristic);
+        auto lights = ch14::prepare(scene, power ? ch14::power_heuristic : ch14::balance_heuristic);
         return render(scene, options, method_of<ch14::trace>(lights));
     });
 }

@@ -6,19 +6,13 @@ int main(int argc, char** argv) {
     return run_program([&] {
         int M = 64;
         bool compensate = true;
-        Option candidates = {
-            "m", "M", "light candidates, at most one per light (default 64)",
-            [&](const std::string& text) {
-                M = static_cast<int>(parse_integer("m", text, 1, ch17::Candidates::most));
-            },
-            "64"};
-        Option sky = {"compensation", "on|off",
-                      "sample pixels of the sky's image by their excess over its mean (default), "
-                      "or by all of their light",
-                      [&](const std::string& text) {
-                          compensate = parse_choice("compensation", text, {"on", "off"}) == 0;
-                      },
-                      "on"};
+        Option candidates = whole_option("m", "M", "light candidates, at most one per light", 1,
+                                         ch17::Candidates::most, M);
+        Option sky = choice_option(
+            "compensation", "on|off",
+            "sample pixels of the sky's image by their excess over its mean (default), "
+            "or by all of their light",
+            {"off", "on"}, compensate);
         RenderOptions options =
             parse_render_options(argc, argv, "17_sky_image", "scenes/sky.pbrt", {candidates, sky});
         Scene scene = load(options, features_of(17));

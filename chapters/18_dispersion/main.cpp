@@ -5,12 +5,8 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         int M = 64;
-        Option candidates = {
-            "m", "M", "light candidates, at most one per light (default 64)",
-            [&](const std::string& text) {
-                M = static_cast<int>(parse_integer("m", text, 1, ch18::Candidates::most));
-            },
-            "64"};
+        Option candidates = whole_option("m", "M", "light candidates, at most one per light", 1,
+                                         ch18::Candidates::most, M);
         RenderOptions options =
             parse_render_options(argc, argv, "18_dispersion", "scenes/prism.pbrt", {candidates});
         Scene scene = load(options, features_of(18));

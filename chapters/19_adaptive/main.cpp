@@ -8,20 +8,13 @@ int main(int argc, char** argv) {
     return run_program([&] {
         ch19::SampleDensities densities;
         std::string map;
-        Option pilot = {"pilot", "N", "samples of each pixel in the pilot (default 16)",
-                        [&](const std::string& text) {
-                            auto n = parse_integer("pilot", text, 4, 1 << 16);
-                            densities.pilot = static_cast<uint32_t>(n);
-                        },
-                        "16"};
-        Option judge = {"judge", "other|own",
-                        "which half's pilot decides about a half: the other (default), or its own, "
-                        "which is biased",
-                        [&](const std::string& text) {
-                            auto i = parse_choice("judge", text, {"other", "own"});
-                            densities.judge = static_cast<ch19::Judge>(i);
-                        },
-                        "other"};
+        Option pilot = whole_option("pilot", "N", "samples of each pixel in the pilot", 4, 1 << 16,
+                                    densities.pilot);
+        Option judge = choice_option(
+            "judge", "other|own",
+            "which half's pilot decides about a half: the other (default), or its own, "
+            "which is biased",
+            {"other", "own"}, densities.judge);
         Option counts = {"map", "FILE",
                          "picture of the number of samples of each pixel (.pfm: numbers)",
                          [&](const std::string& text) { map = parse_picture("map", text); }};

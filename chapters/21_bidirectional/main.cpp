@@ -16,8 +16,8 @@ int main(int argc, char** argv) {
                     static_cast<int>(parse_integer("strategy", text.substr(comma + 1), 1, 1000)));
             },
             "all"};
-        Option pyramid = {"pyramid", "FILE", "also write all short strategies as one sheet",
-                          [&](const std::string& text) { sheet = text; }, ""};
+        Option pyramid =
+            text_option("pyramid", "FILE", "also write all short strategies as one sheet", sheet);
         RenderOptions options =
             parse_render_options(argc, argv, "21_bidirectional",
                                  {"scenes/cornell-spheres.pbrt", 16}, {strategy, pyramid});

@@ -6,18 +6,11 @@ int main(int argc, char** argv) {
     return run_program([&] {
         int chances = 16;
         bool light_sampling = true;
-        Option chances_option = {
-            "chances", "N", "extra samples of light that only random hits find (default 16)",
-            [&](const std::string& text) {
-                chances = static_cast<int>(parse_integer("chances", text, 0, 1000));
-            },
-            "16"};
-        Option direct_by = {"direct-by", "CHAPTER",
-                            "how direct light is found: as in chapter 15 (default) or 21",
-                            [&](const std::string& text) {
-                                light_sampling = parse_choice("direct-by", text, {"15", "21"}) == 0;
-                            },
-                            "15"};
+        Option chances_option = whole_option(
+            "chances", "N", "extra samples of light that only random hits find", 0, 1000, chances);
+        Option direct_by = choice_option(
+            "direct-by", "CHAPTER", "how direct light is found: as in chapter 15 (default) or 21",
+            {"21", "15"}, light_sampling);
         RenderOptions options =
             parse_render_options(argc, argv, "22_fast_bidirectional",
                                  {"scenes/cornell-spheres.pbrt", 32}, {chances_option, direct_by});

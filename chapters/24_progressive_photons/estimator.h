@@ -159,15 +159,11 @@ inline Method photon_passes(const Scene& scene, PhotonSettings settings) {
     auto endpoints = std::make_shared<Endpoints>(endpoints_of(scene));
     auto maps = std::make_shared<PhotonMaps>();
     settings.radius = choose_radius(scene, *endpoints, settings);
-    Method method;
+    Method method = method_of<trace>(endpoints, maps);
     method.prepare = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         auto vertices = trace_light_paths(scene, *endpoints, settings, pass, threads, stopped);
         float radius = radius_of(settings.radius, pass);
         *maps = build_maps(std::move(vertices), radius, settings.final_gathering);
-    };
-    method.trace = [=](const Scene& s, const Ray& ray, Splats&, Sampler& sampler,
-                       Recorder& recorder) __attribute__((flatten)) {
-        return trace(s, *endpoints, *maps, ray, sampler, recorder);
     };
     method.first_radius = settings.radius;
     return method;

@@ -234,14 +234,9 @@ inline Method merging_passes(const Scene& scene, PhotonSettings settings) {
     auto merging =
         std::make_shared<Merging>(Merging{endpoints_of(scene), many_lights::prepare(scene)});
     settings = settings_for(scene, settings, *merging);
-    Method method;
+    Method method = method_of<trace>(merging);
     method.prepare = [=, &scene](uint32_t pass, int threads, const Stopped& stopped) {
         trace_light_paths(scene, settings, pass, threads, stopped, *merging);
-    };
-    method.splats = true;
-    method.trace = [=](const Scene& s, const Ray& ray, Splats& splats, Sampler& sampler,
-                       Recorder& recorder) __attribute__((flatten)) {
-        return trace(s, *merging, ray, splats, sampler, recorder);
     };
     method.first_radius = settings.radius;
     return method;

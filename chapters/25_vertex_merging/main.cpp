@@ -7,22 +7,16 @@ int main(int argc, char** argv) {
         PhotonSettings s;
         double radius = 0;
         s.light_paths = 0;
-        std::vector<Option> extra = {
-            {"photons", "N",
-             "light paths in each pass that may merge; 0: two for each pixel, at most a million",
-             [&](const std::string& text) {
-                 s.light_paths = static_cast<int>(parse_integer("photons", text, 0, 1'000'000));
-             },
-             "0"},
-            {"radius", "METRES",
-             "radius of the disk in which paths merge, in the first pass (default 0: by "
-             "photons)",
-             [&](const std::string& text) {
-                 radius = text == "0" ? 0 : parse_positive("radius", text);
-             },
-             "0"}};
-        RenderOptions options = parse_render_options(argc, argv, "25_vertex_merging",
-                                                     "scenes/sds.pbrt", std::move(extra));
+        std::vector<Option> extra = {whole_option("photons", "N",
+                                                  "light paths in each pass that may merge; 0: two "
+                                                  "for each pixel, at most a million (default)",
+                                                  0, 1'000'000, s.light_paths),
+                                     positive_option("radius", "METRES",
+                                                     "radius of the disk in which paths merge, in "
+                                                     "the first pass (default 0: by photons)",
+                                                     radius, true)};
+        RenderOptions options =
+            parse_render_options(argc, argv, "25_vertex_merging", "scenes/sds.pbrt", extra);
         options.search = LightSearch::merging;
         Scene scene = load(options, features_of(25));
         s.radius = radius_within(scene, radius);

@@ -11,7 +11,6 @@
 // The code keeps  G_ij = A_i F_ij = A_j F_ji,  m^2, which is the same from both ends.
 #pragma once
 #include "chapters/26_radiosity/rows.h"
-#include "chapters/26_radiosity/solution.h"
 #include "common/recording/recorder.h"
 
 namespace ch26 {

@@ -11,8 +11,9 @@
 #include "common/explaining/path_drawing.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
+#include "common/recording/path_story.h"
 #include "common/rendering/stop.h"
-#include "common/results/outputs.h"
+#include "common/results/results.h"
 #include "common/results/table.h"
 
 namespace {
@@ -95,16 +96,9 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
 
     Limit limit(0);
     TracingLimit tracing([&] { return limit.overdue(); });
-    if (method.prepare) {
-        try {
-            method.prepare(static_cast<uint32_t>(s), options.threads,
-                           [&] { return limit.reached(); });
-        } catch (const TracingEnds&) {
-        }
-        if (limit.reached()) {
-            tell("stopped before there was a path to explain\n");
-            return 3;
-        }
+    if (method.prepare && !prepare_pass(method, static_cast<uint32_t>(s), options.threads, limit)) {
+        tell("stopped before there was a path to explain\n");
+        return 3;
     }
 
     // Trace the sample just as render_film does, and record all of it.
@@ -128,14 +122,10 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
         s, printable(scene.file).c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
         double{film.x} - x, double{film.y} - y);
-    if (options.explain_sample < 0) {
-        std::printf("No sample was named: 0 is the first. --explain %d,%d,S takes another one.\n",
-                    x, y);
-    }
     std::printf("%s", story.text().c_str());
     std::vector<Contribution> counted = recorder.contributions();
-    ClassSelection chosen(options.paths);
-    std::erase_if(counted, [&](const auto& added) { return !chosen.contains(added.path_class); });
+    ClassFilter chosen(options.paths);
+    std::erase_if(counted, [&](const auto& added) { return !chosen.matches(added.path_class); });
     std::printf("\n%s", aligned(table_of(scene, counted, pixel)).c_str());
     if (L) warn_of_gaps(recorder.contributions(), *L, splats);
 

@@ -32,9 +32,11 @@ namespace {
                 positional.c_str(), about.c_str());
     for (const Option& option : options) {
         if (option.help.empty()) continue;
-        std::string left =
-            "--" + option.name + (option.argument.empty() ? "" : " " + option.argument);
-        std::printf("  %-24s %s\n", left.c_str(), option.help.c_str());
+        std::string left = "--" + option.name, right = option.help;
+        if (!option.argument.empty()) left += " " + option.argument;
+        bool tells_default = option.value.empty() || right.find("default") != std::string::npos;
+        if (!tells_default) right += " (default " + option.value + ")";
+        std::printf("  %-24s %s\n", left.c_str(), right.c_str());
     }
     flush_stdout();
     std::exit(0);
@@ -111,10 +113,7 @@ size_t parse_choice(const std::string& option, const std::string& text,
                     const std::vector<std::string>& known) {
     auto found = std::find(known.begin(), known.end(), text);
     if (found != known.end()) return static_cast<size_t>(found - known.begin());
-    std::string words;
-    for (size_t i = 0; i < known.size(); i++) {
-        words += (i == 0 ? "" : i + 1 < known.size() ? ", " : " or ") + known[i];
-    }
+    std::string words = listed(known, " or ");
     std::string nearest = nearest_word(text, known);
     if (!nearest.empty()) words += " (did you mean '" + nearest + "'?)";
     fail_value(option, text, words);
@@ -138,6 +137,30 @@ double parse_positive(const std::string& option, const std::string& text) {
         fail_value(option, text, "a number greater than 0");
     }
     return value;
+}
+
+Option positive_option(const std::string& name, const std::string& argument,
+                       const std::string& help, double& number, bool or_zero) {
+    auto set = [=, &number](const std::string& text) {
+        number = or_zero && text == "0" ? 0 : parse_positive(name, text);
+    };
+    return {name, argument, help, set, or_zero ? "0" : ""};
+}
+
+Option text_option(const std::string& name, const std::string& argument, const std::string& help,
+                   std::string& text) {
+    return {name, argument, help, [&](const std::string& given) { text = given; }};
+}
+
+Option flag_option(const std::string& name, const std::string& help, bool& flag) {
+    return {name, "", help, [&](const std::string&) { flag = true; }};
+}
+
+std::string listed(const std::vector<std::string>& words, const std::string& last) {
+    std::string text;
+    for (size_t i = 0; i < words.size(); i++)
+        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : last) + words[i];
+    return text;
 }
 
 std::string command_line(int argc, char** argv) {

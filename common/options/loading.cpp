@@ -16,19 +16,15 @@ namespace {
 
 /// Reads the scene, and prints its notes even if an error follows.
 Scene load_and_tell(const RenderOptions& options, const Report& report, Progress& progress) {
-    std::vector<std::string> notes;
-    auto tell_notes = [&] {
-        progress.clear();
-        for (const std::string& line : notes) tell(line + "\n");
-    };
-    try {
-        Scene scene = load_scene(options.scene, &notes, report, options.stand_in);
-        tell_notes();
-        return scene;
-    } catch (...) {
-        tell_notes();
-        throw;
-    }
+    struct Notes {
+        ~Notes() {
+            progress.clear();
+            for (const std::string& line : lines) tell(line + "\n");
+        }
+        Progress& progress;
+        std::vector<std::string> lines = {};
+    } notes{progress};
+    return load_scene(options.scene, &notes.lines, report, options.stand_in);
 }
 
 /// The chapters that render scenes with this feature, such as "16 to 19, 23 and 24".
@@ -41,21 +37,13 @@ std::string chapters_with(bool Features::*feature) {
         if (last > first + 1) parts.back() += " to " + std::to_string(last);
         if (last == first + 1) parts.push_back(std::to_string(last));
     }
-    std::string text = parts[0];
-    for (size_t i = 1; i < parts.size(); i++)
-        text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
-    return text;
+    return listed(parts, " and ");
 }
 
 const std::string lens_here = "a lens, in a chapter without one";
 const std::string glass_here = "glass that disperses, in a chapter without it";
 const std::string motion_here = "a shape that moves, in a chapter where all rest";
 const std::string sky_image_here = "a picture of the sky, in a chapter without one";
-
-bool is_standing_in(const Scene& scene, const std::string& what) {
-    auto is_it = [&](const UsedStandIn& used) { return used.what == what; };
-    return std::any_of(scene.stand_ins.begin(), scene.stand_ins.end(), is_it);
-}
 
 /// The mean radiance from all directions.
 Rgb mean_of(const SkyImage& sky) {
@@ -85,8 +73,11 @@ Scene load(const RenderOptions& options, Features features) {
     } catch (const std::bad_alloc&) {
         fail({options.scene}, "out of memory while it was read, with the files that it names");
     }
-    if (options.stand_in) stand_in_for_features(scene, features);
-    refuse_features(scene, features);
+    if (options.stand_in) {
+        stand_in_for_features(scene, features);
+    } else {
+        refuse_features(scene, features);
+    }
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
@@ -185,7 +176,7 @@ void refuse_features(const Scene& scene, Features features) {
                                     chapters_with(&Features::dispersion) +
                                     " only: try \"float eta\" " + eta + or_stand_in(glass_here));
     }
-    if (!features.shutter && !scene.movers.empty() && !is_standing_in(scene, motion_here)) {
+    if (!features.shutter && !scene.movers.empty()) {
         fail(scene.place(scene.movers[0].at), "shapes move in chapters " +
                                                   chapters_with(&Features::shutter) + " only" +
                                                   or_stand_in(motion_here));

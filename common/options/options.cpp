@@ -1,16 +1,31 @@
 #include "common/options/options.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/position.h"
-#include "common/options/project.h"
+#include "common/base/system.h"
 #include "common/picture/notes.h"
 #include "common/recording/class_filter.h"
 
 namespace {
+
+/// The path of the project's file `name`, from the working directory: it is searched in the folder
+/// of the program and in the folders above. If it is not found: `name` itself.
+std::string project_file(const std::string& program, const std::string& name) {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    fs::path folder = own_file(program);
+    while (folder != folder.parent_path()) {
+        folder = folder.parent_path();
+        if (!fs::exists(folder / file_path(name), none)) continue;
+        return file_name((folder / file_path(name)).lexically_proximate(fs::current_path(none)));
+    }
+    return name;
+}
 
 void add_output(std::vector<std::string>& out, const std::string& path, bool table) {
     bool tsv = table && has_ending(path, ".tsv");
@@ -41,18 +56,6 @@ void parse_explain(const std::string& text, RenderOptions& options) {
     options.explain_sample = place.size() == 2 ? -1 : place[2];
 }
 
-void parse_film(const std::string& text, RenderOptions& options) {
-    if (!has_ending(text, film_ending)) fail_value("film", text, "a .film file");
-    options.film = text;
-}
-
-double parse_interval(const std::string& text) {
-    double seconds = parse_positive("film-every", text);
-    // At shorter intervals nothing would be rendered between two writings.
-    if (seconds < 0.01) fail_value("film-every", text, "at least 0.01 seconds");
-    return seconds;
-}
-
 void parse_part(const std::string& text, RenderOptions& options) {
     std::vector<int> numbers = split_numbers(text, '/');
     if (numbers.size() == 2) {
@@ -62,18 +65,21 @@ void parse_part(const std::string& text, RenderOptions& options) {
     fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
 }
 
-/// Throws UsageError for options that cannot be combined.
-void check_together(const RenderOptions& o) {
-    if (o.film.empty()) {
-        if (o.parts > 1) {
-            throw UsageError("error: --part needs --film, or its samples could not be merged");
-        }
-        return;
+/// Throws UsageError for values that are wrong, and for options that cannot be combined.
+void check(const RenderOptions& o) {
+    if (!o.paths.empty() && !ClassFilter(o.paths).matches_some_path()) {
+        throw UsageError("error: --paths " + quote(o.paths) +
+                         ": no path is of such a class; they are L, then any of D and S, then E");
     }
-    const char* split = "error: --split and --film: a film keeps the whole alone, no classes";
-    const char* explain = "error: --explain and --film: a film keeps no paths";
-    if (!o.split.empty()) throw UsageError(split);
-    if (o.explain || o.explain_brightest) throw UsageError(explain);
+    // At shorter intervals nothing would be rendered between two writings.
+    if (o.film_every < 0.01) throw UsageError("error: --film-every takes at least 0.01 seconds");
+    if (o.film.empty()) {
+        if (o.parts == 1) return;
+        throw UsageError("error: --part needs --film, or its samples could not be merged");
+    }
+    if (!has_ending(o.film, film_ending)) fail_value("film", o.film, "a .film file");
+    if (!o.split.empty())
+        throw UsageError("error: --split and --film: a film keeps the whole alone, no classes");
 }
 
 /// Remembers the values of a chapter's own options that change what is rendered.
@@ -87,19 +93,6 @@ void remember_values(std::vector<Option>& extra, RenderOptions& options) {
             options.own[i].second = text;
         };
     }
-}
-
-SamplerType parse_sampler(const std::string& text) {
-    return static_cast<SamplerType>(
-        parse_choice("sampler", text, {"independent", "stratified", "sobol"}));
-}
-
-std::string parse_class_filter(const std::string& text) {
-    if (!ClassFilter(text).matches_some_path()) {
-        throw UsageError("error: --paths " + quote(text) +
-                         ": no path is of such a class; they are L, then any of D and S, then E");
-    }
-    return text;
 }
 
 /// Makes options that do not apply to the program an error; --help does not list them.
@@ -128,47 +121,42 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     RenderOptions o;
     o.name = name;
     o.command = command_line(argc, argv);
-    auto integer = [](const char* option, auto& value, int64_t low, int64_t high) {
-        return [=, &value](const std::string& text) {
-            value =
-                static_cast<std::decay_t<decltype(value)>>(parse_integer(option, text, low, high));
-        };
-    };
     std::vector<Option> options = {
-        {"spp", "N", "samples per pixel (default: as the scene says)",
-         integer("spp", o.spp, 1, 1 << 30)},
-        {"time", "SECONDS", "stop when the time is up, with the samples taken so far",
-         [&](const std::string& text) { o.time = parse_positive("time", text); }},
+        whole_option("spp", "N", "samples per pixel (default: as the scene says)", 1, 1 << 30,
+                     o.spp),
+        positive_option("time", "SECONDS",
+                        "stop when the time is up, with the samples taken so far", o.time),
         {"size", "WxH", "size in pixels", [&](const std::string& text) { parse_size(text, o); }},
-        {"seed", "S", "seed of the random numbers (default 0)",
-         integer("seed", o.seed, 0, 0xffffffff)},
-        {"threads", "T", "number of threads (default: one for each processor)",
-         integer("threads", o.threads, 1, 1024)},
-        {"max-depth", "D", "limit of scattering events: 0 lights only, 1 direct light",
-         integer("max-depth", o.max_depth, 0, 1 << 30)},
-        {"sampler", "KIND", "independent (default), stratified or sobol",
-         [&](const std::string& text) { o.sampler = parse_sampler(text); }},
+        whole_option("seed", "S", "seed of the random numbers", 0, 0xffffffff, o.seed),
+        whole_option("threads", "T", "number of threads (default: one for each processor)", 1, 1024,
+                     o.threads),
+        whole_option("max-depth", "D",
+                     "limit of scattering events: 0 lights only, 1 direct light (default: as the "
+                     "scene says)",
+                     0, 1 << 30, o.max_depth),
+        choice_option("sampler", "KIND", "independent (default), stratified or sobol",
+                      {"independent", "stratified", "sobol"}, o.sampler),
         {"out", "FILE", ".ppm, .pfm or .png; may be repeated (default out/" + name + ".ppm)",
          [&](const std::string& text) { add_output(o.out, text, false); }},
-        {"stats", "FILE.json", "write time, rays, mean and standard error",
-         [&](const std::string& text) { o.stats = text; }},
+        text_option("stats", "FILE.json", "write time, rays, mean and standard error", o.stats),
         {"explain", "X,Y[,SAMPLE]", "print one path step by step, and draw it",
          [&](const std::string& text) { parse_explain(text, o); }},
-        {"explain-brightest", "", "find the sample that is the worst firefly, and explain it",
-         [&](const std::string&) { o.explain_brightest = true; }},
-        {"paths", "REGEX", "keep only these classes of path, such as 'LD(S|D)*E'",
-         [&](const std::string& text) { o.paths = parse_class_filter(text); }},
-        {"split", "DIR", "write one picture for each class of path, and all as one sheet",
-         [&](const std::string& text) { o.split = text; }},
-        {"film", "FILE.film", "save the samples' sums, to continue later, even after kill -9",
-         [&](const std::string& text) { parse_film(text, o); }},
-        {"film-every", "SECONDS", "how often the film is written (default 60)",
-         [&](const std::string& text) { o.film_every = parse_interval(text); }},
+        flag_option("explain-brightest",
+                    "find the sample that is the worst firefly, and explain it",
+                    o.explain_brightest),
+        text_option("paths", "REGEX", "keep only these classes of path, such as 'LD(S|D)*E'",
+                    o.paths),
+        text_option("split", "DIR",
+                    "write one picture for each class of path, and all as one sheet", o.split),
+        text_option("film", "FILE.film",
+                    "save the samples' sums, to continue later, even after kill -9", o.film),
+        positive_option("film-every", "SECONDS", "how often the film is written (default 60)",
+                        o.film_every),
         {"part", "K/N", "take the K-th of N parts of the samples; build/merge adds their films",
          [&](const std::string& text) { parse_part(text, o); }},
-        {"stand-in", "", "render what is not modelled as something like it, and say so",
-         [&](const std::string&) { o.stand_in = true; }},
-        {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
+        flag_option("stand-in", "render what is not modelled as something like it, and say so",
+                    o.stand_in),
+        flag_option("quiet", "print errors only", o.quiet),
     };
     if (!takes.empty()) refuse_all_but(takes, name, options);
     remember_values(extra, o);
@@ -189,7 +177,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
         o.scene = project_file(argv[0], scene.file);
         if (o.spp == 0) o.spp = scene.spp;
     }
-    check_together(o);
+    check(o);
     if (o.out.empty()) o.out = {"out/" + name + ".ppm"};
     if (o.threads == 0)
         o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -201,17 +189,11 @@ TableOptions parse_table_options(int argc, char** argv, const std::string& name,
     o.name = name;
     o.n = n;
     std::vector<Option> options = {
-        {"n", "N", "samples (default " + std::to_string(n) + ")",
-         [&](const std::string& text) {
-             o.n = static_cast<uint64_t>(parse_integer("n", text, 1, int64_t{1} << 40));
-         }},
-        {"seed", "S", "seed of the random numbers (default 0)",
-         [&](const std::string& text) {
-             o.seed = static_cast<uint32_t>(parse_integer("seed", text, 0, 0xffffffff));
-         }},
+        whole_option("n", "N", "samples", 1, int64_t{1} << 40, o.n),
+        whole_option("seed", "S", "seed of the random numbers", 0, 0xffffffff, o.seed),
         {"out", "FILE", ".ppm, .pfm or .png for the picture, .tsv for the table; may be repeated",
          [&](const std::string& text) { add_output(o.out, text, true); }},
-        {"quiet", "", "print errors only", [&](const std::string&) { o.quiet = true; }},
+        flag_option("quiet", "print errors only", o.quiet),
     };
     parse_options(argc, argv, "", "Chapter " + name + ": prints a table and draws a picture.",
                   options, [](const std::string& word) {

@@ -1,6 +1,7 @@
 // A chapter's estimator, as the renderer calls it, with what the chapter has prepared bound to it.
 #pragma once
 #include <functional>
+#include <memory>
 #include <type_traits>
 
 #include "common/base/parallel.h"
@@ -8,6 +9,7 @@
 #include "common/path/sampler.h"
 #include "common/path/splats.h"
 #include "common/recording/recorder.h"
+#include "common/scene/scene.h"
 
 /// What a chapter hands to the renderer.
 struct Method {
@@ -52,6 +54,16 @@ inline Ray copy_of(const volatile Ray& ray) {
         {ray.o.x, ray.o.y, ray.o.z}, {ray.d.x, ray.d.y, ray.d.z}, ray.t_max, ray.time, ray.from};
 }
 
+/// What was prepared once, or what a pass prepares anew.
+template <class T>
+const T& prepared(const T& once) {
+    return once;
+}
+template <class T>
+const T& prepared(const std::shared_ptr<T>& in_each_pass) {
+    return *in_each_pass;
+}
+
 /// A chapter's trace(), with what the chapter has prepared as its arguments after the scene. It may
 /// have splats, as in chapter 22; in chapter 20 it has these alone, and no ray.
 ///
@@ -59,10 +71,11 @@ inline Ray copy_of(const volatile Ray& ray) {
 template <auto trace, class... Own>
 Method method_of(Own... own) {
     using Function = decltype(trace);
-    constexpr bool has_ray =
-        std::is_invocable_v<Function, const Scene&, const Own&..., Ray, Sampler&, Recorder&>;
+    constexpr bool has_ray = std::is_invocable_v<Function, const Scene&, decltype(prepared(own))...,
+                                                 Ray, Sampler&, Recorder&>;
     constexpr bool has_splats =
-        std::is_invocable_v<Function, const Scene&, const Own&..., Splats&, Sampler&, Recorder&>;
+        std::is_invocable_v<Function, const Scene&, decltype(prepared(own))..., Splats&, Sampler&,
+                            Recorder&>;
     Method method;
     method.splats = !has_ray;
     method.trace = [... own = std::move(own)](const Scene& scene, [[maybe_unused]] const Ray& ray,
@@ -70,12 +83,12 @@ Method method_of(Own... own) {
                                               Recorder& recorder) __attribute__((flatten))
                        ->Rgb {
         if constexpr (has_ray) {
-            return trace(scene, own..., copy_of(ray), sampler, recorder);
+            return trace(scene, prepared(own)..., copy_of(ray), sampler, recorder);
         } else if constexpr (has_splats) {
-            trace(scene, own..., splats, sampler, recorder);
+            trace(scene, prepared(own)..., splats, sampler, recorder);
             return {};
         } else {
-            return trace(scene, own..., ray, splats, sampler, recorder);
+            return trace(scene, prepared(own)..., ray, splats, sampler, recorder);
         }
     };
     return method;

@@ -177,7 +177,7 @@ void check_options(const std::string& path, const FilmLabel& label,
         const std::string& its_value = label.options[i].second;
         if (printable(value) == its_value) continue;
         if (name == "code") fail({path}, "the film was made by other code of this chapter");
-        if (name == "scene") fail({path}, "a film of another scene: its files are not the same");
+        if (name == "checksum") fail({path}, "a film of another scene: its files are not the same");
         fail({path}, "its " + name + " is " + quote(its_value) + ", here it is " + quote(value));
     }
 }

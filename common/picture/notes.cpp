@@ -10,10 +10,7 @@ static constexpr const char* first_line = "picture of path-by-path";
 Notes notes_of(const FilmLabel& label, double spp) {
     Notes notes;
     for (const auto& [name, value] : label.options) {
-        if (name == "code" || value.empty() || (name == "spp" && value == "any")) continue;
-        bool is_other = name == "file" || name == "scene" || name == "spp";  // in a film
-        const char* other = name == "file" ? "scene" : name == "scene" ? "checksum" : "strata";
-        notes.push_back({is_other ? other : name, value});
+        if (name != "code" && !value.empty()) notes.push_back({name, value});
     }
     if (!label.samples.empty()) notes.push_back({"spp", json_number(spp)});
     bool from_the_start = label.samples.size() == 1 && label.samples[0].first == 0;

@@ -2,7 +2,6 @@
 
 #include "common/explaining/explain.h"
 #include "common/rendering/stop.h"
-#include "common/results/outputs.h"
 #include "common/results/results.h"
 
 namespace {
@@ -13,6 +12,7 @@ namespace {
 int find_and_explain(const Scene& scene, const RenderOptions& options, const Method& method) {
     RenderOptions whole = options;
     whole.split.clear();
+    whole.film.clear();
     if (whole.paths.empty()) whole.paths = "L.*D.*E";
     StopOnSignal signal;
     Rendering r = render_film(scene, whole, method);

@@ -9,7 +9,6 @@
 namespace {
 
 constexpr std::string_view letters = "LDSE";
-constexpr int endless = 1 << 30;
 
 using Places = std::set<size_t>;
 /// Adds the places that are reached from a place by reading one letter of a set.
@@ -33,11 +32,10 @@ private:
         throw UsageError("error: --paths " + quote(text_) + ", column " + std::to_string(at + 1) +
                          ": " + what);
     }
-    bool next_is(char c) const { return at_ < text_.size() && text_[at_] == c; }
     bool take(char c) {
-        if (!next_is(c)) return false;
-        at_++;
-        return true;
+        bool is_next = at_ < text_.size() && text_[at_] == c;
+        at_ += is_next;
+        return is_next;
     }
 
     Places read_choice(const Places& from) {
@@ -46,56 +44,29 @@ private:
         return reached;
     }
     Places read_sequence(Places from) {
-        while (at_ < text_.size() && !next_is('|') && !next_is(')')) from = read_repeated(from);
+        while (at_ < text_.size() && text_[at_] != '|' && text_[at_] != ')')
+            from = read_repeated(from);
         return from;
     }
-
     Places read_repeated(const Places& from) {
         size_t begin = at_;
-        read_one(from);
-        auto [low, high] = read_count();
+        Places newest = read_one(from), reached = newest;
+        bool star = take('*'), plus = !star && take('+'), maybe = !star && !plus && take('?');
         size_t behind = at_;
-        Places reached = from, newest = from;
-        for (int i = 0; i < high && !newest.empty(); i++) {
+        while ((star || plus) && !newest.empty()) {
             at_ = begin;
             newest = read_one(newest);
-            if (i < low) {
-                if (newest == reached) break;
-                reached = newest;
-            } else {
-                std::erase_if(newest, [&](size_t place) { return reached.contains(place); });
-                reached.insert(newest.begin(), newest.end());
-            }
+            std::erase_if(newest, [&](size_t place) { return reached.contains(place); });
+            reached.insert(newest.begin(), newest.end());
         }
         at_ = behind;
+        if (star || maybe) reached.insert(from.begin(), from.end());
         return reached;
     }
-    /// How often the part before may be repeated: at least, at most.
-    std::pair<int, int> read_count() {
-        if (take('*')) return {0, endless};
-        if (take('+')) return {1, endless};
-        if (take('?')) return {0, 1};
-        size_t brace = at_;
-        if (!take('{')) return {1, 1};
-        int low = read_number(brace), high = low;
-        if (take(',')) high = next_is('}') ? endless : read_number(brace);
-        if (!take('}') || high < low) fail(brace, "a count is written {2}, {2,} or {2,4}");
-        return {low, high};
-    }
-    int read_number(size_t brace) {
-        size_t end = std::min(text_.find_first_not_of("0123456789", at_), text_.size());
-        if (end == at_) fail(brace, "a count is written {2}, {2,} or {2,4}");
-        if (end > at_ + 4) fail(at_, "a count is at most 9999");
-        int number = std::stoi(text_.substr(at_, end - at_));
-        at_ = end;
-        return number;
-    }
-
     Places read_one(const Places& from) {
         size_t begin = at_;
         if (take('(')) {
             if (++depth_ > 8) fail(begin, "brackets are nested more than 8 deep");
-            if (text_.compare(at_, 2, "?:") == 0) at_ += 2;
             Places reached = read_choice(from);
             if (!take(')')) fail(begin, "this ( is not closed");
             depth_--;
@@ -122,11 +93,8 @@ private:
     }
     char read_letter() {
         char c = text_[at_];
-        std::string name = {'\'', c, '\''};
-        if (std::string_view("*+?{").find(c) != std::string_view::npos)
-            fail(at_, "nothing stands before " + name + " that it could repeat");
         if (letters.find(c) == std::string_view::npos)
-            fail(at_, name + " is no letter of a path's class: those are L, D, S and E");
+            fail(at_, std::string("'") + c + "' is not one of the letters L, D, S and E");
         at_++;
         return c;
     }
@@ -139,15 +107,21 @@ private:
 
 }  // namespace
 
-ClassFilter::ClassFilter(const std::string& expression) : expression_(expression) { matches(""); }
+ClassFilter::ClassFilter(const std::string& expression)
+    : expression_(expression.empty() ? ".*" : expression) {
+    matches("");
+}
 
-bool ClassFilter::matches(std::string_view path_class) const {
+bool ClassFilter::matches(const std::string& path_class) {
+    if (auto known = known_.find(path_class); known != known_.end()) return known->second;
     // A place: how many letters of the class have been read.
     Step step = [&](size_t place, const std::string& set, Places& reached) {
         bool fits = place < path_class.size() && set.find(path_class[place]) != std::string::npos;
         if (fits) reached.insert(place + 1);
     };
-    return Matcher(expression_, step).run().contains(path_class.size());
+    bool found = Matcher(expression_, step).run().contains(path_class.size());
+    if (known_.size() < 1000) known_[path_class] = found;
+    return found;
 }
 
 bool ClassFilter::matches_some_path() const {
@@ -158,11 +132,4 @@ bool ClassFilter::matches_some_path() const {
         if (place == 1 && set.find('E') != std::string::npos) reached.insert(2);
     };
     return Matcher(expression_, step).run().contains(2);
-}
-
-bool ClassSelection::contains(const std::string& path_class) {
-    if (auto known = known_.find(path_class); known != known_.end()) return known->second;
-    bool matches = filter_.matches(path_class);
-    if (known_.size() < 1000) known_[path_class] = matches;
-    return matches;
 }

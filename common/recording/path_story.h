@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/recording/contribution.h"
+#include "common/recording/recorder.h"
 #include "common/scene/intersect.h"
 
 /// Describes one path as its Recorder reports it: each step, what it adds, which shadow rays were

@@ -1,5 +1,7 @@
 #include "common/recording/recorder.h"
 
+#include "common/recording/path_story.h"
+
 void Recorder::forget() {
     depth_ = 0;
     scattered_.clear();
@@ -35,10 +37,8 @@ void Recorder::note_vertex(const Hit& x) {
     if (story_) story_->meets(x, vertices_.size());
 }
 
-/// The number, from 1, of the last vertex of the path from the eye; 0: none.
-int Recorder::current_vertex() const { return eye_vertex(depth_); }
-
-/// The number of the vertex after this many scattering events; the last one, if the sky follows it.
+/// The number, from 1, of the vertex after this many scattering events; the last one, if the sky
+/// follows it; 0: none.
 int Recorder::eye_vertex(size_t events) const {
     size_t depth = std::min(events + 1, latest_.size());
     return depth == 0 ? 0 : latest_[depth - 1] + 1;
@@ -63,7 +63,7 @@ void Recorder::note_roulette(float q, Rgb beta) {
 
 void Recorder::note_step_back() {
     depth_--;
-    if (story_) story_->steps_back(current_vertex());
+    if (story_) story_->steps_back(eye_vertex(depth_));
 }
 
 void Recorder::note_back_to(int t) {
@@ -81,14 +81,14 @@ std::string Recorder::class_of(std::string path_class, size_t events) const {
 
 void Recorder::note_emitted(Rgb Le, float mis_b) {
     bool sky = story_ && story_->has_left();
-    keep({class_of("L", depth_), beta() * Le * mis_b, Contribution::own_pixel, current_vertex(),
+    keep({class_of("L", depth_), beta() * Le * mis_b, Contribution::own_pixel, eye_vertex(depth_),
           sky ? "sky met" : "light met", mis_b});
 }
 
 void Recorder::note_direct(Rgb Ld, Vec3 wi, float pdf_l, float pdf_b, float mis_l) {
     if (is_black(Ld)) return;
     if (story_) story_->samples_light(wi, pdf_l, pdf_b);
-    keep({class_of("LD", depth_), beta() * Ld, Contribution::own_pixel, current_vertex(),
+    keep({class_of("LD", depth_), beta() * Ld, Contribution::own_pixel, eye_vertex(depth_),
           "light sampled", mis_l});
 }
 
@@ -107,7 +107,7 @@ void Recorder::note_connected(Rgb L, int s, int t, float mis, size_t pixel) {
 void Recorder::note_gathered(Rgb scale) {
     for (const auto& [events, flux] : photons_) {
         keep({class_of("L" + events, depth_), beta() * (scale * flux), Contribution::own_pixel,
-              current_vertex(), "photons"});
+              eye_vertex(depth_), "photons"});
     }
     photons_.clear();
 }

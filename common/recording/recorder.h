@@ -1,9 +1,28 @@
 // Records what one path did, for --explain, --paths, --split and the measuring programs.
 #pragma once
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "common/recording/path_story.h"
+#include "common/base/vec.h"
+#include "common/material/hit.h"
+
+class PathStory;
+
+/// Part of a sample: the class of its path in Heckbert's notation, from light to eye, and how much.
+/// S: a vertex with one possible direction (mirror, glass); D: any other.
+struct Contribution {
+    static constexpr size_t own_pixel = SIZE_MAX;
+
+    std::string path_class;    // such as "LDSE"
+    Rgb L;                     // weighted, W m^-2 sr^-1
+    size_t pixel = own_pixel;  // or the one in which the camera sees a path from a light
+    int vertex = 0;            // number of the last one on the way; 0: none
+    std::string way = {};      // how the light was found
+    float mis = 1;
+};
 
 /// A vertex of the path, and the number of the vertex before it (-1: the eye, -2: it is a light).
 struct PathVertex {
@@ -127,7 +146,6 @@ private:
     /// The class of a path that begins with these letters and ends with the first events of the
     /// path from the eye.
     std::string class_of(std::string path_class, size_t events) const;
-    int current_vertex() const;
     int eye_vertex(size_t events) const;
 
     bool listening_ = false;

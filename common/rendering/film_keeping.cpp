@@ -16,19 +16,19 @@ namespace {
 std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene,
                                                               const RenderOptions& o) {
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
-    char scene_bytes[17];
-    std::snprintf(scene_bytes, sizeof scene_bytes, "%016llx",
+    char checksum[17];
+    std::snprintf(checksum, sizeof checksum, "%016llx",
                   static_cast<unsigned long long>(scene.files_checksum));
     bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
     std::vector<std::pair<std::string, std::string>> options = {
         {"chapter", o.name},
         {"code", code_hash(o.name)},
-        {"file", printable(file_name(file_path(scene.file).filename()))},
-        {"scene", scene_bytes},
+        {"scene", printable(file_name(file_path(scene.file).filename()))},
+        {"checksum", checksum},
         {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
         {"max-depth", std::to_string(scene.max_depth)},
         {"sampler", samplers[static_cast<size_t>(o.sampler)]},
-        {"spp", has_strata ? std::to_string(scene.spp) : "any"},
+        {"strata", has_strata ? std::to_string(scene.spp) : ""},
         {"paths", o.paths}};
     options.insert(options.end(), o.own.begin(), o.own.end());
     // Without folders: the same on every machine.

@@ -32,13 +32,13 @@ uint32_t fewest_samples(const Film& film) {
 /// A pass takes each pixel once, or more often if there are too few pixels to keep all threads
 /// busy; but not more often than all passes before it, so that an early end leaves no pixel empty.
 void take_samples(const Scene& scene, const RenderOptions& options, const Method& method,
-                  const Allocation& allocation, const Limit& limit, SampleRange wanted,
-                  Rendering& result) {
+                  const Limit& limit, SampleRange wanted, Rendering& result) {
+    const Allocation& allocation = method.allocation;
     bool goes_on = !options.film.empty() && allocation.pilot == 0;
     uint32_t done = goes_on ? fewest_samples(result.film) : 0;
     FilmClock clock(scene, options);
     Progress progress(60);
-    TileRenderer renderer(scene, options, method, allocation, limit, clock, result, wanted.first);
+    TileRenderer renderer(scene, options, method, limit, clock, result, wanted.first);
     uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
     uint32_t most_per_pass = std::max(1u, (1u << 20) / pixels), spp = wanted.last - wanted.first;
     while (done < spp && !limit.reached()) {
@@ -48,12 +48,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Method
         uint64_t rays_before = rays_traced, rays_of_preparing = 0;
         if (method.prepare) {
             next = done + 1;
-            try {
-                method.prepare(wanted.first + done, options.threads,
-                               [&] { return limit.reached(); });
-            } catch (const TracingEnds&) {
-            }
-            if (limit.reached()) break;
+            if (!prepare_pass(method, wanted.first + done, options.threads, limit)) break;
             rays_of_preparing = rays_traced - rays_before;
         }
         result.begun = std::max(result.begun, next);
@@ -74,20 +69,27 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Method
         done = next;
         result.stats.rays += rays_of_preparing;
         bool decides = in_pilot && done == allocation.pilot && !limit.reached();
-        if (decides && allocation.choose_densities) {
-            allocation.choose_densities(renderer.take_pilot(), options.threads);
-        }
+        if (decides && !renderer.pilot().half[0].empty())
+            allocation.choose_densities(renderer.pilot(), options.threads);
     }
 }
 
 }  // namespace
 
+bool prepare_pass(const Method& method, uint32_t pass, int threads, const Limit& limit) {
+    try {
+        method.prepare(pass, threads, [&] { return limit.reached(); });
+    } catch (const TracingEnds&) {
+    }
+    return !limit.reached();
+}
+
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method) {
-    const Allocation& allocation = method.allocation;
+    uint32_t pilot = method.allocation.pilot;
     Rendering result{empty_film(scene, method.splats), {}, {}};
     Limit limit(options.time);
     TracingLimit tracing([&] { return limit.overdue(); });
-    if (allocation.pilot > 0) {
+    if (pilot > 0) {
         result.film.start_halves();
     } else if (options.sampler != SamplerType::independent) {
         try {
@@ -104,15 +106,13 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Me
     SampleRange wanted = wanted_samples(scene, options);
 
     // Render the pilot again if this render does not start with it.
-    Allocation decided = allocation;
-    if (allocation.pilot > 0 && (wanted.first > 0 || result.film.samples() > 0)) {
+    if (pilot > 0 && (wanted.first > 0 || result.film.samples() > 0)) {
         RenderOptions alone = options;
-        alone.film.clear(), alone.split.clear();
+        alone.film.clear();
+        alone.split.clear();
         Rendering again{Film(scene.width, scene.height), {}, {}};
         again.film.start_halves();
-        SampleRange pilot = {options.seed, 0, allocation.pilot};
-        take_samples(scene, alone, method, allocation, limit, pilot, again);
-        decided.choose_densities = {};
+        take_samples(scene, alone, method, limit, {options.seed, 0, pilot}, again);
     }
     // The samples that there are outlive what goes wrong.
     auto keep = [&](const std::string& error) {
@@ -120,7 +120,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Me
         result.error = error;
     };
     try {
-        take_samples(scene, options, method, decided, limit, wanted, result);
+        take_samples(scene, options, method, limit, wanted, result);
     } catch (const InputError& error) {
         keep(error.what());
     } catch (const std::bad_alloc&) {

@@ -10,6 +10,7 @@
 #include "common/path/allocation.h"
 #include "common/path/method.h"
 #include "common/picture/film_file.h"
+#include "common/rendering/stop.h"
 #include "common/scene/scene.h"
 
 /// Statistics of rendering a picture.
@@ -52,3 +53,6 @@ struct Rendering {
 /// With an allocation of the method, a render that continues, or is not the first part, repeats the
 /// pilot, so that samples are distributed as in the whole render.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method);
+
+/// Prepares what the method shares in a pass. Returns whether there is time for the pass.
+bool prepare_pass(const Method& method, uint32_t pass, int threads, const Limit& limit);

@@ -27,22 +27,21 @@ int brightening(const Image& image) {
 
 Image class_sheet(const std::map<std::string, Film>& classes) {
     constexpr int most_width = 320;  // pixels, of a tile
-    std::vector<std::pair<double, std::string>> order;
+    std::multimap<double, const std::string*> order;
     double all = 0;
     for (const auto& [name, film] : classes) {
-        double mean = film.mean();
-        order.push_back({std::isnan(mean) ? 0 : -mean, name});
+        double mean = std::isnan(film.mean()) ? 0 : film.mean();
+        order.insert({-mean, &name});
+        all += mean;
     }
-    for (const auto& [minus_mean, name] : order) all -= minus_mean;
-    std::sort(order.begin(), order.end());
     std::vector<Tile> tiles;
     for (const auto& [minus_mean, name] : order) {
-        Image image = classes.at(name).image();
+        Image image = classes.at(*name).image();
         int times = brightening(image);
         for (Rgb& p : image.pixels) p *= static_cast<float>(times);
         int n = (std::max(image.width, image.height) + most_width - 1) / most_width;
         std::string shown = times == 1 ? "" : std::to_string(times) + "x as bright";
-        tiles.push_back({shrunk(image, n), {name + "  " + percent(-minus_mean / all), shown}});
+        tiles.push_back({shrunk(image, n), {*name + "  " + percent(-minus_mean / all), shown}});
     }
     double columns = std::ceil(std::sqrt(static_cast<double>(tiles.size())));
     return sheet(tiles, std::max(1, static_cast<int>(columns)));

@@ -10,6 +10,7 @@
 #include "common/base/percent.h"
 #include "common/base/position.h"
 #include "common/base/report.h"
+#include "common/base/system.h"
 #include "common/options/command_line.h"
 #include "common/picture/notes.h"
 #include "common/rendering/film_keeping.h"
@@ -93,68 +94,74 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
 }
 
 /// The files of a render. What is to be said of each that was written is added to `told`.
-class Outputs {
-public:
-    Outputs(const Scene& scene, const RenderOptions& options, const Rendering& r)
-        : scene_(scene), options_(options), r_(r) {
-        if (!options.film.empty()) add(options.film, [&] { save_film(scene, options, r); });
-        for (const std::string& path : options.out) add_image(path, [&] { return r.film.image(); });
-        for (const auto& [path, picture] : options.pictures)
-            add_image(path, [&, &picture = picture] { return picture(r.film); });
-        if (!options.split.empty()) add_classes();
-        if (options.stats.empty()) return;
+std::vector<Output> outputs_of(const Scene& scene, const RenderOptions& options, const Rendering& r,
+                               std::string& told) {
+    std::vector<Output> outputs;
+    auto add = [&](const std::string& path, const std::function<void()>& write,
+                   const std::string& note = "") {
+        outputs.push_back({path, [=, &told] {
+                               write();
+                               told += "wrote " + path + note + "\n";
+                           }});
+    };
+    using Picture = std::function<Image()>;
+    auto written = [&](const std::string& path, const Picture& picture,
+                       const std::string& path_class = "") {
+        return [=, &scene, &options, &r] {
+            write_image(path, picture(), comment_of(notes_of(scene, options, r, path_class)));
+        };
+    };
+    if (!options.film.empty()) add(options.film, [&] { save_film(scene, options, r); });
+    for (const std::string& path : options.out)
+        add(path, written(path, [&] { return r.film.image(); }));
+    for (const auto& [path, picture] : options.pictures)
+        add(path, written(path, [&, &picture = picture] { return picture(r.film); }));
+    for (const auto& [path_class, film] : r.classes) {
+        std::string name = options.split + "/" + path_class;
+        Picture picture = [&film = film] { return film.image(); };
+        bool is_known = std::isfinite(film.mean());
+        add(name + ".pfm", written(name + ".pfm", picture),
+            "  mean " + (is_known ? json_number(film.mean()) : "unknown"));
+        outputs.push_back({name + ".png", written(name + ".png", picture, path_class)});
+    }
+    std::string sheet = options.split + "/classes.png";
+    if (!options.split.empty())
+        add(sheet, written(sheet, [&] { return class_sheet(r.classes); }),
+            "  all of them with their shares; each also as .png");
+    if (!options.stats.empty())
         add(options.stats,
             [&] { write_file_atomically(options.stats, stats_json(scene, options, r)); });
-    }
-
-    /// Throws InputError for those that could not be written.
-    void write() { write_outputs(std::move(outputs_)); }
-    const std::string& told() const { return told_; }
-
-private:
-    void add(const std::string& path, const std::function<void()>& write,
-             const std::string& note = "") {
-        outputs_.push_back({path, [=, this] {
-                                bool is_large = r_.film.pixels().size() >= 1 << 20;
-                                if (is_large && !options_.quiet) tell("writing " + path + "\n");
-                                write();
-                                told_ += "wrote " + path + note + "\n";
-                            }});
-    }
-    void add_image(const std::string& path, const std::function<Image()>& image,
-                   const std::string& note = "") {
-        add(
-            path,
-            [=, this] { write_image(path, image(), comment_of(notes_of(scene_, options_, r_))); },
-            note);
-    }
-
-    /// A picture of each class as .pfm and .png, and all of them as one sheet.
-    void add_classes() {
-        for (const auto& [path_class, film] : r_.classes) {
-            std::string name = options_.split + "/" + path_class;
-            auto write = [this, &path_class = path_class, &film = film](const std::string& path) {
-                write_image(path, film.image(),
-                            comment_of(notes_of(scene_, options_, r_, path_class)));
-            };
-            add(
-                name + ".pfm", [=] { write(name + ".pfm"); },
-                "  mean " + (std::isfinite(film.mean()) ? json_number(film.mean()) : "unknown"));
-            outputs_.push_back({name + ".png", [=] { write(name + ".png"); }});
-        }
-        add_image(
-            options_.split + "/classes.png", [this] { return class_sheet(r_.classes); },
-            "  all of them with their shares; each also as .png");
-    }
-
-    const Scene& scene_;
-    const RenderOptions& options_;
-    const Rendering& r_;
-    std::vector<Output> outputs_;
-    std::string told_;
-};
+    return outputs;
+}
 
 }  // namespace
+
+std::string drawing_path(const RenderOptions& options) {
+    return file_name(file_path(options.out[0]).replace_extension(".svg"));
+}
+
+void check_outputs(const Scene& scene, const RenderOptions& options) {
+    std::vector<std::string> inputs(scene.files.begin(), scene.files.end());
+    if (options.explain || options.explain_brightest)
+        return check_outputs({drawing_path(options)}, inputs);
+    std::vector<std::string> files = options.out;
+    for (const std::string& file : {options.film, options.stats})
+        if (!file.empty()) files.push_back(file);
+    for (const auto& [file, picture] : options.pictures) files.push_back(file);
+    if (!options.film.empty()) {  // not to go on without it
+        check_film_is_file(options.film);
+        check_writable(options.film);
+    }
+    if (!options.split.empty()) {
+        make_folder(options.split);
+        files.push_back(options.split + "/classes.png");
+    }
+    uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
+    check_outputs(files, inputs, [&](const std::string& file) {
+        uint64_t bytes = has_ending(file, ".pfm") ? sizeof(Rgb) : has_ending(file, ".ppm") ? 3 : 0;
+        return std::max<uint64_t>(bytes * pixels, 1);  // that of others is not known
+    });
+}
 
 std::string mean_and_error(const Film& film) {
     double mean = film.mean(), error = film.standard_error();
@@ -169,34 +176,21 @@ std::string mean_and_error(const Film& film) {
     return text;
 }
 
-/// The command without the options that --explain does not accept.
-std::string without_film(std::string command) {
-    for (const char* option : {" --film", " --part"}) {  // and --film-every
-        for (size_t at; (at = command.find(option)) != std::string::npos;) {
-            size_t value = command.find_first_of("= ", at + 1) + 1;
-            bool quoted = command[value] == '\'';
-            size_t end = command.find(quoted ? '\'' : ' ', value + 1) + (quoted ? 1 : 0);
-            command.erase(at, end - at);
-        }
-    }
-    return command;
-}
-
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     std::string errors = r.error.empty() ? "" : r.error + "\n";
-    Outputs outputs(scene, options, r);
+    std::string told;
     try {
-        outputs.write();
+        write_outputs(outputs_of(scene, options, r, told));
     } catch (const InputError& error) {
         errors += error.what() + std::string("\n");
     }
     if (!options.quiet) {
         print_summary(scene, options, r);
-        std::fputs(outputs.told().c_str(), stdout);
+        std::fputs(told.c_str(), stdout);
     }
     if (r.stats.not_finite > 0) {
         errors += "error: " + std::to_string(r.stats.not_finite) +
-                  " samples were not finite; to see one: " + without_film(options.command) +
+                  " samples were not finite; to see one: " + options.command +
                   " --explain " + std::to_string(r.stats.bad_x) + ',' +
                   std::to_string(r.stats.bad_y) + ',' + std::to_string(r.stats.bad_sample) + '\n';
     }

@@ -8,3 +8,10 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
 
 /// "mean 0.150432 +- 0.000102", or with "standard error unknown".
 std::string mean_and_error(const Film& film);
+
+/// The file name of the picture that --explain draws.
+std::string drawing_path(const RenderOptions& options);
+
+/// Throws early the errors that writing the results would throw later (see files.h), and refuses to
+/// overwrite a file that the scene was read from. Makes the folder of --split.
+void check_outputs(const Scene& scene, const RenderOptions& options);

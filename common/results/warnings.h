@@ -9,8 +9,14 @@
 /// comes from a few samples, the error is unknown, or this method misses light or rarely finds it.
 /// Empty if there is none.
 /// tested by  "truth: what a film says of its own error"
+/// tested by  "truth: what each search for light leaves out, scene by scene"
 std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
                                      const Rendering& rendering);
 
 /// Only the warnings that follow from the samples.
 std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts);
+
+/// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
+/// view and the lights tell them; nothing is rendered. Not empty.
+/// tested by  "truth: the causes of a black picture, all of them, and no others"
+std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);

@@ -5,6 +5,7 @@
 
 #include "chapters/11_light_importance/estimator.h"
 #include "chapters/12_ris/estimator.h"
+#include "common/recording/path_story.h"
 #include "tests/support/known_lights.h"
 
 namespace {

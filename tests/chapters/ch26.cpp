@@ -405,7 +405,8 @@ TEST_SUITE("ch26 program") {
             CAPTURE(scene);
             Finished end = run_program_with({"--patches", "600", "--out", folder / "a.pfm"}, scene);
             CHECK(end.code == 0);
-            bool warns = end.out.find("\nwarning: the light that surfaces ") != end.out.npos;
+            bool warns =
+                end.out.find(" of the lamps' light falls on patches wider") != end.out.npos;
             CHECK(warns == is_wrong);
         }
     }

@@ -3,7 +3,6 @@
 
 #include "common/base/files.h"
 #include "common/explaining/path_drawing.h"
-#include "common/explaining/preview.h"
 #include "common/picture/comparison.h"
 #include "common/picture/heat_map.h"
 #include "tests/support/scenes.h"
@@ -20,47 +19,79 @@ Scene room() {
     return scene;
 }
 
-/// The drawing with no more of the pictures below it than their headers, 33 bytes as text.
-std::string without_pictures(std::string svg) {
-    const std::string begin = "base64,";
-    for (size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
-        at += begin.size() + 44;
-        svg.erase(at, svg.find('\'', at) - at);
+/// The middles of the circles in a drawing.
+std::vector<Vec2> circles_in(const std::string& svg) {
+    std::vector<Vec2> found;
+    for (size_t at = 0; (at = svg.find("<circle ", at)) != std::string::npos; at++) {
+        Vec2 p{};
+        REQUIRE(std::sscanf(svg.c_str() + at, "<circle cx='%f' cy='%f'", &p.x, &p.y) == 2);
+        found.push_back(p);
     }
-    return svg;
+    return found;
+}
+size_t count(const std::string& text, const std::string& part) {
+    size_t found = 0;
+    for (size_t at = 0; (at = text.find(part, at)) != std::string::npos; at++) found++;
+    return found;
 }
 
 }  // namespace
 
 TEST_SUITE("drawing") {
-    TEST_CASE("picture: a path with rays of all kinds is drawn as in drawing.svg") {
-        // It was looked at: each vertex where the camera has it, and from above, right on the
-        // right; shadow rays green, or dashed with a cross; light paths orange.
+    TEST_CASE("truth: vertices are drawn where the camera sees them, and to scale from above") {
         Scene scene = room();
         CameraView view = camera_view(scene.camera, 40, 20);
-        auto to = [&](float x, float y, float t) {
-            Ray ray = camera_ray(view, {x, y});
+        auto to = [&](Vec2 pixel, float t) {
+            Ray ray = camera_ray(view, pixel);
             return ray.o + t * ray.d;
         };
-        Vec3 eye = scene.camera.o, a = to(5, 4, 3), b = to(20, 10, 5), c = to(33, 17, 6);
-        Vec3 behind = 2 * eye - to(10, 10, 1);
-        std::vector<PathVertex> path = {{a, -1}, {b, 0}, {behind, 1}, {{0, 1, 0}, -2}, {c, 3}};
+        const Vec2 pixels[] = {{5, 4}, {20, 10}, {33, 17}};
+        Vec3 eye = scene.camera.o;
+        Vec3 a = to(pixels[0], 3), b = to(pixels[1], 5), c = to(pixels[2], 6);
+        Vec3 behind = 2 * eye - to({10, 10}, 1);
         auto ray = [](Vec3 from, Vec3 dest, bool shadow, bool met, float t) {
             return TracedRay{{from, dest - from, 1}, shadow, met, t};
         };
         TracedRay leaves = {{b, normalize(eye - a)}, false, false, infinity};
-        std::vector<TracedRay> rays = {ray(a, b, true, false, NAN), ray(c, a, false, true, 1),
-                                       leaves, ray({0, -4, 0}, {0, 4, 0}, true, true, NAN)};
-        std::string drawn = draw_path(scene, eye, path, rays);
-        // Rooms whose z is up, and that are seen from above and behind.
-        for (const char* look : {"0 -9 1  0 0 0  0 0 1", "0 6 3  0 0 0  0 1 0"}) {
-            Scene other = scene_of("LookAt " + std::string(look) +
-                                   " Camera \"perspective\"\nWorldBegin\n"
-                                   "LightSource \"point\" Shape \"sphere\"\n");
-            other.width = other.height = 20;
-            drawn += draw_path(other, other.camera.o, {{{1, 2, 3}, -1}}, {});
+        std::string drawn = draw_path(scene, eye, {{a, -1}, {b, 0}, {c, -2}, {behind, 1}},
+                                      {ray(a, b, true, false, NAN), ray(c, a, false, true, 1),
+                                       leaves, ray({0, -4, 0}, {0, 4, 0}, true, true, NAN)});
+        // The lamp and three vertices; the lamp, the eye and all four, in the second panel.
+        std::vector<Vec2> circles = circles_in(drawn);
+        REQUIRE(circles.size() == 10);
+        for (size_t i : {0u, 1u, 2u}) {
+            CHECK(std::abs(circles[i + 1].x - (20 + 11.5f * pixels[i].x)) < 0.1f);
+            CHECK(std::abs(circles[i + 1].y - (20 + 11.5f * pixels[i].y)) < 0.1f);
         }
-        CHECK(without_pictures(drawn) == read_file("tests/support/drawing.svg"));
+        // Seen or hidden rays: each in both panels but for what is not in front, and in the legend.
+        CHECK(count(drawn, "stroke='#080'") == 3);
+        CHECK(count(drawn, "stroke-dasharray='5 4'") == 3);
+        CHECK(count(drawn, "stroke-dasharray='2 4'") >= 2);
+        CHECK(count(drawn, "stroke='#e70'") == 3);  // circles of the light path, and the legend
+    }
+
+    TEST_CASE("truth: from above, right is right and far is up, whichever axis points up") {
+        // The eye, and two vertices that are 1 m more to the right, and 1 m farther away.
+        const std::tuple<const char*, Vec3, Vec3> rooms[] = {
+            {"0 2 -9  0 1 0  0 1 0", {1, 0, 0}, {0, 0, 1}},
+            {"0 -9 1  0 0 0  0 0 1", {-1, 0, 0}, {0, 1, 0}},
+            {"0 6 9  0 0 0  0 1 0", {-1, 0, 0}, {0, 0, -1}}};
+        for (const auto& [look, right, away] : rooms) {
+            CAPTURE(look);
+            Scene scene = scene_of("LookAt " + std::string(look) +
+                                   " Camera \"perspective\"\nWorldBegin\n"
+                                   "LightSource \"infinite\" Shape \"sphere\"\n");
+            scene.width = scene.height = 20;
+            Vec3 eye = scene.camera.o;
+            std::vector<Vec2> all =
+                circles_in(draw_path(scene, eye, {{eye + right, -1}, {eye + away, -1}}, {}));
+            REQUIRE(all.size() >= 3);
+            Vec2 e = all[all.size() - 3], r = all[all.size() - 2], f = all[all.size() - 1];
+            CHECK(r.x - e.x > 10);
+            CHECK(std::abs(r.y - e.y) < 0.2f);
+            CHECK(std::abs(f.x - e.x) < 0.2f);
+            CHECK(std::abs((e.y - f.y) / (r.x - e.x) - 1) < 0.02f);
+        }
     }
 
     TEST_CASE("truth: a preview has the sky, lamps and materials, each lit from the camera") {

@@ -28,7 +28,7 @@ float any_float(Sampler& sampler) {
 LabeledFilm film_of(uint32_t first, uint32_t last, uint32_t seed = 1, int kind = 1,
                     bool takes_splats = true) {
     LabeledFilm f{{}, Film(5, 3, takes_splats)};
-    f.label.options = {{"chapter", "07"}, {"scene", "abc"}, {"paths", ""}, {"m", "16"}};
+    f.label.options = {{"chapter", "07"}, {"checksum", "abc"}, {"paths", ""}, {"m", "16"}};
     f.label.samples = {{seed, first, last}};
     f.label.goals = {{seed, 9, 3}};
     f.label.keep_open_goals();

@@ -132,8 +132,8 @@ TEST_SUITE("comparison") {
 
     TEST_CASE("truth: what a film is of, as notes") {
         FilmLabel label;
-        label.options = {{"chapter", "15_mis_ris"}, {"code", "89"}, {"file", "a.pbrt"},
-                         {"scene", "0123"},         {"spp", "any"}, {"paths", ""}};
+        label.options = {{"chapter", "15_mis_ris"}, {"code", "89"}, {"scene", "a.pbrt"},
+                         {"checksum", "0123"},      {"strata", ""}, {"paths", ""}};
         const std::string options = "chapter 15_mis_ris|scene a.pbrt|checksum 0123|";
         auto notes = [&](double spp) {
             std::string text;

@@ -1,7 +1,7 @@
 // What --explain tells of a path whose events are made by hand, to the last word.
 #include <doctest/doctest.h>
 
-#include "common/recording/recorder.h"
+#include "common/recording/path_story.h"
 #include "tests/support/scenes.h"
 
 namespace {

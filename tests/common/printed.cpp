@@ -151,10 +151,9 @@ TEST_SUITE("printed") {
         CHECK(read_image(folder / "m.png").at(3, 3) == Rgb{1, 1, 1});  // 4, as far as it goes
     }
 
-    TEST_CASE("truth: the command to see a sample that is not finite is without film and part") {
+    TEST_CASE("truth: the command to see a sample that is not finite is told") {
         TemporaryFolder folder;
         RenderOptions options = options_of(folder.path());
-        options.command = "build/07_x --film 'a b.film' --film-every=3 --spp 4 --part 1/2 a.pbrt";
         Rendering r = rendering_of();
         r.film.add(3, {inf, 1, 1});
         r.stats.not_finite = 2, r.stats.bad_x = 3, r.stats.bad_y = 4, r.stats.bad_sample = 6;
@@ -162,7 +161,7 @@ TEST_SUITE("printed") {
         Finished end = written(small_scene(), options, r);
         CHECK(end.code == 1);
         CHECK(end.out.find("\nmean unknown: not all samples are finite\n") != std::string::npos);
-        CHECK(end.err.ends_with(": build/07_x --spp 4 a.pbrt --explain 3,4,6\n"));
+        CHECK(end.err.ends_with(": build/07_x --spp 4 --explain 3,4,6\n"));
     }
 
     TEST_CASE("truth: tables are aligned for people, and have tabs for programs") {

@@ -6,6 +6,7 @@
 #include "common/options/options.h"
 #include "common/rendering/film_clock.h"
 #include "common/rendering/lamp_edges.h"
+#include "common/scene/intersect.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
@@ -93,8 +94,6 @@ TEST_SUITE("surroundings") {
             {{"--part", "1/2"}, "--part needs --film"},
             {{"--film", "a.sum"}, "--film takes a .film file"},
             {{"--film", "a.film", "--split", "d"}, "--split and --film"},
-            {{"--explain", "1,1", "--film", "a.film"}, "--explain and --film"},
-            {{"--explain-brightest", "--film", "a.film"}, "--explain and --film"},
             {{"--film-every", "0.009"}, "--film-every takes at least 0.01 seconds"}};
         for (const char* bad : {"0/3", "4/3", "1", "1/0", "/2", "1/2/3", "x/2"})
             cases.push_back({{"--film", "a.film", "--part", bad}, "--part takes K/N"});

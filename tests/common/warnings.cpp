@@ -4,7 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include "common/results/black_picture.h"
 #include "tests/support/estimators.h"
 
 namespace {

@@ -69,9 +69,9 @@ Measured brightness(const Scene& scene, const NamedMethod& method, int paths, ui
 /// Whether the method finds all light of this class of path, or of this sum, where lights may have
 /// no size: such lights are never met, and no light path reaches a pinhole through a mirror.
 static bool finds_all(const NamedMethod& method, bool no_size, const std::string& name) {
-    static ClassSelection by_eye(sampled), by_light(shown_by_light);
-    bool shown = name[0] == 'L' ? by_light.contains(name) : name == "all " + shown_by_light;
-    bool aimed = name[0] == 'L' ? by_eye.contains(name) : name == "all " + sampled;
+    static ClassFilter by_eye(sampled), by_light(shown_by_light);
+    bool shown = name[0] == 'L' ? by_light.matches(name) : name == "all " + shown_by_light;
+    bool aimed = name[0] == 'L' ? by_eye.matches(name) : name == "all " + sampled;
     if (method.search == LightSearch::from_lights) return shown;
     if (method.biased() || !no_size) return true;
     return aimed || (shown && method.search == LightSearch::both_ends);

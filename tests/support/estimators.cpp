@@ -1,5 +1,7 @@
 #include "tests/support/estimators.h"
 
+#include "common/scene/intersect.h"
+
 Scene floor_under(const std::string& light) {
     Scene scene = world_of(
         "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [1 1 1] Scale 500 1 500 " +

@@ -104,7 +104,7 @@ static Census part_of_census(const Scene& scene, const Method& method, int first
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Sampler sampler(SamplerType::independent, seed, 1);
     Recorder recorder(classes);
-    std::vector<ClassSelection> chosen(filters.begin(), filters.end());
+    std::vector<ClassFilter> chosen(filters.begin(), filters.end());
     Splats splats;
     Vec2 size = {static_cast<float>(scene.width), static_cast<float>(scene.height)};
     for (int i = first; i < last; i++) {
@@ -121,7 +121,7 @@ static Census part_of_census(const Scene& scene, const Method& method, int first
             parts[part.path_class] += y;
             parts["length " + std::to_string(part.path_class.size() - 2)] += y;
             for (size_t k = 0; k < filters.size(); k++)
-                if (chosen[k].contains(part.path_class)) parts["all " + filters[k]] += y;
+                if (chosen[k].matches(part.path_class)) parts["all " + filters[k]] += y;
         }
         for (auto [name, y] : parts) census.parts[name].add(y);
     }
