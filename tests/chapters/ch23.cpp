@@ -51,9 +51,6 @@ double irradiance_at(const Hit& x, const std::vector<Photon>& photons, float rad
 
 Method by_15(const Scene& scene) { return method_of<ch15::trace>(ch15::prepare(scene)); }
 Method by_22(const Scene& scene) { return method_of<ch22::trace>(ch22::prepare(scene)); }
-Method by_23(const Scene& scene, const PhotonSettings& settings) {
-    return ch23::photon_passes(scene, settings);
-}
 
 /// The mean is that of the truth, but for 5 standard errors and a bias; both know it well.
 void check_near(const Measured& m, const Measured& truth, double bias, double relative_se) {
@@ -182,7 +179,7 @@ TEST_SUITE("ch23 first radius") {
                 "\"rgb I\" [" +
                 power + power + power + "] Translate 0 -1 0 Scale " + floor + square(0, true));
             scene.camera.o = unit * scene.camera.o;
-            return double{by_23(scene, {}).first_radius} / double{unit};
+            return double{ch23::photon_passes(scene, {}).first_radius} / double{unit};
         };
         double whole = radius(1, "30 1 30 ");
         CHECK(whole > 0.01);
@@ -195,25 +192,21 @@ TEST_SUITE("ch23 first radius") {
 TEST_SUITE("ch23 density of photons") {
     TEST_CASE("truth: light at an edge and in a corner") {
         // The share that is found at the distance t r from the edge (TRUTHS G2 to G4).
-        struct {
-            float t;
-            double share;
-        } cases[] = {{0, 0.5},
-                     {0.25f, 0.7056377759552},
-                     {0.5f, 0.8734150024498},
-                     {0.75f, 0.9739092997715},
-                     {1, 1}};
         constexpr int n = 2000, repeats = 200;
         constexpr float r = 0.1f;
-        for (const auto& c : cases) {
+        for (auto [t, share] : {std::pair{0.0f, 0.5},
+                                {0.25f, 0.7056377759552},
+                                {0.5f, 0.8734150024498},
+                                {0.75f, 0.9739092997715},
+                                {1, 1}}) {
             RunningStats edge, corner;
             Sampler random = random_numbers(1);
             for (int repeat = 0; repeat < repeats; repeat++) {
                 auto photons = on_a_square(n, random, 1.0f / n);
-                edge.add(irradiance_at(floor_at(c.t * r, 0.5f), photons, r));
+                edge.add(irradiance_at(floor_at(t * r, 0.5f), photons, r));
                 corner.add(irradiance_at(floor_at(0, 0), photons, r));
             }
-            check_bounded(edge, c.share, 0.03);
+            check_bounded(edge, share, 0.03);
             check_bounded(corner, 0.25, 0.04);
         }
     }
@@ -260,7 +253,7 @@ TEST_SUITE("ch23 photon mapping") {
         auto error = [&](int spp) {
             RunningStats mse;
             for (uint32_t seed = 1; seed <= 6; seed++) {
-                Method method = by_23(
+                Method method = ch23::photon_passes(
                     scene,
                     {.seed = seed, .light_paths = 1000, .final_gathering = false, .radius = 0.4f});
                 mse.add(mean_squared_error(film_of(scene, method, spp, seed).film, exact));
@@ -278,7 +271,8 @@ TEST_SUITE("ch23 photon mapping") {
             CAPTURE(name);
             Scene scene = scene_from("scenes/" + name + ".pbrt", 32, 5);
             const std::string classes = name == "veach-mis" ? "LDD+E" : "L(D|S)+E";
-            Method method = by_23(scene, {.light_paths = 5000, .radius = 0.01f * scene.radius});
+            Method method =
+                ch23::photon_passes(scene, {.light_paths = 5000, .radius = 0.01f * scene.radius});
             Measured m = picture_of(scene, method, 128, classes);
             Measured truth = picture_of(scene, by_22(scene), 256, classes);
             check_near(m, truth, 0.01, 0.015);
@@ -294,8 +288,8 @@ TEST_SUITE("ch23 photon mapping") {
             "-1.6 1.6 0 1.6 1.6 0 1.6 -1.6 0] \"normal N\" [0 1 -1 0 1 -1 0 -5 -2 0 -5 -2]\n",
             16);
         scene.max_depth = 1;
-        Method method =
-            by_23(scene, {.light_paths = 40000, .final_gathering = false, .radius = 0.05f});
+        Method method = ch23::photon_passes(
+            scene, {.light_paths = 40000, .final_gathering = false, .radius = 0.05f});
         check_near(picture_of(scene, method, 32), picture_of(scene, by_15(scene), 256), 0.01, 0.01);
     }
 }

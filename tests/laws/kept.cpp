@@ -3,6 +3,7 @@
 
 #include "chapters/17_sky_image/estimator.h"
 #include "chapters/18_dispersion/estimator.h"
+#include "chapters/20_light_tracing/estimator.h"
 #include "chapters/23_photon_mapping/estimator.h"
 #include "common/path/dispersion.h"
 #include "common/path/image_light.h"
@@ -42,6 +43,31 @@ TEST_SUITE("law: kept chapters") {
             auto b = dispersion::sample_wavelength(white, u);
             CHECK(a.micrometres == b.micrometres);
             CHECK(a.weight == b.weight);
+        }
+    }
+
+    TEST_CASE("identity: light scatters, and meets the camera, by common/ as by chapter 20") {
+        for (const char* name : {"leaning", "away"}) {
+            Scene scene = scene_of(known_scene(name).text);
+            auto camera = ch20::pinhole_of(scene);
+            Pinhole kept = ::pinhole_of(scene);
+            Sampler random = random_numbers(20);
+            int lit = 0;
+            for (int i = 0; i < 2000; i++) {
+                Vec2 u = random.u2(), u2 = random.u2();
+                Vec3 from = {0, 1.5f, 0}, to = {u.x - 0.4f, 0, 0.4f * u.y - 0.2f};
+                Hit x = *intersect(scene, {from, normalize(to - from)});
+                Vec3 wi = normalize(from - to), wo = uniform_direction(random.u2());
+                CHECK(ch20::adjoint_bsdf(scene, x, wi, wo) == ::adjoint_bsdf(scene, x, wi, wo));
+                Splat a = ch20::connect_to_camera(scene, camera, x, wi, {1, 1, 1}),
+                      b = ::connect_to_camera(scene, kept, x, wi, {1, 1, 1});
+                CHECK((a.pixel == b.pixel && a.L == b.L));
+                lit += !is_black(a.L);
+                BsdfSample s = ch20::sample_light_bsdf(scene, x, wi, u.x, u2),
+                           t = ::sample_light_bsdf(scene, x, wi, u.x, u2);
+                CHECK((s.wi == t.wi && s.f == t.f && s.pdf_w == t.pdf_w));
+            }
+            CHECK(lit > 500);
         }
     }
 
