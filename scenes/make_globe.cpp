@@ -1,8 +1,8 @@
 // Writes globe.pfm: a map of a planet that does not exist, by longitude and latitude.
 // usage: make_globe FILE.pfm
 #include "common/base/error.h"
-#include "common/options/command_line.h"
 #include "common/picture/image.h"
+#include "common/render/command_line.h"
 
 namespace {
 

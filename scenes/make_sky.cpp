@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "common/base/error.h"
-#include "common/options/command_line.h"
 #include "common/picture/image.h"
+#include "common/render/command_line.h"
 #include "common/scene/sky_image.h"
 
 /// 128 x 128 pixels, of which the sun has 2: half of the light from 10^-4 of the sphere.

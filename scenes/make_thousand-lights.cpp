@@ -5,8 +5,8 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/options/command_line.h"
 #include "common/path/sampler.h"
+#include "common/render/command_line.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "chapters/01_monte_carlo_pi/estimator.h"
 #include "common/picture/plot.h"
-#include "common/results/table.h"
+#include "common/render/table.h"
 
 namespace ch01 {
 

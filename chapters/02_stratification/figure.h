@@ -6,7 +6,7 @@
 
 #include "chapters/02_stratification/estimator.h"
 #include "common/picture/plot.h"
-#include "common/results/table.h"
+#include "common/render/table.h"
 
 namespace ch02 {
 

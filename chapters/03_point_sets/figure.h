@@ -7,7 +7,7 @@
 
 #include "chapters/03_point_sets/estimator.h"
 #include "common/picture/plot.h"
-#include "common/results/table.h"
+#include "common/render/table.h"
 
 namespace ch03 {
 

@@ -9,7 +9,7 @@
 #include "common/base/stats.h"
 #include "common/path/sampler.h"
 #include "common/picture/plot.h"
-#include "common/results/table.h"
+#include "common/render/table.h"
 
 namespace ch04 {
 

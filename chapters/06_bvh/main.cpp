@@ -1,9 +1,9 @@
 // Chapter 06 as a program: measures its steps in a table, and draws the work of one as a heat map.
 #include "chapters/06_bvh/figure.h"
 #include "common/picture/notes.h"
-#include "common/program/render.h"
-#include "common/rendering/film_keeping.h"
-#include "common/results/results.h"
+#include "common/render/film_keeping.h"
+#include "common/render/render.h"
+#include "common/render/results.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

@@ -2,7 +2,7 @@
 #include "chapters/19_adaptive/estimator.h"
 #include "common/base/files.h"
 #include "common/picture/heat_map.h"
-#include "common/program/render.h"
+#include "common/render/render.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

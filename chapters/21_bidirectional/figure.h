@@ -2,7 +2,7 @@
 #pragma once
 #include "chapters/21_bidirectional/estimator.h"
 #include "common/picture/sheet.h"
-#include "common/program/render.h"
+#include "common/render/render.h"
 
 namespace ch21 {
 

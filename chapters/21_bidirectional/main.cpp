@@ -2,7 +2,7 @@
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/21_bidirectional/figure.h"
 #include "common/picture/notes.h"
-#include "common/rendering/film_keeping.h"
+#include "common/render/film_keeping.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

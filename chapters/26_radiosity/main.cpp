@@ -1,6 +1,6 @@
 // Chapter 26 as a program: reads options, loads a scene, solves it, writes the picture.
 #include "chapters/26_radiosity/run.h"
-#include "common/program/render.h"
+#include "common/render/render.h"
 #include "common/scene/diffuse_meshes.h"
 
 int main(int argc, char** argv) {

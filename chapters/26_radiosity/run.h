@@ -7,8 +7,8 @@
 #include "common/base/position.h"
 #include "common/base/progress.h"
 #include "common/path/method.h"
-#include "common/rendering/render_film.h"
-#include "common/results/results.h"
+#include "common/render/render_film.h"
+#include "common/render/results.h"
 
 namespace ch26 {
 

@@ -14,7 +14,7 @@ makers        := $(made_here:scenes/%=make_%)
 wasm_programs := $(chapters) merge compare $(basename $(makers))
 wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp common/tools/compare.cpp \
     $(addprefix scenes/,$(addsuffix .cpp,$(basename $(makers)))) \
-    $(filter-out common/tools/% common/rendering/film_clock.cpp,$(wildcard common/*/*.cpp))
+    $(filter-out common/tools/% common/render/film_clock.cpp,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
 wasm_link     := -sMODULARIZE -sEXPORT_NAME=Live -sENVIRONMENT=worker,node -sINVOKE_RUN=0 \
@@ -26,7 +26,7 @@ $(wasm)/live.js: $(patsubst %.cpp,$(wasm)/obj/%.o,$(wasm_code))
 $(wasm)/obj/%.o: %.cpp common/book/missing.h | $(wasm)/include/programs.h
 	@mkdir -p $(@D); echo "compile $< for the book"; em++ $(wasm_flags) $(main_as) -MMD -MP -c $< -o $@
 $(wasm)/obj/common/book/live.o: $(wasm)/include/programs.h
-$(wasm)/obj/common/rendering/code_hash.o: $(BUILD)/include/code_hashes.h
+$(wasm)/obj/common/render/code_hash.o: $(BUILD)/include/code_hashes.h
 $(wasm)/obj/chapters/%/main.o: main_as = -Dmain=main_$(notdir $(<D))
 $(wasm)/obj/common/tools/%.o $(wasm)/obj/scenes/%.o: main_as = -Dmain=main_$(subst -,_,$(notdir $*))
 -include $(shell find $(wasm)/obj -name '*.d' 2>/dev/null)

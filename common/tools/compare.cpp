@@ -6,10 +6,10 @@
 #include "common/base/files.h"
 #include "common/base/percent.h"
 #include "common/base/system.h"
-#include "common/options/command_line.h"
 #include "common/picture/comparison.h"
 #include "common/picture/verdict.h"
-#include "common/results/table.h"
+#include "common/render/command_line.h"
+#include "common/render/table.h"
 
 namespace {
 

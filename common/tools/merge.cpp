@@ -4,10 +4,10 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/json.h"
-#include "common/options/command_line.h"
 #include "common/picture/notes.h"
-#include "common/results/results.h"
-#include "common/results/warnings.h"
+#include "common/render/command_line.h"
+#include "common/render/results.h"
+#include "common/render/warnings.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include "chapters/18_dispersion/estimator.h"
 #include "common/base/error.h"
-#include "common/options/loading.h"
+#include "common/render/loading.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/estimators.h"
 

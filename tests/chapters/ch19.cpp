@@ -5,8 +5,8 @@
 
 #include "chapters/18_dispersion/estimator.h"
 #include "chapters/19_adaptive/estimator.h"
-#include "common/options/loading.h"
 #include "common/picture/comparison.h"
+#include "common/render/loading.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"
 #include "tests/support/run_program.h"

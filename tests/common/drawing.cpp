@@ -2,9 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "common/base/files.h"
-#include "common/explaining/path_drawing.h"
 #include "common/picture/comparison.h"
 #include "common/picture/heat_map.h"
+#include "common/render/path_drawing.h"
 #include "tests/support/scenes.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Command lines: what the programs understand, and what they say when they do not.
-#include "common/options/options.h"
+#include "common/render/options.h"
 
 #include <doctest/doctest.h>
 

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "common/explaining/explain.h"
 #include "common/path/camera_sample.h"
 #include "common/picture/notes.h"
 #include "common/picture/stats_file.h"
-#include "common/rendering/film_keeping.h"
-#include "common/results/results.h"
-#include "common/results/table.h"
+#include "common/render/explain.h"
+#include "common/render/film_keeping.h"
+#include "common/render/results.h"
+#include "common/render/table.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 

@@ -2,10 +2,10 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
-#include "common/options/loading.h"
 #include "common/picture/film_file.h"
 #include "common/picture/image.h"
 #include "common/picture/stats_file.h"
+#include "common/render/loading.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;

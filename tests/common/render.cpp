@@ -1,5 +1,5 @@
 // The loop that all chapters render in, with stand-ins for their trace().
-#include "common/program/render.h"
+#include "common/render/render.h"
 
 #include <doctest/doctest.h>
 

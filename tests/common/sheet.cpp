@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "common/results/class_sheet.h"
+#include "common/render/class_sheet.h"
 
 TEST_SUITE("sheet") {
     TEST_CASE("identity: a shrunk picture has the means of its squares") {

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "common/base/files.h"
-#include "common/options/loading.h"
 #include "common/picture/image.h"
 #include "common/picture/notes.h"
 #include "common/picture/png.h"
+#include "common/render/loading.h"
 #include "common/scene/prepare.h"
 #include "common/scene/texture.h"
 #include "common/scene_file/spectra.h"

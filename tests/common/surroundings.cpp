@@ -2,10 +2,10 @@
 #include <doctest/doctest.h>
 
 #include "common/base/progress.h"
-#include "common/options/loading.h"
-#include "common/options/options.h"
-#include "common/rendering/film_clock.h"
-#include "common/rendering/lamp_edges.h"
+#include "common/render/film_clock.h"
+#include "common/render/lamp_edges.h"
+#include "common/render/loading.h"
+#include "common/render/options.h"
 #include "common/scene/intersect.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"

@@ -1,6 +1,6 @@
 // What is said of a picture's error, and of light that is missing: each rule on both sides of its
 // threshold, and what programs say.
-#include "common/results/warnings.h"
+#include "common/render/warnings.h"
 
 #include <doctest/doctest.h>
 

@@ -1,12 +1,12 @@
 // Signals that end a program, or that it ignores.
-#include "common/program/render.h"
+#include "common/render/render.h"
 
 #include <doctest/doctest.h>
 
 #include <csignal>
 
 #include "common/base/system.h"
-#include "common/rendering/stop.h"
+#include "common/render/stop.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 

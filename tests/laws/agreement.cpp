@@ -1,7 +1,7 @@
 // Law: all methods bring the same light, class of path by class of path.
 #include <cstdio>
 
-#include "common/options/loading.h"
+#include "common/render/loading.h"
 #include "tests/laws/laws.h"
 #include "tests/support/light_paths.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/options/command_line.h"
-#include "common/results/table.h"
+#include "common/render/command_line.h"
+#include "common/render/table.h"
 #include "tests/measure/numbers.h"
 #include "tests/methods/table.h"
 

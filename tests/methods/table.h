@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/program/render.h"
+#include "common/render/render.h"
 
 /// A row of the table.
 struct NamedMethod {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/results/table.h"
+#include "common/render/table.h"
 #include "common/scene_file/reader.h"
 
 /// Text with ' for each ", as rows of tables are written.

@@ -1,8 +1,8 @@
 // Stand-ins for scenes and for a chapter's trace(), where only the loop around them is tested.
 #pragma once
-#include "common/options/options.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
+#include "common/render/options.h"
 #include "tests/support/scenes.h"
 
 inline Scene empty_scene(int width, int height, int spp) {

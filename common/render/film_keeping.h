@@ -1,7 +1,7 @@
 // The film of a render on disk: saved at intervals, and continued later.
 #pragma once
 #include "common/picture/film_file.h"
-#include "common/rendering/render_film.h"
+#include "common/render/render_film.h"
 
 /// The samples of a pixel that the options ask for: all, or those of a part. Their number is not
 /// limited with --time but without --spp. Throws UsageError if there are more parts than samples.

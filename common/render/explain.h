@@ -1,7 +1,7 @@
 // --explain: describes one path step by step, with a table and a drawing.
 #pragma once
 #include "common/path/method.h"
-#include "common/rendering/render_film.h"
+#include "common/render/render_film.h"
 
 /// Prints the path of sample options.explain_sample of one pixel and the sum of its contributions,
 /// and draws it as an SVG beside the first picture. Returns the exit code.

@@ -6,11 +6,11 @@
 #include <tuple>
 
 #include "common/base/files.h"
-#include "common/options/options.h"
 #include "common/path/allocation.h"
 #include "common/path/method.h"
 #include "common/picture/film_file.h"
-#include "common/rendering/stop.h"
+#include "common/render/options.h"
+#include "common/render/stop.h"
 #include "common/scene/scene.h"
 
 /// Statistics of rendering a picture.

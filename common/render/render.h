@@ -1,7 +1,7 @@
 // What the program of a chapter does: renders, or explains one path, and writes the results.
 #pragma once
-#include "common/options/loading.h"
-#include "common/rendering/render_film.h"
+#include "common/render/loading.h"
+#include "common/render/render_film.h"
 
 /// What a chapter's program does with its scene: renders it or explains one path, and writes what
 /// the options ask for. Returns the exit code.

@@ -2,7 +2,7 @@
 #pragma once
 #include <chrono>
 
-#include "common/rendering/render_film.h"
+#include "common/render/render_film.h"
 
 /// Writes the film at regular intervals.
 class FilmClock {

@@ -1,4 +1,4 @@
-#include "common/rendering/lamp_edges.h"
+#include "common/render/lamp_edges.h"
 
 #include "common/base/parallel.h"
 #include "common/scene/camera.h"

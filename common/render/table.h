@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/options/options.h"
 #include "common/picture/image.h"
+#include "common/render/options.h"
 
 struct Table {
     std::vector<std::string> columns;

@@ -1,4 +1,4 @@
-#include "common/explaining/path_drawing.h"
+#include "common/render/path_drawing.h"
 
 #include <cstdio>
 #include <optional>

@@ -1,8 +1,8 @@
-#include "common/program/render.h"
+#include "common/render/render.h"
 
-#include "common/explaining/explain.h"
-#include "common/rendering/stop.h"
-#include "common/results/results.h"
+#include "common/render/explain.h"
+#include "common/render/results.h"
+#include "common/render/stop.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "common/rendering/stop.h"
+#include "common/render/stop.h"
 
 #include <atomic>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "common/options/command_line.h"
+#include "common/render/command_line.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "common/options/options.h"
+#include "common/render/options.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "common/options/loading.h"
+#include "common/render/loading.h"
 
 #include <algorithm>
 #include <cstdio>

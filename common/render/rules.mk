@@ -8,5 +8,5 @@ $(BUILD)/include/code_hashes.h: $(compiled_in) $(wildcard chapters/*/*.h chapter
 	        hash=$$({ echo "$$common"; cksum chapters/$$chapter/*.{h,cpp}; } | LC_ALL=C sort | cksum); \
 	        echo "    {\"$$chapter\", \"$${hash%% *}\"},"; \
 	    done; echo '};'; } >$@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
-$(BUILD)/obj/common/rendering/code_hash.o: own_flags += $(hash_flags)
-$(BUILD)/obj/common/rendering/code_hash.o: $(BUILD)/include/code_hashes.h
+$(BUILD)/obj/common/render/code_hash.o: own_flags += $(hash_flags)
+$(BUILD)/obj/common/render/code_hash.o: $(BUILD)/include/code_hashes.h

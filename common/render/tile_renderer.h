@@ -6,9 +6,9 @@
 #include "common/base/error.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
-#include "common/rendering/film_clock.h"
-#include "common/rendering/render_film.h"
-#include "common/rendering/stop.h"
+#include "common/render/film_clock.h"
+#include "common/render/render_film.h"
+#include "common/render/stop.h"
 
 /// Renders the samples of the pixels of one tile, or fewer at the limit.
 class TileRenderer {

@@ -1,4 +1,4 @@
-#include "common/results/results.h"
+#include "common/render/results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/base/system.h"
-#include "common/options/command_line.h"
 #include "common/picture/notes.h"
-#include "common/rendering/film_keeping.h"
-#include "common/results/class_sheet.h"
-#include "common/results/warnings.h"
+#include "common/render/class_sheet.h"
+#include "common/render/command_line.h"
+#include "common/render/film_keeping.h"
+#include "common/render/warnings.h"
 
 namespace {
 
@@ -190,9 +190,9 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
     }
     if (r.stats.not_finite > 0) {
         errors += "error: " + std::to_string(r.stats.not_finite) +
-                  " samples were not finite; to see one: " + options.command +
-                  " --explain " + std::to_string(r.stats.bad_x) + ',' +
-                  std::to_string(r.stats.bad_y) + ',' + std::to_string(r.stats.bad_sample) + '\n';
+                  " samples were not finite; to see one: " + options.command + " --explain " +
+                  std::to_string(r.stats.bad_x) + ',' + std::to_string(r.stats.bad_y) + ',' +
+                  std::to_string(r.stats.bad_sample) + '\n';
     }
     tell(errors);
     if (!errors.empty()) return 1;

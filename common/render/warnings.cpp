@@ -1,4 +1,4 @@
-#include "common/results/warnings.h"
+#include "common/render/warnings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/options/command_line.h"
 #include "common/path/sampler.h"
 #include "common/picture/film.h"
+#include "common/render/command_line.h"
 
 /// How a chapter finds light, which decides what it can know about its error.
 enum class LightSearch : uint8_t {

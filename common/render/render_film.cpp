@@ -1,4 +1,4 @@
-#include "common/rendering/render_film.h"
+#include "common/render/render_film.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,9 +6,9 @@
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/progress.h"
-#include "common/rendering/film_keeping.h"
-#include "common/rendering/lamp_edges.h"
-#include "common/rendering/tile_renderer.h"
+#include "common/render/film_keeping.h"
+#include "common/render/lamp_edges.h"
+#include "common/render/tile_renderer.h"
 
 namespace {
 

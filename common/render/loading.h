@@ -1,6 +1,6 @@
 // From a file named on the command line to a scene that is ready to trace.
 #pragma once
-#include "common/options/options.h"
+#include "common/render/options.h"
 #include "common/scene/scene.h"
 
 /// Those features of scenes that not all chapters render.

@@ -1,4 +1,4 @@
-#include "common/explaining/explain.h"
+#include "common/render/explain.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,13 +8,13 @@
 #include "common/base/percent.h"
 #include "common/base/position.h"
 #include "common/base/report.h"
-#include "common/explaining/path_drawing.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
 #include "common/recording/path_story.h"
-#include "common/rendering/stop.h"
-#include "common/results/results.h"
-#include "common/results/table.h"
+#include "common/render/path_drawing.h"
+#include "common/render/results.h"
+#include "common/render/stop.h"
+#include "common/render/table.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "common/results/table.h"
+#include "common/render/table.h"
 
 #include <cmath>
 #include <cstdio>

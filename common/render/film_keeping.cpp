@@ -1,4 +1,4 @@
-#include "common/rendering/film_keeping.h"
+#include "common/render/film_keeping.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +8,7 @@
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/base/system.h"
-#include "common/rendering/code_hash.h"
+#include "common/render/code_hash.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/rendering/render_film.h"
+#include "common/render/render_film.h"
 
 /// One line for each reason why the error of the picture may exceed its standard error: most light
 /// comes from a few samples, the error is unknown, or this method misses light or rarely finds it.

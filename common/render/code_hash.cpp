@@ -1,4 +1,4 @@
-#include "common/rendering/code_hash.h"
+#include "common/render/code_hash.h"
 
 #include <code_hashes.h>  // written by the Makefile: the name and the hash of each chapter
 

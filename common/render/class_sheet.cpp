@@ -1,4 +1,4 @@
-#include "common/results/class_sheet.h"
+#include "common/render/class_sheet.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Writes the results of a render: pictures, statistics, and a summary.
 #pragma once
-#include "common/rendering/render_film.h"
+#include "common/render/render_film.h"
 
 /// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 if a sample was
 /// not finite, 3 if a signal stopped the render before its end.
