@@ -10,6 +10,7 @@
 #include "common/rendering/tile_renderer.h"
 #include "common/results/outputs.h"
 #include "common/results/results.h"
+#include "common/scene/origin.h"
 
 namespace ch26 {
 
@@ -27,9 +28,10 @@ struct Settings {
 inline void refuse_many(const Scene& scene, size_t patches) {
     constexpr size_t most = 16384;
     if (patches <= most) return;
-    fail({scene.file}, std::to_string(patches) +
-                           " patches have a matrix of more than 1 GiB: radiosity takes at most " +
-                           std::to_string(most));
+    fail({scene.origin->file},
+         std::to_string(patches) +
+             " patches have a matrix of more than 1 GiB: radiosity takes at most " +
+             std::to_string(most));
 }
 
 /// Which share of its light a patch still waits for, by the ambient estimate: the mean over all

@@ -14,6 +14,7 @@
 #include "common/rendering/stop.h"
 #include "common/results/outputs.h"
 #include "common/results/table.h"
+#include "common/scene/origin.h"
 
 namespace {
 
@@ -126,7 +127,7 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
 
     std::printf(
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
-        s, printable(scene.file).c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
+        s, printable(scene.origin->file).c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
         double{film.x} - x, double{film.y} - y);
     if (options.explain_sample < 0) {
         std::printf("No sample was named: 0 is the first. --explain %d,%d,S takes another one.\n",

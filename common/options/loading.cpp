@@ -8,7 +8,10 @@
 #include "common/base/progress.h"
 #include "common/base/report.h"
 #include "common/scene/coincident.h"
+#include "common/scene/mover.h"
+#include "common/scene/origin.h"
 #include "common/scene/prepare.h"
+#include "common/scene/sky_image.h"
 #include "common/scene_file/reader.h"
 #include "common/scene_file/stand_ins.h"
 
@@ -54,7 +57,7 @@ const std::string sky_image_here = "a picture of the sky, in a chapter without o
 
 bool is_standing_in(const Scene& scene, const std::string& what) {
     auto is_it = [&](const UsedStandIn& used) { return used.what == what; };
-    return std::any_of(scene.stand_ins.begin(), scene.stand_ins.end(), is_it);
+    return std::any_of(scene.origin->stand_ins.begin(), scene.origin->stand_ins.end(), is_it);
 }
 
 /// The mean radiance from all directions.
@@ -131,12 +134,14 @@ void stand_in_for_features(Scene& scene, Features features) {
         scene.lights.push_back(sky);
         scene.sky_image = {};
     }
+    Origin origin = *scene.origin;
     for (const auto& [what, instead] : all_stand_ins()) {
         auto found = used.find(what);
         if (found == used.end()) continue;
         found->second.instead = instead;
-        scene.stand_ins.push_back(found->second);
+        origin.stand_ins.push_back(found->second);
     }
+    scene.origin = std::make_shared<Origin>(std::move(origin));
 }
 
 float radius_within(const Scene& scene, double radius) {

@@ -6,13 +6,14 @@
 #include "common/base/files.h"
 #include "common/base/system.h"
 #include "common/picture/film_file.h"
+#include "common/scene/origin.h"
 
 std::string drawing_path(const RenderOptions& options) {
     return file_name(file_path(options.out[0]).replace_extension(".svg"));
 }
 
 void check_outputs(const Scene& scene, const RenderOptions& options) {
-    std::vector<std::string> inputs(scene.files.begin(), scene.files.end());
+    std::vector<std::string> inputs(scene.origin->files.begin(), scene.origin->files.end());
     if (options.explain || options.explain_brightest)
         return check_outputs({drawing_path(options)}, inputs);
     std::vector<std::string> files = options.out;

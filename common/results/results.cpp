@@ -15,6 +15,7 @@
 #include "common/rendering/film_keeping.h"
 #include "common/results/class_sheet.h"
 #include "common/results/warnings.h"
+#include "common/scene/origin.h"
 
 namespace {
 
@@ -37,7 +38,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     double sum = r.film.mean() * static_cast<double>(r.film.samples());
     double pixels = static_cast<double>(r.film.pixels().size());
     JsonObject json;
-    json.add("scene", scene.file);
+    json.add("scene", scene.origin->file);
     json.add("chapter", options.name);
     json.add("width", r.film.width);
     json.add("height", r.film.height);
@@ -46,7 +47,8 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("seed", uint64_t{options.seed});
     json.add("notes", lines_of(notes_of(scene, options, r)));
     std::vector<std::string> stand_ins;
-    for (const UsedStandIn& used : scene.stand_ins) stand_ins.push_back(printable(used.text()));
+    for (const UsedStandIn& used : scene.origin->stand_ins)
+        stand_ins.push_back(printable(used.text()));
     if (!stand_ins.empty()) json.add("stand_ins", stand_ins);
     json.add("threads", options.threads);
     json.add("seconds", s.seconds);
@@ -72,10 +74,10 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
 void print_summary(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
     double samples = static_cast<double>(r.film.samples());
-    std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), printable(scene.file).c_str(),
-                r.film.width, r.film.height, json_number(r.film.spp()).c_str(),
-                s.interrupted ? " (interrupted)" : "");
-    for (const UsedStandIn& used : scene.stand_ins) {
+    std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(),
+                printable(scene.origin->file).c_str(), r.film.width, r.film.height,
+                json_number(r.film.spp()).c_str(), s.interrupted ? " (interrupted)" : "");
+    for (const UsedStandIn& used : scene.origin->stand_ins) {
         std::printf("stand-in: %s\n", printable(used.text()).c_str());
     }
     std::printf("%s\n", mean_and_error(r.film).c_str());

@@ -6,7 +6,10 @@
 #include <set>
 
 #include "common/base/checksum.h"
+#include "common/geometry/bvh.h"
 #include "common/material/cosine.h"
+#include "common/scene/mover.h"
+#include "common/scene/origin.h"
 
 namespace {
 
@@ -152,7 +155,7 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
             float rounding = rounding_of(box);
             Vec3 margin = {rounding, rounding, rounding};
             box = {box.low - margin, box.high + margin};
-            near(scene.bvh, box, [&](uint32_t b) {
+            near(*scene.bvh, box, [&](uint32_t b) {
                 bool later = b > a || scene.shapes[shape_of(b)].light < 0;  // each pair once
                 Box other = box_of(g, b);
                 Vec3 gap = max(box.low - other.high, other.low - box.high);

@@ -176,8 +176,8 @@ void Directives::light_source(Lexer& lexer, const Token& word) {
             if (!params.may_stand_in()) params.finish();
         } else {
             has_sky_image_ = true;  // also when it cannot be read: then it is not read again
-            scene_.sky_image = read_sky_image(params, still_transform(params), files_);
-            if (scene_.sky_image) return;
+            sky_image_ = read_sky_image(params, still_transform(params), files_);
+            if (sky_image_) return;
         }
     }
     Light light = read_light(params, still_transform(params));
@@ -413,14 +413,14 @@ void Directives::check_uvs(const Geometry& g) {
 
 // What pbrt renders without complaint, and we only with stand-ins.
 void Directives::stand_in_for_missing() {
-    Position file = {scene_.file};
+    Position file = scene_.place(nullptr);
     if (!has_camera_) {
         notes_.stand_in(file, "a scene without a camera");
         scene_.camera.right = {1, 0, 0}, scene_.camera.up = {0, 1, 0};
         scene_.camera.forward = {0, 0, 1};
         has_camera_ = true;
     }
-    if (scene_.lights.empty() && !scene_.sky_image) {
+    if (scene_.lights.empty() && !sky_image_) {
         notes_.stand_in(file, "a scene without light");
         Light sky;
         sky.type = LightType::infinite;
@@ -431,7 +431,7 @@ void Directives::stand_in_for_missing() {
 
 void Directives::check_complete() {
     const std::string unless_left_out = ", or all are left out as too small";
-    Position file = {scene_.file};
+    Position file = scene_.place(nullptr);
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
     check_names();
     check_uvs(scene_.geometry);
@@ -443,11 +443,11 @@ void Directives::check_complete() {
     bool has_shape = scene_.geometry.size() > 0 || !scene_.movers.empty();
     if (!has_shape && notes_.stand_ins()) notes_.stand_in(file, "a scene without shapes");
     if (!has_shape && !notes_.stand_ins()) fail(file, "no Shape" + unless_left_out);
-    if (scene_.lights.empty() && !scene_.sky_image) fail(file, "no light" + unless_left_out);
+    if (scene_.lights.empty() && !sky_image_) fail(file, "no light" + unless_left_out);
 }
 
 Scene Directives::finish() {
-    Position file = {scene_.file};
+    Position file = scene_.place(nullptr);
     check_complete();
     number_light_primitives(scene_);
 
@@ -458,18 +458,20 @@ Scene Directives::finish() {
         if (too_bright(light.L) || is_black(light.L))
             fail(file, "shutter or iso leave no usable light");
     }
-    if (scene_.sky_image)
-        for (Rgb& L : scene_.sky_image->pixels) {
+    if (sky_image_) {
+        for (Rgb& L : sky_image_->pixels) {
             L *= exposure;
             if (too_bright(L)) fail(file, "shutter or iso leave no usable light");
         }
+        scene_.sky_image = std::make_shared<SkyImage>(std::move(*sky_image_));
+    }
     if (!has_filter_) {
         notes_.add(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
     }
     // Keep what textures need only if there are some.
     auto has_texture = [](const Material& m) { return m.texture != 0; };
     if (std::any_of(scene_.materials.begin(), scene_.materials.end(), has_texture)) {
-        scene_.textures = textures_.take();
+        scene_.textures = std::make_shared<Textures>(textures_.take());
     } else {
         scene_.geometry.uvs = {};
     }

@@ -4,6 +4,7 @@
 
 #include "common/geometry/transform.h"
 #include "common/scene/scene.h"
+#include "common/scene/sky_image.h"
 #include "common/scene_file/textures.h"
 
 /// Nothing for a material that is as if the surface were not there: it only bounds media. "mix" is

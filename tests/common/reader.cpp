@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "common/base/files.h"
+#include "common/scene/origin.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
@@ -82,7 +83,7 @@ TEST_SUITE("reader") {
             CAPTURE(row.text);
             CHECK(settings_of(read_options(row.text)).starts_with(row.expected));
         }
-        CHECK(read_options(camera).file == "scene.pbrt");
+        CHECK(read_options(camera).origin->file == "scene.pbrt");
         // The shutter and the film's speed scale the lights as they scale pbrt's film.
         CHECK(read_options("Film 'rgb' 'float iso' 400 Camera 'perspective' 'float shutteropen' 1 "
                            "'float shutterclose' 1.5")
@@ -465,7 +466,7 @@ TEST_SUITE("reader") {
             write_file_atomically(folder / "s",
                                   unquoted(camera + "WorldBegin LightSource 'infinite' Include 'a' "
                                                     "Include 'b'"));
-            return load_scene(folder / "s", nullptr).files_checksum;
+            return load_scene(folder / "s", nullptr).origin->checksum;
         };
         const std::string ball = unquoted(sphere);
         CHECK(checksum_of(ball + "\n", ball) != checksum_of(ball, "\n" + ball));

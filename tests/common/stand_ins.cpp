@@ -10,6 +10,7 @@
 #include "common/picture/image.h"
 #include "common/picture/notes.h"
 #include "common/picture/png.h"
+#include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 #include "common/scene/texture.h"
 #include "common/scene_file/spectra.h"
@@ -52,7 +53,8 @@ struct Files {
     /// Those that a world takes, with light, as text.
     std::string taken(const std::string& text) const {
         std::string all;
-        for (UsedStandIn used : world("LightSource 'infinite' " + text).stand_ins) {
+        Scene scene = world("LightSource 'infinite' " + text);
+        for (UsedStandIn used : scene.origin->stand_ins) {
             used.first.file = "s.pbrt";
             all += used.text() + '\n';
         }
@@ -85,7 +87,7 @@ TEST_SUITE("stand-ins") {
             std::string refused = error_of([&] { files.read(scene, false); });
             Scene with;
             CHECK(error_of([&] { with = files.read(scene); }) == "");
-            CHECK(with.stand_ins.empty() == refused.empty());
+            CHECK(with.origin->stand_ins.empty() == refused.empty());
             std::istringstream errors(refused);
             for (std::string error; std::getline(errors, error);) {
                 bool is_missing = error.ends_with("cannot read: No such file or directory");
@@ -121,7 +123,7 @@ TEST_SUITE("stand-ins") {
         };
         for (const auto& [text, taken] : cases) CHECK(files.taken(text) == taken);
         Scene bare = files.read("WorldBegin Shape 'sphere'");
-        CHECK(bare.stand_ins.size() == 2);
+        CHECK(bare.origin->stand_ins.size() == 2);
         CHECK(in_words(bare.lights.at(0).L) == "0.5 0.5 0.5");
         CHECK(settings_of(bare) == "1280x720 16 5 90 at 0 0 0, 1 0 0, 0 1 0, 0 0 1");
     }
@@ -277,8 +279,8 @@ TEST_SUITE("stand-ins") {
         stand_in_for_features(sky, features_of(16));
         prepare(sky, 1);
         CHECK(in_words(sky.sky) == "2.2 4.25 3.75");
-        CHECK(sky.stand_ins.size() == 1);
-        CHECK(sky.stand_ins[0].first.line == 3);
+        CHECK(sky.origin->stand_ins.size() == 1);
+        CHECK(sky.origin->stand_ins[0].first.line == 3);
     }
 
     TEST_CASE("truth: a .jpg and a .tga have the colors of the .png that they were made of") {

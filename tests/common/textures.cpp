@@ -9,6 +9,8 @@
 #include "common/material/metal.h"
 #include "common/picture/image.h"
 #include "common/scene/intersect.h"
+#include "common/scene/sky_image.h"
+#include "common/scene/texture.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
 #include "tests/support/scenes.h"

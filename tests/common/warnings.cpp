@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "common/results/black_picture.h"
+#include "common/scene/light_shape.h"
 #include "tests/support/estimators.h"
 
 namespace {
