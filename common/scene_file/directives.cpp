@@ -194,7 +194,7 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
     NamedMaterial& named = named_materials_[name];
     if (named.defined) fail(lexer.at(token), "a second material " + quote(name));
     named.defined = true;
-    std::optional<Material> material = read_any_material(params);
+    std::optional<Material> material = read_material(params, textures_);
     if (!material && is_used) {
         fail(named.first_use, "the material " + quote(name) +
                                   ", of which shapes are left out, must be made before its use");
@@ -205,32 +205,10 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
 
 void Directives::material(Lexer& lexer, const Token& word) {
     Params params = read_params(lexer, word, "material");
-    std::optional<Material> material = read_any_material(params);
+    std::optional<Material> material = read_material(params, textures_);
     scene_.materials.push_back(material.value_or(Material{}));
     state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
     if (!material) absent_.insert(state_.material);
-}
-
-std::optional<Material> Directives::read_any_material(Params& params) {
-    if (params.type() == "mix" && params.stands_in()) return read_mix(params);
-    return read_material(params, textures_);
-}
-
-// The stand-in for a mix: the one of two materials that has the larger share.
-std::optional<Material> Directives::read_mix(Params& params) {
-    const Param* names = params.find_exactly("string", "materials", 2);
-    if (!names) fail(params.at(), params.owner() + " needs \"string materials\"");
-    bool is_second = textures_.number(params, "amount", 0.5f, infinity) > 0.5f;
-    const std::string& name = names->strings[is_second];
-    params.ignore_rest();
-    params.finish();
-    if (name == "interface") return {};
-    uint32_t index = find_material(name, names->at);
-    if (!named_materials_[name].defined) {
-        fail(names->at, "the material " + quote(name) + " must be made before the mix");
-    }
-    if (absent_.contains(index)) return {};
-    return scene_.materials[index];
 }
 
 void Directives::named_material(Lexer& lexer, const Token& word) {
@@ -302,7 +280,8 @@ void Directives::shape(Lexer& lexer, const Token& word) {
 // nothing.
 bool Directives::is_left_out(Params& params, const State& where) {
     if (absent_.contains(where.material)) return true;
-    if (params.type() == "curve" && params.stands_in()) return true;
+    bool is_known = params.type() != "curve" && params.type() != "cylinder";
+    if (!is_known && params.stands_in()) return true;
     for (const Param& param : params.all()) {
         bool is_clear = param.name == "alpha" && param.numbers == std::vector<double>{0};
         if (!is_clear || where.emission || !notes_.stand_ins()) continue;

@@ -93,8 +93,6 @@ private:
     void place_object(const Object& object, const Position& at, const State& state);
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(Params& params) const;
-    std::optional<Material> read_any_material(Params& params);
-    std::optional<Material> read_mix(Params& params);
     bool is_left_out(Params& params, const State& where);
     void check_names() const;
     void check_uvs(const Geometry& g);
