@@ -47,7 +47,7 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
                  Recorder& recorder) {
     // Sample a point of the lens and a time.
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
-    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
+    if (scene.moves) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
     Candidates c;                 // at the previous vertex

@@ -1,5 +1,4 @@
-// Chapter 17: light from an image of the sky. Its pixels are lights: each is sampled in proportion
-// to how much it is brighter than the mean; all others are left to BSDF sampling.
+// Chapter 17: light from an image of the sky. Pixels brighter than the mean are sampled as lights.
 //
 //   pmf_i = max(0, L_i - mean L) w_i / sum of those,    w_i: solid angle of pixel i
 #pragma once
@@ -7,6 +6,7 @@
 #include "common/path/many_lights.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/scene/sky_image.h"
 
 namespace ch17 {
 
@@ -111,7 +111,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, Ray ray, Sample
                  Recorder& recorder) {
     // Sample a point of the lens and a time.
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
-    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
+    if (scene.moves) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
     Candidates c;            // at the previous vertex

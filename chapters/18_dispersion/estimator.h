@@ -3,6 +3,7 @@
 //
 //   E[weight] = integral of the colours of all wavelengths = white
 #pragma once
+#include "common/material/glass.h"
 #include "common/material/observer.h"
 #include "common/path/image_light.h"
 #include "common/path/lens.h"
@@ -57,7 +58,7 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
                  Ray ray, Sampler& sampler, Recorder& recorder) {
     // Sample a point of the lens and a time.
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
-    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
+    if (scene.moves) ray.time = sample_time(scene.camera, sampler.u1());
 
     Rgb L, beta = {1, 1, 1};
     Candidates c;            // at the previous vertex

@@ -216,7 +216,7 @@ inline void trace_light(const Scene& scene, const Endpoints& endpoints, Splats& 
     auto add = [&](const Splat& seen) {
         if (!is_black(seen.L)) splats.push_back(seen), recorder.splat(seen.L, seen.pixel);
     };
-    float time = scene.movers.empty() ? 0 : sample_time(scene.camera, sampler.u1());
+    float time = scene.moves ? sample_time(scene.camera, sampler.u1()) : 0;
     add(connect_light(scene, endpoints.camera, e, time));
     float cos_y = e.type == LightType::point ? 1 : dot(e.d, e.y.n);
     Rgb flux = e.Le * (cos_y / (e.pmf * e.y.pdf * e.pdf_w)), beta = {1, 1, 1};

@@ -213,7 +213,7 @@ inline Rgb trace(const Scene& scene, const Endpoints& endpoints, Ray ray, Splats
                  Sampler& sampler, Recorder& recorder) {
     // Walk from a light (with sampler dimensions of its own) and from the eye.
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
-    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
+    if (scene.moves) ray.time = sample_time(scene.camera, sampler.u1());
     sampler.jump(1 << 12);
     Path light = light_subpath(scene, endpoints, sampler, recorder, ray.time);
     sampler.jump(8);

@@ -206,7 +206,7 @@ inline Rgb trace(const Scene& scene, const Bidirectional& settings, Ray ray, Spl
     // Walk from a light and from the eye as in chapter 21; add the sums to both walks.
     const Endpoints& endpoints = settings.endpoints;
     if (scene.camera.lens_radius > 0) ray = through_lens(scene.camera, ray, sampler.u2());
-    if (!scene.movers.empty()) ray.time = sample_time(scene.camera, sampler.u1());
+    if (scene.moves) ray.time = sample_time(scene.camera, sampler.u1());
     sampler.jump(1 << 12);
     Subpath light = {true, light_subpath(scene, endpoints, sampler, recorder, ray.time)};
     sampler.jump(8);

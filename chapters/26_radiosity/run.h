@@ -9,6 +9,7 @@
 #include "common/path/method.h"
 #include "common/render/render_film.h"
 #include "common/render/results.h"
+#include "common/scene/origin.h"
 
 namespace ch26 {
 
@@ -26,9 +27,10 @@ struct Settings {
 inline void refuse_many(const Scene& scene, size_t patches) {
     constexpr size_t most = 16384;
     if (patches <= most) return;
-    fail({scene.file}, std::to_string(patches) +
-                           " patches have a matrix of more than 1 GiB: radiosity takes at most " +
-                           std::to_string(most));
+    fail({scene.origin->file},
+         std::to_string(patches) +
+             " patches have a matrix of more than 1 GiB: radiosity takes at most " +
+             std::to_string(most));
 }
 
 /// Which share of its light a patch still waits for, by the ambient estimate: the mean over all

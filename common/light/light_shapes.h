@@ -1,6 +1,7 @@
 // Points on the surface of a light, sampled by area or by the solid angle seen from x.
 #pragma once
 #include "common/scene/intersect.h"
+#include "common/scene/light_shape.h"
 #include "common/scene/scene.h"
 
 /// A point of a light.

@@ -4,7 +4,6 @@
 
 /// A glass: the coefficients fitted to measurements of its index of refraction.
 struct Glass {
-    const char* name;   // as pbrt calls it
     double B[3], C[3];  // C in micrometres^2
 };
 

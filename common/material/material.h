@@ -2,9 +2,10 @@
 #pragma once
 #include <cstdint>
 
-#include "common/base/position.h"
 #include "common/base/vec.h"
-#include "common/material/glass.h"
+
+struct Glass;     // glass.h
+struct Position;  // base/position.h
 
 enum class MaterialType : uint8_t { diffuse, conductor, dielectric };
 

@@ -2,6 +2,7 @@
 // Light from an image of the sky.
 #pragma once
 #include "common/path/many_lights.h"
+#include "common/scene/sky_image.h"
 
 namespace sky_light {
 

@@ -15,6 +15,7 @@
 #include "common/render/results.h"
 #include "common/render/stop.h"
 #include "common/render/table.h"
+#include "common/scene/origin.h"
 
 namespace {
 
@@ -120,7 +121,7 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
 
     std::printf(
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
-        s, printable(scene.file).c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
+        s, printable(scene.origin->file).c_str(), double{ray.o.x}, double{ray.o.y}, double{ray.o.z},
         double{film.x} - x, double{film.y} - y);
     std::printf("%s", story.text().c_str());
     std::vector<Contribution> counted = recorder.contributions();

@@ -9,6 +9,7 @@
 #include "common/base/report.h"
 #include "common/base/system.h"
 #include "common/render/code_hash.h"
+#include "common/scene/origin.h"
 
 namespace {
 
@@ -18,12 +19,12 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
     char checksum[17];
     std::snprintf(checksum, sizeof checksum, "%016llx",
-                  static_cast<unsigned long long>(scene.files_checksum));
+                  static_cast<unsigned long long>(scene.origin->checksum));
     bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
     std::vector<std::pair<std::string, std::string>> options = {
         {"chapter", o.name},
         {"code", code_hash(o.name)},
-        {"scene", printable(file_name(file_path(scene.file).filename()))},
+        {"scene", printable(file_name(file_path(scene.origin->file).filename()))},
         {"checksum", checksum},
         {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
         {"max-depth", std::to_string(scene.max_depth)},
@@ -33,7 +34,7 @@ std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene
     options.insert(options.end(), o.own.begin(), o.own.end());
     // Without folders: the same on every machine.
     std::string stand_ins;
-    for (UsedStandIn used : scene.stand_ins) {
+    for (UsedStandIn used : scene.origin->stand_ins) {
         used.first.file = file_name(file_path(used.first.file).filename());
         stand_ins += (stand_ins.empty() ? "" : "; ") + used.text();
     }

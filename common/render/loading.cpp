@@ -8,7 +8,10 @@
 #include "common/base/progress.h"
 #include "common/base/report.h"
 #include "common/scene/coincident.h"
+#include "common/scene/mover.h"
+#include "common/scene/origin.h"
 #include "common/scene/prepare.h"
+#include "common/scene/sky_image.h"
 #include "common/scene_file/reader.h"
 #include "common/scene_file/stand_ins.h"
 
@@ -122,12 +125,14 @@ void stand_in_for_features(Scene& scene, Features features) {
         scene.lights.push_back(sky);
         scene.sky_image = {};
     }
+    Origin origin = *scene.origin;
     for (const auto& [what, instead] : all_stand_ins()) {
         auto found = used.find(what);
         if (found == used.end()) continue;
         found->second.instead = instead;
-        scene.stand_ins.push_back(found->second);
+        origin.stand_ins.push_back(found->second);
     }
+    scene.origin = std::make_shared<Origin>(std::move(origin));
 }
 
 float radius_within(const Scene& scene, double radius) {

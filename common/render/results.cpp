@@ -16,6 +16,7 @@
 #include "common/render/command_line.h"
 #include "common/render/film_keeping.h"
 #include "common/render/warnings.h"
+#include "common/scene/origin.h"
 
 namespace {
 
@@ -38,7 +39,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     double sum = r.film.mean() * static_cast<double>(r.film.samples());
     double pixels = static_cast<double>(r.film.pixels().size());
     JsonObject json;
-    json.add("scene", scene.file);
+    json.add("scene", scene.origin->file);
     json.add("chapter", options.name);
     json.add("width", r.film.width);
     json.add("height", r.film.height);
@@ -47,7 +48,8 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("seed", uint64_t{options.seed});
     json.add("notes", lines_of(notes_of(scene, options, r)));
     std::vector<std::string> stand_ins;
-    for (const UsedStandIn& used : scene.stand_ins) stand_ins.push_back(printable(used.text()));
+    for (const UsedStandIn& used : scene.origin->stand_ins)
+        stand_ins.push_back(printable(used.text()));
     if (!stand_ins.empty()) json.add("stand_ins", stand_ins);
     json.add("threads", options.threads);
     json.add("seconds", s.seconds);
@@ -73,10 +75,10 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
 void print_summary(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
     double samples = static_cast<double>(r.film.samples());
-    std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(), printable(scene.file).c_str(),
-                r.film.width, r.film.height, json_number(r.film.spp()).c_str(),
-                s.interrupted ? " (interrupted)" : "");
-    for (const UsedStandIn& used : scene.stand_ins) {
+    std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(),
+                printable(scene.origin->file).c_str(), r.film.width, r.film.height,
+                json_number(r.film.spp()).c_str(), s.interrupted ? " (interrupted)" : "");
+    for (const UsedStandIn& used : scene.origin->stand_ins) {
         std::printf("stand-in: %s\n", printable(used.text()).c_str());
     }
     std::printf("%s\n", mean_and_error(r.film).c_str());
@@ -141,7 +143,7 @@ std::string drawing_path(const RenderOptions& options) {
 }
 
 void check_outputs(const Scene& scene, const RenderOptions& options) {
-    std::vector<std::string> inputs(scene.files.begin(), scene.files.end());
+    std::vector<std::string> inputs(scene.origin->files.begin(), scene.origin->files.end());
     if (options.explain || options.explain_brightest)
         return check_outputs({drawing_path(options)}, inputs);
     std::vector<std::string> files = options.out;

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "common/base/checksum.h"
 #include "common/material/cosine.h"
+#include "common/scene/mover.h"
+#include "common/scene/origin.h"
 
 namespace {
 
@@ -98,33 +99,6 @@ bool coincide(const Geometry& g, uint32_t a, uint32_t b) {
            length(Vec3d(box.high) - Vec3d(other.high)) < rounding;
 }
 
-/// Calls `visit` for all primitives in the leaves whose boxes meet this one, as long as it returns
-/// true.
-void near(const Bvh& bvh, const Box& box, const std::function<bool(uint32_t)>& visit) {
-    std::vector<uint32_t> blocks, nodes;
-    if (!(bvh.root & BvhNode::leaf)) nodes.push_back(bvh.root);
-    for (uint32_t i = 0; nodes.empty() && i < bvh.blocks.size(); i++) blocks.push_back(i);
-    while (!nodes.empty()) {
-        const BvhNode& node = bvh.nodes[nodes.back()];
-        nodes.pop_back();
-        for (size_t k = 0; k < lanes; k++) {
-            bool meets = node.child[k] != BvhNode::nothing;
-            for (int axis = 0; axis < 3; axis++) {
-                auto row = static_cast<size_t>(2 * axis);
-                meets = meets && node.plane[row][k] <= box.high[axis] - bvh.centre[axis] &&
-                        node.plane[row + 1][k] >= box.low[axis] - bvh.centre[axis];
-            }
-            bool is_leaf = node.child[k] & BvhNode::leaf;
-            if (meets) (is_leaf ? blocks : nodes).push_back(node.child[k]);
-        }
-    }
-    for (uint32_t block : blocks) {
-        for (uint32_t prim : bvh.blocks[block & BvhNode::index].prim) {
-            if (prim != PrimHit::none && !visit(prim)) return;
-        }
-    }
-}
-
 }  // namespace
 
 std::vector<std::string> notes_of_coincident(const Scene& scene) {
@@ -142,40 +116,36 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
         if (!pairs.contains({one, other}) && coincide(g, a, b)) pairs.emplace(one, other);
     };
 
-    // Faces that shine, and what is near each of them.
-    constexpr uint64_t most = 300'000;
+    // Faces that shine, and all whose boxes touch theirs.
+    std::vector<Box> boxes;
+    for (uint32_t i = 0; i < g.size(); i++) boxes.push_back(box_of(g, i));
+    constexpr uint64_t most = 30'000'000;
     uint64_t compared = 0;
     for (const Light& light : scene.lights) {
         uint32_t end = light.first_prim + light.prims;
-        for (uint32_t a = light.first_prim; a < end && compared < most; a++) {
-            Box box = box_of(g, a);
-            float rounding = rounding_of(box);
-            Vec3 margin = {rounding, rounding, rounding};
-            box = {box.low - margin, box.high + margin};
-            near(scene.bvh, box, [&](uint32_t b) {
+        for (uint32_t a = light.first_prim; a < end && compared < most; a++, compared += g.size()) {
+            float rounding = rounding_of(boxes[a]);
+            for (uint32_t b = 0; b < g.size(); b++) {
                 bool later = b > a || scene.shapes[shape_of(b)].light < 0;  // each pair once
-                Box other = box_of(g, b);
-                Vec3 gap = max(box.low - other.high, other.low - box.high);
-                if (later && b != a && max_component(gap) <= 0) compare(a, b);
-                return ++compared < most;
-            });
+                Vec3 gap = max(boxes[a].low - boxes[b].high, boxes[b].low - boxes[a].high);
+                if (max_component(gap) <= rounding && later && b != a) compare(a, b);
+            }
         }
     }
 
     // Faces that are given twice: they have one box. So have the two triangles of a rectangle.
-    std::vector<std::pair<uint64_t, uint32_t>> boxes;
+    std::vector<std::pair<uint64_t, uint32_t>> sums;
     for (uint32_t i = 0; i < g.size() && scene.shapes.size() > 1; i++) {
-        Box box = box_of(g, i);
-        Vec3 ends[] = {box.low + Vec3{}, box.high + Vec3{}};  // 0 in place of -0
+        Vec3 ends[] = {boxes[i].low + Vec3{}, boxes[i].high + Vec3{}};  // 0 in place of -0
         Checksum sum;
         sum.add({reinterpret_cast<const char*>(ends), sizeof ends});
-        boxes.emplace_back(sum.value(), i);
+        sums.emplace_back(sum.value(), i);
     }
-    std::sort(boxes.begin(), boxes.end());
-    for (size_t i = 0; i < boxes.size(); i++) {
-        for (size_t k = i + 1; k < std::min(i + 9, boxes.size()); k++) {
-            uint32_t a = boxes[i].second, b = boxes[k].second;
-            if (boxes[i].first != boxes[k].first) break;
+    std::sort(sums.begin(), sums.end());
+    for (size_t i = 0; i < sums.size(); i++) {
+        for (size_t k = i + 1; k < std::min(i + 9, sums.size()); k++) {
+            uint32_t a = sums[i].second, b = sums[k].second;
+            if (sums[i].first != sums[k].first) break;
             if (shape_of(a) != shape_of(b)) compare(a, b);
         }
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/position.h"
+#include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 
 namespace {
@@ -151,7 +152,7 @@ void refuse(const Scene& scene) {
     for (const Sphere& s : g.spheres) check(s.shape);
     for (const Disk& d : g.disks) check(d.shape);
     if (max_component(least) < 1) return;
-    fail({scene.file},
+    fail({scene.origin->file},
          "radiosity needs a surface that absorbs: in a closed room whose surfaces reflect all "
          "light, it grows with each bounce");
 }

@@ -1,10 +1,15 @@
 // What a ray meets, ready for shading, and how to leave a surface without meeting it again.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "common/base/ray_count.h"
 #include "common/material/hit.h"
 #include "common/scene/scene.h"
+
+// The hierarchy, without the header that says how it is made.
+PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
+bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray);
 
 /// A ray that was traced: in search of the nearest surface, or as a shadow ray, of anything.
 struct TracedRay {
@@ -98,15 +103,12 @@ inline void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, H
 
 namespace hit_details {
 
-/// What few scenes have.
-[[gnu::noinline]] inline void vary_or_move(const Scene& scene, const Ray& ray, const PrimHit& found,
-                                           std::optional<Hit>& x) {
-    if (x && x->material->texture != 0) look_up_texture(scene, scene.geometry, found, *x);
-    if (!scene.movers.empty()) intersect_movers(scene, ray, x);
-}
+/// What few scenes have: the reflectance of a texture, and shapes that move.
+void vary_or_move(const Scene& scene, const Ray& ray, const PrimHit& found, std::optional<Hit>& x);
+bool occluded_by_movers(const Scene& scene, const Ray& ray);
 
 inline std::optional<Hit> nearest(const Scene& scene, const Ray& ray) {
-    PrimHit found = closest_hit(scene.bvh, scene.geometry, ray);
+    PrimHit found = closest_hit(*scene.bvh, scene.geometry, ray);
     std::optional<Hit> x;
     if (found.prim != PrimHit::none) {
         x.emplace();
@@ -117,22 +119,14 @@ inline std::optional<Hit> nearest(const Scene& scene, const Ray& ray) {
     return x;
 }
 inline bool any(const Scene& scene, const Ray& ray) {
-    if (any_hit(scene.bvh, scene.geometry, ray)) return true;
-    return !scene.movers.empty() && occluded_by_movers(scene, ray);
+    if (any_hit(*scene.bvh, scene.geometry, ray)) return true;
+    return scene.moves && occluded_by_movers(scene, ray);
 }
 
 /// nearest() and any() that keep the ray as well: apart, so that they cost nothing when nobody
 /// asks.
-[[gnu::noinline]] inline std::optional<Hit> nearest_kept(const Scene& scene, Ray ray) {
-    std::optional<Hit> x = nearest(scene, ray);
-    rays_kept->push_back({ray, false, x.has_value(), x ? x->t : infinity});
-    return x;
-}
-[[gnu::noinline]] inline bool any_kept(const Scene& scene, Ray ray) {
-    bool met = any(scene, ray);
-    rays_kept->push_back({ray, true, met, NAN});
-    return met;
-}
+std::optional<Hit> nearest_kept(const Scene& scene, Ray ray);
+bool any_kept(const Scene& scene, Ray ray);
 
 }  // namespace hit_details
 
@@ -165,7 +159,7 @@ inline Rgb emission(const Scene& scene, const Hit& x) {
     return x.front || light.two_sided ? light.L : Rgb{};
 }
 /// The radiance of the sky in direction wi.
+Rgb image_towards(const SkyImage& sky, Vec3 wi);
 inline Rgb sky_towards(const Scene& scene, Vec3 wi) {
-    if (!scene.sky_image) return scene.sky;
-    return scene.sky_image->at(point_of(*scene.sky_image, wi));
+    return scene.sky_image ? image_towards(*scene.sky_image, wi) : scene.sky;
 }

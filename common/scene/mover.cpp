@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/geometry/bvh.h"
 #include "common/scene/smooth_normal.h"
 
 namespace {
@@ -47,6 +48,27 @@ Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
     return (1 - b1 - b2) * g.normals[v[0]] + b1 * g.normals[v[1]] + b2 * g.normals[v[2]];
 }
 
+/// Replaces x by what the ray meets first among the movers, where that is nearer, at its time.
+void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
+    Ray rest = ray;
+    if (x) rest.t_max = x->t;
+    for (const Mover& mover : scene.movers) {
+        if (!meets(rest, mover.box.low, mover.box.high)) continue;
+        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
+        Ray back = carried_back(mover, rest, world_from_start);
+        PrimHit found = closest_hit(*mover.bvh, mover.geometry, back);
+        if (found.prim == PrimHit::none) continue;
+        x.emplace();
+        const Shape& shape = place_hit(scene, mover.geometry, back, found, *x);
+        x->material = &scene.materials[shape.material];
+        if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
+        carry_on(world_from_start, *x);
+        rest.t_max = found.t;
+        found.prim += mover.first_prim;
+        finish_hit(scene, shape, rest, found, *x);
+    }
+}
+
 }  // namespace
 
 Box box_over_time(const Mover& mover) {
@@ -80,26 +102,6 @@ Box box_over_time(const Mover& mover) {
     return box;
 }
 
-void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
-    Ray rest = ray;
-    if (x) rest.t_max = x->t;
-    for (const Mover& mover : scene.movers) {
-        if (!meets(rest, mover.box.low, mover.box.high)) continue;
-        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        Ray back = carried_back(mover, rest, world_from_start);
-        PrimHit found = closest_hit(mover.bvh, mover.geometry, back);
-        if (found.prim == PrimHit::none) continue;
-        x.emplace();
-        const Shape& shape = place_hit(scene, mover.geometry, back, found, *x);
-        x->material = &scene.materials[shape.material];
-        if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
-        carry_on(world_from_start, *x);
-        rest.t_max = found.t;
-        found.prim += mover.first_prim;
-        finish_hit(scene, shape, rest, found, *x);
-    }
-}
-
 Vec3 interpolated_normal(const Scene& scene, uint32_t prim, Vec3 p, float time) {
     if (prim < scene.geometry.size()) return interpolated_normal(scene.geometry, prim, p);
     auto behind = std::upper_bound(
@@ -112,12 +114,21 @@ Vec3 interpolated_normal(const Scene& scene, uint32_t prim, Vec3 p, float time) 
     return to_vec3(transform_normal(world_from_start, Vec3d(n)));
 }
 
+namespace hit_details {
+
+void vary_or_move(const Scene& scene, const Ray& ray, const PrimHit& found, std::optional<Hit>& x) {
+    if (x && x->material->texture != 0) look_up_texture(scene, scene.geometry, found, *x);
+    intersect_movers(scene, ray, x);
+}
+
 bool occluded_by_movers(const Scene& scene, const Ray& ray) {
     for (const Mover& mover : scene.movers) {
         if (!meets(ray, mover.box.low, mover.box.high)) continue;
         Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        if (any_hit(mover.bvh, mover.geometry, carried_back(mover, ray, world_from_start)))
+        if (any_hit(*mover.bvh, mover.geometry, carried_back(mover, ray, world_from_start)))
             return true;
     }
     return false;
 }
+
+}  // namespace hit_details

@@ -1,11 +1,12 @@
 // Shapes that move while the shutter is open.
 #pragma once
-#include <optional>
+#include <memory>
 
-#include "common/base/position.h"
-#include "common/geometry/bvh.h"
+#include "common/geometry/geometry.h"
 #include "common/geometry/motion.h"
-#include "common/material/hit.h"
+
+struct Bvh;
+struct Position;
 
 /// The primitives of one Shape directive that moves, each where it is at time 0, and their way.
 struct Mover {
@@ -16,7 +17,7 @@ struct Mover {
     Transform object_from_start;  // object from where the primitives are
     Geometry geometry;
     uint32_t first_prim = 0;  // its number among all: those of Scene::geometry come first
-    Bvh bvh;
+    std::shared_ptr<const Bvh> bvh;
     Box box;                       // around all places that it comes to
     const Position* at = nullptr;  // where a scene file makes it, for messages
 
@@ -25,9 +26,3 @@ struct Mover {
 
 /// The box around all places that its primitives come to, from time 0 to 1.
 Box box_over_time(const Mover& mover);
-
-struct Scene;
-
-/// Replaces x by what the ray meets first among the movers, where that is nearer, at its time.
-void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x);
-bool occluded_by_movers(const Scene& scene, const Ray& ray);

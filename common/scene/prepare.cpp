@@ -1,6 +1,11 @@
 #include "common/scene/prepare.h"
 
 #include "common/geometry/bvh_build.h"
+#include "common/scene/light_shape.h"
+#include "common/scene/mover.h"
+#include "common/scene/origin.h"
+#include "common/scene/sky_image.h"
+#include "common/scene/texture.h"
 
 namespace {
 
@@ -19,12 +24,14 @@ std::vector<Vec3> facet_normals(const Geometry& g) {
 
 }  // namespace
 
-Scene::Scene() = default;
+Scene::Scene() : origin(std::make_shared<Origin>()) {}
 Scene::Scene(const Scene&) = default;
 Scene::Scene(Scene&&) = default;
 Scene& Scene::operator=(const Scene&) = default;
 Scene& Scene::operator=(Scene&&) = default;
 Scene::~Scene() = default;
+
+Position Scene::place(const Position* at) const { return at ? *at : Position{origin->file}; }
 
 void prepare(Scene& scene, int threads, const Report& report) {
     // Gather all skies in the first.
@@ -38,13 +45,16 @@ void prepare(Scene& scene, int threads, const Report& report) {
     }
     if (scene.sky_image) {
         // One sky: the image.
-        for (Rgb& L : scene.sky_image->pixels) L += scene.sky;
+        SkyImage image = *scene.sky_image;
+        for (Rgb& L : image.pixels) L += scene.sky;
+        scene.sky_image = std::make_shared<SkyImage>(std::move(image));
         scene.sky = {};
     }
     if (scene.sky_light >= 0) scene.lights[static_cast<size_t>(scene.sky_light)].L = scene.sky;
 
     if (report) report("preparing lights and surfaces", 0);
-    scene.moves_or_varies = !scene.movers.empty() || !scene.textures.all.empty();
+    scene.moves = !scene.movers.empty();
+    scene.moves_or_varies = scene.moves || scene.textures;
     scene.has_normals = !scene.geometry.normals.empty();
     Box box = bounds_of(scene.geometry);
     uint32_t prims = scene.geometry.size();
@@ -53,7 +63,7 @@ void prepare(Scene& scene, int threads, const Report& report) {
         scene.has_normals = scene.has_normals || !mover.geometry.normals.empty();
         prims += mover.geometry.size();
         mover.geometry.facet_normals = facet_normals(mover.geometry);
-        mover.bvh = build_bvh(mover.geometry, threads);
+        mover.bvh = std::make_shared<Bvh>(build_bvh(mover.geometry, threads));
         mover.box = box_over_time(mover);
         box.low = min(box.low, mover.box.low), box.high = max(box.high, mover.box.high);
     }
@@ -63,5 +73,5 @@ void prepare(Scene& scene, int threads, const Report& report) {
     scene.centre = empty ? scene.camera.o : (box.low + box.high) / 2;
     scene.light_shapes = light_shapes_of(scene);
     scene.geometry.facet_normals = facet_normals(scene.geometry);
-    scene.bvh = build_bvh(scene.geometry, threads, report);
+    scene.bvh = std::make_shared<Bvh>(build_bvh(scene.geometry, threads, report));
 }

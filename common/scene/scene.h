@@ -1,18 +1,20 @@
 // A scene in memory: what the reader (scene_file/reader.h) fills in and the chapters trace.
 #pragma once
 #include <array>
+#include <memory>
 #include <optional>
-#include <set>
-#include <string>
+#include <vector>
 
-#include "common/base/position.h"
-#include "common/geometry/bvh.h"
 #include "common/geometry/geometry.h"
 #include "common/material/material.h"
-#include "common/scene/light_shape.h"
-#include "common/scene/mover.h"
-#include "common/scene/sky_image.h"
-#include "common/scene/texture.h"
+
+// What few look into: each is defined in a header of its own.
+struct Bvh;
+struct LightShape;
+struct Mover;
+struct Origin;
+struct SkyImage;
+struct Textures;
 
 enum class LightType : uint8_t { area, point, distant, infinite };
 
@@ -59,49 +61,34 @@ struct Camera {
     const Position* at = nullptr;  // where a scene file sets it up, for messages
 };
 
-/// Something in the scene that is not modelled, and what is rendered in its place.
-struct UsedStandIn {
-    std::string what, instead;
-    size_t places = 0;  // in the scene files
-    Position first;
-
-    /// `Shape "curve" as nothing (3 places, first scene.pbrt:4:1)`.
-    std::string text() const {
-        return what + " as " + instead + " (" + std::to_string(places) +
-               (places == 1 ? " place, " : " places, first ") + place_text(first) + ')';
-    }
-};
-
 struct Scene {
-    std::string file;             // as named by the user, for messages
-    std::set<std::string> files;  // all that it was read from
-    uint64_t files_checksum = 0;  // of their bytes
-    std::vector<UsedStandIn> stand_ins;
+    std::shared_ptr<const Origin> origin;  // the files that it was read from; never null
     Geometry geometry;
     std::vector<Shape> shapes;
     std::vector<Material> materials;
-    Textures textures;
+    std::shared_ptr<const Textures> textures;  // null: none
     std::vector<Axes> axes;
     std::vector<Light> lights;
-    std::vector<LightShape> light_shapes;  // one for each light
-    Vec3 centre;                           // of a sphere around all primitives
-    float radius = 0;                      // m, of that sphere
-    int sky_light = -1;                    // the infinite light among them; -1: none
-    Rgb sky;                               // what infinite lights send, if none has an image
-    std::optional<SkyImage> sky_image;     // else the sum of all infinite lights
-    std::vector<Mover> movers;             // shapes that move; they do not shine
-    bool moves_or_varies = false;          // has movers or textures; prepare() finds out
-    bool has_normals = false;              // of a mesh's corners; prepare() finds out
+    std::vector<LightShape> light_shapes;       // one for each light
+    Vec3 centre;                                // of a sphere around all primitives
+    float radius = 0;                           // m, of that sphere
+    int sky_light = -1;                         // the infinite light among them; -1: none
+    Rgb sky;                                    // what infinite lights send, if none has an image
+    std::shared_ptr<const SkyImage> sky_image;  // else the sum of all infinite lights
+    std::vector<Mover> movers;                  // shapes that move; they do not shine
+    bool moves = false;                         // has movers; prepare() finds out, as the next two
+    bool moves_or_varies = false;               // has movers or textures
+    bool has_normals = false;                   // of a mesh's corners
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel
     int max_depth = 5;               // scattering events: 0 shows emitters only, 1 direct light
-    Bvh bvh;                         // over geometry
+    std::shared_ptr<const Bvh> bvh;  // over geometry; prepare() builds it
 
     /// What messages name: the place, if it is known, or else the file.
-    Position place(const Position* at) const { return at ? *at : Position{file}; }
+    Position place(const Position* at) const;
 
-    // The compiler's own; defined in prepare.cpp, or each file would compile them once more.
+    // The compiler's own; defined in prepare.cpp, where all parts are known.
     Scene();
     Scene(const Scene&);
     Scene(Scene&&);

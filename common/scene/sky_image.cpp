@@ -49,6 +49,8 @@ Vec2 point_of(const SkyImage& sky, Vec3 wi) {
     return {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi), angle_of(sine, w.z) / pi};
 }
 
+Rgb image_towards(const SkyImage& sky, Vec3 wi) { return sky.at(point_of(sky, wi)); }
+
 float solid_angle_per_area(const SkyImage& sky, Vec2 uv) {
     if (sky.map == SkyImage::Map::square) return 4 * pi;
     return 2 * pi * pi * std::max(sine_of(pi * uv.y), 1e-20f);

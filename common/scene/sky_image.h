@@ -1,10 +1,11 @@
 // A picture of the sky: which pixel lies in which direction.
 #pragma once
-#include <string>
+#include <cstdint>
 #include <vector>
 
-#include "common/base/position.h"
 #include "common/base/vec.h"
+
+struct Position;
 
 /// What an infinite light sends, as a picture around the scene, from its top row to its bottom row.
 ///

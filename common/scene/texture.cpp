@@ -99,6 +99,6 @@ Rgb value_at(const Textures& textures, uint32_t texture, Vec2 uv) {
 
 void look_up_texture(const Scene& scene, const Geometry& g, const PrimHit& found, Hit& x) {
     const Material* material = x.material;
-    x.material = {material, value_at(scene.textures, material->texture - 1u,
+    x.material = {material, value_at(*scene.textures, material->texture - 1u,
                                      coordinates(scene, g, found, x.p))};
 }

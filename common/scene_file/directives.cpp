@@ -176,8 +176,8 @@ void Directives::light_source(Lexer& lexer, const Token& word) {
             if (!params.may_stand_in()) params.finish();
         } else {
             has_sky_image_ = true;  // also when it cannot be read: then it is not read again
-            scene_.sky_image = read_sky_image(params, still_transform(params), files_);
-            if (scene_.sky_image) return;
+            sky_image_ = read_sky_image(params, still_transform(params), files_);
+            if (sky_image_) return;
         }
     }
     Light light = read_light(params, still_transform(params));
@@ -194,7 +194,7 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
     NamedMaterial& named = named_materials_[name];
     if (named.defined) fail(lexer.at(token), "a second material " + quote(name));
     named.defined = true;
-    std::optional<Material> material = read_any_material(params);
+    std::optional<Material> material = read_material(params, textures_);
     if (!material && is_used) {
         fail(named.first_use, "the material " + quote(name) +
                                   ", of which shapes are left out, must be made before its use");
@@ -205,32 +205,10 @@ void Directives::make_named_material(Lexer& lexer, const Token& word) {
 
 void Directives::material(Lexer& lexer, const Token& word) {
     Params params = read_params(lexer, word, "material");
-    std::optional<Material> material = read_any_material(params);
+    std::optional<Material> material = read_material(params, textures_);
     scene_.materials.push_back(material.value_or(Material{}));
     state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
     if (!material) absent_.insert(state_.material);
-}
-
-std::optional<Material> Directives::read_any_material(Params& params) {
-    if (params.type() == "mix" && params.stands_in()) return read_mix(params);
-    return read_material(params, textures_);
-}
-
-// The stand-in for a mix: the one of two materials that has the larger share.
-std::optional<Material> Directives::read_mix(Params& params) {
-    const Param* names = params.find_exactly("string", "materials", 2);
-    if (!names) fail(params.at(), params.owner() + " needs \"string materials\"");
-    bool is_second = textures_.number(params, "amount", 0.5f, infinity) > 0.5f;
-    const std::string& name = names->strings[is_second];
-    params.ignore_rest();
-    params.finish();
-    if (name == "interface") return {};
-    uint32_t index = find_material(name, names->at);
-    if (!named_materials_[name].defined) {
-        fail(names->at, "the material " + quote(name) + " must be made before the mix");
-    }
-    if (absent_.contains(index)) return {};
-    return scene_.materials[index];
 }
 
 void Directives::named_material(Lexer& lexer, const Token& word) {
@@ -302,7 +280,8 @@ void Directives::shape(Lexer& lexer, const Token& word) {
 // nothing.
 bool Directives::is_left_out(Params& params, const State& where) {
     if (absent_.contains(where.material)) return true;
-    if (params.type() == "curve" && params.stands_in()) return true;
+    bool is_known = params.type() != "curve" && params.type() != "cylinder";
+    if (!is_known && params.stands_in()) return true;
     for (const Param& param : params.all()) {
         bool is_clear = param.name == "alpha" && param.numbers == std::vector<double>{0};
         if (!is_clear || where.emission || !notes_.stand_ins()) continue;
@@ -413,14 +392,14 @@ void Directives::check_uvs(const Geometry& g) {
 
 // What pbrt renders without complaint, and we only with stand-ins.
 void Directives::stand_in_for_missing() {
-    Position file = {scene_.file};
+    Position file = scene_.place(nullptr);
     if (!has_camera_) {
         notes_.stand_in(file, "a scene without a camera");
         scene_.camera.right = {1, 0, 0}, scene_.camera.up = {0, 1, 0};
         scene_.camera.forward = {0, 0, 1};
         has_camera_ = true;
     }
-    if (scene_.lights.empty() && !scene_.sky_image) {
+    if (scene_.lights.empty() && !sky_image_) {
         notes_.stand_in(file, "a scene without light");
         Light sky;
         sky.type = LightType::infinite;
@@ -431,7 +410,7 @@ void Directives::stand_in_for_missing() {
 
 void Directives::check_complete() {
     const std::string unless_left_out = ", or all are left out as too small";
-    Position file = {scene_.file};
+    Position file = scene_.place(nullptr);
     if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
     check_names();
     check_uvs(scene_.geometry);
@@ -443,11 +422,11 @@ void Directives::check_complete() {
     bool has_shape = scene_.geometry.size() > 0 || !scene_.movers.empty();
     if (!has_shape && notes_.stand_ins()) notes_.stand_in(file, "a scene without shapes");
     if (!has_shape && !notes_.stand_ins()) fail(file, "no Shape" + unless_left_out);
-    if (scene_.lights.empty() && !scene_.sky_image) fail(file, "no light" + unless_left_out);
+    if (scene_.lights.empty() && !sky_image_) fail(file, "no light" + unless_left_out);
 }
 
 Scene Directives::finish() {
-    Position file = {scene_.file};
+    Position file = scene_.place(nullptr);
     check_complete();
     number_light_primitives(scene_);
 
@@ -458,18 +437,20 @@ Scene Directives::finish() {
         if (too_bright(light.L) || is_black(light.L))
             fail(file, "shutter or iso leave no usable light");
     }
-    if (scene_.sky_image)
-        for (Rgb& L : scene_.sky_image->pixels) {
+    if (sky_image_) {
+        for (Rgb& L : sky_image_->pixels) {
             L *= exposure;
             if (too_bright(L)) fail(file, "shutter or iso leave no usable light");
         }
+        scene_.sky_image = std::make_shared<SkyImage>(std::move(*sky_image_));
+    }
     if (!has_filter_) {
         notes_.add(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
     }
     // Keep what textures need only if there are some.
     auto has_texture = [](const Material& m) { return m.texture != 0; };
     if (std::any_of(scene_.materials.begin(), scene_.materials.end(), has_texture)) {
-        scene_.textures = textures_.take();
+        scene_.textures = std::make_shared<Textures>(textures_.take());
     } else {
         scene_.geometry.uvs = {};
     }

@@ -3,6 +3,8 @@
 #include <map>
 #include <optional>
 
+#include "common/scene/mover.h"
+#include "common/scene/sky_image.h"
 #include "common/scene_file/shapes.h"
 
 /// Keeps what has been read, and what holds for what comes next. Each directive is one function,
@@ -12,7 +14,7 @@ public:
     Directives(const std::string& path, const Limits& limits, const Report& report,
                SceneNotes& notes)
         : limits_(limits), files_(path, limits, report), notes_(notes) {
-        scene_.file = path;
+        scene_.origin = std::make_shared<Origin>(Origin{path, {}, 0, {}});
         scene_.materials.emplace_back();  // of shapes that are given none
     }
 
@@ -91,8 +93,6 @@ private:
     void place_object(const Object& object, const Position& at, const State& state);
     uint32_t find_material(const std::string& name, const Position& at);
     const Transform& still_transform(Params& params) const;
-    std::optional<Material> read_any_material(Params& params);
-    std::optional<Material> read_mix(Params& params);
     bool is_left_out(Params& params, const State& where);
     void check_names() const;
     void check_uvs(const Geometry& g);
@@ -101,6 +101,7 @@ private:
     void read_mover(Params& params, const State& where, ShapeState& state);
 
     Scene scene_;
+    std::optional<SkyImage> sky_image_;
     const Limits limits_;
     NamedFiles files_;
     SceneNotes& notes_;

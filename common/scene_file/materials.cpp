@@ -21,11 +21,11 @@ bool read_reflectance(Params& params, TextureReader& textures, Material& materia
 }
 
 /// The roughness as GGX's alpha; sqrt(roughness) unless remaproughness is false.
-float read_alpha(Params& params, TextureReader& textures, const std::string& prefix = "") {
+float read_alpha(Params& params, const std::string& prefix = "") {
     constexpr float roughest = 100;
-    float roughness = textures.number(params, prefix + "roughness", 0, roughest);
-    float u = textures.number(params, prefix + "uroughness", roughness, roughest);
-    float v = textures.number(params, prefix + "vroughness", roughness, roughest);
+    float roughness = params.number(prefix + "roughness", 0, 0, roughest);
+    float u = params.number(prefix + "uroughness", roughness, 0, roughest);
+    float v = params.number(prefix + "vroughness", roughness, 0, roughest);
     bool remap = params.boolean("remaproughness", true);
     if (u != v) {
         params.stand_in(params.at(), "a roughness that differs between u and v");
@@ -34,19 +34,15 @@ float read_alpha(Params& params, TextureReader& textures, const std::string& pre
     return remap ? std::sqrt(u) : u;
 }
 
-// "eta" or "k" of a metal: an rgb, a listed spectrum, or the name of one such as "metal-Cu-eta".
+// "eta" or "k" of a metal: an rgb, or the name of a spectrum such as "metal-Cu-eta".
 std::optional<Rgb> read_metal(Params& params, const std::string& name) {
     constexpr float largest = 1e4f;  // so that its fourth power is a float
     const Param* rgb = params.find_exactly("rgb", name, 3);
     if (rgb) return read_rgb(*rgb, 0, largest);
     const Param* spectrum = params.find("spectrum", name);
     if (!spectrum) return {};
-    if (spectrum->strings.size() != 1) {
-        Rgb mean = mean_rgb(read_spectrum(*spectrum));
-        check_range(*spectrum, double{max_component(mean)}, 0, largest);
-        return mean;
-    }
-    return params.named(*spectrum, metals());
+    const Rgb* known = params.named(*spectrum, metals());
+    return known ? std::optional(*known) : std::nullopt;
 }
 
 // `prefix` is what the names of its parameters begin with.
@@ -66,7 +62,7 @@ Material read_conductor(Params& params, TextureReader& textures, const std::stri
         material.eta = {1, 1, 1};
         material.k = k_of_reflectance(material.reflectance);
     }
-    float alpha = read_alpha(params, textures, prefix);
+    float alpha = read_alpha(params, prefix);
     material.alpha = alpha >= smooth_below ? alpha : 0;
     return material;
 }
@@ -75,32 +71,18 @@ Material read_conductor(Params& params, TextureReader& textures, const std::stri
 void read_glass(Params& params, Material& material) {
     const Param* spectrum = params.find("spectrum", "eta");
     if (!spectrum) return;
-    if (spectrum->strings.size() != 1) {
-        params.stand_in(spectrum->at, "an index of refraction as a list");
-        if (params.may_stand_in()) material.ior = average(mean_rgb(read_spectrum(*spectrum)));
-        return;
-    }
-    std::vector<std::string> known;
-    for (const Glass& glass : all_glasses()) {
-        if (spectrum->strings[0] == glass.name) {
-            material.glass = &glass;
-            material.ior = index_of_refraction(glass, 0.5875618);
-            return;
-        }
-        known.push_back(glass.name);
-    }
-    params.stand_in(spectrum->at, "a spectrum of unknown name",
-                    unknown("spectrum", spectrum->strings[0], known));
+    material.glass = params.named(*spectrum, glasses());
+    if (material.glass) material.ior = index_of_refraction(*material.glass, 0.5875618);
 }
 
-Material read_dielectric(Params& params, TextureReader& textures) {
+Material read_dielectric(Params& params) {
     Material material;
     material.type = MaterialType::dielectric;
     constexpr float least = 1e-4f, most = 1e4f;
     material.ior = params.number("eta", 1.5f, least, most);
     read_glass(params, material);
     material.ior = std::clamp(material.ior, least, most);
-    if (read_alpha(params, textures) >= smooth_below) {
+    if (read_alpha(params) >= smooth_below) {
         params.stand_in(params.at(), "rough glass");
     }
     return material;
@@ -119,13 +101,6 @@ Vec3 read_position(Params& params, const Transform& world_from_light) {
     Vec3 p = to_vec3(transform_point(world_from_light, from));
     if (!(max_component(abs(p)) <= 1e9f)) fail(params.at("from"), "the light is farther than 1e9");
     return p;
-}
-
-// By which the power of a spot light is divided to get its intensity, as pbrt does it.
-float solid_angle_of_spot(Params& params) {
-    float edge = params.number("coneangle", 30), width = params.number("conedeltaangle", 5);
-    float outer = std::cos(edge * pi / 180), inner = std::cos((edge - width) * pi / 180);
-    return std::max(1e-3f, 2 * pi * (1 - (inner + outer) / 2));
 }
 
 // The unit vector towards a distant light.
@@ -150,7 +125,7 @@ std::optional<Material> read_material(Params& params, TextureReader& textures) {
     } else if (type == "conductor") {
         material = read_conductor(params, textures);
     } else if (type == "dielectric") {
-        material = read_dielectric(params, textures);
+        material = read_dielectric(params);
     } else if (type == "interface" || type == "none" || type.empty()) {
         params.finish();
         return {};
@@ -158,15 +133,7 @@ std::optional<Material> read_material(Params& params, TextureReader& textures) {
         if (type == "coatedconductor") {
             material = read_conductor(params, textures, "conductor.");
         } else {
-            if (type == "diffusetransmission") material.reflectance = {0.25f, 0.25f, 0.25f};
             read_reflectance(params, textures, material);
-            if (type == "diffusetransmission" && material.texture == 0) {
-                float scale = params.number("scale", 1, 0);
-                material.reflectance = scale * material.reflectance;
-                for (float* c :
-                     {&material.reflectance.r, &material.reflectance.g, &material.reflectance.b})
-                    *c = std::min(*c, 1.0f);
-            }
         }
         params.ignore_rest();
         if (type == "thindielectric") return {};
@@ -235,19 +202,19 @@ Light read_light(Params& params, const Transform& world_from_light) {
     Light light;
     light.at = kept(params.at());
     float scale = params.number("scale", 1, 0);
-    bool is_spot = params.type() == "spot";
-    bool is_beam = is_spot || params.type() == "goniometric" || params.type() == "projection";
-    if (params.type() == "point" || (is_beam && params.stands_in())) {
+    const std::string& type = params.type();
+    bool is_beam = type == "spot" || type == "goniometric" || type == "projection";
+    if (type == "point" || (is_beam && params.stands_in())) {
         light.type = LightType::point;
         light.p = read_position(params, world_from_light);
         light.L = params.illuminant("I", {1, 1, 1}) * scale;
-        light.L *= read_total(params, "power", is_spot ? solid_angle_of_spot(params) : 4 * pi);
+        light.L *= read_total(params, "power", 4 * pi);
         if (is_beam) params.ignore_rest();
-    } else if (params.type() == "distant") {
+    } else if (type == "distant") {
         light.type = LightType::distant;
         light.p = read_direction(params, world_from_light);
         light.L = params.illuminant("L", {1, 1, 1}) * scale * read_total(params, "illuminance", 1);
-    } else if (params.type() == "infinite") {
+    } else if (type == "infinite") {
         light.type = LightType::infinite;
         // The mean of a picture is not known: it could not be read.
         bool is_picture = params.find("string", "filename");

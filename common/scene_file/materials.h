@@ -4,10 +4,10 @@
 
 #include "common/geometry/transform.h"
 #include "common/scene/scene.h"
+#include "common/scene/sky_image.h"
 #include "common/scene_file/textures.h"
 
-/// Nothing for a material that is as if the surface were not there: it only bounds media. "mix" is
-/// read elsewhere.
+/// Nothing for a material that is as if the surface were not there: it only bounds media.
 std::optional<Material> read_material(Params& params, TextureReader& textures);
 
 /// What AreaLightSource says about the shapes after it.

@@ -110,29 +110,6 @@ TriangleMesh read_triangle_mesh(Params& params, size_t corners) {
     return mesh;
 }
 
-TriangleMesh read_cylinder(Params& params) {
-    constexpr int sides = 128;
-    float radius = params.number("radius", 1, least_radius);
-    float turn = std::min(360.0f, params.number("phimax", 360, 1e-3f));
-    float z0 = params.number("zmin", -1), z1 = params.number("zmax", 1);
-    TriangleMesh mesh;
-    for (int i = 0; i <= sides; i++) {
-        float u = static_cast<float>(i) / sides;
-        Vec3 n = from_cylindrical(1, u * turn / 360, 0);
-        for (int end = 0; end < 2; end++) {
-            mesh.positions.push_back(
-                {radius * n.x, radius * n.y, end == 0 ? std::min(z0, z1) : std::max(z0, z1)});
-            mesh.normals.push_back(n);
-            mesh.uvs.push_back({u, static_cast<float>(end)});
-        }
-        uint32_t first = 2 * static_cast<uint32_t>(i);
-        if (i == sides) break;
-        mesh.indices.insert(mesh.indices.end(),
-                            {first, first + 2, first + 3, first, first + 3, first + 1});
-    }
-    return mesh;
-}
-
 void add_mesh(const Params& params, const TriangleMesh& mesh, const Transform& world_from_object,
               bool reverse, uint32_t shape, Geometry& g, Messages& notes) {
     uint32_t first = add_vertices(params, mesh, world_from_object, reverse, g);

@@ -4,7 +4,7 @@
 #include "common/scene_file/ply.h"
 #include "common/scene_file/settings.h"
 
-/// Of a sphere, disk or cylinder: the square of a smaller one is no float.
+/// Of a sphere or disk: the square of a smaller one is no float.
 inline constexpr float least_radius = 1.1e-19f;
 
 /// Throws for a point so far out that squares of areas would overflow a float.
@@ -13,9 +13,6 @@ void check_extent(const Params& params, Vec3 p);
 /// The mesh of Shape "trianglemesh" in its own space, with all that can be wrong with it checked;
 /// or of "bilinearmesh" (4 corners), of which each patch becomes two triangles.
 TriangleMesh read_triangle_mesh(Params& params, size_t corners = 3);
-
-/// Shape "cylinder", as a mesh of flat sides with the normals of the cylinder.
-TriangleMesh read_cylinder(Params& params);
 
 /// Adds the mesh, and turns each triangle so that its corners run counter-clockwise on the side
 /// that pbrt takes for its outside:

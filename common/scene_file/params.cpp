@@ -56,22 +56,6 @@ Rgb read_rgb(const Param& param, float low, float high) {
             static_cast<float>(param.numbers[2])};
 }
 
-Spectrum read_spectrum(const Param& param) {
-    const std::vector<double>& numbers = param.numbers;
-    if (!param.strings.empty() || numbers.size() % 2 != 0) {
-        fail(param.at, quote(param.name) + " needs pairs of a wavelength in nm and a value");
-    }
-    Spectrum spectrum;
-    for (size_t i = 0; i < numbers.size(); i += 2) {
-        if (i > 0 && numbers[i] <= numbers[i - 2]) {
-            fail(param.at, "wavelengths of " + quote(param.name) + " must be in ascending order");
-        }
-        check_range(param, numbers[i + 1], 0, infinity);
-        spectrum.push_back({numbers[i], numbers[i + 1]});
-    }
-    return spectrum;
-}
-
 Params::Params(Lexer& lexer, const Token& directive, SceneNotes& notes, bool has_type,
                const std::vector<Param>& defaults)
     : notes_(&notes), at_(lexer.at(directive)), type_at_(at_), directive_(directive.text) {
@@ -217,29 +201,28 @@ Rgb Params::illuminant(const std::string& name, Rgb fallback) {
         if (kelvin < 500 || kelvin > 1e6) fail(param->at, "blackbody needs 500 to 1e6 kelvin");
         return blackbody_rgb(kelvin);
     }
-    if (const Param* param = find("spectrum", name)) {
-        if (param->strings.size() != 1 || !param->numbers.empty()) {
-            Rgb L = light_rgb(read_spectrum(*param));
-            if (is_black(L)) fail(param->at, quote(name) + " has no visible light");
-            return L;
-        }
-        return named(*param, illuminants()).value_or(fallback);
-    }
+    if (const Param* param = find("spectrum", name)) named<Rgb>(*param, {});
     const Param* param = find_exactly("rgb", name, 3);
     if (!param) return fallback;
     return read_rgb(*param, 0, infinity);
 }
 
-std::optional<Rgb> Params::named(const Param& spectrum, const NamedColors& known) {
-    const std::string& name = spectrum.strings[0];
-    std::vector<std::string> names;
-    for (const auto& [word, color] : known) {
-        if (word == name) return color;
-        names.push_back(word);
+template <class Value>
+const Value* Params::named(const Param& spectrum, const std::map<std::string, Value>& known) {
+    if (spectrum.strings.size() != 1) {
+        stand_in(spectrum.at, "a spectrum as a list");
+        return nullptr;
     }
+    const std::string& name = spectrum.strings[0];
+    auto found = known.find(name);
+    if (found != known.end()) return &found->second;
+    std::vector<std::string> names;
+    for (const auto& [word, value] : known) names.push_back(word);
     stand_in(spectrum.at, "a spectrum of unknown name", unknown("spectrum", name, names));
-    return {};
+    return nullptr;
 }
+template const Rgb* Params::named(const Param&, const std::map<std::string, Rgb>&);
+template const Glass* Params::named(const Param&, const std::map<std::string, Glass>&);
 
 void Params::ignore(const std::string& type, const std::vector<std::string>& names) {
     for (const std::string& name : names) find(type, name);

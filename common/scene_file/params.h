@@ -14,9 +14,6 @@
 Rgb read_rgb(const Param& param, float low, float high);
 void check_range(const Param& param, double value, float low, float high);
 
-/// The spectrum that a parameter lists; throws for one that is not in order, or negative.
-Spectrum read_spectrum(const Param& param);
-
 /// The parameters of one directive. A directive asks for each that it knows; finish() then refuses
 /// those that nobody asked for. Of a parameter given twice the last one counts, with a note.
 ///
@@ -53,12 +50,12 @@ public:
     bool boolean(const std::string& name, bool fallback);
     std::string string(const std::string& name, const std::string& fallback);
     Vec3 point(const std::string& name, Vec3 fallback);
-    /// A color of components >= 0: `rgb`, or of luminance 1: `blackbody`, or a `spectrum` that is
-    /// listed or a standard illuminant.
+    /// A color of components >= 0: `rgb`, or of luminance 1: `blackbody`.
     Rgb illuminant(const std::string& name, Rgb fallback);
-    /// The color of the name that a spectrum is given as; nothing where it is unknown, which is
+    /// What a spectrum that is given by its name is; null where it is none of these, which is
     /// remembered.
-    std::optional<Rgb> named(const Param& spectrum, const NamedColors& known);
+    template <class Value>
+    const Value* named(const Param& spectrum, const std::map<std::string, Value>& known);
     /// The parameter of this type and name; null if not given.
     const Param* find(const std::string& type, const std::string& name);
     /// The parameter of this type and name; an error unless it has exactly `count` values.

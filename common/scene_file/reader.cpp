@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/numbers.h"
+#include "common/scene/origin.h"
 #include "common/scene_file/directives.h"
 
 namespace {
@@ -107,10 +108,10 @@ Scene Reader::read_scene(std::string text) {
         // What is missing may be in what could not be used.
         if (error_lines_.empty()) {
             Scene scene = directives_.finish();
-            scene.stand_ins = notes_.used();
-            scene.files_checksum = directives_.files().checksum();
-            scene.files = directives_.files().files_read();
-            scene.files.insert(main_file_);
+            Origin origin = {main_file_, directives_.files().files_read(),
+                             directives_.files().checksum(), notes_.used()};
+            origin.files.insert(main_file_);
+            scene.origin = std::make_shared<Origin>(std::move(origin));
             return scene;
         }
     } catch (const InputError& error) {

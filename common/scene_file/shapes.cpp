@@ -145,13 +145,12 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
         uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
         add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
     };
-    bool is_patches = params.type() == "bilinearmesh", is_cylinder = params.type() == "cylinder";
+    bool is_patches = params.type() == "bilinearmesh";
     bool is_control_mesh = params.type() == "loopsubdiv" && params.stands_in();
-    if (params.type() == "trianglemesh" || is_patches || is_cylinder || is_control_mesh) {
-        TriangleMesh mesh =
-            is_cylinder ? read_cylinder(params) : read_triangle_mesh(params, is_patches ? 4 : 3);
-        if ((is_patches || is_cylinder) && state.emission && state.emission->power > 0) {
-            params.stand_in(params.at(), "the power of a patch or cylinder");
+    if (params.type() == "trianglemesh" || is_patches || is_control_mesh) {
+        TriangleMesh mesh = read_triangle_mesh(params, is_patches ? 4 : 3);
+        if (is_patches && state.emission && state.emission->power > 0) {
+            params.stand_in(params.at(), "the power of a patch");
             if (params.may_stand_in()) {
                 ShapeState without = state;
                 without.emission->power = 0;
@@ -161,7 +160,6 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
         if (is_control_mesh) params.ignore_rest();
         params.finish();
         if (is_patches) notes.add(params.at(), "a bilinear patch is read as two triangles");
-        if (is_cylinder) notes.add(params.at(), "a cylinder is read as 256 triangles");
         add(mesh);
     } else if (params.type() == "plymesh") {
         const Param* name = params.find_exactly("string", "filename", 1);
@@ -180,7 +178,7 @@ void read_shape(Params& params, const ShapeState& state, const Limits& limits, N
     } else if (params.type() == "disk") {
         axes = add_disk(params, state, scene);
     } else {
-        params.fail_type({"bilinearmesh", "cylinder", "disk", "plymesh", "sphere", "trianglemesh"});
+        params.fail_type({"bilinearmesh", "disk", "plymesh", "sphere", "trianglemesh"});
     }
     params.finish();
     add_shape(params, state, g.triangles, triangles, false, axes, scene);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/scene/origin.h"
 #include "common/scene_file/messages.h"
 
 struct StandIn {

@@ -64,17 +64,10 @@ bool read_filter(Params& params, SceneNotes& notes) {
 }  // namespace
 
 std::optional<Rgb> read_reflectance(Params& params, const std::string& name) {
-    const Param* param = params.find_exactly("rgb", name, 3);
-    if (const Param* listed = params.find("spectrum", name)) {
-        if (listed->strings.size() == 1) {
-            return params.named(*listed, {});
-        }
-        Spectrum spectrum = read_spectrum(*listed);
-        for (const auto& [nm, value] : spectrum) check_range(*listed, value, 0, 1);
-        return reflectance_rgb(spectrum);
-    }
-    if (!param) return {};
-    return read_rgb(*param, 0, 1);
+    const Param* rgb = params.find_exactly("rgb", name, 3);
+    if (const Param* spectrum = params.find("spectrum", name)) params.named<Rgb>(*spectrum, {});
+    if (!rgb) return {};
+    return read_rgb(*rgb, 0, 1);
 }
 
 void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults) {
@@ -95,19 +88,12 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
         fail(lexer.at(name_token), "a second texture " + quote(name));
     }
     try {
-        if (is_float) floats_.insert({name, {params, {}}});
+        if (is_float) floats_.insert(name);
         if (!is_float) known_[name] = read_spectrum(params);
     } catch (const InputError&) {
         known_[name] = NamedTexture{};  // so that who names it is not wrong too
         throw;
     }
-}
-
-template <class Map>
-void TextureReader::fail_unknown_texture(const Param& param, const Map& known) {
-    std::vector<std::string> names;
-    for (const auto& [name, texture] : known) names.push_back(name);
-    fail_unknown(param.at, "texture", param.strings[0], names);
 }
 
 std::optional<NamedTexture> TextureReader::find(Params& params, const std::string& name) {
@@ -119,60 +105,9 @@ std::optional<NamedTexture> TextureReader::find(Params& params, const std::strin
         fail(param->at, "the texture " + quote(param->strings[0]) +
                             " is of type \"float\", and must be of type \"spectrum\"");
     }
-    fail_unknown_texture(*param, known_);
-}
-
-float TextureReader::number(Params& params, const std::string& name, float fallback, float high) {
-    const Param* texture = params.may_stand_in() ? params.find("texture", name) : nullptr;
-    if (!texture) return params.number(name, fallback, 0, high);
-    params.stand_in(texture->at, "a texture that is no reflectance");
-    return std::clamp(mean_input(params, name, fallback, true).r, 0.0f, high);
-}
-
-// What an input of a texture is on average.
-Rgb TextureReader::mean_input(Params& params, const std::string& name, float fallback,
-                              bool is_float) {
-    const Param* param = params.find("texture", name);
-    if (!is_float) {
-        if (param) return find(params, name)->mean;
-        return read_reflectance(params, name).value_or(Rgb{fallback, fallback, fallback});
-    }
-    float value = param ? fallback : params.number(name, fallback);
-    auto found = param ? floats_.find(param->strings.at(0)) : floats_.end();
-    if (param && found == floats_.end()) fail_unknown_texture(*param, floats_);
-    if (found != floats_.end()) {
-        FloatTexture& texture = found->second;
-        if (!texture.mean) {
-            texture.mean = fallback;  // of a texture that is made of itself
-            texture.mean = mean_of(texture.params, true).r;
-        }
-        value = *texture.mean;
-    }
-    return {value, value, value};
-}
-
-Rgb TextureReader::mean_of(Params& params, bool is_float) {
-    auto input = [&](const char* name, float fallback) {
-        return mean_input(params, name, fallback, is_float);
-    };
-    const std::string& kind = params.type();
-    if (kind == "constant") return input("value", 1);
-    if (kind == "scale") return input("tex", 1) * mean_input(params, "scale", 1, true);
-    if (kind == "checkerboard") return 0.5f * (input("tex1", 1) + input("tex2", 0));
-    if (kind == "dots") return input("outside", 0);
-    if (kind == "mix" || kind == "directionmix") {
-        Rgb share =
-            kind == "mix" ? mean_input(params, "amount", 0.5f, true) : Rgb{0.5f, 0.5f, 0.5f};
-        return (Rgb{1, 1, 1} - share) * input("tex1", 0) + share * input("tex2", 1);
-    }
-    if (kind == "bilerp") {
-        return 0.25f * (input("v00", 0) + input("v01", 1) + input("v10", 0) + input("v11", 1));
-    }
-    if (kind == "imagemap" && is_float) {
-        float mean = average(read_picture(params).mean);
-        return {mean, mean, mean};
-    }
-    return {0.5f, 0.5f, 0.5f};
+    std::vector<std::string> names;
+    for (const auto& [known, texture] : known_) names.push_back(known);
+    fail_unknown(param->at, "texture", param->strings[0], names);
 }
 
 NamedTexture TextureReader::read_spectrum(Params& params) {
@@ -192,7 +127,7 @@ NamedTexture TextureReader::read_spectrum(Params& params) {
         result.most = result.mean = texture.value;
     } else if (params.type() == "scale") {
         NamedTexture input = read_input(params, "tex", {1, 1, 1});
-        float scale = number(params, "scale", 1, 1e9f);
+        float scale = params.number("scale", 1, 0, 1e9f);
         texture.kind = Texture::Kind::product;
         texture.value = {scale, scale, scale};
         texture.inputs = {input.index, input.index};
@@ -220,7 +155,7 @@ NamedTexture TextureReader::read_spectrum(Params& params) {
         result.depth = 1 + std::max(a.depth, b.depth);
         if (!is_flat && params.may_stand_in()) result = constant(result.mean);
     } else if (params.stands_in()) {
-        result = constant(mean_of(params, false));
+        result = constant({0.5f, 0.5f, 0.5f});
     } else {
         params.fail_type({"checkerboard", "constant", "imagemap", "scale"});
     }

@@ -15,8 +15,7 @@ struct NamedTexture {
     int depth = 1;          // of textures that are made of textures
 };
 
-/// Reads textures and finds them by name. Those of type "float" are kept as they stand in the file:
-/// a stand-in for a material that names one asks for their mean.
+/// Reads textures and finds them by name. Of those of type "float" only the names are kept.
 class TextureReader {
 public:
     TextureReader(const Limits& limits, NamedFiles& files, SceneNotes& notes)
@@ -26,10 +25,6 @@ public:
     void read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults);
     /// The texture that a parameter "texture NAME" names; nothing where it is not given.
     std::optional<NamedTexture> find(Params& params, const std::string& name);
-    /// A number up to `high`, or the mean of the texture that a parameter "texture NAME" names, as
-    /// a stand-in.
-    float number(Params& params, const std::string& name, float fallback, float high);
-
     /// What the texture of this number is on average.
     Rgb mean(uint32_t texture) const { return means_[texture]; }
     Textures take() { return std::move(textures_); }
@@ -41,13 +36,9 @@ private:
     };
     NamedTexture read_spectrum(Params& params);
     NamedTexture read_input(Params& params, const std::string& name, Rgb fallback);
-    Rgb mean_input(Params& params, const std::string& name, float fallback, bool is_float);
-    Rgb mean_of(Params& params, bool is_float);
     NamedTexture read_picture(Params& params);
     uint32_t picture(Params& params, const Position& at, float gamma);
     void read_texels(const std::string& path, const Position& at, float gamma);
-    template <class Map>
-    [[noreturn]] void fail_unknown_texture(const Param& param, const Map& known);
     uint32_t add(const Position& at, const Texture& texture, Rgb mean);
 
     const Limits limits_;
@@ -55,12 +46,8 @@ private:
     SceneNotes& notes_;
     Textures textures_;
     std::vector<Rgb> means_;  // of each
-    struct FloatTexture {
-        Params params;
-        std::optional<float> mean;  // once it was asked for
-    };
     std::map<std::string, NamedTexture> known_;
-    std::map<std::string, FloatTexture> floats_;
+    std::set<std::string> floats_;
     std::map<std::pair<std::string, float>, Picture> pictures_;  // by canonical name and gamma
     uint64_t texels_ = 0;
 };

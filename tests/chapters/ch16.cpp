@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "chapters/16_lens_and_shutter/estimator.h"
+#include "common/geometry/transform.h"
+#include "common/scene/mover.h"
 #include "tests/support/estimators.h"
 
 namespace {

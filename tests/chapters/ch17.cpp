@@ -115,7 +115,8 @@ TEST_SUITE("ch17 sky image") {
         for (const auto& sky : skies)
             for (SkyImage::Map map : maps) {
                 CAPTURE(sky.name);
-                scene.sky_image = sky_of(map, map == SkyImage::Map::square ? 997 : 499, sky.L);
+                scene.sky_image = std::make_shared<SkyImage>(
+                    sky_of(map, map == SkyImage::Map::square ? 997 : 499, sky.L));
                 double E = irradiance_of(*scene.sky_image);
                 if (sky.E > 0) CHECK(E == doctest::Approx(sky.E).epsilon(1e-4).scale(0));
                 RunningStats s = irradiance(scene, by_seventeen(scene), 200000);

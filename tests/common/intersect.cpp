@@ -229,7 +229,7 @@ TEST_SUITE("intersect") {
             Ray leaves = spawn_ray(*x, dot(wi, x->ng) < 0 ? -wi : wi), unaware = leaves;
             unaware.from = PrimHit::none;
             for (const Ray& next : {leaves, unaware})
-                again += closest_hit(scene.bvh, scene.geometry, next).prim == x->prim;
+                again += closest_hit(*scene.bvh, scene.geometry, next).prim == x->prim;
         });
         CHECK(left > 2000);
         CHECK(again == 0);

@@ -1,4 +1,6 @@
 // The known scenes, and how their light is compared.
+#include <set>
+
 #include "tests/check/findings.h"
 #include "tests/support/scenes.h"
 

@@ -11,6 +11,7 @@
 #include "common/render/film_keeping.h"
 #include "common/render/results.h"
 #include "common/render/table.h"
+#include "common/scene/origin.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
@@ -21,8 +22,7 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 /// A scene of 10 x 10 pixels, with a depth limit of 7.
 Scene small_scene() {
     Scene scene = empty_scene(10, 10, 4);
-    scene.file = "a folder/b.pbrt";
-    scene.files_checksum = 0xabc;
+    scene.origin = std::make_shared<Origin>(Origin{"a folder/b.pbrt", {}, 0xabc, {}});
     scene.max_depth = 7;
     return scene;
 }

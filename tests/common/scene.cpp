@@ -4,6 +4,9 @@
 #include "common/light/light_table.h"
 #include "common/scene/coincident.h"
 #include "common/scene/diffuse_meshes.h"
+#include "common/scene/light_shape.h"
+#include "common/scene/mover.h"
+#include "common/scene/sky_image.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
 
@@ -131,7 +134,11 @@ TEST_SUITE("scene") {
             Scene scene;
             scene.lights = {point, sky, sky};
             scene.camera.o = {1, 2, 3};
-            if (has_image) scene.sky_image.emplace().pixels = {{1, 1, 1}};
+            if (has_image) {
+                SkyImage image;
+                image.pixels = {{1, 1, 1}};
+                scene.sky_image = std::make_shared<SkyImage>(image);
+            }
             prepare(scene, 1);
             const Rgb all = {2, 4, 6}, none;
             CHECK(scene.sky_light == 1);

@@ -9,6 +9,8 @@
 #include "common/material/metal.h"
 #include "common/picture/image.h"
 #include "common/scene/intersect.h"
+#include "common/scene/sky_image.h"
+#include "common/scene/texture.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
 #include "tests/support/scenes.h"
@@ -208,14 +210,6 @@ TEST_SUITE("textures") {
             CHECK(near(seen(ball, 3 * d, {}), rows.at(0, i)));
             CHECK(near(seen(disk, on_it + Vec3{0, 0, 1}, on_it), rows.at(0, i)));
         }
-    }
-
-    TEST_CASE("truth: the picture on a cylinder goes around it, from its lower end to its upper") {
-        Scene tube = Gallery().scene("Shape 'cylinder' 'float radius' 2");
-        CHECK(near(seen(tube, {-0.1f, 20, 0.5f}, {0, 0, 0.5f}), red));
-        CHECK(near(seen(tube, {-0.1f, -20, 0.5f}, {0, 0, 0.5f}), green));
-        CHECK(near(seen(tube, {-0.1f, 20, -0.5f}, {0, 0, -0.5f}), blue));
-        CHECK(near(seen(tube, {-0.1f, -20, -0.5f}, {0, 0, -0.5f}), white));
     }
 
     TEST_CASE("input: pictures of the sky: their maps, axes and scale, and what they may not be") {

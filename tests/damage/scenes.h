@@ -11,6 +11,9 @@
 #include "common/base/files.h"
 #include "common/path/sampler.h"
 #include "common/picture/png.h"
+#include "common/scene/mover.h"
+#include "common/scene/sky_image.h"
+#include "common/scene/texture.h"
 #include "common/scene_file/ply.h"
 #include "common/scene_file/ply_bytes.h"
 #include "common/scene_file/reader.h"
@@ -213,9 +216,9 @@ inline void check_scene(const Scene& scene) {
     for (const Material& m : scene.materials) {
         require(is_finite(m.reflectance) && max_component(m.reflectance) <= 1, "reflectance");
         require(is_finite(m.eta) && is_finite(m.k) && m.ior > 0 && m.alpha >= 0, "metal");
-        require(m.texture <= scene.textures.all.size(), "texture");
+        require(m.texture <= (scene.textures ? scene.textures->all.size() : 0), "texture");
         for (Vec2 uv : {Vec2{0.3f, 0.8f}, Vec2{-1e9f, 1e9f}})
-            require(m.texture == 0 || is_light(value_at(scene.textures, m.texture - 1u, uv)),
+            require(m.texture == 0 || is_light(value_at(*scene.textures, m.texture - 1u, uv)),
                     "value of a texture");
     }
 }

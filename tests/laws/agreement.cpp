@@ -2,6 +2,8 @@
 #include <cstdio>
 
 #include "common/render/loading.h"
+#include "common/scene/origin.h"
+#include "common/scene/sky_image.h"
 #include "tests/laws/laws.h"
 #include "tests/support/light_paths.h"
 
@@ -37,7 +39,7 @@ Scene under(const SkyImage& sky, bool with_lamp, int size = 32) {
     Scene scene =
         world_of(floor_and_balls + (with_lamp ? small_lamp : "LightSource \"infinite\""), size);
     if (!with_lamp) scene.lights.clear(), scene.sky = {}, scene.sky_light = -1;
-    scene.sky_image = sky;
+    scene.sky_image = std::make_shared<SkyImage>(sky);
     scene.camera.o = {0, 0.5f, -4};
     scene.max_depth = 5;
     return scene;
@@ -130,7 +132,7 @@ TEST_SUITE("law: agreement") {
             change(scenes.back(), how);
         }
         for (const Scene& scene : scenes) {
-            CAPTURE(scene.file);
+            CAPTURE(scene.origin->file);
             Measured a = brightness(scene, methods_named({"21"})[0], 4096);
             Measured b = brightness(scene, methods_named({"22-weights"})[0], 4096);
             CHECK(a.mean == doctest::Approx(b.mean).epsilon(1e-4).scale(0));
@@ -163,7 +165,8 @@ TEST_SUITE("law: agreement") {
         for (Rgb& L : sum.pixels) L += Rgb{1, 2, 3};
         Scene a = under(sum, false),
               b = world_of(floor_and_balls + "LightSource \"infinite\" \"rgb L\" [1 2 3]");
-        b.sky_image = image, b.camera = a.camera, b.max_depth = a.max_depth;
+        b.sky_image = std::make_shared<SkyImage>(image), b.camera = a.camera,
+        b.max_depth = a.max_depth;
         prepare(b, 1);
         CHECK(is_black(b.sky));
         check_same_light(a, {b}, 8192);

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "common/base/error.h"
+#include "common/scene/origin.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 
@@ -176,7 +177,7 @@ int main(int argc, char** argv) {
         for (const std::string& word : o.words) {
             try {
                 Scene scene = load_scene_for(find_scene(word), o);
-                std::string name = scene_name(scene.file);
+                std::string name = scene_name(scene.origin->file);
                 std::vector<Column> columns;  // of the methods that can render it
                 for (size_t m = 0; m < methods.size(); m++) {
                     work.next(name + ", " + methods[m].name);

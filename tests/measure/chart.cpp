@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/picture/comparison.h"
+#include "common/scene/origin.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 
@@ -27,7 +28,7 @@ struct Truth {
     double rmse = 0;  // expected of it
 };
 Truth truth_of(const Scene& scene) {
-    std::string name = file_name(scene_name(scene.file));
+    std::string name = file_name(scene_name(scene.origin->file));
     auto references = read_references();
     const Reference& reference = references[name];
     Image image = read_image(reference_folder + name + ".pfm");

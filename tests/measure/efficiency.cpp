@@ -1,6 +1,7 @@
 // Chapter against chapter: variance at equal samples, time, and both in one number.
 #include <cstdio>
 
+#include "common/scene/origin.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 
@@ -60,7 +61,8 @@ std::vector<Contender> contenders_on(const std::string& path,
 Image run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& work) {
     for (Contender& c : contenders) c.images.clear(), c.seconds.clear();
     for (int run = 0; run < o.runs; run++) {
-        work.next(contenders[0].scene.file + ", render " + std::to_string(run + 1) + " of each");
+        work.next(contenders[0].scene.origin->file + ", render " + std::to_string(run + 1) +
+                  " of each");
         for (Contender& c : contenders) {
             Rendering r = render_once(*c.method, c.scene, o, c.spp, static_cast<uint32_t>(run));
             c.images.push_back(r.film.image());
@@ -71,7 +73,7 @@ Image run(std::vector<Contender>& contenders, const MeasureOptions& o, Work& wor
     Contender& best =
         *std::min_element(contenders.begin(), contenders.end(),
                           [&](const auto& a, const auto& b) { return noise(a) < noise(b); });
-    work.next(best.scene.file + ", the long render that all are compared with");
+    work.next(best.scene.origin->file + ", the long render that all are compared with");
     return render_once(*best.method, best.scene, o, 8 * best.spp, static_cast<uint32_t>(o.runs))
         .film.image();
 }

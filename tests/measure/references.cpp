@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
+#include "common/scene/origin.h"
 #include "tests/measure/measure.h"
 #include "tests/support/work.h"
 
@@ -55,7 +56,7 @@ int main(int argc, char** argv) {
         for (const std::string& word : o.words) {
             work.next(word);
             Scene scene = load_scene_for(find_scene(word), o);
-            std::string name = file_name(scene_name(scene.file));
+            std::string name = file_name(scene_name(scene.origin->file));
             Reference& reference = references[name];
             if (!o.methods.empty()) reference.method = o.methods[0];
             NamedMethod method = methods_named({reference.method}).at(0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "common/scene/origin.h"
 
 static std::vector<NamedMethod>& table() {
     static std::vector<NamedMethod> methods;
@@ -54,7 +55,7 @@ void refuse(const NamedMethod& method, const Scene& scene) {
     // What mirrors and glass show the camera is missing.
     for (const Shape& shape : scene.shapes)
         if (is_specular(scene.materials[shape.material]))
-            throw InputError("error: " + scene.file + " has mirrors or glass");
+            throw InputError("error: " + scene.origin->file + " has mirrors or glass");
 }
 
 bool can_render(const NamedMethod& method, const Scene& scene) {

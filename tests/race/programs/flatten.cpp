@@ -4,6 +4,8 @@
 
 #include "common/base/error.h"
 #include "common/render/command_line.h"
+#include "common/scene/mover.h"
+#include "common/scene/origin.h"
 #include "common/scene_file/reader.h"
 
 namespace {
@@ -29,10 +31,10 @@ void print(const char* name, const std::vector<T>& all, const Text& text_of) {
 /// Throws InputError for the first thing that no script translates.
 void refuse_more_than_is_told(const Scene& scene) {
     auto refuse = [&](bool found, const char* what) {
-        if (found) throw InputError(scene.file + ": not translated: " + what);
+        if (found) throw InputError(scene.origin->file + ": not translated: " + what);
     };
-    refuse(!scene.textures.all.empty(), "a texture");
-    refuse(scene.sky_image.has_value(), "the image of a sky");
+    refuse(scene.textures != nullptr, "a texture");
+    refuse(scene.sky_image != nullptr, "the image of a sky");
     refuse(!scene.movers.empty(), "a shape that moves");
     refuse(scene.camera.frame_aspect || scene.camera.screen_window, "a frame of the camera");
     refuse(!scene.geometry.disks.empty(), "a disk");
