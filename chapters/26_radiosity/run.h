@@ -105,8 +105,8 @@ inline void report(const Patches& patches, const Matrix& G, const Solution& s, c
                 std::abs(b.error()));
 }
 
-/// The share of the light that lamps send to patches wider than their distance from the lamp: there
-/// the light of a patch is not even.
+/// The share of the light that lamps send to patches larger than they are, and wider than their
+/// distance from the lamp: there the light of a patch is not even.
 /// tested by  "failure: patches wider than their distance to a light: too bright, and a warning"
 inline double share_on_wide_patches(const std::vector<Patch>& patch, const Matrix& G) {
     double wide = 0, all = 0;
@@ -115,7 +115,8 @@ inline double share_on_wide_patches(const std::vector<Patch>& patch, const Matri
             double power = double{G[i][j]} * double{average(patch[i].E)};
             Vec3 d = patch[j].centre - patch[i].centre;
             all += power;
-            if (longest_edge2(patch[j].p) > length_squared(d)) wide += power;
+            bool is_larger = patch[j].area > 4 * patch[i].area;
+            if (is_larger && longest_edge2(patch[j].p) > length_squared(d)) wide += power;
         }
     }
     return all > 0 ? wide / all : 0;
