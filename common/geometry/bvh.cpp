@@ -86,7 +86,7 @@ struct Corners {
 
 Floats min3(const Floats (&a)[3]) { return min(min(a[0], a[1]), a[2]); }
 Floats max3(const Floats (&a)[3]) { return max(max(a[0], a[1]), a[2]); }
-Floats farthest(const Floats (&a)[3]) { return max_abs(max_abs(a[0], a[1]), a[2]); }
+Floats farthest(const Floats (&a)[3]) { return max(max(abs(a[0]), abs(a[1])), abs(a[2])); }
 
 /// How far z_t = sum of e_i z_i may be off, where the ray is inside of the triangle.
 ///
@@ -100,8 +100,8 @@ Floats farthest(const Floats (&a)[3]) { return max_abs(max_abs(a[0], a[1]), a[2]
 ///
 /// tested by  "truth: every hit as in double precision"
 [[gnu::always_inline]] inline Floats error_of(const Corners& c) {
-    Floats m = max_abs(farthest(c.x), farthest(c.y)), low = min3(c.z), high = max3(c.z);
-    return splat(32 * 0x1p-24f) * (m + max_abs(low, high)) * m * (high - low);
+    Floats m = max(farthest(c.x), farthest(c.y)), low = min3(c.z), high = max3(c.z);
+    return splat(32 * 0x1p-24f) * (m + max(abs(low), abs(high))) * m * (high - low);
 }
 
 /// intersect_triangle() on a whole block: the edges of all triangles at once, with the same bits.

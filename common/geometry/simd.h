@@ -43,8 +43,6 @@ inline void store(Ints a, uint32_t* p) { std::memcpy(p, &a, sizeof a); }
 inline Floats min(Floats a, Floats b) { return a < b ? a : b; }
 inline Floats max(Floats a, Floats b) { return a > b ? a : b; }
 inline Floats abs(Floats a) { return std::bit_cast<Floats>(std::bit_cast<Ints>(a) & 0x7fffffff); }
-/// The larger of |a| and |b|.
-inline Floats max_abs(Floats a, Floats b) { return max(abs(a), abs(b)); }
 
 // What no operator does, or not as fast:
 //   multiply_subtract        a b - c, with one rounding where the processor has that
