@@ -143,7 +143,8 @@ private:
     std::pair<uint32_t, uint32_t> samples(size_t pixel, int half) const {
         uint32_t done = result_.film.half(half)[pixel].n;
         if (halves() == 1) return {first_ + done, end_};
-        return {from_[half](pixel) + done, to_[half](pixel)};
+        size_t of = static_cast<size_t>(half);
+        return {from_[of](pixel) + done, to_[of](pixel)};
     }
 
     [[gnu::always_inline]] Sample trace(const Place& at, int half, Tools& with) {

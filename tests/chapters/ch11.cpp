@@ -34,7 +34,7 @@ Method trace_11(const Scene& scene) { return method_of<ch11::trace>(ch11::prepar
 TEST_SUITE("ch11 light table") {
     TEST_CASE("identity: over all 2^24 random numbers each light gets its share") {
         Sampler random = random_numbers(2);
-        for (size_t N : {100, 1000000}) {
+        for (size_t N : {100u, 1000000u}) {
             CAPTURE(N);
             std::vector<double> pmf(N), share(N);
             for (double& p : pmf) p = std::pow(1e-8, double{random.u1()});

@@ -76,7 +76,7 @@ TEST_SUITE("ch18 dispersion") {
             ch18::Wavelength light = {static_cast<float>(micrometres), {}};
             Material materials[2];
             Hit x;
-            for (size_t i : {0, 1}) {
+            for (size_t i : {0u, 1u}) {
                 materials[i].glass = &glasses().at(i == 0 ? "glass-F11" : "glass-BK7");
                 x.material = &materials[i];
                 ch18::set_index(x, light);
