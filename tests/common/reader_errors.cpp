@@ -2,10 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
-#include <map>
 
 #include "common/base/files.h"
-#include "common/geometry/bvh_build.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
 #include "tests/support/malformed.h"
@@ -105,17 +103,6 @@ TEST_SUITE("reader: malformed input") {
         CHECK(refuse(scene) == "");
     }
 
-    TEST_CASE("input: after twenty different errors the rest is not read") {
-        std::string text;
-        for (size_t i = 0; i < 50; i++) text += "Nothing" + std::string(1 + i % 26, 'x') + "\n";
-        std::string said = refuse(text);
-        CHECK(std::count(said.begin(), said.end(), '\n') == 20);
-        CHECK(said.ends_with("\nscene.pbrt: error: so much is wrong that the rest is not read"));
-        // The same one counts once.
-        CHECK(refuse(repeated("Textur\n", 50) + "Shap").find("\nscene.pbrt:51:1: error: ") !=
-              std::string::npos);
-    }
-
     TEST_CASE("files: errors name the included file, and files that include each other end") {
         TemporaryFolder folder;
         std::string a = write(folder, "a.pbrt", "Include \"sub/b.pbrt\"");
@@ -148,45 +135,24 @@ TEST_SUITE("reader: malformed input") {
         struct {
             std::string text, inside, outside;  // @: the number
         } cases[] = {
-            {view + "'float fov' @ WorldBegin ", ".001", ".0009"},
-            {view + "'float fov' @ WorldBegin ", "179.999", "179.9995"},
-            {view + "'float frameaspectratio' @ WorldBegin ", "1e-4", ".9e-4"},
-            {view + "'float frameaspectratio' @ WorldBegin ", "1e4", "1.1e4"},
             {view + "'float screenwindow' [0 1 0 @] WorldBegin ", "1.8e-5", "1.7e-5"},
             {view + "'float screenwindow' [0 @ 0 1] WorldBegin ", "1e4", "10001"},
             {view + "'float screenwindow' [@ 1 0 1] WorldBegin ", "-1e4", "-10001"},
-            {view + "'float lensradius' @ WorldBegin ", "1e6", "1.1e6"},
-            {view + "'float lensradius' @ WorldBegin ", "0", "-1"},
-            {view + "'float lensradius' 1 'float focaldistance' @ WorldBegin ", "1e-6", ".9e-6"},
-            {view + "'float lensradius' 1 'float focaldistance' @ WorldBegin ", "1e9", "1.1e9"},
             {view + "'float shutterclose' @ WorldBegin ", ".01", "0"},
             {"Translate @ 0 0 " + end, "1e9", "1.1e9"},
             {"Scale @ @ @ " + end, "9e5", "1.1e6"},
             {"Scale @ @ @ " + end, "1.1e-6", ".9e-6"},
             {"Film 'rgb' 'integer xresolution' @ " + end, "65536", "65537"},
-            {"Film 'rgb' 'integer yresolution' @ " + end, "65536", "65537"},
-            {"Film 'rgb' 'integer yresolution' @ " + end, "1", "0"},
             {"Film 'rgb' 'integer xresolution' 16384 'integer yresolution' @ " + end, "16384",
              "16385"},
-            {"Film 'rgb' 'float iso' @ " + end, "9e16", "1.1e17"},
-            {"Film 'rgb' 'float iso' @ " + end, "1e-30", ".9e-30"},
             {"Sampler 'sobol' 'integer pixelsamples' @ " + end, "16777216", "16777217"},
-            {"Sampler 'stratified' 'integer xsamples' @ " + end, "4096", "4097"},
-            {"Sampler 'stratified' 'integer ysamples' @ " + end, "4096", "4097"},
-            {"Sampler 'stratified' 'integer xsamples' @ " + end, "1", "0"},
-            {"Sampler 'stratified' 'integer ysamples' @ " + end, "1", "0"},
             {"Integrator 'path' 'integer maxdepth' @ " + end, "1073741824", "1073741825"},
             {lit + "'point3 from' [0 0 @]", "1e9", "1.1e9"},
             {lit + "'float scale' @", "9e14", "1.1e15"},
             {lit + "'blackbody I' @", "500", "499"},
-            {lit + "'blackbody I' @", "1e6", "1.1e6"},
-            {"AreaLightSource 'diffuse' 'float scale' @ " + ball, "9e14", "1.1e15"},
             {"Material 'diffuse' 'rgb reflectance' [0 0 @]", "1", "1.1"},
-            {"Material 'diffuse' 'spectrum reflectance' [400 0 500 @]", "1", "1.1"},
             {metal + "'float roughness' @", "100", "101"},
-            {metal + "'rgb eta' [1 @ 1]", "1e4", "1.1e4"},
             {metal + "'spectrum k' [300 @ 900 @]", "9.9e3", "1.1e4"},
-            {glass + "'float eta' @", "1e-4", ".9e-4"},
             {glass + "'float eta' @", "1e4", "1.1e4"},
             {glass + "'bool remaproughness' false 'float roughness' @", ".0009", ".0011"},
             {ball + "'float radius' @", "1.1e-19", "1e-19"},
@@ -196,15 +162,12 @@ TEST_SUITE("reader: malformed input") {
             {"Scale @ @ @ " + ball, "1.1e-19", "1.07e-19"},
             {"Scale 1 1 @ " + ball, "1.0009", "1.0011"},
             {"Scale 1 @ 1 " + ball, "1.0009", "1.0011"},
-            {"Scale 1 @ 9 Shape 'disk'", "1.0009", "1.0011"},
             {"ConcatTransform [1 0 0 0 @ 1 0 0 0 0 1 0 0 0 0 1]" + ball, ".0009", ".0011"},
             {mesh + "[0 0 0 1 0 0 0 @ 0]", "1e9", "1.1e9"},
             {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [0 1 @]", "2", "3"},
             {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [@ 1 2]", "0", "-1"},
             // A shape is whole where pbrt clamps its limits to the whole.
-            {ball + "'float zmin' @", "-2", "-.99"},
             {ball + "'float zmin' @", "-1", "2"},
-            {ball + "'float zmax' @", "7", ".5"},
             {ball + "'float zmax' @", "1", "-2"},
             {ball + "'float zmax' -1 'float zmin' @", "1", ".5"},
             {ball + "'float zmin' 3 'float zmax' @", "-3", "5"},
@@ -214,12 +177,8 @@ TEST_SUITE("reader: malformed input") {
             {"Shape 'cylinder' 'float phimax' @", ".001", ".0009"},
             {"Texture 't' 'spectrum' 'scale' 'float scale' @", "1e9", "1.1e9"},
             {board + "'float uscale' @", "1e9", "1.1e9"},
-            {board + "'float vdelta' @", "-1e9", "-1.1e9"},
-            {board + "'integer dimension' @", "2", "1"},
             {"Scale @ 1 1 " + lit, "9e29", "1.1e30"},
             {"Scale 1e-20 1e-20 @ " + lit, "1.1e-20", ".9e-20"},
-            {"Transform [1 0 0 @ 0 1 0 0 0 0 1 0 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
-            {"Transform [1 0 0 0 0 1 0 @ 0 0 1 0 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
             {"Transform [1 0 0 0 0 1 0 0 0 0 1 @ 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
             {"Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 @] " + lit, "1.0000009", "1.0000011"},
         };
@@ -256,18 +215,15 @@ TEST_SUITE("reader: malformed input") {
         placed.directives = 20;
         const std::string instance = "ObjectInstance \"a\"\n",
                           object = "ObjectBegin \"a\"\n" + repeated(sphere, 5) + "ObjectEnd\n";
-        const std::string many = named("Shape \"sphere\"", 100),
-                          attributes = named("Attribute \"light\"", 100);
+        const std::string many = named("Shape \"sphere\"", 100);
         struct {
             Limits limits;
             std::string begin, one_more, place, message;
         } cases[] = {
             {primitives, sphere + sphere + disk, sphere, "5:1", "3 triangles, spheres and disks"},
             {primitives, sphere + triangles, sphere, "4:1", "3 triangles, spheres and disks"},
-            {primitives, sphere, triangles + triangles, "4:1", "3 triangles, spheres and disks"},
             {primitives, sphere + moves + sphere + disk, sphere, "6:1", "spheres and disks"},
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
-            {vertices, triangle, moves + triangle, "4:1", "more than 3 vertices"},
             {vertices, sphere, "ObjectBegin \"a\"\n" + triangles + triangles, "5:1",
              "objects of more than 24 numbers"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
@@ -275,11 +231,6 @@ TEST_SUITE("reader: malformed input") {
              "more than 20 shapes of objects are placed"},
             {{}, sphere, repeated("AttributeBegin ", 1001), "3:15001", "more than 1000 deep"},
             {{}, sphere, many + " \"float x\" 1", "3:1406", "has more than 100 parameters"},
-            {{},
-             sphere + attributes + '\n',
-             "Attribute \"light\" \"float x\" 1",
-             "4:19",
-             "more than 100 attributes of \"light\""},
             {{},
              moves + repeated(sphere, 1000),
              sphere,
@@ -317,21 +268,6 @@ TEST_SUITE("reader: malformed input") {
         // Too many are refused where they are.
         CHECK(refuse(often + with_mesh, limits, beside)
                   .starts_with(place + ":102:1: error: the scene has more than 100"));
-    }
-
-    TEST_CASE("truth: reading and building tell what they are at, and how far") {
-        std::string text = world + repeated("Translate 0 0 1 Shape \"sphere\"\n", 150'000);
-        std::map<std::string, std::vector<double>> told;
-        auto report = [&](const std::string& what, double share) { told[what].push_back(share); };
-        build_bvh(parse_scene("a.pbrt", text, nullptr, report).geometry, 1, report);
-        REQUIRE(told.size() == 2);
-        for (const auto& [what, shares] : told) {
-            bool reads = what == "reading a.pbrt";
-            CHECK(shares.size() >= (reads ? 4 : 9));  // each MiB of 4.6, each 16384 references
-            CHECK(std::is_sorted(shares.begin(), shares.end()));
-            CHECK(shares.back() > 0.7);
-            CHECK(shares.back() <= 1);
-        }
     }
 
     TEST_CASE("input: a program prints notes and all errors of a scene, and with --quiet errors") {

@@ -210,14 +210,6 @@ TEST_SUITE("textures") {
         }
     }
 
-    TEST_CASE("truth: the picture on a cylinder goes around it, from its lower end to its upper") {
-        Scene tube = Gallery().scene("Shape 'cylinder' 'float radius' 2");
-        CHECK(near(seen(tube, {-0.1f, 20, 0.5f}, {0, 0, 0.5f}), red));
-        CHECK(near(seen(tube, {-0.1f, -20, 0.5f}, {0, 0, 0.5f}), green));
-        CHECK(near(seen(tube, {-0.1f, 20, -0.5f}, {0, 0, -0.5f}), blue));
-        CHECK(near(seen(tube, {-0.1f, -20, -0.5f}, {0, 0, -0.5f}), white));
-    }
-
     TEST_CASE("input: pictures of the sky: their maps, axes and scale, and what they may not be") {
         TemporaryFolder folder;
         auto read = [&](int width, int height, Rgb L, const std::string& before) {
