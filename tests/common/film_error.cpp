@@ -180,25 +180,6 @@ TEST_SUITE("film error") {
         CHECK(film.standard_error() == about(expected()));
     }
 
-    TEST_CASE("truth: samples of a pass that depend on each other add to the error of the pixels") {
-        // All pixels of a pass are equally bright, and the four passes of a pixel are 0, 1, 2, 3 in
-        // any order. Independent samples of other pixels: no more than the pixels' own variance.
-        for (bool together : {true, false}) {
-            Film film(4, 1);
-            film.start_batches();
-            for (uint32_t pass = 0; pass < 4; pass++) {
-                PixelSum sum;
-                for (uint32_t i = 0; i < 4; i++) {
-                    Rgb L = grey(together ? pass : (pass + i) % 4);
-                    film.add(i, L), sum.add(L);
-                }
-                film.add_to_batch(pass, sum);
-            }
-            // Each pixel: s^2 = 5/3, of its mean 5/12. Mean of 4 pixels: 5/12 together, else 5/48.
-            CHECK(film.standard_error() == about(std::sqrt(together ? 5.0 / 12 : 5.0 / 48)));
-        }
-    }
-
     TEST_CASE("brute: a comparison's numbers counted in another way") {
         const int width = 37, height = 21;
         Image a = random_image(width, height, 3), b = random_image(width, height, 4);

@@ -60,9 +60,6 @@ TEST_SUITE("comparison") {
         c.beyond_5 = 0;
         a.standard_error = std::sqrt(33.0) * 0.001, b.standard_error = 0.001;
         says(0.01, "B has 97 % less squared error, worth 33 times as many samples");
-        std::swap(a, b);
-        says(0.01, "; A has 97 % less");
-        std::swap(a, b);
         b.standard_error = 1.04 * a.standard_error;
         says(0.01, "; both have the same error");
         // What lies beyond 1 is cut off in 8 bits: then noise alone can make a picture darker.
@@ -73,10 +70,6 @@ TEST_SUITE("comparison") {
         b.file = "b.pfm";
         a.notes.push_back({"checksum", "1"}), b.notes.push_back({"checksum", "2"});
         says(0.001, "the pictures show different scenes");
-        b.notes.back().second = "1", a.notes.push_back({"stand-ins", "Shape \"curve\" as nothing"});
-        says(0.001, "the pictures show different scenes");
-        CHECK(doubts(a, b).at(0).find(" has stand-ins: Shape \"curve\" as nothing") !=
-              std::string::npos);
         b.notes = a.notes;
         c.mse = 0;
         says(0.01, "the same picture");
@@ -123,31 +116,9 @@ TEST_SUITE("comparison") {
         JsonObject json;
         json.add("notes", lines_of(notes));
         CHECK(notes_in(StatsFile(json.text()).texts("notes")) == notes);
-        for (const char* none : {"{\"notes\": []}", "{}"})
-            CHECK(StatsFile(none).texts("notes").empty());
         StatsFile stats("{\n \"mean\": 1.5e-3, \"none\": null}");
         CHECK(stats.number("mean") == 1.5e-3);
         CHECK(!stats.number("none"));
-    }
-
-    TEST_CASE("truth: what a film is of, as notes") {
-        FilmLabel label;
-        label.options = {{"chapter", "15_mis_ris"}, {"code", "89"}, {"scene", "a.pbrt"},
-                         {"checksum", "0123"},      {"strata", ""}, {"paths", ""}};
-        const std::string options = "chapter 15_mis_ris|scene a.pbrt|checksum 0123|";
-        auto notes = [&](double spp) {
-            std::string text;
-            for (const std::string& line : lines_of(notes_of(label, spp))) text += line + '|';
-            return text;
-        };
-        label.samples = {{7, 0, 16}};
-        CHECK(notes(16) == options + "spp 16|seed 7|");
-        label.samples = {{7, 4, 8}};
-        CHECK(notes(4) == options + "spp 4|samples 4 to 7 of seed 7|");
-        label.samples.push_back({8, 0, 3});
-        label.options[4].second = "16";
-        CHECK(notes(7) ==
-              options + "strata 16|spp 7|samples 4 to 7 of seed 7|samples 0 to 2 of seed 8|");
     }
 
     TEST_CASE("truth: what speaks against a comparison is told, and nothing else") {
@@ -170,13 +141,9 @@ TEST_SUITE("comparison") {
         CHECK(told("seed", "1") == "");
         CHECK(told("checksum", "2") == "warning: A and B show different ");
         CHECK(told("max-depth", "9") == "warning: A has light of up to 5 ");
-        CHECK(told("paths", "LDE") == "warning: A has light of all path");
         CHECK(told("spp", "64") == "warning: A and B have samples in");
         PictureFacts b = a;
-        b.notes = with(with(b.notes, "checksum", "2"), "scene", "b.pbrt");
-        CHECK(doubts(a, b) ==
-              std::vector<std::string>{"warning: A shows \"a.pbrt\", B \"b.pbrt\""});
-        b = a, b.file = "b.png";
+        b.file = "b.png";
         CHECK(doubts(a, b).at(0).starts_with("warning: b.png has 8 bits"));
         b = a, b.notes.clear();
         CHECK(doubts(a, b).at(0).starts_with("note: whether both show the same scene is not"));
@@ -216,24 +183,8 @@ TEST_SUITE("comparison") {
     TEST_CASE("input: pictures that cannot be compared") {
         Image bad = grey(4, 4, 1);
         bad.at(1, 2).g = NAN;
-        CHECK_THROWS_WITH_AS(check_comparable(grey(4, 4, 1), "a", grey(4, 5, 1), "b"),
-                             "b: error: has 4x5 pixels, but a has 4x4", InputError);
-        CHECK_THROWS_WITH_AS(check_comparable(grey(4, 4, 1), "a", bad, "b"),
-                             "b: error: pixel 1,2 is not finite", InputError);
-    }
-
-    TEST_CASE("identity: the error picture is black where equal, white from the range on") {
-        Image b = grey(10, 10, 0), a = b;
-        a.at(0, 0) = {0.01f, 0.01f, 0.01f};  // relative to sqrt(0.01): 0.1
-        a.at(1, 0) = {5, 5, 5};
-        Image e = error_image(a, b, 0.1);
-        CHECK(e.at(2, 0) == Rgb{0, 0, 0});
-        CHECK(e.at(0, 0).b == nearly(1, 1e-3));
-        CHECK(e.at(1, 0) == Rgb{1, 1, 1});
-        CHECK(error_range(a, b) == nearly(0.1, 1e-5));  // of 100, 1 above
-        for (double x = 0; x < 1; x += 0.01) {          // ever brighter
-            CHECK(average(false_colour(x + 0.01)) > average(false_colour(x)));
-        }
+        for (const Image& other : {grey(4, 5, 1), bad})
+            CHECK_THROWS_AS(check_comparable(grey(4, 4, 1), "a", other, "b"), InputError);
     }
 
     TEST_CASE("truth: relMSE from the spread of renders") {

@@ -65,21 +65,4 @@ TEST_SUITE("outputs") {
         }
         CHECK(read_image(out).width == 16);
     }
-
-    TEST_CASE("files: compare and merge do not overwrite what they read") {
-        TemporaryFolder folder;
-        for (const char* name : {"a.pfm", "b.pfm", "b.err.pfm"})
-            write_image(folder / name, Image(4, 4), "");
-        for (const char* out : {"a.pfm", "./b.pfm", "b.err.pfm"}) {
-            std::string before = read_file(folder / out);
-            Finished end =
-                run("compare", {folder / "a.pfm", folder / "b.pfm", "--out", folder / out});
-            CHECK(end.code == 2);
-            CHECK(end.err.ends_with(overwritten));
-            CHECK(read_file(folder / out) == before);
-        }
-        Finished end = run("merge", {folder / "a.film", folder / "b.film", folder / "./a.film"});
-        CHECK(end.code == 2);
-        CHECK(end.err.ends_with(overwritten));
-    }
 }

@@ -1,8 +1,9 @@
-// PLY meshes: what is refused. (How they are read: see tests/damage/readers.cpp.)
+// PLY meshes: what is read, and what is refused.
 #include "common/scene_file/ply.h"
 
 #include <doctest/doctest.h>
 
+#include "common/scene_file/ply_bytes.h"
 #include "tests/support/folder.h"
 #include "tests/support/malformed.h"
 
@@ -59,6 +60,44 @@ TEST_SUITE("ply") {
             CHECK(refuse(square.substr(0, length)) != "");
         }
         CHECK(refuse(square.substr(0, square.size() - 1)) == "");
+    }
+
+    TEST_CASE("identity: PLY of any format and types is read as it was written") {
+        const std::string formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+        for (PlyFormat format : {PlyFormat::ascii, PlyFormat::little, PlyFormat::big})
+            for (const PlyScalar& type : ply_scalars)
+                for (const PlyScalar& index : ply_scalars) {
+                    if (index.is_float) continue;
+                    std::string bytes = "ply\nformat " + formats[static_cast<int>(format)] +
+                                        " 1.0\nelement camera 1\nproperty list ";
+                    auto put = [&](const PlyScalar& as, double value) {
+                        if (format == PlyFormat::ascii) bytes += std::to_string(int(value)) + ' ';
+                        uint64_t bits =
+                            !as.is_float   ? static_cast<uint64_t>(static_cast<int64_t>(value))
+                            : as.size == 8 ? std::bit_cast<uint64_t>(value)
+                                           : std::bit_cast<uint32_t>(static_cast<float>(value));
+                        for (size_t i = 0; format != PlyFormat::ascii && i < as.size; i++) {
+                            size_t byte = format == PlyFormat::little ? i : as.size - 1 - i;
+                            bytes += static_cast<char>(bits >> (8 * byte) & 255);
+                        }
+                    };
+                    const std::string name = type.name, other = index.other_name;
+                    bytes += other + ' ' + name + " values\nelement vertex 3\nproperty " + name +
+                             " x\nproperty " + other + " y\nproperty " + type.other_name +
+                             " z\nelement face 1\nproperty list " + index.name + ' ' + other +
+                             " vertex_indices\nend_header\n";
+                    put(index, 2), put(type, 7), put(type, 8);
+                    float sign = type.is_signed ? -1 : 1;
+                    for (double k : {1, 2, 3})
+                        put(type, sign * k), put(index, 10 * k), put(type, 40 * k);
+                    for (int value : {3, 2, 0, 1}) put(index, value);
+                    CAPTURE(bytes);
+                    TriangleMesh mesh = parse_ply("mesh.ply", bytes);
+                    CHECK(mesh.positions == std::vector<Vec3>{{sign, 10, 40},
+                                                              {2 * sign, 20, 80},
+                                                              {3 * sign, 30, 120}});
+                    CHECK(mesh.indices == std::vector<uint32_t>{2, 0, 1});
+                }
     }
 
     TEST_CASE("input: a mesh beyond the limits is refused before there is memory for it") {

@@ -95,13 +95,6 @@ TEST_SUITE("programs") {
             }
     }
 
-    TEST_CASE("input: --radius has bounds") {
-        for (const char* program :
-             {"23_photon_mapping", "24_progressive_photons", "25_vertex_merging"})
-            for (const char* radius : {"1e-30", "1e30", "nan"})
-                CHECK(run(program, {spheres, "--radius", radius}).code == 2);
-    }
-
     TEST_CASE("files: the heat map of chapter 06 has its own table, and refuses before any work") {
         TemporaryFolder folder;
         Finished end = run("06_bvh", {spheres, "--size", "33x17", "--out", folder / "a.ppm"});
@@ -284,17 +277,6 @@ TEST_SUITE("programs") {
                 CHECK(end.out.find(line) != std::string::npos);
             }
             CHECK(read_image(folder / "e.pfm").pixels[7].r == 1);
-        }
-    }
-
-    TEST_CASE("truth: --radius is the first radius that 23 to 25 print") {
-        TemporaryFolder folder;
-        for (const std::string& program : programs(true)) {
-            if (program < "23" || program > "26") continue;
-            CAPTURE(program);
-            Finished end =
-                run(program, small(program, {"--radius", "0.321", "--out", folder / "a.pfm"}));
-            CHECK(end.out.find("\nfirst radius 0.321 m\n") != std::string::npos);
         }
     }
 

@@ -1,7 +1,6 @@
-// What surrounds a render: loading, progress, help, and the pixels at the edges of lamps.
+// What surrounds a render: its films, and the pixels at the edges of lamps.
 #include <doctest/doctest.h>
 
-#include "common/base/progress.h"
 #include "common/render/film_clock.h"
 #include "common/render/lamp_edges.h"
 #include "common/render/loading.h"
@@ -11,24 +10,6 @@
 #include "tests/support/stand_ins.h"
 
 TEST_SUITE("surroundings") {
-    TEST_CASE("truth: progress is a line that goes away, or lines that stay") {
-        auto told = [](bool is_terminal, double pause, double seconds = NAN) {
-            return captured([&] {
-                       Progress progress(pause, is_terminal);
-                       ::usleep(2000);
-                       progress.show("reading 'a\nb'", 0.126, seconds);
-                       progress.clear(), tell("!");
-                       return 0;
-                   })
-                .err;
-        };
-        const std::string end = "\x1b[K";
-        CHECK(told(false, 0.001) == "reading 'a?b' ... 13 %\n!");
-        CHECK(told(false, 0.001, 12.6) == "reading 'a?b' ... 13 %, 87 s left\n!");
-        CHECK(told(true, 0.001) == "\rreading 'a?b' ... 13 %" + end + "\r" + end + "!");
-        CHECK(told(false, 100) == "!");
-    }
-
     TEST_CASE("truth: the pixels at edges of lamps are those that differ from a neighbour") {
         Scene scene = world_of(
             "LightSource \"infinite\" \"rgb L\" [0.5 0.5 0.5]\n" +
@@ -85,8 +66,6 @@ TEST_SUITE("surroundings") {
         CHECK(o.own ==
               std::vector<std::pair<std::string, std::string>>{{"way", "short"}, {"m", "4"}});
         CHECK(parsed({"--film", "a.film", "--part", "3/3"}).part == 3);
-        CHECK(parsed({}).film_every == 60);
-        CHECK(parsed({"--explain-brightest"}).explain_brightest);
         CHECK(parsed({"--threads", "1024"}).threads == 1024);
         CHECK(parsed({"--size", "16384x16384"}).width == 16384);  // 2^28 pixels
         using Words = std::vector<std::string>;

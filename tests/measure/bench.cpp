@@ -8,8 +8,8 @@
 #include "common/material/cosine.h"
 #include "common/path/sampler.h"
 #include "common/scene/camera.h"
+#include "common/scene/light_shape.h"
 #include "tests/measure/measure.h"
-#include "tests/support/meshes.h"
 #include "tests/support/work.h"
 
 #if __has_include(<embree3/rtcore.h>)
@@ -21,44 +21,6 @@ constexpr bool have_embree = false;
 
 namespace {
 
-/// A ball with n hairs of eight slivers each, about 2000 times as long as wide.
-Geometry hair(uint32_t n) {
-    Geometry g;
-    Sampler random(SamplerType::independent, 24, 1);
-    random.start(0, 0);
-    auto in_cube = [&] {
-        Vec2 u = random.u2();
-        return Vec3{2 * u.x - 1, 2 * u.y - 1, 2 * random.u1() - 1};
-    };
-    add_bumpy_ball(g, {0, 0, 0}, 0.7f, 60);
-    for (uint32_t i = 0; i < n; i++) {
-        Vec3 out = normalize(in_cube()), bend = 0.3f * in_cube();
-        Vec3 side = 5e-5f * normalize(cross(out, in_cube()));
-        float length = 0.2f + 0.4f * random.u1();
-        add_surface(g, 1, 4, [&](float a, float b) {
-            return (0.7f + length * b) * out + length * b * b * (bend + Vec3{0, -0.3f, 0}) +
-                   (1 - b) * (a - 0.5f) * side;
-        });
-    }
-    return g;
-}
-
-/// A mesh, where it is seen from, and the middle of a cube of lights.
-struct BenchMesh {
-    std::string name;
-    std::function<Geometry()> make;
-    Vec3 eye, at, light;
-    float fov;
-};
-std::vector<BenchMesh> all_meshes() {
-    Vec3 hall_eye = {-9, 1.7f, 0.5f}, hall_at = {5, 2.5f, 0}, hall_light = {0, 7.5f, 0};
-    return {
-        {"hall 68 k", [] { return hall(8); }, hall_eye, hall_at, hall_light, 65},
-        {"hall 1.4 M", [] { return hall(36); }, hall_eye, hall_at, hall_light, 65},
-        {"hair", [] { return hair(20000); }, {0, 0.5f, -3.5f}, {0, 0, 0}, {2, 4, -3}, 40},
-    };
-}
-
 struct RaySet {
     std::string name;
     bool any;  // asks for any hit, not for the nearest
@@ -66,20 +28,15 @@ struct RaySet {
 };
 
 /// From the camera; from where those hit, in proportion to the cosine, and once more from there.
-/// From where the first hit: to the lights, and a short way up.
-std::vector<RaySet> rays_for(const BenchMesh& mesh, const Geometry& g, const Bvh& bvh, int size) {
+/// From where the first hit: to the middle of a lamp, and a short way up.
+std::vector<RaySet> rays_for(const Scene& scene, const Bvh& bvh, int size) {
     std::vector<RaySet> sets = {{"primary", false},
                                 {"bounce", false},
                                 {"second bounce", false},
                                 {"shadow", true},
                                 {"short", true}};
-    Camera camera;
-    camera.o = mesh.eye, camera.forward = normalize(mesh.at - mesh.eye), camera.fov = mesh.fov;
-    camera.right = normalize(cross({0, 1, 0}, camera.forward));
-    camera.up = cross(camera.forward, camera.right);
-    CameraView view = camera_view(camera, size, size);
-    Box box;
-    for (Vec3 p : g.positions) box = {min(box.low, p), max(box.high, p)};
+    const Geometry& g = scene.geometry;
+    CameraView view = camera_view(scene.camera, size, size);
     Sampler sampler(SamplerType::independent, 3, 1);
     for (int i = 0; i < size * size; i++) {
         sampler.start(static_cast<uint32_t>(i), 0);
@@ -98,9 +55,9 @@ std::vector<RaySet> rays_for(const BenchMesh& mesh, const Geometry& g, const Bvh
                 return Frame(n).to_world(sample_cosine_hemisphere(sampler.u2()));
             };
             if (bounce == 1) {
-                Vec2 e = sampler.u2();
-                Vec3 light = mesh.light + Vec3{e.x - 0.5f, 0, e.y - 0.5f};
-                float reach = 0.05f * max_component(box.high - box.low);
+                size_t count = scene.light_shapes.size();
+                Vec3 light = scene.light_shapes[static_cast<size_t>(i) % count].centre;
+                float reach = 0.05f * scene.radius;
                 sets[3].rays.push_back({foot, light - foot, 0.999f});
                 sets[4].rays.push_back({foot, by_cosine(), reach});
             }
@@ -198,21 +155,25 @@ int main(int argc, char** argv) {
             {}, [](const std::string& word) {
                 throw UsageError("error: bench takes options alone, not '" + word + "'");
             });
-        std::vector<BenchMesh> meshes = all_meshes();
-        Work work("bench: rays per second on one thread", static_cast<double>(meshes.size()));
+        const std::vector<std::string> scenes = {
+            "scenes/knot.pbrt", "scenes/pool.pbrt",
+            "tests/pictures/real-scenes/modern-hall/scene-v4.pbrt"};
+        Work work("bench: rays per second on one thread", static_cast<double>(scenes.size()));
         Table table{
             {"M rays/s, ours / Embree", "primary", "bounce", "second bounce", "shadow", "short"},
             {}};
-        for (const BenchMesh& mesh : meshes) {
-            work.next(mesh.name);
-            Geometry g = mesh.make();
+        for (const std::string& path : scenes) {
+            work.next(path);
+            Scene scene = load_scene_for(path, {.threads = 1});
+            Geometry& g = scene.geometry;
+            g.spheres.clear(), g.disks.clear();  // Embree gets triangles alone
             Bvh bvh = build_bvh(g, 1);
             std::vector<Contender> contenders = {
                 contender([&](const Ray& ray) { return closest_hit(bvh, g, ray).t; },
                           [&](const Ray& ray) { return any_hit(bvh, g, ray); })};
             if (have_embree) contenders.push_back(embree(g));
-            table.rows.push_back({mesh.name});
-            for (const RaySet& set : rays_for(mesh, g, bvh, size)) {
+            table.rows.push_back({scene_name(path)});
+            for (const RaySet& set : rays_for(scene, bvh, size)) {
                 std::string cell;
                 for (double s : speeds(contenders, set, runs))
                     cell += (cell.empty() ? "" : " / ") + short_number(s);

@@ -40,7 +40,7 @@ radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
 #: measuring: make bench        rays per second of the hierarchy of common/geometry, beside Embree (2 minutes)
-bench: $(BUILD)/bench
+bench: $(BUILD)/bench $(made)
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
 # What a test program consists of beside the test itself.

@@ -1,4 +1,4 @@
-// Meshes for the tests of the hierarchy, and for the program that measures it.
+// Meshes for the tests of the hierarchy.
 #pragma once
 #include <cmath>
 #include <map>
@@ -61,49 +61,6 @@ inline void add_bumpy_ball(Geometry& g, Vec3 centre, float r, uint32_t n) {
         }
         return centre + r * bumps * d;
     });
-}
-
-/// A hall of 20 x 8 x 10 with two rows of columns, arches, drapes and rough balls; the number of
-/// triangles grows with detail^2 (10: 66 thousand, 45: 1.3 million).
-inline Geometry hall(uint32_t detail) {
-    Geometry g;
-    for (float y : {0.0f, 8.0f}) {
-        add_parallelogram(g, {-10, y, -5}, {20, 0, 0}, {0, 0, 10}, 2 * detail);
-    }
-    for (float z : {-5.0f, 5.0f}) {
-        add_parallelogram(g, {-10, 0, z}, {20, 0, 0}, {0, 8, 0}, 2 * detail);
-    }
-    for (float x : {-10.0f, 10.0f}) {
-        add_parallelogram(g, {x, 0, -5}, {0, 8, 0}, {0, 0, 10}, detail);
-    }
-    for (int k = 0; k < 14; k++) {
-        float x = -9 + 3 * static_cast<float>(k % 7), z = k < 7 ? -3.0f : 3.0f;
-        auto column = [&](float a, float b) {
-            float angle = 2 * pi * a, flare = std::pow(std::abs(2 * b - 1), 8.0f);
-            float r = 0.3f + 0.1f * flare + 0.01f * std::sin(12 * angle);
-            return Vec3{x + r * std::cos(angle), 4 * b, z + r * std::sin(angle)};
-        };
-        add_surface(g, 4 * detail, 2 * detail, column);
-        for (float y : {0.0f, 4.0f}) {
-            add_box(g, {x - 0.45f, y, z - 0.45f}, {x + 0.45f, y + 0.25f, z + 0.45f});
-        }
-        auto arch = [&](float a, float b) {
-            float angle = pi * a, ripple = 0.05f * std::sin(2 * pi * b);
-            return Vec3{x + 1.5f - 1.3f * std::cos(angle), 4.25f + 1.3f * std::sin(angle) + ripple,
-                        z - 0.4f + 0.8f * b};
-        };
-        if (k % 7 < 6) add_surface(g, 3 * detail, detail, arch);
-        auto drape = [&](float a, float b) {
-            float folds = 0.1f * std::sin(40 * a + 3 * b) * b + 0.05f * std::sin(13 * b);
-            return Vec3{x + 0.5f + 2 * a, 3.8f - 2.5f * b, 0.9f * z + folds};
-        };
-        if (k % 2 == 1) add_surface(g, 6 * detail, 6 * detail, drape);
-    }
-    for (int k = 0; k < 6; k++) {
-        float x = -7.5f + 3 * static_cast<float>(k), z = k % 2 == 1 ? 1.0f : -1.2f;
-        add_bumpy_ball(g, {x, 0.6f, z}, 0.45f, 6 * detail);
-    }
-    return g;
 }
 
 /// Long thin triangles across all axes in the unit cube: boxes that hold next to nothing.
