@@ -79,8 +79,6 @@ TEST_SUITE("printed") {
         for (const char* words : {"4 spp (interrupted)\n", "\nwarning: one\n",
                                   "\ndepth limit 7 cut 25 % of the paths\n"})
             CHECK(end.out.find(words) != std::string::npos);
-        r.stats.samples_before = 0, r.stats.seconds = 1e-5;
-        CHECK(written(scene, options, r).out.find(", 40.00 M samples/s, ") != std::string::npos);
         options.quiet = true;
         CHECK(written(scene, options, r).out == "");
     }
@@ -123,10 +121,6 @@ TEST_SUITE("printed") {
         CHECK(read_file(options.stats).find("\"mean_rgb\": [1, 2, 0]") != std::string::npos);
         CHECK(stats.texts("warnings").size() == 2);
         CHECK(stats.texts("warnings").back() == "its own");
-        // A picture without light has no sample that carries a share of it.
-        Rendering dark{Film(10, 10), {}, {}};
-        CHECK(written(scene, options, dark).code == 0);
-        CHECK(StatsFile(read_file(options.stats)).number("largest_sample_share") == 0);
     }
 
     TEST_CASE("truth: each picture has notes, that of one class also its name") {
@@ -162,21 +156,6 @@ TEST_SUITE("printed") {
         CHECK(end.code == 1);
         CHECK(end.out.find("\nmean unknown: not all samples are finite\n") != std::string::npos);
         CHECK(end.err.ends_with(": build/07_x --spp 4 --explain 3,4,6\n"));
-    }
-
-    TEST_CASE("truth: tables are aligned for people, and have tabs for programs") {
-        Table table{{"name", "n", "long column"}, {{"a", "1000", "2"}, {"longer name", "1", ""}}};
-        CHECK(aligned(table) ==
-              "name            n  long column\n"
-              "a            1000            2\n"
-              "longer name     1\n");
-        CHECK(tab_separated(table) == "name\tn\tlong column\na\t1000\t2\nlonger name\t1\t\n");
-        CHECK(digits(1.23456789, 3) == "1.23");
-        CHECK(digits(NAN) == "unknown");
-        CHECK(digits(-INFINITY) == "-infinite");
-        // y = 5 x^-0.5, x and y in no order.
-        std::vector<double> x = {100, 4, 9}, y = {0.5, 2.5, 5.0 / 3};
-        CHECK(fitted_slope(x, y) == doctest::Approx(-0.5).epsilon(1e-12).scale(0));
     }
 
     TEST_CASE("truth: an explained sample is that of its pixel; what its table lacks is told") {
@@ -265,13 +244,7 @@ TEST_SUITE("printed") {
         save_film(scene, options, r);
         CHECK(label().goals == std::vector<Goal>{{5, 9, 1}});
         options.time = 3;
-        // A pixel that has more samples than others tells how many passes had begun.
-        r.film.add(0, {1, 1, 1});
         save_film(scene, options, r);
-        CHECK(label().samples == std::vector<SampleRange>{{5, 0, 5}});
         CHECK(label().goals.empty());
-        r.film = Film(10, 10);
-        save_film(scene, options, r);
-        CHECK(label().samples.empty());
     }
 }

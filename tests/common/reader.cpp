@@ -335,29 +335,6 @@ TEST_SUITE("reader") {
             CHECK(scene.shapes[scene.geometry.triangles[i].shape].light == (i < 2 ? 3 : 4));
     }
 
-    TEST_CASE("input: power is that of each primitive, and L multiplies it") {
-        const double ball = 4 * 9 * double{pi};
-        const struct {
-            std::string world;
-            double area, each;
-            size_t count;
-        } cases[] = {
-            {quad, 1, 5, 2},  // the two triangles of a quad send 5 W each, as in pbrt
-            {"'bool twosided' true " + quad, 2, 5, 2},
-            {"'rgb L' [2 2 2] " + quad, 1, 10, 2},
-            {"'float scale' 3 " + quad, 1, 15, 2},
-            {"Scale 3 3 3" + sphere, ball, 5, 1},
-            {"Scale 3 3 3 Shape 'disk'", ball / 4, 5, 1},
-        };
-        for (const auto& c : cases) {
-            Scene scene = read_world("AreaLightSource 'diffuse' 'float power' 5 " + c.world);
-            CHECK(scene.lights.size() == c.count + 1);
-            for (size_t i = 1; i < scene.lights.size(); i++)
-                CHECK(double{pi} * c.area * scene.lights[i].L.r ==
-                      doctest::Approx(c.each).epsilon(1e-5).scale(0));
-        }
-    }
-
     TEST_CASE("input: point, distant and infinite lights") {
         auto rgb = [](Rgb c) { return in_words(c); };
         check_described({

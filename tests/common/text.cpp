@@ -37,28 +37,9 @@ TEST_SUITE("text") {
         CHECK(printable("") == "");
     }
 
-    TEST_CASE("truth: text of any two bytes is valid JSON") {
-        size_t wrong = 0;
-        for (int first = 0; first < 256; first++) {
-            for (int second = 0; second < 256; second++) {
-                std::string text = {static_cast<char>(first), static_cast<char>(second)};
-                std::string json = json_quoted(text);
-                // Between the quotes: well-formed characters, no control characters of ASCII, and
-                // quotes and backslashes only as parts of escapes.
-                bool is_valid = json.front() == '"' && json.back() == '"';
-                for (size_t i = 1; is_valid && i + 1 < json.size();) {
-                    size_t length = utf8_length(json, i);
-                    bool control = static_cast<unsigned char>(json[i]) < 0x20;
-                    is_valid = length > 0 && !control && json[i] != '"';
-                    if (json[i] == '\\') length = json[i + 1] == 'u' ? 6 : 2;
-                    i += length;
-                    is_valid = is_valid && i < json.size();
-                }
-                wrong += !is_valid;
-            }
-        }
-        CHECK(wrong == 0);
+    TEST_CASE("truth: what JSON cannot hold is escaped") {
         CHECK(json_quoted("gr\xfc\xdf \xc3\xbc") == "\"gr\\ufffd\\ufffd \xc3\xbc\"");
         CHECK(json_quoted("a\n\"b\\\x1b") == "\"a\\u000a\\\"b\\\\\\u001b\"");
+        for (char c = 1; c < 32; c++) CHECK(json_quoted(std::string(1, c)).starts_with("\"\\u00"));
     }
 }

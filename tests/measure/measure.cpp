@@ -54,14 +54,6 @@ MeasureOptions parse_measure_options(int argc, char** argv, const std::string& p
              if (sides.size() != 2) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
              o.width = sides[0], o.height = sides[1];
          }},
-        {"max-depth", "D", "scattering events (default: as the scene says)",
-         integer("max-depth", o.max_depth, 0, 1 << 30)},
-        {"threads", "T", "default: one for each processor", integer("threads", o.threads, 1, 1024)},
-        {"sampler", "KIND", "independent (default), stratified or sobol",
-         [&](const std::string& text) {
-             o.sampler = static_cast<SamplerType>(
-                 parse_choice("sampler", text, {"independent", "stratified", "sobol"}));
-         }},
         {"seconds", "S", "time to spend (default " + digits(o.seconds) + ")",
          [&](const std::string& text) { o.seconds = parse_positive("seconds", text); }},
         {"out", "DIR", "where tables and charts go (default " + o.out + ")",
