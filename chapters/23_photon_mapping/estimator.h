@@ -33,8 +33,6 @@ struct PhotonSettings {
 ///
 ///   flux = Le cos_y / (pmf pdf_A pdf_w paths) beta
 ///
-/// Flux arrives in proportion to |wi.ng|, but a camera path multiplies by wi.n, where n is the
-/// smoothed normal: so the photon carries the flux times their ratio.
 /// source  Jensen 1996
 /// tested by  "truth: flux onto a floor, from every light ...", within 5 standard errors + 1 %
 inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int paths,
@@ -53,7 +51,7 @@ inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int
         if (!x) return;
         Vec3 wi = -ray.d;
         float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
-        vertices.push_back({x->p, x->ng, flux * beta * cosines, depth, x->material});
+        vertices.push_back({x->p, x->ng, flux * beta, cosines, depth, x->material});
 
         // Sample the next direction as in chapter 20.
         float u1 = sampler.u1();
@@ -123,7 +121,7 @@ inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, in
         if (!same_surface || std::abs(dot(v, x.ng)) > r / 8) return;
         if (photon.depth > depth) return;
         float q = dot(v, v) / (r * r);
-        Rgb flux = kernel(q) * photon.flux;
+        Rgb flux = kernel(q) * photon.flux_at(x);
         sum += flux;
         recorder.photon(flux, q, maps, photon);
     });

@@ -36,7 +36,7 @@ inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, in
         if (!same_surface || std::abs(dot(v, x.ng)) > r / 8) return;
         if (photon.depth > depth) return;
         float q = dot(v, v) / (r * r);
-        Rgb flux = kernel(q) * photon.flux;
+        Rgb flux = kernel(q) * photon.flux_at(x);
         sum += flux;
         recorder.photon(flux, q, maps, photon);
     });

@@ -112,7 +112,7 @@ inline Rgb merge(const Scene& scene, const Merging& merging, const Subpath& eye,
         double from_light = static_cast<double>(back_w) * y.others;
         float mis = static_cast<float>(1 / (1 + from_light + from_eye));
         float q = dot(v, v) / (r * r);
-        Rgb flux = mis * 2 * (1 - q) * photon.flux;
+        Rgb flux = mis * 2 * (1 - q) * photon.flux_at(z.x);
         sum += flux;
         recorder.photon(flux, q, merging.paths, photon);
     });

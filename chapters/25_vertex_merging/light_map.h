@@ -18,9 +18,9 @@ struct LightPaths {
     std::vector<Photon> photons;
 
     /// Adds photon to the last vertex.
-    void add_photon(Vec3 p, Vec3 ng, Rgb flux, size_t depth) {
+    void add_photon(Vec3 p, Vec3 ng, Rgb flux, size_t depth, float cosines) {
         uint32_t place = static_cast<uint32_t>(vertices.size() - 1);
-        photons.push_back({p, ng, flux, static_cast<int>(depth), place});
+        photons.push_back({p, ng, flux, static_cast<int>(depth), place, cosines});
     }
     /// Adds the light paths of another part of the pass.
     void add(const LightPaths& other) {
@@ -56,8 +56,7 @@ inline void add_light_path(const Scene& scene, const Subpath& walk, float area, 
         double per_w = static_cast<double>(kept.to_area / before.pdf) * kept.sum;
         paths.vertices.back().others = per_w / static_cast<double>(area * kept.pdf);
         float cos_n = std::max(0.0f, dot(kept.back, smooth_normal(scene, v.x)));
-        float scale = cos_n / (cos_g * static_cast<float>(N));
-        paths.add_photon(v.x.p, v.x.ng, scale * v.beta, j);
+        paths.add_photon(v.x.p, v.x.ng, v.beta / static_cast<float>(N), j, cos_n / cos_g);
     }
 }
 

@@ -66,7 +66,8 @@ inline void for_each_near(const PhotonMap& map, const SeenPoint& x, const Work& 
     map.for_each_near(x.p, [&](const Photon& photon, Vec3 v) {
         bool same_surface = dot(photon.ng, x.ng) > std::numbers::sqrt2_v<float> / 2;
         if (!same_surface || std::abs(dot(v, x.ng)) > r / 8) return;
-        float q = dot(v, v) / (r * r), scale = x.bsdf * average(photon.flux) / (pi * r * r);
+        Rgb flux = photon.cosines * photon.flux;
+        float q = dot(v, v) / (r * r), scale = x.bsdf * average(flux) / (pi * r * r);
         float e = scale * kernel(q), half = q < 0.25f ? 4 * scale * kernel(4 * q) : 0;
         work(double{e}, double{e - half});
     });

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "common/scene/scene.h"
+#include "common/material/hit.h"
 
 /// The flux that a path from a light has left at one point of a diffuse surface.
 struct Photon {
@@ -15,6 +15,11 @@ struct Photon {
     Rgb flux;             // W
     int depth = 0;        // scattering events on the path, the one at p included
     uint32_t vertex = 0;  // its place among the vertices of all light paths
+    float cosines = 1;    // wi.n / wi.ng, where n is the smoothed normal
+
+    /// Light arrives in proportion to wi.ng, but a path that meets x multiplies by wi.n. Where the
+    /// smoothed normal looks away from the camera, x.n is ng.
+    Rgb flux_at(const Hit& x) const { return x.n == x.ng ? flux : cosines * flux; }
 };
 
 /// A hash grid: the photons sorted by the cubic cell that they lie in.
@@ -87,9 +92,10 @@ inline bool is_diffuse(const Material& m) { return m.type == MaterialType::diffu
 
 /// A vertex of a path from a light. Where the surface is diffuse it is a photon.
 struct LightVertex {
-    Vec3 p, ng;  // m; unit, on the side where the light arrived
-    Rgb flux;    // W, of a photon
-    int depth;   // scattering events on the path, this one included
+    Vec3 p, ng;     // m; unit, on the side where the light arrived
+    Rgb flux;       // W, of a photon
+    float cosines;  // as in Photon
+    int depth;      // scattering events on the path, this one included
     const Material* material;
 };
 
@@ -115,7 +121,7 @@ inline PhotonMaps build_maps(std::vector<LightVertex> vertices, float radius,
         const LightVertex& v = vertices[i];
         if (v.depth == 1) only_specular = true;
         if (is_diffuse(*v.material)) {
-            global.push_back({v.p, v.ng, v.flux, v.depth, i});
+            global.push_back({v.p, v.ng, v.flux, v.depth, i, v.cosines});
             if (only_specular && v.depth > 1) caustic.push_back(global.back());
         }
         only_specular = only_specular && is_specular(*v.material);

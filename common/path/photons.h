@@ -18,8 +18,6 @@ struct PhotonSettings {
 ///
 ///   flux = Le cos_y / (pmf pdf_A pdf_w paths) beta
 ///
-/// Flux arrives in proportion to |wi.ng|, but a camera path multiplies by wi.n, where n is the
-/// smoothed normal: so the photon carries the flux times their ratio.
 /// source  Jensen 1996
 /// tested by  "truth: flux onto a floor, from every light ...", within 5 standard errors + 1 %
 inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int paths,
@@ -38,7 +36,7 @@ inline void trace_light_path(const Scene& scene, const Endpoints& endpoints, int
         if (!x) return;
         Vec3 wi = -ray.d;
         float cosines = std::max(0.0f, dot(wi, smooth_normal(scene, *x))) / dot(wi, x->ng);
-        vertices.push_back({x->p, x->ng, flux * beta * cosines, depth, x->material});
+        vertices.push_back({x->p, x->ng, flux * beta, cosines, depth, x->material});
 
         // Sample the next direction as in chapter 20.
         float u1 = sampler.u1();

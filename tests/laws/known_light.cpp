@@ -99,11 +99,12 @@ TEST_SUITE("law: known light") {
 
     TEST_CASE("truth: flux onto a floor, from every light and by a mirror") {
         // The picture shows a square of 1 m: its mean is that of its irradiance.
-        auto floor_in_sight = [](const std::string& lights) {
+        auto floor_in_sight = [](const std::string& lights,
+                                 const std::string& shape = square(0, true)) {
             Scene scene = scene_of(
                 "LookAt 0 0.5 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 90\n"
                 "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n" +
-                thing("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]", square(0, true)) + lights);
+                thing("\"diffuse\" \"rgb reflectance\" [.5 .5 .5]", shape) + lights);
             scene.max_depth = 2;
             return scene;
         };
@@ -120,11 +121,18 @@ TEST_SUITE("law: known light") {
         auto aside = [](double h, bool up) {
             return black_lamp("1", at(1.5, h, 0) + "Scale 0.5 1 0.5 " + square(0, up));
         };
-        Measured image =
-            brightness(floor_in_sight(aside(1.5, false)), methods_named({"15"})[0], 100000);
-        check_light(
-            floor_in_sight(aside(0.5, true) + thing(mirror, "Scale 9 1 9 " + square(1, false))),
-            {image.mean, 0.03, image.se, true});
+        // Also onto one whose normals lean from the lamp: it is lit where they look away from the
+        // camera, since the geometric normal takes their place there.
+        const std::string leaning =
+            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-.5 0 -.5  "
+            "-.5 0 .5  .5 0 .5  .5 0 -.5] \"normal N\" [-6 1 0  -6 1 0  -6 1 0  -6 1 0]";
+        for (const std::string& floor : {square(0, true), leaning}) {
+            CAPTURE(floor);
+            Measured image = brightness(floor_in_sight(aside(1.5, false), floor),
+                                        methods_named({"15"})[0], 100000);
+            std::string lamp = aside(0.5, true) + thing(mirror, "Scale 9 1 9 " + square(1, false));
+            check_light(floor_in_sight(lamp, floor), {image.mean, 0.03, image.se, true});
+        }
     }
 
     TEST_CASE("truth: the sky is one light among others, whatever its number") {
