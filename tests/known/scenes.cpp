@@ -255,12 +255,16 @@ void add_bent(std::vector<KnownScene>& p) {
 }
 
 void add_glass_and_metal(std::vector<KnownScene>& p) {
-    p.push_back({"corridor", "the sky in a row of six mirrors",
-                 view("0 0 0  1 0 0.16  0 1 0", "\"float fov\" 0.5", 20) + sky() +
-                     group(metal(0.9) + at(1, 0, 0) + "Scale 1 1 1 " + turn(90, z_axis) +
-                           "Scale 20 1 1.86 " + square(true)) +
-                     group(metal(0.9) + at(-1, 0, 0) + turn(-90, z_axis) + "Scale 20 1 1.86 " +
-                           square(true))});
+    const std::string row =
+        view("0 0 0  1 0 0.16  0 1 0", "\"float fov\" 0.5", 40) + sky() +
+        group(metal(0.9) + at(1, 0, 0) + turn(90, z_axis) + "Scale 20 1 1.86 " + square(true)) +
+        group(metal(0.9) + at(-1, 0, 0) + turn(-90, z_axis) + "Scale 20 1 1.86 " + square(true));
+    const std::string upright = turn(90, x_axis) + scale(200);  // faces +z
+    p.push_back({"corridor", "the sky in a row of six mirrors", row});
+    p.push_back({"window", "the sky in a row of six mirrors that ends at a pane of glass",
+                 row + group(glass + at(0, 0, 2.1) + upright + square(true)) +
+                     group(glass + at(0, 0, 2) + upright + square(false)) +
+                     group(paint(0) + at(0, 0, -3) + upright + square(true))});
     p.push_back(
         {"pane", "a ball of glass before a sky",
          view("0 0 -4  0.9 0 0  0 1 0", "\"float fov\" 1", 6) + sky() + group(glass + ball(1))});
