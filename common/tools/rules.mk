@@ -23,6 +23,7 @@ pictures: programs
 #: maintaining: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
 readmes: programs
 	common/tools/fill_readmes $(if $(SLOW),--slow)
+	common/tools/fill_readmes tests/printed/*.md
 
 # What programs print is checked of the main build alone; the pages not at all on Windows, which has no links.
 .PHONY: check_pages
