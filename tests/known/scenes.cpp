@@ -256,7 +256,7 @@ void add_bent(std::vector<KnownScene>& p) {
 
 void add_glass_and_metal(std::vector<KnownScene>& p) {
     const std::string row =
-        view("0 0 0  1 0 0.16  0 1 0", "\"float fov\" 0.5", 40) + sky() +
+        view("0 0 0  1 0 0.16  0 1 0", "\"float fov\" 0.5", 12) + sky() +
         group(metal(0.9) + at(1, 0, 0) + turn(90, z_axis) + "Scale 20 1 1.86 " + square(true)) +
         group(metal(0.9) + at(-1, 0, 0) + turn(-90, z_axis) + "Scale 20 1 1.86 " + square(true));
     const std::string upright = turn(90, x_axis) + scale(200);  // faces +z
