@@ -5,7 +5,7 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         RenderOptions options =
-            parse_render_options(argc, argv, "05_ray_casting", "scenes/cornell-spheres.pbrt");
+            parse_render_options(argc, argv, "05_ray_casting", {"scenes/cornell-spheres.pbrt", 16});
         options.search = LightSearch::direct;
         Scene scene = load(options);
         refuse_glossy(scene);

@@ -5,7 +5,7 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         RenderOptions options =
-            parse_render_options(argc, argv, "07_path_tracing", "scenes/cornell.pbrt");
+            parse_render_options(argc, argv, "07_path_tracing", {"scenes/cornell.pbrt", 32});
         options.search = LightSearch::by_chance;
         Scene scene = load(options);
         refuse_glossy(scene);

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
             choice_option("light-by", "MEASURE", "draw points of lights by area or by solid-angle",
                           {"area", "solid-angle"}, measure);
         RenderOptions options = parse_render_options(argc, argv, "09_light_sampling",
-                                                     "scenes/cornell.pbrt", {light_by});
+                                                     {"scenes/cornell.pbrt", 16}, {light_by});
         Scene scene = load(options);
         refuse_glossy(scene);
         return render(scene, options, method_of<ch09::trace>(measure));

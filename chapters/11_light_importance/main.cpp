@@ -4,8 +4,8 @@
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        RenderOptions options =
-            parse_render_options(argc, argv, "11_light_importance", "scenes/thousand-lights.pbrt");
+        RenderOptions options = parse_render_options(argc, argv, "11_light_importance",
+                                                     {"scenes/thousand-lights.pbrt", 16});
         Scene scene = load(options);
         refuse_glossy(scene);
         return render(scene, options, method_of<ch11::trace>(ch11::prepare(scene)));

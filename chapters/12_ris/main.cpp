@@ -7,8 +7,8 @@ int main(int argc, char** argv) {
         int M = 16;
         Option candidates =
             whole_option("m", "M", "light candidates for each shadow ray", 1, 1024, M);
-        RenderOptions options =
-            parse_render_options(argc, argv, "12_ris", "scenes/thousand-lights.pbrt", {candidates});
+        RenderOptions options = parse_render_options(
+            argc, argv, "12_ris", {"scenes/thousand-lights.pbrt", 16}, {candidates});
         Scene scene = load(options);
         refuse_glossy(scene);
         return render(scene, options, method_of<ch12::trace>(ch12::prepare(scene, M)));

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
                                     "how to find light: sample light (default) or sample bsdf",
                                     {"bsdf", "light"}, strategy);
         RenderOptions options =
-            parse_render_options(argc, argv, "13_glossy", "scenes/veach-mis.pbrt", {ways});
+            parse_render_options(argc, argv, "13_glossy", {"scenes/veach-mis.pbrt", 16}, {ways});
         Scene scene = load(options);
         if (strategy == ch13::Strategy::bsdf) {
             refuse_delta_lights(scene);

@@ -7,8 +7,8 @@ int main(int argc, char** argv) {
         int M = 64;
         Option candidates = whole_option("m", "M", "light candidates, at most one per light", 1,
                                          ch15::Candidates::most, M);
-        RenderOptions options = parse_render_options(argc, argv, "15_mis_ris",
-                                                     "scenes/thousand-lights.pbrt", {candidates});
+        RenderOptions options = parse_render_options(
+            argc, argv, "15_mis_ris", {"scenes/thousand-lights.pbrt", 16}, {candidates});
         Scene scene = load(options);
         return render(scene, options, method_of<ch15::trace>(ch15::prepare(scene, M)));
     });

@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
         Option pixel = choice_option("pixel", "area|centre",
                                      "average over each pixel (default), or only its centre",
                                      {"area", "centre"}, centre);
-        RenderOptions options = parse_render_options(argc, argv, "16_lens_and_shutter",
-                                                     "scenes/bokeh.pbrt", {candidates, pixel});
+        RenderOptions options = parse_render_options(
+            argc, argv, "16_lens_and_shutter", {"scenes/bokeh.pbrt", 32}, {candidates, pixel});
         Scene scene = load(options, features_of(16));
         scene.camera.pixel_centre = centre;
         return render(scene, options, method_of<ch16::trace>(ch16::prepare(scene, M)));

@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
             "sample pixels of the sky's image by their excess over its mean (default), "
             "or by all of their light",
             {"off", "on"}, compensate);
-        RenderOptions options =
-            parse_render_options(argc, argv, "17_sky_image", "scenes/sky.pbrt", {candidates, sky});
+        RenderOptions options = parse_render_options(argc, argv, "17_sky_image",
+                                                     {"scenes/sky.pbrt", 16}, {candidates, sky});
         Scene scene = load(options, features_of(17));
         return render(scene, options, method_of<ch17::trace>(ch17::prepare(scene, M, compensate)));
     });

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
                          "picture of the number of samples of each pixel (.pfm: numbers)",
                          [&](const std::string& text) { map = parse_picture("map", text); }};
         RenderOptions options = parse_render_options(
-            argc, argv, "19_adaptive", "scenes/high-contrast.pbrt", {pilot, judge, counts});
+            argc, argv, "19_adaptive", {"scenes/high-contrast.pbrt", 32}, {pilot, judge, counts});
         auto counts_of = [&](const Film& film) {
             float most = 4 * static_cast<float>(film.spp());
             return has_ending(map, ".pfm") ? film.counts() : heat_map(film.counts(), most);

@@ -19,8 +19,8 @@ int main(int argc, char** argv) {
         Option pyramid =
             text_option("pyramid", "FILE", "also write all short strategies as one sheet", sheet);
         RenderOptions options =
-            parse_render_options(argc, argv, "21_bidirectional",
-                                 {"scenes/cornell-spheres.pbrt", 16}, {strategy, pyramid});
+            parse_render_options(argc, argv, "21_bidirectional", {"scenes/cornell-spheres.pbrt", 8},
+                                 {strategy, pyramid});
         options.search = LightSearch::both_ends;
         options.strategy = alone, options.unweighted = !alone.empty();
         Scene scene = load(options, features_of(21));

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
             {"21", "15"}, light_sampling);
         RenderOptions options =
             parse_render_options(argc, argv, "22_fast_bidirectional",
-                                 {"scenes/cornell-spheres.pbrt", 32}, {chances_option, direct_by});
+                                 {"scenes/cornell-spheres.pbrt", 16}, {chances_option, direct_by});
         options.search = LightSearch::both_ends;
         Scene scene = load(options, features_of(22));
         return render(scene, options,

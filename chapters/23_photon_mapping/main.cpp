@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
                             "radius of the disk in which photons count (default 0: by the photons)",
                             radius, true)};
         RenderOptions options =
-            parse_render_options(argc, argv, "23_photon_mapping", "scenes/pool.pbrt", extra);
+            parse_render_options(argc, argv, "23_photon_mapping", {"scenes/pool.pbrt", 24}, extra);
         options.search = LightSearch::photons;
         Scene scene = load(options, features_of(23));
         s.radius = radius_within(scene, radius);

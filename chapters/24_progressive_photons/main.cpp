@@ -16,8 +16,8 @@ int main(int argc, char** argv) {
                             "radius of the disk in which photons count, in the first pass (default "
                             "0: by photons)",
                             radius, true)};
-        RenderOptions options =
-            parse_render_options(argc, argv, "24_progressive_photons", "scenes/pool.pbrt", extra);
+        RenderOptions options = parse_render_options(argc, argv, "24_progressive_photons",
+                                                     {"scenes/pool.pbrt", 24}, extra);
         options.search = LightSearch::photons;
         Scene scene = load(options, features_of(24));
         s.radius = radius_within(scene, radius);

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
                                                      "the first pass (default 0: by photons)",
                                                      radius, true)};
         RenderOptions options =
-            parse_render_options(argc, argv, "25_vertex_merging", {"scenes/sds.pbrt", 32}, extra);
+            parse_render_options(argc, argv, "25_vertex_merging", {"scenes/sds.pbrt", 16}, extra);
         options.search = LightSearch::merging;
         Scene scene = load(options, features_of(25));
         s.radius = radius_within(scene, radius);
