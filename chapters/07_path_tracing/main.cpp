@@ -6,7 +6,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         RenderOptions options =
             parse_render_options(argc, argv, "07_path_tracing", {"scenes/cornell.pbrt", 32});
-        options.search = LightSearch::by_chance;
+        options.search = LightSearch::random_hits;
         Scene scene = load(options);
         refuse_glossy(scene);
         refuse_delta_lights(scene);

@@ -100,7 +100,7 @@ inline LightSample sample_one_light(const Scene& scene, size_t i, const Hit& x, 
     return {};
 }
 
-/// Chooses one of the N lights uniformly, and a point on it.      pdf_w = pdf_one / N
+/// Chooses one of the N lights uniformly, and a point on it.      pdf_w: that of the light / N
 inline LightSample sample_light(const Scene& scene, const Hit& x, float u1, Vec2 u2) {
     size_t N = scene.lights.size();
     if (N == 0) return {};

@@ -96,7 +96,7 @@ inline uint32_t pick_light(const LightTable& lights, double u) {
 }
 inline float pmf_light(const LightTable& lights, size_t light) { return lights[light].pmf; }
 
-/// Chooses a light by light_pmf(), and a point on it.      pdf_w = pmf pdf_one
+/// Chooses a light by light_pmf(), and a point on it.      pdf_w: pmf times that of the light
 inline LightSample sample_light(const Scene& scene, const LightTable& lights, const Hit& x,
                                 double u, Vec2 u2) {
     if (lights.empty()) return {};

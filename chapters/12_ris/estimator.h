@@ -2,7 +2,7 @@
 // with a probability proportional to its weight.
 //
 //   w_i = p_hat(y_i) / p(y_i);   keep y = y_i with probability w_i / weight_sum;
-//   Ld = W f Le V cos / pdf_one,   W = weight_sum / (M p_hat(y))
+//   Ld = W f Le V cos / pdf_w,   W = weight_sum / (M p_hat(y))
 #pragma once
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
@@ -103,7 +103,7 @@ inline Proposal prepare(const Scene& scene, int M) {
 
 /// Estimates the direct light that x scatters to wo, from one of M candidate lights.
 ///
-///   Ld = W f Le V cos / pdf_one      one point on the light that was kept
+///   Ld = W f Le V cos / pdf_w      one point on the light that was kept
 ///
 /// Unbiased if p_hat > 0 wherever the light contributes.
 /// Var = Var_p / M + (1 - 1/M) Var_q for independent candidates: Var_q, by shadows, remains.

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
         Scene scene = load(options);
         if (strategy == ch13::Strategy::bsdf) {
             refuse_delta_lights(scene);
-            options.search = LightSearch::by_chance;
+            options.search = LightSearch::random_hits;
         }
         return render(scene, options, method_of<ch13::trace>(ch13::prepare(scene), strategy));
     });

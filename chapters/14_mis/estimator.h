@@ -27,15 +27,15 @@ inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / 
 /// (chapter 10), which finds too little of a sky that is bright only near the horizon.
 ///
 /// tested by  "variance: a sky at the horizon: ...", relMSE below 2/3 of chapter 10's
-inline LightSample sample_beside_bsdf(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
+inline LightSample sample_light_for_mis(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     if (scene.lights[light].type != LightType::infinite)
         return sample_one_light(scene, light, x, u);
     Vec3 wi = from_cylindrical(std::sqrt(u.x * (2 - u.x)), u.y, 1 - u.x);
     return {Frame(x.n).to_world(wi), scene.lights[light].L, infinity, 1 / (2 * pi)};
 }
-/// The density of sample_beside_bsdf for wi, in sr^-1, of the light hit at y, or else of the sky.
-inline float pdf_beside_bsdf(const Scene& scene, size_t light, const Hit& x,
-                             const std::optional<Hit>& y) {
+/// The density of sample_light_for_mis for wi, in sr^-1, of the light hit at y, or else of the sky.
+inline float pdf_light_for_mis(const Scene& scene, size_t light, const Hit& x,
+                               const std::optional<Hit>& y) {
     return y ? pdf_one_light(scene, light, x, *y) : 1 / (2 * pi);
 }
 
@@ -50,14 +50,14 @@ inline Lights prepare(const Scene& scene, float (*heuristic)(float, float) = pow
 
 /// Estimates the direct light that x scatters to wo, from one point of one light.
 ///
-///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pmf pdf_one
+///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = pmf pdf_w
 ///
 /// Mirrors and glass: 0, since their f is 0 for every direction that light sampling finds.
 inline Rgb direct_light(const Scene& scene, const Lights& lights, const Hit& x, Vec3 wo,
                         LightNumbers u, Recorder& recorder) {
     if (is_specular(*x.material) || scene.lights.empty()) return {};
     size_t light = pick_light(lights.table, u.light);
-    LightSample y = sample_beside_bsdf(scene, light, x, u.point);
+    LightSample y = sample_light_for_mis(scene, light, x, u.point);
     if (y.pdf_w == 0) return {};
     float pdf_l = pmf_light(lights.table, light) * y.pdf_w;
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
@@ -72,7 +72,7 @@ inline Rgb direct_light(const Scene& scene, const Lights& lights, const Hit& x, 
 inline float mis_emission(const Scene& scene, const Lights& lights, const Hit& x, float pdf_b,
                           const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
-    float pdf_l = pmf_light(lights.table, light) * pdf_beside_bsdf(scene, light, x, y);
+    float pdf_l = pmf_light(lights.table, light) * pdf_light_for_mis(scene, light, x, y);
     return lights.heuristic(pdf_b, pdf_l);
 }
 

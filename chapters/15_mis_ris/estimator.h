@@ -1,6 +1,6 @@
 // Chapter 15: multiple importance sampling of many lights. Chapters 12 and 14 combined.
 //
-//   L = sum over two lights of  mis_l f Le V cos / (inclusion pdf_one)  +  mis_b f Le cos / pdf_b
+//   L = sum over two lights of  mis_l f Le V cos / (inclusion pdf_w)  +  mis_b f Le cos / pdf_b
 #pragma once
 #include <numeric>
 
@@ -23,12 +23,12 @@ struct Lights {
     std::vector<LightBounds> bounds;  // power: divided by candidates
     std::vector<float> candidates;    // expected number of times that each light is a candidate
     int M;
-    std::vector<uint32_t> always = {};  // these are candidates; the table draws the others
+    std::vector<uint32_t> always = {};  // candidates at each vertex; the table draws others
     bool all() const { return table.size() <= static_cast<size_t>(M); }
 };
 
-/// A light that would be drawn more than once is always a candidate instead. Each of the others has
-/// at least a tenth of their mean power. 1e-30: so that no power is 0.
+/// All lights are candidates if there are at most M. Else those that would be drawn more than once
+/// are; each of the others has at least a tenth of their mean power. 1e-30: so that no power is 0.
 /// tested by  "truth: more lights than candidates, ...", within 5 standard errors
 inline Lights prepare(const Scene& scene, int M = 64) {
     std::vector<double> pmf = light_pmf(scene, 1e-30);
@@ -49,6 +49,7 @@ inline Lights prepare(const Scene& scene, int M = 64) {
     lights.table = build_light_table(pmf);
     for (size_t i = 0; i < pmf.size(); i++) {
         bool is_drawn = pmf[i] != 0 && !lights.all();
+        if (lights.all()) lights.always.push_back(static_cast<uint32_t>(i));
         lights.candidates.push_back(is_drawn ? static_cast<float>(drawn * pmf[i]) : 1);
         lights.bounds.push_back(light_bounds(scene, i));
         lights.bounds[i].power /= lights.candidates[i];
@@ -68,36 +69,41 @@ struct Candidates {
 
 /// The factor of a light's target on rough metal: mis_l f towards the light's centre, the part that
 /// BSDF sampling does not find. + 0.05: a heuristic, since other points of the light may differ.
-inline float lobe_share(const Scene& scene, size_t light, const Hit& x, Vec3 wo) {
+inline float bsdf_factor(const Scene& scene, size_t light, const Hit& x, Vec3 wo) {
     if (scene.lights[light].type != LightType::area) return 1;
     const LightShape& shape = scene.light_shapes[light];
     Vec3 to_y = shape.centre - x.p;
     float d2 = std::max(dot(to_y, to_y), shape.radius * shape.radius);
     Vec3 wi = to_y / std::sqrt(d2);
-    float pdf_one = std::min(d2 / shape.area, densest), pdf_b = pdf_bsdf(x, wo, wi);
-    return power_heuristic(pdf_one, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
+    float pdf_w = std::min(d2 / shape.area, densest), pdf_b = pdf_bsdf(x, wo, wi);
+    return power_heuristic(pdf_w, pdf_b) * average(eval_bsdf(x, wo, wi)) + 0.05f;
 }
 
-/// Chooses the candidates, and computes the probability that each is included in the sample.
+/// Chooses the candidates at x: the lights of `always`, and M in all by drawing from the table. It
+/// is cut into slices of equal probability, and u is the place in each slice.
+inline void choose_candidates(const Lights& lights, const Hit& x, Vec3 wo, double u,
+                              Candidates& c) {
+    int N = static_cast<int>(lights.table.size()), always = static_cast<int>(lights.always.size());
+    c.x = x, c.wo = wo, c.size = is_specular(*x.material) ? 0 : std::min(N, lights.M);
+    std::copy(lights.always.begin(), lights.always.end(), c.light);
+    for (int i = always; i < c.size; i++)
+        c.light[i] = pick_light(lights.table, (i - always + u) / (c.size - always));
+}
+
+/// Computes the probability that each candidate is one of the two that are sampled.
 ///
-///   inclusion = min(1, c (w + mean w / 9)),    w = p_hat / candidates,    c: makes them sum to 2
+///   inclusion = min(1, scale (w + mean w / 9)),    w = p_hat / candidates,    all sum to 2
 ///
 /// mean w / 9: a defensive share of 10 %, since targets ignore walls. One or two lights: 1.
-inline void choose_candidates(const Scene& scene, const Lights& lights, const Hit& x, Vec3 wo,
-                              double u, Candidates& c) {
-    int N = static_cast<int>(lights.table.size());
-    c.x = x, c.wo = wo, c.size = is_specular(*x.material) ? 0 : std::min(N, lights.M);
-    for (int i = 0; i < c.size; i++) c.light[i] = static_cast<uint32_t>(i), c.inclusion[i] = 1;
-    int always = static_cast<int>(lights.always.size());
-    std::copy(lights.always.begin(), lights.always.end(), c.light);
-    for (int i = always; i < c.size && !lights.all(); i++)
-        c.light[i] = pick_light(lights.table, (i - always + u) / (c.size - always));
+inline void compute_inclusions(const Scene& scene, const Lights& lights, Candidates& c) {
+    std::fill_n(c.inclusion, c.size, 1.0f);
     if (c.size <= 2) return;
 
     // Weight each by its target.
+    Hit x = c.x;  // a copy, which writing to c does not change: faster
     for (int i = 0; i < c.size; i++) c.inclusion[i] = target(lights.bounds[c.light[i]], x);
     for (int i = 0; i < c.size && is_rough(*x.material); i++)
-        c.inclusion[i] *= lobe_share(scene, c.light[i], x, wo);
+        c.inclusion[i] *= bsdf_factor(scene, c.light[i], x, c.wo);
 
     // Scale the weights to a sum of 2. If one would exceed 1, the others sum to 1.
     float sum = 0, largest = 0;
@@ -111,23 +117,23 @@ inline void choose_candidates(const Scene& scene, const Lights& lights, const Hi
         c.inclusion[i] = std::min(scale * (c.inclusion[i] + share), 1.0f);
 }
 
-/// The density of the two light samples together, in the direction of a light: inclusion pdf_one.
+/// The density of the two light samples together, in the direction of a light: inclusion pdf_w.
 ///
 /// With random candidates, the probability that a light is included is unknown: candidates
 /// is a heuristic for it. Any positive number keeps the estimate unbiased.
-inline float pdf_sampled(const Lights& lights, const Candidates& c, size_t light, float pdf_one) {
-    return (lights.all() ? c.inclusion[light] : lights.candidates[light]) * pdf_one;
+inline float pdf_sampled(const Lights& lights, const Candidates& c, size_t light, float pdf_w) {
+    return (lights.all() ? c.inclusion[light] : lights.candidates[light]) * pdf_w;
 }
 
 /// Estimates the direct light of candidate number i that x scatters to wo, from one point.
 ///
-///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = candidates inclusion pdf_one
+///   Ld = mis_l f Le V cos / pdf_l,    pdf_l = candidates inclusion pdf_w
 inline Rgb light_sample(const Scene& scene, const Lights& lights, const Candidates& c, int i,
                         Vec2 u, Recorder& recorder) {
     const Hit& x = c.x;
     Vec3 wo = c.wo;
     size_t light = c.light[i];
-    LightSample y = sample_beside_bsdf(scene, light, x, u);
+    LightSample y = sample_light_for_mis(scene, light, x, u);
     if (y.pdf_w == 0) return {};
     float pdf_l = lights.candidates[light] * c.inclusion[i] * y.pdf_w;
     float pdf_b = y.delta ? 0 : pdf_bsdf(x, wo, y.wi);
@@ -160,8 +166,8 @@ inline Rgb direct_light(const Scene& scene, const Lights& lights, const Candidat
 inline float mis_emission(const Scene& scene, const Lights& lights, const Candidates& c,
                           float pdf_b, const std::optional<Hit>& y) {
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
-    float pdf_one = pdf_beside_bsdf(scene, light, c.x, y);
-    return power_heuristic(pdf_b, pdf_sampled(lights, c, light, pdf_one));
+    float pdf_w = pdf_light_for_mis(scene, light, c.x, y);
+    return power_heuristic(pdf_b, pdf_sampled(lights, c, light, pdf_w));
 }
 
 /// Estimates Li, the radiance that arrives along the ray, from one path.
@@ -201,7 +207,8 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
 
         // Sample lights.
         TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
-        choose_candidates(scene, lights, *x, wo, u.candidates, c);
+        choose_candidates(lights, *x, wo, u.candidates, c);
+        compute_inclusions(scene, lights, c);
         L += beta * direct_light(scene, lights, c, u, recorder);
 
         // Continue in that direction, and divide by its density.

@@ -10,7 +10,8 @@
 namespace ch16 {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
-using many_lights::Candidates, many_lights::Lights, many_lights::choose_candidates;
+using many_lights::Candidates, many_lights::Lights;
+using many_lights::choose_candidates, many_lights::compute_inclusions;
 using many_lights::direct_light, many_lights::mis_emission, many_lights::prepare;
 
 /// Replaces the pinhole's ray by one through a random point of the lens, with the same focus point.
@@ -78,7 +79,8 @@ inline Rgb trace(const Scene& scene, const Lights& lights, Ray ray, Sampler& sam
 
         // Sample lights.
         TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
-        choose_candidates(scene, lights, *x, wo, u.candidates, c);
+        choose_candidates(lights, *x, wo, u.candidates, c);
+        compute_inclusions(scene, lights, c);
         L += beta * direct_light(scene, lights, c, u, recorder);
 
         // Continue in that direction, and divide by its density.

@@ -14,7 +14,7 @@
 namespace ch18 {
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::pdf_bsdf, glossy_bsdf::sample_bsdf;
-using many_lights::Candidates, many_lights::choose_candidates;
+using many_lights::Candidates, many_lights::choose_candidates, many_lights::compute_inclusions;
 using many_lights::direct_light, many_lights::mis_emission;
 using sky_light::DirectNumbers, sky_light::LightsAndSky;
 using sky_light::draw_numbers, sky_light::image_emission;
@@ -95,7 +95,8 @@ inline Rgb trace(const Scene& scene, const LightsAndSky& lights, const std::vect
 
         // Sample two lights and the image.
         DirectNumbers u = draw_numbers(scene, lights, sampler);
-        choose_candidates(scene, lights, *x, wo, u.lights.candidates, c);
+        choose_candidates(lights, *x, wo, u.lights.candidates, c);
+        compute_inclusions(scene, lights, c);
         L += beta * direct_light(scene, lights, c, u.lights, recorder);
         if (u.image) L += beta * image_light(scene, lights.image_cdf, *x, wo, *u.image, recorder);
 

@@ -64,18 +64,18 @@ inline std::vector<double> sample_density(const std::vector<PilotPixel>& pixels,
 ///
 /// other  unbiased: the number of samples does not depend on the samples that are averaged
 /// own    biased, too dark: where a pilot missed the light, few samples follow that could find it
-enum class Judge { other, own };
+enum class PilotHalf { other, own };
 
 /// What the user asks for, and what the pilot has decided: the densities of both halves.
 struct SampleDensities {
     uint32_t pilot = 16;  // samples of each pixel, both halves together
-    Judge judge = Judge::other;
+    PilotHalf pilot_half = PilotHalf::other;
     std::vector<double> of_half[2] = {};
 };
 inline void choose_densities(SampleDensities& s, const Pilot& pilot, int threads) {
     parallel_for(2, threads, [&](int half) {
-        int judge = s.judge == Judge::other ? 1 - half : half;
-        s.of_half[half] = sample_density(pilot.half[judge], pilot.width);
+        int decides = s.pilot_half == PilotHalf::other ? 1 - half : half;
+        s.of_half[half] = sample_density(pilot.half[decides], pilot.width);
     });
 }
 

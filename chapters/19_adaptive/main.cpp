@@ -10,16 +10,17 @@ int main(int argc, char** argv) {
         std::string map;
         Option pilot = whole_option("pilot", "N", "samples of each pixel in the pilot", 4, 1 << 16,
                                     densities.pilot);
-        Option judge = choice_option(
-            "judge", "other|own",
+        Option pilot_half = choice_option(
+            "pilot-half", "other|own",
             "which half's pilot decides about a half: the other (default), or its own, "
             "which is biased",
-            {"other", "own"}, densities.judge);
+            {"other", "own"}, densities.pilot_half);
         Option counts = {"map", "FILE",
                          "picture of the number of samples of each pixel (.pfm: numbers)",
                          [&](const std::string& text) { map = parse_picture("map", text); }};
-        RenderOptions options = parse_render_options(
-            argc, argv, "19_adaptive", {"scenes/high-contrast.pbrt", 32}, {pilot, judge, counts});
+        RenderOptions options =
+            parse_render_options(argc, argv, "19_adaptive", {"scenes/high-contrast.pbrt", 32},
+                                 {pilot, pilot_half, counts});
         auto counts_of = [&](const Film& film) {
             float most = 4 * static_cast<float>(film.spp());
             return has_ending(map, ".pfm") ? film.counts() : heat_map(film.counts(), most);

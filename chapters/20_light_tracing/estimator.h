@@ -35,8 +35,6 @@ inline Pinhole pinhole_of(const Scene& scene) {
 ///
 ///   We = 1 / (A cos^4),    A: the film's area at distance 1;    integral of We cos dw: 1
 ///
-/// From the pinhole, a patch dA of the film at distance d has solid angle dw = dA cos^3 / d^2. All
-/// points of the film have the same weight, so We cos = dA / dw / A = 1 / (A cos^3) with d = 1.
 /// source  Veach 1997, sec. 8.3      tested by  "truth: a lit floor is as bright ...", to 1e-5
 inline float importance_cos(const Pinhole& camera, Vec3 away) {
     float cos_c = dot(away, camera.axis) / length(away);
@@ -93,8 +91,27 @@ inline Vec3 sample_sphere(Vec2 u) {
     return from_cylindrical(std::sqrt(std::max(0.0f, 1 - z * z)), u.y, z);
 }
 
+/// A ray of a sun or a sky, against y.wi: from a point of a disk as wide as the scene.
+inline Emission emission_from_disk(const Scene& scene, LightType type, float pmf,
+                                   const LightSample& y, Vec2 u) {
+    float R = scene.radius;
+    Vec3 d = -y.wi, disk = from_cylindrical(R * std::sqrt(u.x), u.y, -R);
+    LightPoint p = {scene.centre + Frame(d).to_world(disk), d, 0, 1 / (pi * R * R)};
+    return {type, p, d, pmf, y.pdf_w, y.Le};
+}
+/// A ray of lamp i; of a two-sided lamp, from either side.
+inline Emission emission_of_lamp(const Scene& scene, size_t i, float pmf, Vec2 u_y, Vec2 u_d) {
+    const Light& light = scene.lights[i];
+    bool back = light.two_sided && u_d.x < 0.5f;
+    if (light.two_sided) u_d.x = 2 * u_d.x - (back ? 0 : 1);
+    LightPoint y = sample_area(scene, i, u_y);
+    if (light.two_sided) y.pdf /= 2;
+    if (back) y.n = -y.n;
+    Vec3 d = sample_cosine_hemisphere(u_d);
+    return {light.type, y, Frame(y.n).to_world(d), pmf, pdf_cosine_hemisphere(d.z), light.L};
+}
+
 /// Chooses a light by power, and draws a ray from it.
-///
 ///   area     any point, cosine direction:   pdf = 1 / A, cos / pi       (both sides: 1 / 2A)
 ///   point    any direction:                 pdf = 1, 1 / (4 pi)
 ///   distant  a point of the scene's disk:   pdf = 1 / (pi R^2), 1
@@ -102,32 +119,20 @@ inline Vec3 sample_sphere(Vec2 u) {
 /// tested by  "identity: each light sends out its power", to 1e-4
 inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, double u, Vec2 u_y,
                                 Vec2 u_d) {
-    auto far = [&](LightType type, float pmf, const LightSample& y) -> Emission {
-        float R = scene.radius;
-        Vec3 d = -y.wi, disk = from_cylindrical(R * std::sqrt(u_y.x), u_y.y, -R);
-        LightPoint p = {scene.centre + Frame(d).to_world(disk), d, 0, 1 / (pi * R * R)};
-        return {type, p, d, pmf, y.pdf_w, y.Le};
-    };
-    double q = endpoints.p_image;
-    if (u < q)
-        return far(LightType::infinite, static_cast<float>(q),
-                   sample_image(*scene.sky_image, endpoints.image_cdf, u / q, u_d));
-    size_t i = pick_light(endpoints.lights, (u - q) / (1 - q));
+    double p_image = endpoints.p_image;
+    if (u < p_image) {
+        LightSample y = sample_image(*scene.sky_image, endpoints.image_cdf, u / p_image, u_d);
+        return emission_from_disk(scene, LightType::infinite, static_cast<float>(p_image), y, u_y);
+    }
+    size_t i = pick_light(endpoints.lights, (u - p_image) / (1 - p_image));
+    float pmf = static_cast<float>(1 - p_image) * pmf_light(endpoints.lights, i);
     const Light& light = scene.lights[i];
-    float pmf = static_cast<float>(1 - q) * pmf_light(endpoints.lights, i);
+    if (light.type == LightType::area) return emission_of_lamp(scene, i, pmf, u_y, u_d);
     if (light.type == LightType::point)
         return {light.type, {light.p, {}, 0, 1}, sample_sphere(u_d), pmf, 1 / (4 * pi), light.L};
-    if (light.type == LightType::area) {
-        bool back = light.two_sided && u_d.x < 0.5f;
-        if (light.two_sided) u_d.x = 2 * u_d.x - (back ? 0 : 1);
-        LightPoint y = sample_area(scene, i, u_y);
-        if (light.two_sided) y.pdf /= 2;
-        if (back) y.n = -y.n;
-        Vec3 d = sample_cosine_hemisphere(u_d);
-        return {light.type, y, Frame(y.n).to_world(d), pmf, pdf_cosine_hemisphere(d.z), light.L};
-    }
-    if (light.type == LightType::distant) return far(light.type, pmf, {light.p, light.L, 0, 1});
-    return far(light.type, pmf, {-sample_sphere(u_d), light.L, 0, 1 / (4 * pi)});
+    LightSample y = {light.p, light.L, 0, 1};  // of a sun
+    if (light.type == LightType::infinite) y = {-sample_sphere(u_d), light.L, 0, 1 / (4 * pi)};
+    return emission_from_disk(scene, light.type, pmf, y, u_y);
 }
 
 /// Connects the point on the light itself to the camera; nothing for point and distant lights.
@@ -158,17 +163,13 @@ inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
 ///
 ///   f(wo, wi) |wi.n| |wo.ng| / |wi.ng|,    n: the smoothed normal, ng if that faces away from wo
 ///
-/// A path from the eye multiplies by |wi.n|. Flux arrives in proportion to |wi.ng|, and leaves in
-/// proportion to |wo.ng|. Where n = ng, only the cosine |wo.ng| is left.
-/// source  Veach 1997, sec. 5.3
-/// tested by  "agreement: smoothed normals", within 5 standard errors
+/// source  Veach 1997      tested by  "agreement: smoothed normals", within 5 standard errors
 inline Rgb adjoint_bsdf(const Scene& scene, const Hit& x, Vec3 wi, Vec3 wo) {
     Hit seen = seen_from(scene, x, wo);
     return eval_bsdf(seen, wo, wi) * std::abs(dot(wi, seen.n) / dot(wi, x.ng) * dot(wo, x.ng));
 }
 
 /// Connects x, where flux arrives from wi, to the camera.      flux f cos We V / d^2
-///
 /// Mirrors and glass: nothing, since their f is 0 in the direction of the pinhole.
 inline Splat connect_to_camera(const Scene& scene, const Pinhole& camera, const Hit& x, Vec3 wi,
                                Rgb flux) {
@@ -184,8 +185,7 @@ inline Splat connect_to_camera(const Scene& scene, const Pinhole& camera, const 
 
 /// Samples the direction in which light from wi leaves x; s.f holds f cos of the adjoint BSDF.
 /// Refraction scales radiance by 1 / eta^2, but not flux: that factor is removed again.
-/// source  Veach 1997, sec. 5.2
-/// tested by  "truth: flux through a pane of glass, from both sides", within 5 standard errors
+/// source  Veach 1997      tested by  "truth: flux through a pane ...", within 5 standard errors
 inline BsdfSample sample_light_bsdf(const Scene& scene, const Hit& x, Vec3 wi, float u1, Vec2 u2) {
     Hit y = x;
     if (x.material->type == MaterialType::diffuse) y.n = x.ng;  // to sample every possible wo

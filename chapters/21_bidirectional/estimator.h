@@ -20,7 +20,7 @@ struct Vertex {
 };
 using Path = std::vector<Vertex>;
 
-inline bool is_far(LightType t) { return t == LightType::distant || t == LightType::infinite; }
+inline bool at_infinity(LightType t) { return t == LightType::distant || t == LightType::infinite; }
 inline bool can_be_hit(LightType t) { return t == LightType::area || t == LightType::infinite; }
 inline Vec3 direction(const Vertex& from, const Vertex& to) { return normalize(to.x.p - from.x.p); }
 
@@ -99,7 +99,7 @@ inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sample
     Ray ray = {e.y.p + e.y.eps * e.y.n, e.d, infinity, time};
     Path path = random_walk(scene, endpoints, true, ray, sampler, recorder);
     for (Vertex& v : path) v.beta = flux * v.beta;
-    float R = scene.radius, pdf = e.pmf * (is_far(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
+    float R = scene.radius, pdf = e.pmf * (at_infinity(e.type) ? e.pdf_w / (R * R) : e.y.pdf);
     path[0].x.p = e.y.p, path[0].x.ng = e.y.n, path[0].x.eps = e.y.eps;
     path[0].type = e.type, path[0].pdf = pdf, path[0].beta = e.Le / pdf;
     return path;
@@ -108,7 +108,7 @@ inline Path light_subpath(const Scene& scene, const Endpoints& endpoints, Sample
 /// Sets position or normal of y, the point of a light, as seen from the vertex x that it lights.
 /// Distant lights and skies: at the scene's radius from x. Point lights: facing x.
 inline void place_light(const Scene& scene, Vertex& y, const Vertex& x) {
-    if (is_far(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
+    if (at_infinity(y.type)) y.x.p = x.x.p - scene.radius * y.x.ng;
     if (y.type == LightType::point) y.x.ng = direction(y, x);
 }
 
@@ -141,7 +141,6 @@ inline float pdf_emission(const Vertex& light, Vec3 w) {
 }
 
 /// The density of vertex x, in m^-2, in a walk that came from `before` to v (null: it begins at v).
-///
 ///   pdf_A = pdf_w cos / d^2,    pdf_w: of the direction in which the walk leaves v
 inline double pdf_next(const Scene& scene, const Endpoints& endpoints, bool from_light,
                        const Vertex* before, const Vertex& v, const Vertex& x) {
@@ -198,7 +197,8 @@ inline Rgb connect(const Scene& scene, const Vertex& y, const Vertex& z, int s) 
     Rgb f_y = std::max(0.0f, cos_y) * Rgb{1, 1, 1};
     if (s > 1) f_y = adjoint_bsdf(scene, y.x, y.back, -wi);
     Rgb L = z.beta * f * (y.beta * f_y) / (d * d);
-    float t_max = s == 1 && is_far(y.type) ? infinity : d - (z.x.eps + y.x.eps) / std::abs(cos_y);
+    float t_max =
+        s == 1 && at_infinity(y.type) ? infinity : d - (z.x.eps + y.x.eps) / std::abs(cos_y);
     return is_black(L) || occluded(scene, spawn_ray(z.x, wi, t_max)) ? Rgb{} : L;
 }
 

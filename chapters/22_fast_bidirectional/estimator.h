@@ -18,26 +18,26 @@ inline Bidirectional prepare(const Scene& scene, int samples = 16, bool light_sa
     return {endpoints_of(scene), many_lights::prepare(scene), samples, light_sampling};
 }
 
-/// What a vertex stores for the weights of all its connections.
-struct Kept {
+/// The terms of MIS weights that a vertex stores, for all its connections.
+struct MisTerms {
     float pdf = 1;      // m^-2, of this vertex in this walk
     double sum = 0;     // see add_sums()
     float to_area = 0;  // cos / d^2 at the vertex before: turns sr^-1 here into m^-2 there
-    Vec3 back = {};     // unit, to the vertex before, by both points
+    Vec3 back = {};     // unit, to the vertex before, from their positions
 };
 
 /// A path from the eye or from a light, and what its vertices store.
 struct Subpath {
     bool from_light;
     Path path;
-    std::vector<Kept> kept = {};
+    std::vector<MisTerms> terms = {};
 };
 
 /// The density, in sr^-1, with which this walk leaves its n-th vertex along w.
 inline float pdf_forward(const Scene& scene, const Endpoints& endpoints, const Subpath& walk,
                          size_t n, Vec3 w) {
     const Vertex& v = walk.path[n - 1];
-    if (n > 1) return pdf_onwards(scene, walk.from_light, v.x, walk.kept[n - 1].back, w);
+    if (n > 1) return pdf_onwards(scene, walk.from_light, v.x, walk.terms[n - 1].back, w);
     return walk.from_light ? pdf_emission(v, w) : importance_cos(endpoints.camera, w);
 }
 
@@ -51,20 +51,20 @@ inline float pdf_forward(const Scene& scene, const Endpoints& endpoints, const S
 /// source  van Antwerpen 2011; Georgiev 2012
 inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& walk) {
     const Path& path = walk.path;
-    walk.kept.resize(path.size());
+    walk.terms.resize(path.size());
     if (walk.from_light && !path.empty())
-        walk.kept[0] = {.pdf = path[0].pdf, .sum = can_be_hit(path[0].type) ? 1.0 : 0.0};
+        walk.terms[0] = {.pdf = path[0].pdf, .sum = can_be_hit(path[0].type) ? 1.0 : 0.0};
     for (size_t j = 1; j < path.size(); j++) {
         const Vertex &v = path[j - 1], &x = path[j];
         Vec3 w = direction(v, x);
         float d2 = length_squared(x.x.p - v.x.p);
         float pdf = pdf_forward(scene, endpoints, walk, j, w) * std::abs(dot(w, x.x.ng)) / d2;
-        walk.kept[j] = {pdf, walk.kept[j - 1].sum, std::abs(dot(w, v.x.ng)) / d2, -w};
+        walk.terms[j] = {pdf, walk.terms[j - 1].sum, std::abs(dot(w, v.x.ng)) / d2, -w};
         if (j == 1) continue;
         double c = path[j - 2].connectible && v.connectible ? 1 : 0;
-        float pdf_w = pdf_onwards(scene, !walk.from_light, v.x, w, walk.kept[j - 1].back);
-        float r = pdf_w * walk.kept[j - 1].to_area / walk.kept[j - 2].pdf;
-        walk.kept[j].sum = c + static_cast<double>(r) * walk.kept[j - 1].sum;
+        float pdf_w = pdf_onwards(scene, !walk.from_light, v.x, w, walk.terms[j - 1].back);
+        float r = pdf_w * walk.terms[j - 1].to_area / walk.terms[j - 2].pdf;
+        walk.terms[j].sum = c + static_cast<double>(r) * walk.terms[j - 1].sum;
     }
 }
 
@@ -77,11 +77,11 @@ inline void add_sums(const Scene& scene, const Endpoints& endpoints, Subpath& wa
 /// tested by  "identity: by the weights alone, chapter 22 brings what ...", to 1e-4
 inline double sum_of_fewer(const Subpath& walk, size_t n, size_t fewest, float pdf, float pdf_w) {
     if (n <= fewest) return 0;
-    const Kept& last = walk.kept[n - 1];
+    const MisTerms& last = walk.terms[n - 1];
     double r = static_cast<double>(pdf / last.pdf);
     double c = n == 1 || walk.path[n - 2].connectible ? 1 : 0;
     if (n == fewest + 1) return r * c;
-    float r_before = pdf_w * last.to_area / walk.kept[n - 2].pdf;
+    float r_before = pdf_w * last.to_area / walk.terms[n - 2].pdf;
     return r * (c + static_cast<double>(r_before) * last.sum);
 }
 
@@ -93,7 +93,7 @@ inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Su
     const Vertex& z = eye.path[t - 1];
     size_t fewest_t = s + t < 4 ? 2 : 1;  // 2: as in chapter 21, no splats of direct light
     if (s == 0) {
-        float pdf_w = pdf_emission(z, eye.kept[t - 1].back);
+        float pdf_w = pdf_emission(z, eye.terms[t - 1].back);
         return static_cast<float>(1 / (1 + sum_of_fewer(eye, t, fewest_t, z.pdf, pdf_w)));
     }
     const Vertex& y = light.path[s - 1];
@@ -102,8 +102,8 @@ inline float mis_weight(const Scene& scene, const Endpoints& endpoints, const Su
     float d2 = length_squared(z.x.p - y.x.p);
     float pdf_y = pdf_forward(scene, endpoints, eye, t, -w) * std::abs(dot(w, y.x.ng)) / d2;
     float pdf_z = pdf_forward(scene, endpoints, light, s, w) * std::abs(dot(w, z.x.ng)) / d2;
-    float back_y = s > 1 ? pdf_onwards(scene, false, y.x, w, light.kept[s - 1].back) : 0;
-    float back_z = t > 1 ? pdf_onwards(scene, true, z.x, -w, eye.kept[t - 1].back) : 0;
+    float back_y = s > 1 ? pdf_onwards(scene, false, y.x, w, light.terms[s - 1].back) : 0;
+    float back_z = t > 1 ? pdf_onwards(scene, true, z.x, -w, eye.terms[t - 1].back) : 0;
     double sum = 1 + sum_of_fewer(light, s, fewest_s, pdf_y, back_y) +
                  sum_of_fewer(eye, t, fewest_t, pdf_z, back_z);
     return sum > 0 ? static_cast<float>(1 / sum) : 0;  // 0 if vertices coincide (0 / 0)
@@ -129,7 +129,8 @@ inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, c
     TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
     const Vertex& x = eye[1];
     many_lights::Candidates c;
-    many_lights::choose_candidates(scene, lights, x.x, x.back, u.candidates, c);
+    many_lights::choose_candidates(lights, x.x, x.back, u.candidates, c);
+    many_lights::compute_inclusions(scene, lights, c);
     Rgb L;
     if (eye.size() > 2 && !is_black(eye[2].Le)) {
         const Vertex& y = eye[2];
@@ -143,11 +144,11 @@ inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, c
     return L + many_lights::direct_light(scene, lights, c, u, recorder);
 }
 
-/// Whether no connection finds light that reaches the t-th vertex from the eye via mirrors or
-/// glass.
+/// Whether random hits alone find the light that mirrors and glass send to the t-th eye vertex.
 inline bool only_random_hits(const Subpath& eye, size_t t) {
     const Path& path = eye.path;
-    return t > 2 && path[t - 1].connectible && !path[t - 2].connectible && eye.kept[t - 1].sum == 0;
+    return t > 2 && path[t - 1].connectible && !path[t - 2].connectible &&
+           eye.terms[t - 1].sum == 0;
 }
 
 /// Whether the t-th vertex from the eye, a light, is one of those that through_mirrors() finds.

@@ -69,8 +69,8 @@ inline float mis_emission(const Scene& scene, const Endpoints& endpoints,
     if (last && is_diffuse(*last->material)) return 0;
     if (!last || pdf_b == infinity) return 1;
     size_t light = static_cast<size_t>(y ? y->light : scene.sky_light);
-    float pdf_one = y ? pdf_one_light(scene, light, *last, *y) : pdf_sky(*last, wi);
-    return power_heuristic(pdf_b, pmf_light(endpoints.lights, light) * pdf_one);
+    float pdf_w = y ? pdf_one_light(scene, light, *last, *y) : pdf_sky(*last, wi);
+    return power_heuristic(pdf_b, pmf_light(endpoints.lights, light) * pdf_w);
 }
 
 /// Second step: estimates Li along the ray. The path continues via mirrors, glass and rough metal

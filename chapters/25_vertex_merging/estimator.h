@@ -19,23 +19,23 @@ namespace ch25 {
 ///   m_j     1 if paths may merge at vertex j, else 0;    pdf_j: of vertex j in this walk
 inline void add_sums(const Scene& scene, const Merging& merging, Subpath& walk) {
     const Path& path = walk.path;
-    walk.kept.resize(path.size());
+    walk.terms.resize(path.size());
     if (walk.from_light && !path.empty())
-        walk.kept[0] = {.pdf = path[0].pdf, .sum = can_be_hit(path[0].type) ? 1.0 : 0.0};
+        walk.terms[0] = {.pdf = path[0].pdf, .sum = can_be_hit(path[0].type) ? 1.0 : 0.0};
     for (size_t j = 1; j < path.size(); j++) {
         const Vertex &v = path[j - 1], &x = path[j];
         Vec3 w = direction(v, x);
         float d2 = length_squared(x.x.p - v.x.p);
         float pdf =
             pdf_forward(scene, merging.endpoints, walk, j, w) * std::abs(dot(w, x.x.ng)) / d2;
-        walk.kept[j] = {pdf, walk.kept[j - 1].sum, std::abs(dot(w, v.x.ng)) / d2, -w};
+        walk.terms[j] = {pdf, walk.terms[j - 1].sum, std::abs(dot(w, v.x.ng)) / d2, -w};
         if (j == 1) continue;
         double c = path[j - 2].connectible && v.connectible ? 1 : 0;
         if (can_merge(v, walk.from_light ? path[j - 2] : x))
-            c += static_cast<double>(merging.area * walk.kept[j - 1].pdf);
-        float pdf_w = pdf_onwards(scene, !walk.from_light, v.x, w, walk.kept[j - 1].back);
-        float r = pdf_w * walk.kept[j - 1].to_area / walk.kept[j - 2].pdf;
-        walk.kept[j].sum = c + static_cast<double>(r) * walk.kept[j - 1].sum;
+            c += static_cast<double>(merging.area * walk.terms[j - 1].pdf);
+        float pdf_w = pdf_onwards(scene, !walk.from_light, v.x, w, walk.terms[j - 1].back);
+        float r = pdf_w * walk.terms[j - 1].to_area / walk.terms[j - 2].pdf;
+        walk.terms[j].sum = c + static_cast<double>(r) * walk.terms[j - 1].sum;
     }
 }
 
@@ -44,8 +44,8 @@ inline void add_sums(const Scene& scene, const Merging& merging, Subpath& walk) 
 inline double sum_below(const Subpath& walk, size_t n, size_t fewest, float pdf_w) {
     double c = n == 1 || walk.path[n - 2].connectible ? 1 : 0;
     if (n <= fewest + 1) return c;
-    const Kept& last = walk.kept[n - 1];
-    float r = pdf_w * last.to_area / walk.kept[n - 2].pdf;
+    const MisTerms& last = walk.terms[n - 1];
+    float r = pdf_w * last.to_area / walk.terms[n - 2].pdf;
     return c + static_cast<double>(r) * last.sum;
 }
 
@@ -56,7 +56,7 @@ inline double sum_of_fewer(const Merging& merging, const Subpath& walk, size_t n
                            float pdf, float pdf_w) {
     if (n <= fewest) return 0;
     double sum = sum_below(walk, n, fewest, pdf_w);
-    float own_pdf = walk.kept[n - 1].pdf;
+    float own_pdf = walk.terms[n - 1].pdf;
     if (walk.from_light && n > 1 && can_merge(walk.path[n - 1], walk.path[n - 2]))
         sum += static_cast<double>(merging.area * own_pdf);
     return static_cast<double>(pdf / own_pdf) * sum;
@@ -70,7 +70,7 @@ inline float mis_weight(const Scene& scene, const Merging& merging, const Subpat
     const Vertex& z = eye.path[t - 1];
     size_t fewest_t = s + t < 4 ? 2 : 1;  // 2: as in chapter 21, no splats of direct light
     if (s == 0) {
-        float pdf_w = pdf_emission(z, eye.kept[t - 1].back);
+        float pdf_w = pdf_emission(z, eye.terms[t - 1].back);
         return static_cast<float>(1 / (1 + sum_of_fewer(merging, eye, t, fewest_t, z.pdf, pdf_w)));
     }
     const Vertex& y = light.path[s - 1];
@@ -79,8 +79,8 @@ inline float mis_weight(const Scene& scene, const Merging& merging, const Subpat
     float d2 = length_squared(z.x.p - y.x.p);
     float pdf_y = pdf_forward(scene, endpoints, eye, t, -w) * std::abs(dot(w, y.x.ng)) / d2;
     float pdf_z = pdf_forward(scene, endpoints, light, s, w) * std::abs(dot(w, z.x.ng)) / d2;
-    float back_y = s > 1 ? pdf_onwards(scene, false, y.x, w, light.kept[s - 1].back) : 0;
-    float back_z = t > 1 ? pdf_onwards(scene, true, z.x, -w, eye.kept[t - 1].back) : 0;
+    float back_y = s > 1 ? pdf_onwards(scene, false, y.x, w, light.terms[s - 1].back) : 0;
+    float back_z = t > 1 ? pdf_onwards(scene, true, z.x, -w, eye.terms[t - 1].back) : 0;
     double sum = 1 + sum_of_fewer(merging, light, s, fewest_s, pdf_y, back_y) +
                  sum_of_fewer(merging, eye, t, fewest_t, pdf_z, back_z);
     return sum > 0 ? static_cast<float>(1 / sum) : 0;  // 0 if vertices coincide (0 / 0)
@@ -98,11 +98,11 @@ inline Rgb merge(const Scene& scene, const Merging& merging, const Subpath& eye,
     const Vertex& z = eye.path[t - 1];
     if (!z.connectible || !is_diffuse(*z.x.material)) return {};
     recorder.back_to(static_cast<int>(t));
-    const Kept& kept = eye.kept[t - 1];
+    const MisTerms& terms = eye.terms[t - 1];
     float r = merging.map.radius();
     int depth = scene.max_depth + 2 - static_cast<int>(t);  // scattering events that are left
-    float pdf_w = pdf_onwards(scene, true, z.x, kept.back, kept.back);
-    double from_eye = sum_below(eye, t, 1, pdf_w) / static_cast<double>(merging.area * kept.pdf);
+    float pdf_w = pdf_onwards(scene, true, z.x, terms.back, terms.back);
+    double from_eye = sum_below(eye, t, 1, pdf_w) / static_cast<double>(merging.area * terms.pdf);
     Rgb sum;
     merging.map.for_each_near(z.x.p, [&](const Photon& photon, Vec3 v) {
         bool same_surface = dot(photon.ng, z.x.ng) > std::numbers::sqrt2_v<float> / 2;

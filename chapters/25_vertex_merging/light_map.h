@@ -49,13 +49,13 @@ inline void add_light_path(const Scene& scene, const Subpath& walk, float area, 
                            LightPaths& paths) {
     for (size_t j = 1; j < walk.path.size() && walk.path[j].x.material; j++) {
         const Vertex& v = walk.path[j];
-        const Kept &kept = walk.kept[j], &before = walk.kept[j - 1];
-        paths.vertices.push_back({v.x.material, kept.back});
-        float cos_g = dot(kept.back, v.x.ng);
+        const MisTerms &terms = walk.terms[j], &before = walk.terms[j - 1];
+        paths.vertices.push_back({v.x.material, terms.back});
+        float cos_g = dot(terms.back, v.x.ng);
         if (!can_merge(v, walk.path[j - 1]) || !(cos_g > 0)) continue;
-        double per_w = static_cast<double>(kept.to_area / before.pdf) * kept.sum;
-        paths.vertices.back().others = per_w / static_cast<double>(area * kept.pdf);
-        float cos_n = std::max(0.0f, dot(kept.back, smooth_normal(scene, v.x)));
+        double per_w = static_cast<double>(terms.to_area / before.pdf) * terms.sum;
+        paths.vertices.back().others = per_w / static_cast<double>(area * terms.pdf);
+        float cos_n = std::max(0.0f, dot(terms.back, smooth_normal(scene, v.x)));
         paths.add_photon(v.x.p, v.x.ng, v.beta / static_cast<float>(N), j, cos_n / cos_g);
     }
 }

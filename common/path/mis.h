@@ -17,14 +17,14 @@ inline float power_heuristic(float a, float b) { return 1 / (1 + (b / a) * (b / 
 /// (chapter 10), which finds too little of a sky that is bright only near the horizon.
 ///
 /// tested by  "variance: a sky at the horizon: ...", relMSE below 2/3 of chapter 10's
-inline LightSample sample_beside_bsdf(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
+inline LightSample sample_light_for_mis(const Scene& scene, size_t light, const Hit& x, Vec2 u) {
     if (scene.lights[light].type != LightType::infinite)
         return sample_one_light(scene, light, x, u);
     Vec3 wi = from_cylindrical(std::sqrt(u.x * (2 - u.x)), u.y, 1 - u.x);
     return {Frame(x.n).to_world(wi), scene.lights[light].L, infinity, 1 / (2 * pi)};
 }
-/// The density of sample_beside_bsdf for wi, in sr^-1, of the light hit at y, or else of the sky.
-inline float pdf_beside_bsdf(const Scene& scene, size_t light, const Hit& x,
-                             const std::optional<Hit>& y) {
+/// The density of sample_light_for_mis for wi, in sr^-1, of the light hit at y, or else of the sky.
+inline float pdf_light_for_mis(const Scene& scene, size_t light, const Hit& x,
+                               const std::optional<Hit>& y) {
     return y ? pdf_one_light(scene, light, x, *y) : 1 / (2 * pi);
 }

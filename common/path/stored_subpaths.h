@@ -4,26 +4,26 @@
 #include "common/path/many_lights.h"
 #include "common/path/subpaths.h"
 
-/// What a vertex stores for the weights of all its connections.
-struct Kept {
+/// The terms of MIS weights that a vertex stores, for all its connections.
+struct MisTerms {
     float pdf = 1;      // m^-2, of this vertex in this walk
     double sum = 0;     // see add_sums()
     float to_area = 0;  // cos / d^2 at the vertex before: turns sr^-1 here into m^-2 there
-    Vec3 back = {};     // unit, to the vertex before, by both points
+    Vec3 back = {};     // unit, to the vertex before, from their positions
 };
 
 /// A path from the eye or from a light, and what its vertices store.
 struct Subpath {
     bool from_light;
     Path path;
-    std::vector<Kept> kept = {};
+    std::vector<MisTerms> terms = {};
 };
 
 /// The density, in sr^-1, with which this walk leaves its n-th vertex along w.
 inline float pdf_forward(const Scene& scene, const Endpoints& endpoints, const Subpath& walk,
                          size_t n, Vec3 w) {
     const Vertex& v = walk.path[n - 1];
-    if (n > 1) return pdf_onwards(scene, walk.from_light, v.x, walk.kept[n - 1].back, w);
+    if (n > 1) return pdf_onwards(scene, walk.from_light, v.x, walk.terms[n - 1].back, w);
     return walk.from_light ? pdf_emission(v, w) : importance_cos(endpoints.camera, w);
 }
 
@@ -47,7 +47,8 @@ inline Rgb direct_light(const Scene& scene, const many_lights::Lights& lights, c
     TwoLightNumbers u = two_light_numbers(sampler, scene.lights.size(), lights.M);
     const Vertex& x = eye[1];
     many_lights::Candidates c;
-    many_lights::choose_candidates(scene, lights, x.x, x.back, u.candidates, c);
+    many_lights::choose_candidates(lights, x.x, x.back, u.candidates, c);
+    many_lights::compute_inclusions(scene, lights, c);
     Rgb L;
     if (eye.size() > 2 && !is_black(eye[2].Le)) {
         const Vertex& y = eye[2];

@@ -150,10 +150,9 @@ float radius_within(const Scene& scene, double radius) {
 void refuse_delta_lights(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type != LightType::point && light.type != LightType::distant) continue;
-        fail(
-            scene.place(light.at),
-            std::string("a ") + (light.type == LightType::point ? "point" : "distant") +
-                " light has no size, so no path finds it by chance; chapters from 09 on sample it");
+        fail(scene.place(light.at),
+             std::string("a ") + (light.type == LightType::point ? "point" : "distant") +
+                 " light has no size, so no path can hit it; chapters from 09 on sample it");
     }
 }
 

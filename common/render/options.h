@@ -12,7 +12,7 @@
 /// How a chapter finds light, which decides what it can know about its error.
 enum class LightSearch : uint8_t {
     light_sampling,  // samples lights, and hits at random those that it cannot sample
-    by_chance,       // never samples lights: random hits only
+    random_hits,     // never samples lights
     direct,          // samples lights, follows mirrors and glass; leaves out other light
     from_lights,     // starts at lights; misses what the camera sees in mirrors and glass
     both_ends,       // starts at lights and at the eye, and connects the two

@@ -294,17 +294,18 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
                       is_left_out =
                           "from a point or distant light is left out: no path can hit "
                           "such a light",
-                      by_chance =
-                          "found only by chance: the true error may be larger than the "
+                      random_hits =
+                          "found only by random hits: the true error may be larger than the "
                           "reported one",
                       larger = "the true error may be larger than the reported one";
     switch (options.search) {
         case LightSearch::photons: break;  // they find all light, but blur it
-        case LightSearch::by_chance:
-            lines.warn(has_rare_light(scene, samples),
-                       "this chapter finds lights only by chance, and one is so small that few "
-                       "paths hit it: " +
-                           larger);
+        case LightSearch::random_hits:
+            lines.warn(
+                has_rare_light(scene, samples),
+                "this chapter finds lights only by random hits, and one is so small that few "
+                "paths hit it: " +
+                    larger);
             break;
         case LightSearch::from_lights: {
             InView seen = in_view(scene);
@@ -339,9 +340,9 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
                 receivers ? 10 * share_on_smooth_metal(scene, samples, !lights_alone) * film.mean()
                           : 0;
             lines.warn(hidden > 0 && !(hidden <= error),
-                       "light that reaches a surface via nearly smooth metal is " + by_chance);
+                       "light that reaches a surface via nearly smooth metal is " + random_hits);
             lines.warn(casts && has_delta, by_mirrors + is_left_out);
-            lines.warn(casts && (has_area || scene.sky_image), by_mirrors + "is " + by_chance);
+            lines.warn(casts && (has_area || scene.sky_image), by_mirrors + "is " + random_hits);
             break;
         }
         case LightSearch::direct: {
@@ -374,7 +375,7 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
                        "hardly any path from a point or distant light hits a mirror, glass or "
                        "smooth metal: the light that these cast on surfaces may be missing");
             lines.warn(is_seen && has_delta, both + is_left_out);
-            lines.warn(is_seen && !has_delta && has_area, both + "is " + by_chance);
+            lines.warn(is_seen && !has_delta && has_area, both + "is " + random_hits);
             break;
         }
     }
@@ -407,8 +408,8 @@ std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions
                          "sides");
     lines.warn(
         is_deep && !all_mirrors && !all_black && !away,
-        options.search == LightSearch::by_chance
-            ? "this chapter finds lights only by chance: more samples find them, or a "
+        options.search == LightSearch::random_hits
+            ? "this chapter finds lights only by random hits: more samples find them, or a "
               "chapter that samples lights (from 09 on)"
             : "too few paths find a way from the lights to what is in view: more samples, or "
               "a chapter that finds light in another way");

@@ -70,10 +70,11 @@ TEST_SUITE("ch15 two lights") {
                 Hit x = somewhere(scene, random);
                 double u = to_unit_double(random.u2());
                 ch15::Candidates c;
-                ch15::choose_candidates(scene, lights, x, x.n, u, c);
+                ch15::choose_candidates(lights, x, x.n, u, c);
+                ch15::compute_inclusions(scene, lights, c);
                 if (c.size == 0 && N > 2) continue;
                 REQUIRE(c.size == size);
-                int always = N <= M ? N : static_cast<int>(lights.always.size());
+                int always = static_cast<int>(lights.always.size());
                 std::vector<double> w;
                 for (int i = 0; i < size; i++) {
                     size_t light = c.light[i], number = static_cast<size_t>(i);
@@ -103,7 +104,8 @@ TEST_SUITE("ch15 two lights") {
             ch15::Lights lights = ch15::prepare(scene, M);
             Hit x = origin_of(scene);
             ch15::Candidates c;
-            ch15::choose_candidates(scene, lights, x, x.n, 0.4, c);
+            ch15::choose_candidates(lights, x, x.n, 0.4, c);
+            ch15::compute_inclusions(scene, lights, c);
             REQUIRE(c.size == std::min(M, 3));
             for (int i = 0; i < c.size; i++) {
                 Scene dark = only(c.light[i], scene);
@@ -155,7 +157,9 @@ TEST_SUITE("ch15 two lights") {
         for (Light& light : scene.lights) light.L = {};
         ch15::Candidates c;
         Hit x = origin_of(scene);
-        ch15::choose_candidates(scene, ch15::prepare(scene), x, x.n, 0, c);
+        ch15::Lights dark = ch15::prepare(scene);
+        ch15::choose_candidates(dark, x, x.n, 0, c);
+        ch15::compute_inclusions(scene, dark, c);
         CHECK(c.size == 0);
         for (Light& light : scene.lights) light.L = {2e38f, 2e38f, 2e38f};
         Sampler random = random_numbers(1);
@@ -167,7 +171,7 @@ TEST_SUITE("ch15 two lights") {
 TEST_SUITE("ch15 mis ris") {
     TEST_CASE(
         "variance: a thousand lights over rough metal: lobes that turn away are not sampled") {
-        // Without lobe_share() it was 5 times as much.
+        // Without bsdf_factor() it was 5 times as much.
         Scene scene = scene_from("scenes/thousand-lights.pbrt", 48, 1);
         Material& floor = scene.materials[scene.shapes[0].material];
         REQUIRE(floor.reflectance.r == 0.6f);

@@ -149,19 +149,19 @@ TEST_SUITE("ch19 adaptive") {
         }
     }
 
-    TEST_CASE(
-        "failure: halves that judge themselves are too dark, those that judge each other right" *
-        doctest::skip()) {
+    TEST_CASE("failure: too dark if each half decides for itself, right if the other half does" *
+              doctest::skip()) {
         Scene scene = empty_scene(128, 128, 0);
         for (SamplerType sampler : {SamplerType::independent, SamplerType::sobol})
-            for (ch19::Judge judge : {ch19::Judge::own, ch19::Judge::other}) {
+            for (ch19::PilotHalf decides : {ch19::PilotHalf::own, ch19::PilotHalf::other}) {
                 RunningStats means;
                 for (uint32_t seed = 1; seed <= 20; seed++)
-                    means.add(adaptive(scene, rare, 24, seed, {8, judge, {}}, sampler).film.mean());
+                    means.add(
+                        adaptive(scene, rare, 24, seed, {8, decides, {}}, sampler).film.mean());
                 double z = (means.mean() - 0.05) / means.standard_error();
                 CHECK(means.standard_error() < 0.0001);
-                if (judge == ch19::Judge::other) CHECK(std::abs(z) < 5);
-                if (judge == ch19::Judge::own) CHECK(z < -8);
+                if (decides == ch19::PilotHalf::other) CHECK(std::abs(z) < 5);
+                if (decides == ch19::PilotHalf::own) CHECK(z < -8);
             }
     }
 

@@ -30,14 +30,14 @@ double relative(Rgb a, Rgb b) {
 }
 
 Method by_21(const Scene& scene) { return method_of<ch21::trace>(endpoints_of(scene)); }
-Method by_22(const Scene& scene, int chances) {
-    return method_of<ch22::trace>(ch22::prepare(scene, chances));
+Method by_22(const Scene& scene, int samples) {
+    return method_of<ch22::trace>(ch22::prepare(scene, samples));
 }
 
 }  // namespace
 
 TEST_SUITE("ch22 fast bidirectional") {
-    TEST_CASE("identity: chances replace only paths that no connection can make" *
+    TEST_CASE("identity: extra samples replace only paths that no connection can make" *
               doctest::skip()) {
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 8);
         Method without = by_22(scene, 0), with = by_22(scene, 16);
@@ -45,9 +45,9 @@ TEST_SUITE("ch22 fast bidirectional") {
         for (uint32_t i = 0; i < 150000; i++) {
             std::vector<Contribution> kept;
             for (const Contribution& part : parts_of(scene, with, i)) {
-                bool by_chance = part.mis == 1 / 16.0f && part.way.starts_with("s 0");
-                if (!by_chance) kept.push_back(part);
-                added += by_chance;
+                bool is_extra = part.mis == 1 / 16.0f && part.way.starts_with("s 0");
+                if (!is_extra) kept.push_back(part);
+                added += is_extra;
             }
             size_t k = 0;
             for (const Contribution& part : parts_of(scene, without, i)) {
@@ -78,15 +78,15 @@ TEST_SUITE("ch22 fast bidirectional") {
         }
     }
 
-    TEST_CASE("variance: sixteen chances leave a sixteenth of the variance of their paths" *
+    TEST_CASE("variance: sixteen samples leave a sixteenth of the variance of their paths" *
               doctest::skip()) {
         // Light through glass, seen through glass or a mirror: only random hits find it.
         Scene scene = scene_from("scenes/cornell-spheres.pbrt", 32, 8);
-        auto by_chances = [&](int chances, uint32_t seed) {
-            return census_of(scene, by_22(scene, chances), 400000, seed, {"LS+DS+E"})
+        auto by_samples = [&](int samples, uint32_t seed) {
+            return census_of(scene, by_22(scene, samples), 400000, seed, {"LS+DS+E"})
                 .measured("all LS+DS+E");
         };
-        Measured one = by_chances(0, 1), many = by_chances(16, 2);
+        Measured one = by_samples(0, 1), many = by_samples(16, 2);
         CHECK(z_between(one, many) < 5);
         CHECK(many.se < 0.5 * one.se);
         CHECK(many.se > 0.2 * one.se);

@@ -126,7 +126,7 @@ TEST_SUITE("ch25 weights") {
         walk.path[1].x.light = -1;
         walk.path[2].x.p = {1, 0, 0}, walk.path[2].x.n = walk.path[2].x.ng = {0, 0, -1};
         for (float towards : {0.0f, 0.1f}) {
-            walk.kept.assign(3, {.pdf = 1, .back = normalize(Vec3{-1, 0, -towards})});
+            walk.terms.assign(3, {.pdf = 1, .back = normalize(Vec3{-1, 0, -towards})});
             ch25::LightPaths paths;
             ch25::add_light_path(Scene{}, walk, 1, 1, paths);
             CHECK(paths.vertices.size() == 2);

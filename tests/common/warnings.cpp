@@ -165,9 +165,9 @@ TEST_SUITE("warnings") {
     }
 
     TEST_CASE("truth: what each search for light leaves out, scene by scene") {
-        const std::string met = "through mirrors or glass is found only by chance",
+        const std::string met = "through mirrors or glass is found only by random hits",
                           delta = "through mirrors or glass from a point or distant light is left",
-                          both_met = "sees in mirrors or glass is found only by chance",
+                          both_met = "sees in mirrors or glass is found only by random hits",
                           both_delta = "sees in mirrors or glass from a point or distant light",
                           direct = "is left out, and so is light that one surface reflects",
                           by_sky = "light that surfaces receive from the sky is left out",
@@ -196,7 +196,7 @@ TEST_SUITE("warnings") {
             CAPTURE(c.world);
             Scene scene = seen(c.world);
             CHECK(are(told(scene, LightSearch::light_sampling), c.light_sampling));
-            CHECK(are(told(scene, LightSearch::by_chance), {}));
+            CHECK(are(told(scene, LightSearch::random_hits), {}));
             CHECK(are(told(scene, LightSearch::direct), c.direct));
             CHECK(are(told(scene, LightSearch::both_ends, quiet_film(1024)), c.both_ends));
             CHECK(are(told(scene, LightSearch::photons), {}));
@@ -230,7 +230,7 @@ TEST_SUITE("warnings") {
                           const std::string& rgb = "0.9 0.9 0.9") {
             std::string plate = in(metal(alpha, rgb), "Translate 1 0.1 0 " + floor_2),
                         world = plate + grey_floor + lamp(ball("0 1 0", radius)),
-                        hides = "via nearly smooth metal is found only by chance",
+                        hides = "via nearly smooth metal is found only by random hits",
                         shows = "metal that is nearly a mirror: few paths from a light";
             Film film = quiet_film(spp);
             CHECK(!tells(world, LightSearch::both_ends, film, hides));
@@ -257,7 +257,7 @@ TEST_SUITE("warnings") {
                           away = "the lights and all that is in view face away from each other";
         const Scene lit = seen(grey_floor + small_lamp);
         CHECK(are(causes(lit), {between}));
-        CHECK(are(causes(lit, LightSearch::by_chance), {"finds lights only by chance"}));
+        CHECK(are(causes(lit, LightSearch::random_hits), {"finds lights only by random hits"}));
         CHECK(are(causes(lit, LightSearch::direct, 5, "LDE"), {"--paths keeps no", between}));
         CHECK(are(causes(lit, LightSearch::direct, 0), {"with a depth of 0 only lights"}));
         CHECK(are(causes(seen(grey_floor + small_lamp, camera("0 2 -4  0 9 0  0 1 0"))),

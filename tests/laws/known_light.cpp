@@ -69,7 +69,7 @@ TEST_SUITE("law: known light") {
             // thousand goes through a corner. Paths from the sky hardly ever meet what is seen.
             bool by_eye = known.name == "red" || known.name == "box";
             for (const NamedMethod& m : all_methods()) {
-                bool as_another = m.is_variant() && m.name != "09-area" && !m.by_chance();
+                bool as_another = m.is_variant() && m.name != "09-area" && !m.random_hits();
                 bool too_rare = m.number() == 20 && scene.sky_light >= 0;
                 if (as_another || too_rare || m.number() < known.first_chapter ||
                     (by_eye && m.number() > 20))

@@ -128,10 +128,10 @@ void check_light(const Scene& scene, const KnownLight& light) {
         }
         if (light.mean > 0) {
             double wanted = paths / 8 * std::pow(m.se / (0.6 * bound * light.mean), 2);
-            if (wanted > most / 8 && (method.by_chance() || blurs || from_lights))
+            if (wanted > most / 8 && (method.random_hits() || blurs || from_lights))
                 bound *= 3, wanted /= 9;
             // Hardly ever met.
-            if ((method.by_chance() || from_lights) && (m.mean == 0 || wanted > most)) continue;
+            if ((method.random_hits() || from_lights) && (m.mean == 0 || wanted > most)) continue;
             paths = static_cast<int>(std::clamp<double>(wanted, few, most));
             Census census = census_of(scene, method, paths, 1, !light.parts.empty());
             m = census.measured("all");

@@ -77,7 +77,7 @@ inline std::vector<StabilityCase> stability_cases() {
     const std::string point = "LightSource \"point\" \"point3 from\" [0 1 0]\n";
     const std::string bright = "LightSource \"point\" \"rgb I\" [1000 1000 1000] \"point3 from\" ";
     const std::string wall = black + disk("1", "1.5");
-    const std::string by_chance = "07,08,13-bsdf";
+    const std::string random_hits = "07,08,13-bsdf";
     // A black roof: the sky shows below the elevation whose sine is 0.1.
     const std::string roof = black + disk("29.8496231", "3"), level = "0 1 -2  0 0 0  0 1 0";
     const std::string sun =
@@ -142,7 +142,7 @@ inline std::vector<StabilityCase> stability_cases() {
               {"12", {variance(0.0029192111, 0.0261801)}},
               {"12-m32", {variance(0.0014418955, 0.00897375)}},
               {"15,15-m16", {variance(0)}}},
-             by_chance},
+             random_hits},
             // All is in the few samples that keep the weak light.
             {"bright light behind a wall",
              near_view + ground + point + bright + "[0 2 0]\n" + wall,
@@ -153,7 +153,7 @@ inline std::vector<StabilityCase> stability_cases() {
               {"12", {bad_variance(249.89771, 3935.11), covers(0.90510537)}},
               {"12-m32", {bad_variance(249.94948, 3936.04), covers(0.9050487)}},
               {"15,15-m16", {variance(0)}}},
-             by_chance},
+             random_hits},
             // Of three lights 15 samples two, the likelier the more they could give.
             {"two bright lights behind a wall",
              near_view + ground + point + bright + "[0 2 0]\n" + bright + "[0 2 0]\n" + wall,
@@ -161,7 +161,7 @@ inline std::vector<StabilityCase> stability_cases() {
              {{"09,10", {variance(2)}},
               {"11,13,14", {variance(10.946269)}},
               {"15,15-m16,16", {variance(13.232955)}}},
-             by_chance},
+             random_hits},
             {"sky below sine 0.1",
              look(level) + "LightSource \"infinite\" \"rgb L\" [1 1 1]\n" + ground + roof,
              0.005,
@@ -180,7 +180,7 @@ inline std::vector<StabilityCase> stability_cases() {
              {{"17,18", {bad_variance(46.071971)}}, {"17-plain", {bad_variance(19.096234)}}},
              before_17},
             // A lamp with its back to the ground, under a mirror in which the eye sees the ground:
-            // LSDSE, met by chance alone. 22 takes sixteen samples for one.
+            // LSDSE, found by random hits alone. 22 takes sixteen samples for one.
             {"ground lit and seen by a mirror",
              look("0 0.5 -0.5  0 2 0  0 1 0", 3) +
                  "Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n" + ground + mirror +

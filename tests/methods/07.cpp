@@ -5,5 +5,5 @@ static const Rows added = {{.name = "07",
                             .label = "07 path tracing",
                             .color = "#888888",
                             .scenes = {"cornell", "color-bleeding"},
-                            .search = LightSearch::by_chance,
+                            .search = LightSearch::random_hits,
                             .make = [](auto&, auto&) { return method_of<ch07::trace>(); }}};

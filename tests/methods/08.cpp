@@ -5,5 +5,5 @@ static const Rows added = {{.name = "08",
                             .label = "08 Russian roulette",
                             .color = "#8c564b",
                             .scenes = {"cornell", "closed-sphere"},
-                            .search = LightSearch::by_chance,
+                            .search = LightSearch::random_hits,
                             .make = [](auto&, auto&) { return method_of<ch08::trace>(); }}};

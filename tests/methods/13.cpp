@@ -17,4 +17,4 @@ static NamedMethod row(const char* name, const char* label, const char* color, L
 static const Rows added = {row("13", "13 glossy, by lights alone", "#9467bd",
                                LightSearch::light_sampling, Strategy::light),
                            row("13-bsdf", "13 glossy, by the BSDF alone", "#ff0077",
-                               LightSearch::by_chance, Strategy::bsdf)};
+                               LightSearch::random_hits, Strategy::bsdf)};

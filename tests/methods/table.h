@@ -25,7 +25,7 @@ struct NamedMethod {
     /// Whether it is a chapter with an option, and not the chapter as it is.
     bool is_variant() const { return name.size() > 2; }
     /// Whether it never samples lights: it has more noise, and finds no lights without size.
-    bool by_chance() const { return search == LightSearch::by_chance; }
+    bool random_hits() const { return search == LightSearch::random_hits; }
     /// Whether it blurs light: all of it (23, 24), or that of mirrors and glass (25).
     bool biased() const { return blurs() || search == LightSearch::merging; }
     bool blurs() const { return search == LightSearch::photons; }
