@@ -3,7 +3,6 @@
 #include "common/picture/notes.h"
 #include "common/render/film_keeping.h"
 #include "common/render/render.h"
-#include "common/render/results.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

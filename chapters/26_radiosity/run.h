@@ -7,8 +7,7 @@
 #include "common/base/position.h"
 #include "common/base/progress.h"
 #include "common/path/method.h"
-#include "common/render/render_film.h"
-#include "common/render/results.h"
+#include "common/render/render.h"
 #include "common/scene/origin.h"
 
 namespace ch26 {

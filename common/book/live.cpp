@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "common/render/film_clock.h"
+#include "common/render/film_keeping.h"
 
 /// Hands the picture to the page: of each pixel r, g, b and its number of samples.
 EM_JS(void, show, (int width, int height, const float* pixels, double mean, double error), {

@@ -1,33 +1,28 @@
 #include "common/recording/class_filter.h"
 
-#include <algorithm>
-#include <functional>
 #include <set>
 
 #include "common/base/position.h"
 
 namespace {
 
-constexpr std::string_view letters = "LDSE";
-
-using Places = std::set<size_t>;
-/// Adds the places that are reached from a place by reading one letter of a set.
-using Step = std::function<void(size_t place, const std::string& set, Places& reached)>;
-
-/// Follows an expression from all possible places at the same time. Each function reads one rule of
-/// the grammar at at_, and returns the places that are reached from those before it.
+/// Follows an expression from all possible places of a word at the same time. Each function reads
+/// one rule of the grammar at at_, and returns the places that are reached from those before it.
 class Matcher {
 public:
-    Matcher(const std::string& expression, const Step& step) : text_(expression), step_(step) {}
+    Matcher(const std::string& expression, const std::string& word)
+        : text_(expression), word_(word) {}
 
-    Places run() {
+    bool run() {
         if (text_.size() > 1000) fail(1000, "the expression is too long");
         Places reached = read_choice({0});
         if (at_ < text_.size()) fail(at_, "this ) closes nothing");
-        return reached;
+        return reached.contains(word_.size());
     }
 
 private:
+    using Places = std::set<size_t>;  // how many letters have been read
+
     [[noreturn]] void fail(size_t at, const std::string& what) const {
         throw UsageError("error: --paths " + quote(text_) + ", column " + std::to_string(at + 1) +
                          ": " + what);
@@ -65,42 +60,24 @@ private:
     }
     Places read_one(const Places& from) {
         size_t begin = at_;
-        if (take('(')) {
+        char c = text_[at_++];
+        Places reached;
+        if (c == '(') {
             if (++depth_ > 8) fail(begin, "brackets are nested more than 8 deep");
-            Places reached = read_choice(from);
+            reached = read_choice(from);
             if (!take(')')) fail(begin, "this ( is not closed");
             depth_--;
-            return reached;
+        } else if (c != '.' && c != 'L' && c != 'D' && c != 'S' && c != 'E') {
+            fail(begin, std::string("'") + c + "' is not one of the letters L, D, S and E");
+        } else {
+            for (size_t place : from)
+                if (place < word_.size() && (c == '.' || c == word_[place]))
+                    reached.insert(place + 1);
         }
-        std::string set = take('.')   ? std::string(letters)
-                          : take('[') ? read_set(begin)
-                                      : std::string(1, read_letter());
-        Places reached;
-        for (size_t place : from) step_(place, set, reached);
         return reached;
     }
-    std::string read_set(size_t begin) {
-        bool others = take('^');
-        std::string named, set;
-        while (!take(']')) {
-            if (at_ == text_.size()) fail(begin, "this [ is not closed");
-            named += read_letter();
-        }
-        for (char c : letters)
-            if ((named.find(c) == std::string::npos) == others) set += c;
-        if (set.empty()) fail(begin, "no letter is in this [ ]");
-        return set;
-    }
-    char read_letter() {
-        char c = text_[at_];
-        if (letters.find(c) == std::string_view::npos)
-            fail(at_, std::string("'") + c + "' is not one of the letters L, D, S and E");
-        at_++;
-        return c;
-    }
 
-    const std::string& text_;
-    const Step& step_;
+    const std::string &text_, &word_;
     size_t at_ = 0;
     int depth_ = 0;  // of brackets
 };
@@ -114,22 +91,7 @@ ClassFilter::ClassFilter(const std::string& expression)
 
 bool ClassFilter::matches(const std::string& path_class) {
     if (auto known = known_.find(path_class); known != known_.end()) return known->second;
-    // A place: how many letters of the class have been read.
-    Step step = [&](size_t place, const std::string& set, Places& reached) {
-        bool fits = place < path_class.size() && set.find(path_class[place]) != std::string::npos;
-        if (fits) reached.insert(place + 1);
-    };
-    bool found = Matcher(expression_, step).run().contains(path_class.size());
+    bool found = Matcher(expression_, path_class).run();
     if (known_.size() < 1000) known_[path_class] = found;
     return found;
-}
-
-bool ClassFilter::matches_some_path() const {
-    // The places: 0 before L, 1 behind it and behind any number of D and S, 2 behind E.
-    Step step = [](size_t place, const std::string& set, Places& reached) {
-        if (place == 0 && set.find('L') != std::string::npos) reached.insert(1);
-        if (place == 1 && set.find_first_of("DS") != std::string::npos) reached.insert(1);
-        if (place == 1 && set.find('E') != std::string::npos) reached.insert(2);
-    };
-    return Matcher(expression_, step).run().contains(2);
 }

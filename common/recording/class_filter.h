@@ -5,9 +5,8 @@
 
 /// A regular expression over the letters of a path's class, which must match the whole class.
 ///
-///   L D S E   that letter        .        any letter       [DS] [^S]   one of these, none of these
-///   a b       a, and then b      a|b      a or b           (a)         brackets
-///   a* a+ a?  any number of a, at least one, at most one
+///   L D S E   that letter            .     any letter          a|b   a or b
+///   a* a+ a?  any number of a, at least one, at most one       (a)   brackets
 ///
 /// tested by  "truth: what each sign of a class filter matches"
 class ClassFilter {
@@ -17,8 +16,6 @@ public:
 
     /// Remembers the answers.
     bool matches(const std::string& path_class);
-    /// Whether any class of paths, L(D|S)*E, matches.
-    bool matches_some_path() const;
 
 private:
     std::string expression_;

@@ -1,24 +1,73 @@
 #include "common/recording/recorder.h"
 
+#include <cstdio>
+
 #include "common/recording/path_story.h"
 
-void Recorder::forget() {
-    depth_ = 0;
-    scattered_.clear();
-    beta_.clear();
-    from_light_.clear();
-    at_light_ = false;
-    vertices_.clear();
-    latest_.clear();
-    photons_.clear();
-    contributions_.clear();
+namespace {
+
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+    char text[512];
+    std::snprintf(text, sizeof text, pattern, args...);
+    return text;
 }
+std::string triple(float a, float b, float c) {
+    return format("(%.6g, %.6g, %.6g)", double{a}, double{b}, double{c});
+}
+std::string to_text(Vec3 v) { return triple(v.x, v.y, v.z); }
+std::string to_text(Rgb c) { return triple(c.r, c.g, c.b); }
+
+constexpr const char* material_names[] = {"diffuse", "conductor", "dielectric"};
+
+std::string depth_limit(const PathStory& story) {
+    return format("the depth limit, %d scattering events", story.max_depth);
+}
+
+/// Why a path ends at a vertex, where no next direction was sampled.
+std::string end_at_vertex(const PathStory& story, const Hit& x, size_t number) {
+    std::string vertex = format("vertex %zu", number);
+    bool diffuse = x.material->type == MaterialType::diffuse;
+    if (diffuse && is_black(x.material->reflectance)) return vertex + " is black: it absorbs all";
+    if (diffuse && story.gathers) return "photons around " + vertex + " tell the rest";
+    return "absorbed at " + vertex + ": the direction drawn lies below the surface";
+}
+
+}  // namespace
+
+void PathStory::add(const std::string& line) {
+    for (; told < rays.size(); told++) {
+        const TracedRay& traced = rays[told];
+        if (traced.shadow && traced.met) {
+            text += "    shadow ray along " + to_text(traced.ray.d) + ": blocked\n";
+        } else if (!traced.shadow && !traced.met) {
+            text += "    leaves the scene along " + to_text(traced.ray.d) + "\n";
+            if_last = "it has left the scene";
+        }
+    }
+    text += line;
+}
+
+void PathStory::starts_at_eye() {
+    ends();
+    rays_kept = &rays;
+    step("from the eye:\n");
+}
+
+void PathStory::ends() {
+    if (!rays.empty()) add("");
+    if (!rays.empty() && !if_last.empty()) text += "    ends: " + if_last + "\n";
+    rays_kept = nullptr;
+}
+
+void Recorder::forget() { static_cast<RecordedPath&>(*this) = {}; }
 
 void Recorder::note_start_at_light(Vec3 p) {
     from_light_.clear();
     at_light_ = true;
     vertices_.push_back({p, -2});
-    if (story_) story_->starts_at_light(p, vertices_.size());
+    if (story_)
+        story_->step(format("vertex %zu  a light at ", vertices_.size()) + to_text(p) + "\n");
 }
 
 void Recorder::note_start_at_eye() {
@@ -27,14 +76,21 @@ void Recorder::note_start_at_eye() {
 }
 
 void Recorder::note_vertex(const Hit& x) {
-    if (at_light_) {
-        vertices_.push_back({x.p, static_cast<int>(vertices_.size()) - 1});
-    } else {
+    int number = static_cast<int>(vertices_.size()), before = number - 1;
+    if (!at_light_) {
         latest_.resize(depth_ + 1);
-        latest_[depth_] = static_cast<int>(vertices_.size());
-        vertices_.push_back({x.p, depth_ > 0 ? latest_[depth_ - 1] : -1});
+        latest_[depth_] = number;
+        before = depth_ > 0 ? latest_[depth_ - 1] : -1;
     }
-    if (story_) story_->meets(x, vertices_.size());
+    vertices_.push_back({x.p, before});
+    if (!story_) return;
+    size_t shown = vertices_.size(), limit = static_cast<size_t>(story_->max_depth);
+    bool at_limit = at_light_ && from_light_.size() + 1 == limit;
+    story_->step(
+        format("vertex %zu  %s at ", shown, material_names[static_cast<int>(x.material->type)]) +
+            to_text(x.p) + ", n " + to_text(x.n) +
+            format(", %s, distance %.6g\n", x.front ? "front" : "back", double{x.t}),
+        at_limit ? depth_limit(*story_) : end_at_vertex(*story_, x, shown));
 }
 
 /// The number, from 1, of the vertex after this many scattering events; the last one, if the sky
@@ -53,25 +109,30 @@ void Recorder::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta
         beta_.resize(depth_++);
         beta_.push_back(beta);
     }
-    if (story_) story_->goes_on(wi, f, pdf_w, specular, beta);
+    if (!story_ || story_->is_cut) return;  // drawn, but not followed
+    story_->step(
+        "    goes on along wi " + to_text(wi) + ": f " + to_text(f) +
+            format(" sr^-1, pdf_w %.6g%s, beta ", double{pdf_w}, specular ? " (delta)" : " sr^-1") +
+            to_text(beta) + "\n",
+        "roulette stops it");
 }
 
 void Recorder::note_roulette(float q, Rgb beta) {
     if (!at_light_) beta_[depth_ - 1] = beta;
-    if (story_) story_->survives(q, beta);
+    if (!story_ || story_->is_cut) return;
+    std::string line = format("    survives roulette, q %.6g, beta ", double{q}) + to_text(beta);
+    story_->step(q < 1 ? line + "\n" : "");
 }
 
 void Recorder::note_step_back() {
     depth_--;
-    if (story_) story_->steps_back(eye_vertex(depth_));
-}
-
-void Recorder::note_back_to(int t) {
-    while (depth_ + 2 > static_cast<size_t>(t)) note_step_back();
+    if (story_) story_->step(format("    steps back to vertex %d\n", eye_vertex(depth_)));
 }
 
 void Recorder::note_cut() {
-    if (story_) story_->is_cut();
+    if (!story_) return;
+    story_->step("    ends: " + depth_limit(*story_) + "\n");
+    story_->is_cut = true;
 }
 
 std::string Recorder::class_of(std::string path_class, size_t events) const {
@@ -87,7 +148,9 @@ void Recorder::note_emitted(Rgb Le, float mis_b) {
 
 void Recorder::note_direct(Rgb Ld, Vec3 wi, float pdf_l, float pdf_b, float mis_l) {
     if (is_black(Ld)) return;
-    if (story_) story_->samples_light(wi, pdf_l, pdf_b);
+    if (story_)
+        story_->add("    samples a light along wi " + to_text(wi) +
+                    format(": pdf_l %.6g, pdf_b %.6g sr^-1\n", double{pdf_l}, double{pdf_b}));
     keep({class_of("LD", depth_), beta() * Ld, Contribution::own_pixel, eye_vertex(depth_),
           "light sampled", mis_l});
 }
@@ -115,5 +178,7 @@ void Recorder::note_gathered(Rgb scale) {
 void Recorder::keep(const Contribution& added) {
     if (is_black(added.L)) return;
     contributions_.push_back(added);
-    if (story_) story_->adds(added);
+    if (story_)
+        story_->add("    " + added.way + ": adds " + to_text(added.L) +
+                    format(", mis %.6g, class ", double{added.mis}) + added.path_class + "\n");
 }

@@ -30,13 +30,26 @@ struct PathVertex {
     int from;
 };
 
+/// What a Recorder knows of its path.
+struct RecordedPath {
+    size_t depth_ = 0;        // scattering events before the vertex that the path is at
+    std::string scattered_;   // D and S of all vertices left, the first one last
+    std::vector<Rgb> beta_;   // behind each of them, the first one first
+    std::string from_light_;  // D and S of the path from the light, the first one first
+    bool at_light_ = false;   // events belong to the path from the light
+    std::vector<PathVertex> vertices_;
+    std::vector<int> latest_;             // vertex for each number of scatterings before it
+    std::map<std::string, Rgb> photons_;  // flux by the D and S of their paths
+    std::vector<Contribution> contributions_;
+};
+
 /// Receives the events of a path from trace(), which never reads from it: trace() returns the same
 /// value whether or not the recorder stores anything. One that stores nothing costs an untaken
 /// branch for each event.
 ///
 /// It keeps track of the throughput beta itself, so events report radiance at the vertex, without
 /// beta.      tested by  "identity: recording never changes an estimate"
-class Recorder {
+class Recorder : RecordedPath {
 public:
     /// Stores only how many paths the depth limit has ended.
     Recorder() = default;
@@ -79,7 +92,7 @@ public:
     /// Goes back to the t-th vertex from the eye (the pinhole is the first), where the next branch
     /// of the path starts.
     void back_to(int t) {
-        if (listening_) note_back_to(t);
+        while (listening_ && depth_ + 2 > static_cast<size_t>(t)) note_step_back();
     }
     /// The depth limit ended a path that could have gone on.
     void cut() {
@@ -135,7 +148,6 @@ private:
     void note_scatter(Vec3, Rgb, float, bool, Rgb);
     void note_roulette(float, Rgb);
     void note_step_back();
-    void note_back_to(int);
     void note_cut();
     void note_emitted(Rgb, float);
     void note_direct(Rgb, Vec3, float, float, float);
@@ -151,13 +163,4 @@ private:
     bool listening_ = false;
     PathStory* story_ = nullptr;
     uint64_t paths_cut_ = 0, gathered_ = 0, inner_ = 0;
-    size_t depth_ = 0;        // scattering events before the vertex that the path is at
-    std::string scattered_;   // D and S of all vertices left, the first one last
-    std::vector<Rgb> beta_;   // behind each of them, the first one first
-    std::string from_light_;  // D and S of the path from the light, the first one first
-    bool at_light_ = false;   // events belong to the path from the light
-    std::vector<PathVertex> vertices_;
-    std::vector<int> latest_;             // vertex for each number of scatterings before it
-    std::map<std::string, Rgb> photons_;  // flux by the D and S of their paths
-    std::vector<Contribution> contributions_;
 };

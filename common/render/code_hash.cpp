@@ -1,6 +1,6 @@
-#include "common/render/code_hash.h"
-
 #include <code_hashes.h>  // written by the Makefile: the name and the hash of each chapter
+
+#include "common/render/film_keeping.h"
 
 std::string code_hash(const std::string& chapter) {
     for (const auto& [name, hash] : code_hashes) {

@@ -18,7 +18,7 @@
 namespace {
 
 [[noreturn]] void fail_unknown(const std::string& word, const std::vector<Option>& options) {
-    std::vector<std::string> names;
+    std::vector<std::string> names = {"--help"};
     for (const Option& option : options) names.push_back("--" + option.name);
     std::string nearest = nearest_word(word, names);
     throw UsageError(
@@ -38,31 +38,9 @@ namespace {
         if (!tells_default) right += " (default " + option.value + ")";
         std::printf("  %-24s %s\n", left.c_str(), right.c_str());
     }
+    std::printf("  %-24s print this and stop\n", "--help");
     flush_stdout();
     std::exit(0);
-}
-
-// Sets the option in argv[i]; returns the index of the last word that belongs to it.
-int set_option(int argc, char** argv, int i, const std::vector<Option>& options) {
-    std::string word = argv[i], value;
-    size_t equals = word.find('=');
-    std::string name = word.substr(0, equals);
-    auto known = [&](const Option& option) { return "--" + option.name == name; };
-    auto option = std::find_if(options.begin(), options.end(), known);
-    if (option == options.end()) fail_unknown(name, options);
-
-    // Take the value from after the = or from the next word.
-    bool has_value = equals != std::string::npos;
-    if (has_value) value = word.substr(equals + 1);
-    if (option->argument.empty()) {
-        if (has_value) throw UsageError("error: option '" + name + "' takes no value");
-    } else {
-        bool value_follows = i + 1 < argc && !std::string_view(argv[i + 1]).starts_with("--");
-        if (!has_value && value_follows) value = argv[++i];
-        if (value.empty()) throw UsageError("error: option '" + name + "' needs a value");
-    }
-    option->set(value);
-    return i;
 }
 
 }  // namespace
@@ -74,23 +52,38 @@ void flush_stdout() {
     throw InputError("stdout: error: cannot write: " + why);
 }
 
-void parse_options(int argc, char** argv, const std::string& positional, const std::string& about,
-                   std::vector<Option> options,
-                   const std::function<void(const std::string&)>& set_positional) {
-    options.push_back({"help", "", "print this and stop", [&](const std::string&) {
-                           print_usage(argv[0], positional, about, options);
-                       }});
+std::vector<Option> parse_options(int argc, char** argv, const std::string& positional,
+                                  const std::string& about, std::vector<Option> options,
+                                  const std::function<void(const std::string&)>& set_positional) {
     bool options_ended = false;
     for (int i = 1; i < argc; i++) {
         std::string word = argv[i];
         if (options_ended || !word.starts_with('-')) {
             set_positional(word);
-        } else if (word == "--") {
-            options_ended = true;
-        } else {
-            i = set_option(argc, argv, i, options);
+            continue;
         }
+        options_ended = word == "--";
+        if (options_ended) continue;
+        if (word == "--help") print_usage(argv[0], positional, about, options);
+        size_t equals = word.find('=');
+        std::string name = word.substr(0, equals), value;
+        auto known = [&](const Option& option) { return "--" + option.name == name; };
+        auto option = std::find_if(options.begin(), options.end(), known);
+        if (option == options.end()) fail_unknown(name, options);
+
+        // Take the value from after the = or from the next word.
+        bool takes_value = !option->argument.empty(), has_value = equals != std::string::npos;
+        if (has_value) value = word.substr(equals + 1);
+        if (has_value && !takes_value)
+            throw UsageError("error: option '" + name + "' takes no value");
+        bool follows = i + 1 < argc && !std::string_view(argv[i + 1]).starts_with("--");
+        if (takes_value && !has_value && follows) value = argv[++i];
+        if (takes_value && value.empty())
+            throw UsageError("error: option '" + name + "' needs a value");
+        option->set(value);
+        if (!option->value.empty()) option->value = value;
     }
+    return options;
 }
 
 void fail_value(const std::string& option, const std::string& text, const std::string& wanted) {
@@ -139,23 +132,6 @@ double parse_positive(const std::string& option, const std::string& text) {
     return value;
 }
 
-Option positive_option(const std::string& name, const std::string& argument,
-                       const std::string& help, double& number, bool or_zero) {
-    auto set = [=, &number](const std::string& text) {
-        number = or_zero && text == "0" ? 0 : parse_positive(name, text);
-    };
-    return {name, argument, help, set, or_zero ? "0" : ""};
-}
-
-Option text_option(const std::string& name, const std::string& argument, const std::string& help,
-                   std::string& text) {
-    return {name, argument, help, [&](const std::string& given) { text = given; }};
-}
-
-Option flag_option(const std::string& name, const std::string& help, bool& flag) {
-    return {name, "", help, [&](const std::string&) { flag = true; }};
-}
-
 std::string listed(const std::vector<std::string>& words, const std::string& last) {
     std::string text;
     for (size_t i = 0; i < words.size(); i++)
@@ -168,16 +144,10 @@ std::string command_line(int argc, char** argv) {
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
     std::string line;
     for (int i = 0; i < argc; i++) {
-        std::string word = argv[i];
+        std::string word = argv[i], quoted;
+        for (char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
         bool plain = !word.empty() && word.find_first_not_of(plain_letters) == std::string::npos;
-        if (i > 0) line += ' ';
-        if (plain) {
-            line += word;
-            continue;
-        }
-        line += "'";
-        for (char c : word) line += c == '\'' ? "'\\''" : std::string(1, c);
-        line += "'";
+        line += (i > 0 ? " " : "") + (plain ? word : "'" + quoted + "'");
     }
     return line;
 }

@@ -17,10 +17,10 @@ struct Option {
 
 /// Parses the command line. Words that belong to no option go to `set_positional`. For --help it
 /// prints the usage and exits. Throws UsageError for an unknown option, and suggests the most
-/// similar one.
-void parse_options(int argc, char** argv, const std::string& positional, const std::string& about,
-                   std::vector<Option> options,
-                   const std::function<void(const std::string&)>& set_positional);
+/// similar one. Returns the options; those with a default have the value that was given.
+std::vector<Option> parse_options(int argc, char** argv, const std::string& positional,
+                                  const std::string& about, std::vector<Option> options,
+                                  const std::function<void(const std::string&)>& set_positional);
 
 /// Throws the UsageError "--option takes WANTED, not 'text'".
 [[noreturn]] void fail_value(const std::string& option, const std::string& text,
@@ -56,12 +56,21 @@ Option choice_option(const std::string& name, const std::string& argument, const
     return {name, argument, help, set, words[static_cast<size_t>(choice)]};
 }
 /// An option that sets a number greater than 0 (or_zero: or 0, its default).
-Option positive_option(const std::string& name, const std::string& argument,
-                       const std::string& help, double& number, bool or_zero = false);
+inline Option positive_option(const std::string& name, const std::string& argument,
+                              const std::string& help, double& number, bool or_zero = false) {
+    auto set = [=, &number](const std::string& text) {
+        number = or_zero && text == "0" ? 0 : parse_positive(name, text);
+    };
+    return {name, argument, help, set, or_zero ? "0" : ""};
+}
 /// An option that sets a text, and one without argument.
-Option text_option(const std::string& name, const std::string& argument, const std::string& help,
-                   std::string& text);
-Option flag_option(const std::string& name, const std::string& help, bool& flag);
+inline Option text_option(const std::string& name, const std::string& argument,
+                          const std::string& help, std::string& text) {
+    return {name, argument, help, [&](const std::string& given) { text = given; }};
+}
+inline Option flag_option(const std::string& name, const std::string& help, bool& flag) {
+    return {name, "", help, [&](const std::string&) { flag = true; }};
+}
 
 /// "a, b and c", where `last` is " and ".
 std::string listed(const std::vector<std::string>& words, const std::string& last);

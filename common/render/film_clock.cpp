@@ -1,8 +1,12 @@
-#include "common/render/film_clock.h"
-
+#include "common/base/error.h"
+#include "common/base/report.h"
 #include "common/render/film_keeping.h"
 
 void FilmClock::save(const Rendering& rendering) {
-    try_to_save_film(scene_, options_, rendering);
+    try {
+        save_film(scene_, options_, rendering);
+    } catch (const InputError& error) {
+        tell(error.what() + std::string("\n"));
+    }
     last_ = Clock::now();
 }

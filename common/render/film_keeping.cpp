@@ -6,9 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/position.h"
-#include "common/base/report.h"
 #include "common/base/system.h"
-#include "common/render/code_hash.h"
 #include "common/scene/origin.h"
 
 namespace {
@@ -70,7 +68,7 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     bool is_new = size_of(options.film) == 0;
     // Each film is written beside the one before.
     check_space(options.film, (is_new ? 2 : 1) * largest_size(rendering.film));
-    if (is_new) return try_to_save_film(scene, options, rendering);
+    if (is_new) return save_film(scene, options, rendering);
     LabeledFilm found = read_film(options.film);
     check_options(options.film, found.label, film_options(scene, options));
     if (found.label.samples.empty()) return;  // it was stopped before it had samples
@@ -111,13 +109,4 @@ FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rende
 void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
     if (options.film.empty()) return;
     write_film(options.film, label_of(scene, options, rendering), rendering.film);
-}
-
-void try_to_save_film(const Scene& scene, const RenderOptions& options,
-                      const Rendering& rendering) {
-    try {
-        save_film(scene, options, rendering);
-    } catch (const InputError& error) {
-        tell(error.what() + std::string("\n"));
-    }
 }

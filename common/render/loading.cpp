@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
+#include <set>
 
 #include "common/base/position.h"
 #include "common/base/progress.h"
@@ -17,48 +17,47 @@
 
 namespace {
 
-/// Reads the scene, and prints its notes even if an error follows.
-Scene load_and_tell(const RenderOptions& options, const Report& report, Progress& progress) {
-    struct Notes {
-        ~Notes() {
-            progress.clear();
-            for (const std::string& line : lines) tell(line + "\n");
-        }
-        Progress& progress;
-        std::vector<std::string> lines = {};
-    } notes{progress};
-    return load_scene(options.scene, &notes.lines, report, options.stand_in);
+/// A place in the scene file that uses a feature which the chapter lacks.
+struct Use {
+    const Position* at;
+    const char *error, *stand_in;
+};
+std::vector<Use> uses_not_in(Features features, const Scene& scene) {
+    std::vector<Use> uses;
+    if (!features.lens && scene.camera.lens_radius > 0)
+        uses.push_back({scene.camera.at,
+                        "only chapters 16 to 19 and 21 to 25 have a lens: lensradius must be 0",
+                        "a lens, in a chapter without one"});
+    std::set<size_t> materials;
+    for (const Shape& shape : scene.shapes) materials.insert(shape.material);
+    for (size_t i : materials)
+        if (!features.dispersion && scene.materials[i].glass)
+            uses.push_back({scene.materials[i].at,
+                            "glass disperses in chapters 18 and 19 only: try a number as its "
+                            "\"float eta\"",
+                            "glass that disperses, in a chapter without it"});
+    for (const Mover& mover : scene.movers)
+        if (!features.shutter)
+            uses.push_back({mover.at, "shapes move in chapters 16 to 22 only",
+                            "a shape that moves, in a chapter where all rest"});
+    if (!features.sky_image && scene.sky_image)
+        uses.push_back({scene.sky_image->at_file, "the sky has an image in chapters 17 to 25 only",
+                        "a picture of the sky, in a chapter without one"});
+    return uses;
 }
-
-/// The chapters that render scenes with this feature, such as "16 to 19, 23 and 24".
-std::string chapters_with(bool Features::*feature) {
-    std::vector<std::string> parts;
-    for (int first = 1, last; first <= 26; first = last + 1) {
-        for (last = first; features_of(last).*feature && features_of(last + 1).*feature;) last++;
-        if (!(features_of(first).*feature)) continue;
-        parts.push_back(std::to_string(first));
-        if (last > first + 1) parts.back() += " to " + std::to_string(last);
-        if (last == first + 1) parts.push_back(std::to_string(last));
-    }
-    return listed(parts, " and ");
-}
-
-const std::string lens_here = "a lens, in a chapter without one";
-const std::string glass_here = "glass that disperses, in a chapter without it";
-const std::string motion_here = "a shape that moves, in a chapter where all rest";
-const std::string sky_image_here = "a picture of the sky, in a chapter without one";
 
 /// The mean radiance from all directions.
 Rgb mean_of(const SkyImage& sky) {
-    double sum[3] = {}, weights = 0;
+    Vec3d sum;
+    double weights = 0;
     for (size_t i = 0; i < sky.pixels.size(); i++) {
         double w = static_cast<double>(solid_angle_per_area(sky, sky.middle_of(i)));
         Rgb L = sky.pixels[i];
-        sum[0] += w * double{L.r}, sum[1] += w * double{L.g}, sum[2] += w * double{L.b};
+        sum = sum + w * Vec3d(double{L.r}, double{L.g}, double{L.b});
         weights += w;
     }
-    return {static_cast<float>(sum[0] / weights), static_cast<float>(sum[1] / weights),
-            static_cast<float>(sum[2] / weights)};
+    Vec3 mean = to_vec3(sum / weights);
+    return {mean.x, mean.y, mean.z};
 }
 
 }  // namespace
@@ -66,16 +65,25 @@ Rgb mean_of(const SkyImage& sky) {
 Scene load(const RenderOptions& options, Features features) {
     Progress progress(10);
     Report report;
-    if (!options.quiet) {
+    std::vector<std::string> notes;
+    auto tell_notes = [&] {
+        progress.clear();
+        for (const std::string& line : notes) tell(line + "\n");
+        notes.clear();
+    };
+    if (!options.quiet)
         report = [&](const std::string& what, double share) { progress.show(what, share); };
-    }
     Scene scene;
     try {
-        scene = options.quiet ? load_scene(options.scene, nullptr, {}, options.stand_in)
-                              : load_and_tell(options, report, progress);
+        scene =
+            load_scene(options.scene, options.quiet ? nullptr : &notes, report, options.stand_in);
     } catch (const std::bad_alloc&) {
         fail({options.scene}, "out of memory while it was read, with the files that it names");
+    } catch (...) {
+        tell_notes();
+        throw;
     }
+    tell_notes();
     if (options.stand_in) {
         stand_in_for_features(scene, features);
     } else {
@@ -85,39 +93,33 @@ Scene load(const RenderOptions& options, Features features) {
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
     size_t prims = scene.geometry.size();
-    std::vector<std::string> notes;
     // About, while it is built: 300 bytes for each.
     needing_memory("the hierarchy of " + std::to_string(prims) + " triangles, spheres and disks",
                    300 * prims, [&] {
                        prepare(scene, options.threads, report);
                        if (!options.quiet) notes = notes_of_coincident(scene);
                    });
-    progress.clear();
-    for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
+    tell_notes();
     return scene;
 }
 
 void stand_in_for_features(Scene& scene, Features features) {
-    std::map<std::string, UsedStandIn> used;
-    auto stand_in = [&](const std::string& what, const Position* at) {
-        auto [place, is_new] = used.try_emplace(what, UsedStandIn{what, "", 0, scene.place(at)});
-        place->second.places++;
-    };
-    if (!features.lens && scene.camera.lens_radius > 0) {
-        stand_in(lens_here, scene.camera.at);
-        scene.camera.lens_radius = 0;
+    std::vector<Use> uses = uses_not_in(features, scene);
+    Origin origin = *scene.origin;
+    for (const auto& [what, instead] : all_stand_ins()) {
+        UsedStandIn used{what, instead, 0, {}};
+        for (const Use& use : uses) {
+            if (use.stand_in != what) continue;
+            if (used.places++ == 0) used.first = scene.place(use.at);
+        }
+        if (used.places > 0) origin.stand_ins.push_back(used);
     }
-    for (Material& m : scene.materials) {
-        if (features.dispersion || m.glass == nullptr) continue;
-        stand_in(glass_here, m.at);
-        m.glass = nullptr;
-    }
-    // Their rays have time 0.
-    for (const Mover& mover : scene.movers) {
-        if (!features.shutter) stand_in(motion_here, mover.at);
-    }
+    scene.origin = std::make_shared<Origin>(std::move(origin));
+    if (!features.lens) scene.camera.lens_radius = 0;
+    for (Material& m : scene.materials)
+        if (!features.dispersion) m.glass = nullptr;
+    // What moves rests, since the rays have time 0.
     if (!features.sky_image && scene.sky_image) {
-        stand_in(sky_image_here, scene.sky_image->at_file);
         Light sky;
         sky.type = LightType::infinite;
         sky.at = scene.sky_image->at_file;
@@ -125,14 +127,11 @@ void stand_in_for_features(Scene& scene, Features features) {
         scene.lights.push_back(sky);
         scene.sky_image = {};
     }
-    Origin origin = *scene.origin;
-    for (const auto& [what, instead] : all_stand_ins()) {
-        auto found = used.find(what);
-        if (found == used.end()) continue;
-        found->second.instead = instead;
-        origin.stand_ins.push_back(found->second);
-    }
-    scene.origin = std::make_shared<Origin>(std::move(origin));
+}
+
+void refuse_features(const Scene& scene, Features features) {
+    for (const Use& use : uses_not_in(features, scene))
+        fail(scene.place(use.at), use.error + or_stand_in(use.stand_in));
 }
 
 float radius_within(const Scene& scene, double radius) {
@@ -161,33 +160,5 @@ void refuse_glossy(const Scene& scene) {
         const Material& m = scene.materials[shape.material];
         if (!is_rough(m)) continue;
         fail(scene.place(m.at), "rough conductors are not supported before chapter 13");
-    }
-}
-
-void refuse_features(const Scene& scene, Features features) {
-    const Camera& camera = scene.camera;
-    if (!features.lens && camera.lens_radius > 0) {
-        fail(scene.place(camera.at), "only chapters " + chapters_with(&Features::lens) +
-                                         " have a lens: lensradius must be 0" +
-                                         or_stand_in(lens_here));
-    }
-    for (const Shape& shape : scene.shapes) {
-        const Material& m = scene.materials[shape.material];
-        if (features.dispersion || m.glass == nullptr) continue;
-        char eta[32];
-        std::snprintf(eta, sizeof eta, "%.5g", double{m.ior});
-        fail(scene.place(m.at), "glass disperses in chapters " +
-                                    chapters_with(&Features::dispersion) +
-                                    " only: try \"float eta\" " + eta + or_stand_in(glass_here));
-    }
-    if (!features.shutter && !scene.movers.empty()) {
-        fail(scene.place(scene.movers[0].at), "shapes move in chapters " +
-                                                  chapters_with(&Features::shutter) + " only" +
-                                                  or_stand_in(motion_here));
-    }
-    if (!features.sky_image && scene.sky_image) {
-        fail(scene.place(scene.sky_image->at_file), "the sky has an image in chapters " +
-                                                        chapters_with(&Features::sky_image) +
-                                                        " only" + or_stand_in(sky_image_here));
     }
 }

@@ -16,9 +16,7 @@ constexpr Features features_of(int chapter) {
 }
 
 /// Reads and prepares the scene that the options name. Size, samples and depth in the options
-/// replace those of the scene.
-///
-/// Throws for what refuse_features() names.
+/// replace those of the scene. Throws for what refuse_features() names.
 Scene load(const RenderOptions& options, Features features = {});
 
 /// Puts stand-ins in the place of what refuse_features() would refuse, and adds them to those of

@@ -27,50 +27,34 @@ std::string project_file(const std::string& program, const std::string& name) {
     return name;
 }
 
-void add_output(std::vector<std::string>& out, const std::string& path, bool table) {
-    bool tsv = table && has_ending(path, ".tsv");
-    if (!tsv && !is_image_path(path)) {
-        fail_value("out", path,
-                   table ? "a .ppm, .pfm, .png or .tsv file" : "a .ppm, .pfm or .png file");
-    }
-    out.push_back(path);
-}
-
-void parse_size(const std::string& text, RenderOptions& options) {
+void parse_size(const std::string& text, RenderOptions& o) {
     std::vector<int> sides = split_numbers(text, 'x');
-    if (sides.size() != 2) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
-    for (int side : sides)
-        if (side < 1 || side > 65536) fail_value("size", text, "sides of 1 to 65536 pixels");
-    options.width = sides[0], options.height = sides[1];
-    if (int64_t{options.width} * options.height > 1 << 28) {
-        fail_value("size", text, "at most 2^28 pixels");
-    }
+    bool fits = sides.size() == 2;
+    for (int side : sides) fits = fits && side >= 1 && side <= 65536;
+    if (!fits || int64_t{sides[0]} * sides[1] > 1 << 28)
+        fail_value("size", text,
+                   "WIDTHxHEIGHT, such as 256x256, with sides up to 65536 and at most 2^28 pixels");
+    o.width = sides[0], o.height = sides[1];
 }
 
-void parse_explain(const std::string& text, RenderOptions& options) {
+void parse_explain(const std::string& text, RenderOptions& o) {
     std::vector<int> place = split_numbers(text, ',');
     if (place.size() != 2 && place.size() != 3) fail_value("explain", text, "X,Y or X,Y,SAMPLE");
-    options.explain = true;
-    options.explain_x = place[0];
-    options.explain_y = place[1];
-    options.explain_sample = place.size() == 2 ? -1 : place[2];
+    o.explain = true;
+    o.explain_x = place[0], o.explain_y = place[1];
+    o.explain_sample = place.size() == 2 ? -1 : place[2];
 }
 
-void parse_part(const std::string& text, RenderOptions& options) {
+void parse_part(const std::string& text, RenderOptions& o) {
     std::vector<int> numbers = split_numbers(text, '/');
-    if (numbers.size() == 2) {
-        options.part = numbers[0], options.parts = numbers[1];
-        if (options.part >= 1 && options.part <= options.parts) return;
-    }
-    fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
+    if (numbers.size() != 2 || numbers[0] < 1 || numbers[0] > numbers[1])
+        fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
+    o.part = numbers[0], o.parts = numbers[1];
 }
 
 /// Throws UsageError for values that are wrong, and for options that cannot be combined.
 void check(const RenderOptions& o) {
-    if (!o.paths.empty() && !ClassFilter(o.paths).matches_some_path()) {
-        throw UsageError("error: --paths " + quote(o.paths) +
-                         ": no path is of such a class; they are L, then any of D and S, then E");
-    }
+    ClassFilter{o.paths};
     // At shorter intervals nothing would be rendered between two writings.
     if (o.film_every < 0.01) throw UsageError("error: --film-every takes at least 0.01 seconds");
     if (o.film.empty()) {
@@ -82,36 +66,13 @@ void check(const RenderOptions& o) {
         throw UsageError("error: --split and --film: a film keeps the whole alone, no classes");
 }
 
-/// Remembers the values of a chapter's own options that change what is rendered.
-void remember_values(std::vector<Option>& extra, RenderOptions& options) {
-    for (Option& option : extra) {
-        if (option.value.empty()) continue;
-        size_t i = options.own.size();
-        options.own.push_back({option.name, option.value});
-        option.set = [set = option.set, i, &options](const std::string& text) {
-            set(text);
-            options.own[i].second = text;
-        };
-    }
-}
-
-/// Makes options that do not apply to the program an error; --help does not list them.
-void refuse_all_but(const std::vector<std::string>& takes, const std::string& program,
-                    std::vector<Option>& options) {
-    for (Option& option : options) {
-        if (std::find(takes.begin(), takes.end(), option.name) != takes.end()) continue;
-        option.help.clear();
-        option.set = [=, name = option.name](const std::string&) {
-            throw UsageError("error: option '--" + name + "' means nothing to " + program +
-                             "; --help lists those that do");
-        };
-    }
-}
-
 }  // namespace
 
-std::string parse_picture(const std::string& option, const std::string& text) {
-    if (!is_image_path(text)) fail_value(option, text, "a .ppm, .pfm or .png file");
+std::string parse_picture(const std::string& option, const std::string& text, bool or_table) {
+    if (or_table && has_ending(text, ".tsv")) return text;
+    if (!is_image_path(text))
+        fail_value(option, text,
+                   or_table ? "a .ppm, .pfm, .png or .tsv file" : "a .ppm, .pfm or .png file");
     return text;
 }
 
@@ -137,13 +98,10 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
         choice_option("sampler", "KIND", "independent (default), stratified or sobol",
                       {"independent", "stratified", "sobol"}, o.sampler),
         {"out", "FILE", ".ppm, .pfm or .png; may be repeated (default out/" + name + ".ppm)",
-         [&](const std::string& text) { add_output(o.out, text, false); }},
+         [&](const std::string& text) { o.out.push_back(parse_picture("out", text)); }},
         text_option("stats", "FILE.json", "write time, rays, mean and standard error", o.stats),
         {"explain", "X,Y[,SAMPLE]", "print one path step by step, and draw it",
          [&](const std::string& text) { parse_explain(text, o); }},
-        flag_option("explain-brightest",
-                    "find the sample that is the worst firefly, and explain it",
-                    o.explain_brightest),
         text_option("paths", "REGEX", "keep only these classes of path, such as 'LD(S|D)*E'",
                     o.paths),
         text_option("split", "DIR",
@@ -158,10 +116,11 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
                     o.stand_in),
         flag_option("quiet", "print errors only", o.quiet),
     };
-    if (!takes.empty()) refuse_all_but(takes, name, options);
-    remember_values(extra, o);
+    std::erase_if(options, [&](const Option& option) {
+        return !takes.empty() && std::ranges::find(takes, option.name) == takes.end();
+    });
     options.insert(options.begin(), extra.begin(), extra.end());
-    parse_options(
+    options = parse_options(
         argc, argv, "[SCENE]",
         "Chapter " + name + " on a pbrt-v4 scene (default: the project's " + scene.file +
             ").\nWrites into the folder where it is started. Ctrl-C keeps the picture so far: exit "
@@ -173,6 +132,9 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
             }
             o.scene = word;
         });
+    // A chapter's own options that change what is rendered have a default.
+    for (size_t i = 0; i < extra.size(); i++)
+        if (!options[i].value.empty()) o.own.push_back({options[i].name, options[i].value});
     if (o.scene.empty()) {
         o.scene = project_file(argv[0], scene.file);
         if (o.spp == 0) o.spp = scene.spp;
@@ -192,7 +154,7 @@ TableOptions parse_table_options(int argc, char** argv, const std::string& name,
         whole_option("n", "N", "samples", 1, int64_t{1} << 40, o.n),
         whole_option("seed", "S", "seed of the random numbers", 0, 0xffffffff, o.seed),
         {"out", "FILE", ".ppm, .pfm or .png for the picture, .tsv for the table; may be repeated",
-         [&](const std::string& text) { add_output(o.out, text, true); }},
+         [&](const std::string& text) { o.out.push_back(parse_picture("out", text, true)); }},
         flag_option("quiet", "print errors only", o.quiet),
     };
     parse_options(argc, argv, "", "Chapter " + name + ": prints a table and draws a picture.",

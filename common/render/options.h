@@ -36,8 +36,7 @@ struct RenderOptions {
     std::string stats;  // JSON file; empty: none
     bool explain = false;
     int explain_x = 0, explain_y = 0, explain_sample = -1;  // -1: none was named
-    bool explain_brightest = false;
-    std::string paths;        // regular expression; empty: all
+    std::string paths;                                      // regular expression; empty: all
     std::string strategy;     // chapter 21: the `way` of the selected contributions; empty: all
     bool unweighted = false;  // they count without their MIS weight
     std::string split;        // folder; empty: none
@@ -66,8 +65,9 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
                                    const DefaultScene& scene, std::vector<Option> extra = {},
                                    const std::vector<std::string>& takes = {});
 
-/// The file name of a picture, or UsageError.
-std::string parse_picture(const std::string& option, const std::string& text);
+/// The file name of a picture (or of a table), or UsageError.
+std::string parse_picture(const std::string& option, const std::string& text,
+                          bool or_table = false);
 
 /// The options of the chapters without a scene (01 to 04).
 struct TableOptions {

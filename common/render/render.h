@@ -1,8 +1,88 @@
 // What the program of a chapter does: renders, or explains one path, and writes the results.
 #pragma once
-#include "common/render/loading.h"
-#include "common/render/render_film.h"
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
 
-/// What a chapter's program does with its scene: renders it or explains one path, and writes what
-/// the options ask for. Returns the exit code.
+#include "common/base/files.h"
+#include "common/path/method.h"
+#include "common/picture/film_file.h"
+#include "common/render/loading.h"
+#include "common/render/stop.h"
+
+/// Statistics of rendering a picture.
+struct RenderStats : SampleCounts {
+    double seconds = 0;                            // without loading
+    double first_radius = 0;                       // m, of photons; 0: there are none
+    uint64_t samples_before = 0, rays_before = 0;  // of the film that it continued
+    bool interrupted = false;                      // by a signal, before all samples were taken
+    int largest_x = 0, largest_y = 0, largest_sample = -1;  // of the largest here; -1: before
+
+    /// "X,Y,SAMPLE", as --explain takes them; empty if it is not a sample of this run.
+    std::string largest_at() const {
+        if (largest_sample < 0) return "";
+        return std::to_string(largest_x) + "," + std::to_string(largest_y) + "," +
+               std::to_string(largest_sample);
+    }
+    /// Stores a sample if it is the largest so far; of equal samples, that of the first pixel.
+    void add_largest(double value, int x, int y, int sample) {
+        if (value < largest || value == 0) return;
+        bool first = value > largest ||
+                     std::tie(y, x, sample) < std::tie(largest_y, largest_x, largest_sample);
+        if (first) largest = value, largest_x = x, largest_y = y, largest_sample = sample;
+    }
+    void add(const RenderStats& other) {
+        add_largest(other.largest, other.largest_x, other.largest_y, other.largest_sample);
+        SampleCounts::add(other);
+    }
+};
+
+struct Rendering {
+    Film film;
+    RenderStats stats;
+    std::map<std::string, Film> classes;  // with --split: one film for each class of path, and one
+                                          // for all classes longer than 8 letters
+    uint32_t begun = 0;                   // samples a pixel that passes have begun to take
+    std::vector<std::string> warnings = {};  // of the chapter's own
+    std::shared_ptr<FileLock> film_lock = {};
+    std::string error = {};  // that ended it before all samples were taken
+};
+
+/// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a
+/// signal (stop.h). Time and signals end it at once: then some pixels have more samples than
+/// others, or none, if the first pass was not complete. The picture does not depend on the number
+/// of threads. Continues from options.film, and saves it at intervals.
+///
+/// With an allocation of the method, a render that continues, or is not the first part, repeats the
+/// pilot, so that samples are distributed as in the whole render.
+Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method);
+
+/// Prepares what the method shares in a pass. Returns whether there is time for the pass.
+bool prepare_pass(const Method& method, uint32_t pass, int threads, const Limit& limit);
+
+/// Marks the film's pixels whose centre emits different light than that of a neighbour. Their error
+/// is large, and stratified samples reduce it much more than that of other pixels.
+void mark_lamp_edges(const Scene& scene, int threads, Film& film);
+
+/// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 if a sample was
+/// not finite, 3 if a signal stopped the render before its end.
+int write_results(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+
+/// "mean 0.150432 +- 0.000102", or with "standard error unknown".
+std::string mean_and_error(const Film& film);
+
+/// The file name of the picture that --explain draws.
+std::string drawing_path(const RenderOptions& options);
+
+/// Throws early the errors that writing the results would throw later (see files.h), and refuses to
+/// overwrite a file that the scene was read from. Makes the folder of --split.
+void check_outputs(const Scene& scene, const RenderOptions& options);
+
+/// Prints the path of sample options.explain_sample of one pixel and the sum of its contributions,
+/// and draws it as an SVG beside the first picture. Returns the exit code.
+int explain(const Scene& scene, const RenderOptions& options, const Method& method);
+
+/// Renders the scene or explains one path, and writes what the options ask for. Returns the exit
+/// code.
 int render(const Scene& scene, const RenderOptions& options, const Method& method);

@@ -1,5 +1,3 @@
-#include "common/render/results.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,9 +10,9 @@
 #include "common/base/report.h"
 #include "common/base/system.h"
 #include "common/picture/notes.h"
-#include "common/render/class_sheet.h"
-#include "common/render/command_line.h"
+#include "common/picture/sheet.h"
 #include "common/render/film_keeping.h"
+#include "common/render/render.h"
 #include "common/render/warnings.h"
 #include "common/scene/origin.h"
 
@@ -63,6 +61,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("samples_not_finite", s.not_finite);
     json.add("paths_cut_by_depth", s.paths_cut);
     json.add("largest_sample", s.largest);
+    json.add("largest_sample_at", s.largest_at());
     json.add("largest_sample_share", sum > 0 ? s.largest / sum : 0);
     json.add("effective_samples", r.film.effective_samples());
     json.add("empty_pixels_share", static_cast<double>(r.film.empty_pixels()) / pixels);
@@ -95,40 +94,63 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     }
 }
 
+/// A tile for each class, brightest first, with its name and its share of the light. A dark class
+/// is shown 2, 4, ... up to 64 times as bright, and its tile says so.
+Image class_sheet(const std::map<std::string, Film>& classes) {
+    constexpr int most_width = 320;  // pixels, of a tile
+    std::multimap<double, const std::string*> order;
+    double all = 0;
+    for (const auto& [name, film] : classes) {
+        double mean = std::isnan(film.mean()) ? 0 : film.mean();
+        order.insert({-mean, &name});
+        all += mean;
+    }
+    std::vector<Tile> tiles;
+    for (const auto& [minus_mean, name] : order) {
+        Image image = classes.at(*name).image();
+        int times = 1;
+        while (times < 64 && 2 * times * minus_mean >= order.begin()->first) times *= 2;
+        for (Rgb& p : image.pixels) p *= static_cast<float>(times);
+        int n = (std::max(image.width, image.height) + most_width - 1) / most_width;
+        std::string shown = times == 1 ? "" : std::to_string(times) + "x as bright";
+        tiles.push_back({shrunk(image, n), {*name + "  " + percent(-minus_mean / all), shown}});
+    }
+    double columns = std::ceil(std::sqrt(static_cast<double>(tiles.size())));
+    return sheet(tiles, std::max(1, static_cast<int>(columns)));
+}
+
 /// The files of a render. What is to be said of each that was written is added to `told`.
 std::vector<Output> outputs_of(const Scene& scene, const RenderOptions& options, const Rendering& r,
                                std::string& told) {
     std::vector<Output> outputs;
     auto add = [&](const std::string& path, const std::function<void()>& write,
-                   const std::string& note = "") {
+                   const std::string& more = "") {
         outputs.push_back({path, [=, &told] {
                                write();
-                               told += "wrote " + path + note + "\n";
+                               told += "wrote " + path + more + "\n";
                            }});
     };
-    using Picture = std::function<Image()>;
-    auto written = [&](const std::string& path, const Picture& picture,
+    auto picture = [&](const std::string& path, const std::function<Image()>& image,
                        const std::string& path_class = "") {
         return [=, &scene, &options, &r] {
-            write_image(path, picture(), comment_of(notes_of(scene, options, r, path_class)));
+            write_image(path, image(), comment_of(notes_of(scene, options, r, path_class)));
         };
     };
     if (!options.film.empty()) add(options.film, [&] { save_film(scene, options, r); });
     for (const std::string& path : options.out)
-        add(path, written(path, [&] { return r.film.image(); }));
-    for (const auto& [path, picture] : options.pictures)
-        add(path, written(path, [&, &picture = picture] { return picture(r.film); }));
+        add(path, picture(path, [&] { return r.film.image(); }));
+    for (const auto& [path, image] : options.pictures)
+        add(path, picture(path, [&, &image = image] { return image(r.film); }));
     for (const auto& [path_class, film] : r.classes) {
         std::string name = options.split + "/" + path_class;
-        Picture picture = [&film = film] { return film.image(); };
-        bool is_known = std::isfinite(film.mean());
-        add(name + ".pfm", written(name + ".pfm", picture),
-            "  mean " + (is_known ? json_number(film.mean()) : "unknown"));
-        outputs.push_back({name + ".png", written(name + ".png", picture, path_class)});
+        auto image = [&film = film] { return film.image(); };
+        std::string mean = std::isfinite(film.mean()) ? json_number(film.mean()) : "unknown";
+        add(name + ".pfm", picture(name + ".pfm", image), "  mean " + mean);
+        outputs.push_back({name + ".png", picture(name + ".png", image, path_class)});
     }
     std::string sheet = options.split + "/classes.png";
     if (!options.split.empty())
-        add(sheet, written(sheet, [&] { return class_sheet(r.classes); }),
+        add(sheet, picture(sheet, [&] { return class_sheet(r.classes); }),
             "  all of them with their shares; each also as .png");
     if (!options.stats.empty())
         add(options.stats,
@@ -144,8 +166,7 @@ std::string drawing_path(const RenderOptions& options) {
 
 void check_outputs(const Scene& scene, const RenderOptions& options) {
     std::vector<std::string> inputs(scene.origin->files.begin(), scene.origin->files.end());
-    if (options.explain || options.explain_brightest)
-        return check_outputs({drawing_path(options)}, inputs);
+    if (options.explain) return check_outputs({drawing_path(options)}, inputs);
     std::vector<std::string> files = options.out;
     for (const std::string& file : {options.film, options.stats})
         if (!file.empty()) files.push_back(file);
@@ -169,12 +190,10 @@ std::string mean_and_error(const Film& film) {
     double mean = film.mean(), error = film.standard_error();
     if (!std::isfinite(mean)) return "mean unknown: not all samples are finite";
     char text[800];
-    if (std::isnan(error)) {
+    std::snprintf(text, sizeof text, "mean %.6f +- %.6f", mean, error);
+    if (std::isnan(error))
         std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", mean,
                       film.spp() > 1 ? "" : " (1 sample)");
-    } else {
-        std::snprintf(text, sizeof text, "mean %.6f +- %.6f", mean, error);
-    }
     return text;
 }
 

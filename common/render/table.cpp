@@ -2,11 +2,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "common/base/files.h"
 #include "common/base/stats.h"
-#include "common/base/system.h"
 
 std::string digits(double x, int significant) {
     if (std::isnan(x)) return "unknown";
@@ -64,16 +62,11 @@ void write_results(const TableOptions& options, const Table& table, const std::s
                    const Image& picture) {
     if (!options.quiet) std::printf("%s\n%s", aligned(table).c_str(), notes.c_str());
     std::vector<Output> outputs;
-    for (const std::string& path : options.out) {
+    for (const std::string& path : options.out)
         outputs.push_back({path, [&] {
-                               if (file_name(file_path(path)).starts_with("out/"))
-                                   make_folder("out");
-                               if (has_ending(path, ".tsv")) {
-                                   write_file_atomically(path, tab_separated(table));
-                               } else {
-                                   write_image(path, picture, options.comment);
-                               }
+                               if (!has_ending(path, ".tsv"))
+                                   return write_image(path, picture, options.comment);
+                               write_file_atomically(path, tab_separated(table));
                            }});
-    }
     write_outputs(outputs);
 }

@@ -31,13 +31,8 @@ void write_results(const TableOptions& options, const Table& table, const std::s
 /// Seconds of processor time since construction: other programs on the machine do not count.
 class Stopwatch {
 public:
-    double seconds() const { return now() - start_; }
+    double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
 
 private:
-    static double now() {
-        timespec t{};
-        ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-    }
-    double start_ = now();
+    std::clock_t start_ = std::clock();
 };

@@ -6,8 +6,8 @@
 #include "common/base/error.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
-#include "common/render/film_clock.h"
-#include "common/render/render_film.h"
+#include "common/render/film_keeping.h"
+#include "common/render/render.h"
 #include "common/render/stop.h"
 
 /// Renders the samples of the pixels of one tile, or fewer at the limit.
@@ -80,9 +80,9 @@ private:
         int half;
         uint32_t sample;  // of the half
     };
-    /// The tools that trace samples, reused from one sample to the next.
-    struct Tools {
-        explicit Tools(const TileRenderer& r)
+    /// What traces samples, one after the other, and the last of them.
+    struct Tracer {
+        explicit Tracer(const TileRenderer& r)
             : sampler(r.options_.sampler, r.options_.seed, static_cast<uint32_t>(r.scene_.spp)),
               recorder(r.chooses_ || r.splits_),
               chosen(r.options_.paths) {}
@@ -90,13 +90,9 @@ private:
         Sampler sampler;
         Recorder recorder;
         ClassFilter chosen;
+        Rgb L = {}, total = {};  // what the sample adds to its own pixel, and to all
         Splats splats = {};
-    };
-    /// The contribution of a sample to its own pixel, its total with all splats, and the recorded
-    /// contributions of the selected classes and strategy, if they are of use.
-    struct Sample {
-        Rgb L, total;
-        std::vector<Contribution> parts = {};
+        std::vector<Contribution> parts = {};  // those selected, if they are of use
     };
 
     int halves() const { return method_.allocation.pilot > 0 ? 2 : 1; }
@@ -104,7 +100,7 @@ private:
     void render_pixels(int tile, Tile& now) {
         int x0 = tile % tiles_x_ * side, y0 = tile / tiles_x_ * side;
         int x1 = std::min(x0 + side, scene_.width), y1 = std::min(y0 + side, scene_.height);
-        Tools own(*this), audit(*this);
+        Tracer own(*this), again(*this);
         uint64_t rays_before = rays_traced;
         bool in_pilot = !pilot_.half[0].empty() && end_ <= method_.allocation.pilot;
         int taken = 0;
@@ -122,12 +118,11 @@ private:
                     Place at = {x, y, pixel, half, s};
                     // For the audit the same sample again, with numbers of another key.
                     bool audited = result_.film.is_audited(pixel);
-                    Rgb again;
-                    if (audited) again = trace(at, 1, audit).total;
-                    auto [L, total] = add_sample(at, own, now.stats);
-                    if (audited) result_.film.audit(pixel, again);
-                    if (method_.prepare) now.of_pass.add(total);
-                    if (seen) seen->add(L);
+                    if (audited) trace(at, 1, again);
+                    add_sample(at, own, now.stats);
+                    if (audited) result_.film.audit(pixel, again.total);
+                    if (method_.prepare) now.of_pass.add(own.total);
+                    if (seen) seen->add(own.L);
                     now.stats.rays = rays_traced - rays_before;  // of whole samples
                     now.stats.paths_cut = own.recorder.paths_cut();
                     now.stats.photons = own.recorder.photons();
@@ -147,72 +142,64 @@ private:
         return {from_[of](pixel) + done, to_[of](pixel)};
     }
 
-    [[gnu::always_inline]] Sample trace(const Place& at, int half, Tools& with) {
-        start_sample(with.sampler, at.pixel, half, at.sample);
-        with.recorder.start();
+    [[gnu::always_inline]] void trace(const Place& at, int half, Tracer& t) {
+        start_sample(t.sampler, at.pixel, half, at.sample);
+        t.recorder.start();
         bool centre = scene_.camera.pixel_centre;
-        Ray ray = camera_sample(view_, at.x, at.y, with.sampler, centre).ray;
-        with.splats.clear();
-        Sample sample;
-        sample.L = method_.trace(scene_, ray, with.splats, with.sampler, with.recorder);
-        if (chooses_ || splits_) choose(with, sample);
-        sample.total = sample.L;
-        for (const Splat& splat : with.splats) sample.total += splat.L;
-        return sample;
+        Ray ray = camera_sample(view_, at.x, at.y, t.sampler, centre).ray;
+        t.splats.clear();
+        t.L = method_.trace(scene_, ray, t.splats, t.sampler, t.recorder);
+        if (chooses_ || splits_) choose(t);
+        t.total = t.L;
+        for (const Splat& splat : t.splats) t.total += splat.L;
     }
 
     /// Reduces a sample and its splats to the selected contributions.
-    void choose(Tools& with, Sample& sample) {
-        sample.parts = with.recorder.contributions();
-        std::erase_if(sample.parts, [&](const Contribution& part) {
+    void choose(Tracer& t) {
+        t.parts = t.recorder.contributions();
+        std::erase_if(t.parts, [&](const Contribution& part) {
             bool other = !options_.strategy.empty() && part.way != options_.strategy;
-            return other || !with.chosen.matches(part.path_class);
+            return other || !t.chosen.matches(part.path_class);
         });
-        for (Contribution& part : sample.parts) {
+        for (Contribution& part : t.parts)
             if (options_.unweighted) part.L = part.L / part.mis;
-        }
         if (!chooses_) return;
-        sample.L = {};
-        with.splats.clear();
-        for (const Contribution& part : sample.parts) {
-            if (part.pixel == Contribution::own_pixel) {
-                sample.L += part.L;
-            } else {
-                with.splats.push_back({part.pixel, part.L});
-            }
+        t.L = {};
+        t.splats.clear();
+        for (const Contribution& part : t.parts) {
+            bool own = part.pixel == Contribution::own_pixel;
+            if (own) t.L += part.L;
+            if (!own) t.splats.push_back({part.pixel, part.L});
         }
     }
 
-    std::pair<Rgb, Rgb> add_sample(const Place& at, Tools& with, RenderStats& stats) {
-        Sample sample = trace(at, at.half, with);
+    void add_sample(const Place& at, Tracer& t, RenderStats& stats) {
+        trace(at, at.half, t);
         // All that may fail comes first, so that no sample is in some of the films only.
-        if (!splits_) sample.parts.clear();
-        for (const Contribution& part : sample.parts) film_of(part);
+        if (!splits_) t.parts.clear();
+        for (const Contribution& part : t.parts) film_of(part);
         int number = static_cast<int>(at.sample) * halves() + at.half;
-        double value = static_cast<double>(average(sample.total));
-        if (!is_finite(sample.total)) {
+        double value = static_cast<double>(average(t.total));
+        if (!is_finite(t.total)) {
             stats.add_not_finite(options_.seed, number, at.y, at.x);
         } else if (value >= stats.largest) {
             stats.add_largest(value, at.x, at.y, number);
         }
-        result_.film.add(at.pixel, sample.L, at.half);
+        result_.film.add(at.pixel, t.L, at.half);
         if (method_.splats) {
-            result_.film.add_total(at.pixel, sample.total);
-            for (const Splat& splat : with.splats) {
+            result_.film.add_total(at.pixel, t.total);
+            for (const Splat& splat : t.splats) {
                 std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
                 result_.film.splat(splat.pixel, splat.L);
             }
         }
-        for (const Contribution& part : sample.parts) {
+        for (const Contribution& part : t.parts) {
             Film& film = film_of(part);
             std::lock_guard lock(mutex_);
-            if (part.pixel == Contribution::own_pixel) {
-                film.add_part(at.pixel, part.L, at.half);
-            } else {
-                film.splat(part.pixel, part.L);
-            }
+            bool own = part.pixel == Contribution::own_pixel;
+            if (own) film.add_part(at.pixel, part.L, at.half);
+            if (!own) film.splat(part.pixel, part.L);
         }
-        return {sample.L, sample.total};
     }
 
     /// The film of the contribution's class. All long paths share one: the number of classes

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/render/render_film.h"
+#include "common/render/render.h"
 
 /// One line for each reason why the error of the picture may exceed its standard error: most light
 /// comes from a few samples, the error is unknown, or this method misses light or rarely finds it.
@@ -13,10 +13,11 @@
 std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
                                      const Rendering& rendering);
 
-/// Only the warnings that follow from the samples.
-std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts);
+/// Only the warnings that follow from the samples. place: where the largest of them is, in words.
+std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts,
+                                     const std::string& place = "");
 
 /// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
-/// view and the lights tell them; nothing is rendered. Not empty.
+/// view tell them; nothing is rendered. Not empty.
 /// tested by  "truth: the causes of a black picture, all of them, and no others"
 std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);

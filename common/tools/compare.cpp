@@ -8,7 +8,7 @@
 #include "common/base/system.h"
 #include "common/picture/comparison.h"
 #include "common/picture/verdict.h"
-#include "common/render/command_line.h"
+#include "common/render/options.h"
 #include "common/render/table.h"
 
 namespace {
@@ -25,18 +25,12 @@ CompareOptions parse(int argc, char** argv) {
     o.command = command_line(argc, argv);
     std::vector<Option> options = {
         {"out", "FILE", "write the error of each pixel as a colour (.ppm, .pfm or .png)",
-         [&](const std::string& text) {
-             if (!is_image_path(text)) fail_value("out", text, "a .ppm, .pfm or .png file");
-             o.out = text;
-         }},
-        {"range", "R", "the relative error that is white there (default: of all but 1 %)",
-         [&](const std::string& text) { o.range = parse_positive("range", text); }},
-        {"trim", "PERCENT", "leave the worst pixels out of the errors",
-         [&](const std::string& text) {
-             o.trim = parse_positive("trim", text);
-             if (o.trim >= 100) fail_value("trim", text, "less than 100");
-         }},
-    };
+         [&](const std::string& text) { o.out = parse_picture("out", text); }},
+        positive_option("range", "R",
+                        "the relative error that is white there (default: of all but "
+                        "1 %)",
+                        o.range),
+        positive_option("trim", "PERCENT", "leave the worst pixels out of the errors", o.trim)};
     parse_options(
         argc, argv, "A B",
         "How far picture A is from the reference B, .pfm, .png or .ppm, figure by figure and "
@@ -44,10 +38,10 @@ CompareOptions parse(int argc, char** argv) {
         "a .pfm cannot)\nand from what --stats wrote beside it (NAME.json); so are standard "
         "errors, or from NAME.err.pfm.",
         options, [&](const std::string& word) { o.pictures.push_back(word); });
-    if (o.pictures.size() != 2) {
+    if (o.trim >= 100) throw UsageError("error: --trim takes less than 100");
+    if (o.pictures.size() != 2)
         throw UsageError("error: two pictures are needed, not " +
                          std::to_string(o.pictures.size()) + "; --help says how");
-    }
     return o;
 }
 
@@ -63,11 +57,9 @@ std::vector<std::string> all_read(const CompareOptions& o) {
 
 void print_mean(const char* name, const PictureFacts& facts, double mean) {
     std::printf("%s  %s  mean %.6g", name, facts.file.c_str(), mean);
-    if (std::isnan(facts.standard_error)) {
-        std::printf(", standard error unknown\n");
-    } else {
-        std::printf(" +- %.2g (%s)\n", facts.standard_error, facts.known_from.c_str());
-    }
+    bool known = !std::isnan(facts.standard_error);
+    if (known) std::printf(" +- %.2g (%s)\n", facts.standard_error, facts.known_from.c_str());
+    if (!known) std::printf(", standard error unknown\n");
 }
 
 /// "3 %), 20", of standard errors.

@@ -6,7 +6,7 @@
 #include "common/base/json.h"
 #include "common/picture/notes.h"
 #include "common/render/command_line.h"
-#include "common/render/results.h"
+#include "common/render/render.h"
 #include "common/render/warnings.h"
 
 namespace {
@@ -19,22 +19,20 @@ struct MergeOptions {
 MergeOptions parse(int argc, char** argv) {
     MergeOptions o;
     std::vector<std::string> words;
-    parse_options(argc, argv, "OUT FILM...",
-                  "Adds films of one scene, by one chapter with the same options: parts of one "
-                  "render, or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or "
-                  ".png picture of all their samples.\nParts make the same bytes as the whole, in "
-                  "any order. The same samples twice are refused.",
-                  {{"stats", "FILE.json", "write samples, mean and standard error",
-                    [&](const std::string& text) { o.stats = text; }}},
-                  [&](const std::string& word) { words.push_back(word); });
-    if (words.size() < 2) {
+    parse_options(
+        argc, argv, "OUT FILM...",
+        "Adds films of one scene, by one chapter with the same options: parts of one "
+        "render, or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or "
+        ".png picture of all their samples.\nParts make the same bytes as the whole, in "
+        "any order. The same samples twice are refused.",
+        {text_option("stats", "FILE.json", "write samples, mean and standard error", o.stats)},
+        [&](const std::string& word) { words.push_back(word); });
+    if (words.size() < 2)
         throw UsageError("error: name what to write, and the films to add; --help says how");
-    }
     o.out = words[0];
     o.films.assign(words.begin() + 1, words.end());
-    if (!is_image_path(o.out) && !has_ending(o.out, film_ending)) {
+    if (!is_image_path(o.out) && !has_ending(o.out, film_ending))
         throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
-    }
     std::vector<std::string> written = {o.out};
     if (!o.stats.empty()) written.push_back(o.stats);
     check_outputs(written, o.films);
@@ -60,14 +58,11 @@ std::string stats_json(const LabeledFilm& sum) {
     return json.text();
 }
 
-void print_summary(const MergeOptions& o, const LabeledFilm& sum) {
-    const auto& [label, film] = sum;
-    std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), film.width, film.height,
-                json_number(film.spp()).c_str(), mean_and_error(film).c_str());
-    for (const std::string& line : warnings_of(sum)) {
-        std::printf("warning: %s\n", line.c_str());
-    }
-    std::printf("wrote %s\n", o.out.c_str());
+void write_sum(const std::string& path, const LabeledFilm& sum) {
+    if (is_image_path(path))
+        return write_image(path, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
+    FileLock lock(path);
+    write_film(path, sum.label, sum.film);
 }
 
 }  // namespace
@@ -76,23 +71,17 @@ int main(int argc, char** argv) {
     return run_program([&] {
         MergeOptions o = parse(argc, argv);
         LabeledFilm sum = read_film(o.films[0]);
-        for (size_t i = 1; i < o.films.size(); i++) {
+        for (size_t i = 1; i < o.films.size(); i++)
             add_film(sum, o.films[i], read_film(o.films[i]));
-        }
-        std::vector<Output> outputs = {{o.out, [&] {
-                                            if (is_image_path(o.out)) {
-                                                Notes notes = notes_of(sum.label, sum.film.spp());
-                                                return write_image(o.out, sum.film.image(),
-                                                                   comment_of(notes));
-                                            }
-                                            FileLock lock(o.out);
-                                            write_film(o.out, sum.label, sum.film);
-                                        }}};
-        if (!o.stats.empty()) {
+        std::vector<Output> outputs = {{o.out, [&] { write_sum(o.out, sum); }}};
+        if (!o.stats.empty())
             outputs.push_back({o.stats, [&] { write_file_atomically(o.stats, stats_json(sum)); }});
-        }
         write_outputs(outputs);
-        print_summary(o, sum);
+        std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), sum.film.width,
+                    sum.film.height, json_number(sum.film.spp()).c_str(),
+                    mean_and_error(sum.film).c_str());
+        for (const std::string& line : warnings_of(sum)) std::printf("warning: %s\n", line.c_str());
+        std::printf("wrote %s\n", o.out.c_str());
         const SampleCounts& counts = sum.label.counts;
         if (counts.not_finite == 0) return 0;
         std::fprintf(stderr,

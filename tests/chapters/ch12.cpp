@@ -196,7 +196,7 @@ TEST_SUITE("ch12 ris") {
         Recorder recorder(true, &story);
         Sampler random = random_numbers(1);
         trace_12(scene)(scene, onto_origin, random, recorder);
-        CHECK(story.text().find(": pdf_l 0.5,") != std::string::npos);
+        CHECK(story.text.find(": pdf_l 0.5,") != std::string::npos);
     }
 
     TEST_CASE("variance: a thousand lights: a quarter of the relMSE of chapter 11") {

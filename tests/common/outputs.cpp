@@ -54,7 +54,6 @@ TEST_SUITE("outputs") {
             refuses(scene, {"--stats", input, "--out", out});
         refuses(scene, {"--split", folder / "d", "--out", out});
         refuses(folder / "a.svg", {"--explain", "1,1", "--out", folder / "a.ppm"});
-        refuses(folder / "a.svg", {"--explain-brightest", "--out", folder / "a.ppm"});
         CHECK(folder.names() == before);
         CHECK(read_image(folder / "sky.pfm").at(1, 1) == Rgb{1, 1, 1});
         Words words = brief(scene, {"--out", out, "--film", folder / strange + ".film"});

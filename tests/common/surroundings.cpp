@@ -1,10 +1,10 @@
 // What surrounds a render: its films, and the pixels at the edges of lamps.
 #include <doctest/doctest.h>
 
-#include "common/render/film_clock.h"
-#include "common/render/lamp_edges.h"
+#include "common/render/film_keeping.h"
 #include "common/render/loading.h"
 #include "common/render/options.h"
+#include "common/render/render.h"
 #include "common/scene/intersect.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
