@@ -1,4 +1,5 @@
-// compare_scenes NN: renders the known scenes by chapter NN, and says what is not as it should be.
+// compare_scenes NN [SCENE]: renders the known scenes by chapter NN, or one of them, and says what
+// is not as it should be; "first: ..." as soon as something is off.
 #include <algorithm>
 #include <cstdio>
 #include <set>
@@ -7,6 +8,7 @@
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/check/findings.h"
+#include "tests/check/watch.h"
 #include "tests/measure/measure.h"
 #include "tests/support/seal.h"
 
@@ -103,13 +105,6 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
     if (findings.off.size() == before) look_at("all", expected["all"]);
 }
 
-Findings findings_of(const NamedMethod& method, const MeasureOptions& o) {
-    Findings findings;
-    for (const KnownScene& scene : known_scenes())
-        if (fits(scene, method)) compare(scene, method, o, findings);
-    return findings;
-}
-
 /// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
 std::string worst_of(const std::vector<Off>& off) {
     auto distance = [](const Off& o) {
@@ -126,6 +121,22 @@ std::string worst_of(const std::vector<Off>& off) {
         return what + "not a number: make mine names such a pixel, and what shows its path";
     return what + short_number(o.ratio.mean) + (factor.empty() ? "" : " (" + factor + ")") +
            " of what it should be";
+}
+
+Findings findings_of(const NamedMethod& method, const MeasureOptions& o, Watch& watch) {
+    Findings findings;
+    NamedMethod watched = watch.watched(method);
+    bool one_alone = o.words.size() > 1;
+    for (const KnownScene& scene : known_scenes()) {
+        if (!fits(scene, method) || (one_alone && scene.name != o.words[1])) continue;
+        watch.renders(scene.name);
+        bool was_right = findings.off.empty();
+        compare(scene, watched, o, findings);
+        if (was_right && !findings.off.empty())
+            std::printf("first: %s.\n", worst_of(findings.off).c_str());
+        std::fflush(stdout);
+    }
+    return findings;
 }
 
 /// What is off, by one way in which the chapter finds light. Returns whether anything is.
@@ -150,9 +161,10 @@ bool print_off(const Findings& found, const std::string& way) {
 }
 
 int check(const std::string& chapter, const MeasureOptions& o) {
+    Watch watch(o.seconds);
     const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
-    Findings found =
-        findings_of(methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0), o);
+    Findings found = findings_of(
+        methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0), o, watch);
     if (found.black) {
         std::printf("All pictures are black: trace brings no light at all. Does it return L?\n");
         return 1;
@@ -161,7 +173,8 @@ int check(const std::string& chapter, const MeasureOptions& o) {
     for (const NamedMethod& m : all_methods()) {
         bool by_area = m.name == chapter + "-area", by_bsdf = m.name == chapter + "-bsdf";
         if (by_area || by_bsdf)
-            off |= print_off(findings_of(m, o), by_area ? ", by area" : ", by the BSDF alone");
+            off |=
+                print_off(findings_of(m, o, watch), by_area ? ", by area" : ", by the BSDF alone");
     }
     if (!off) std::printf("Light comes by every class of path as it should.\n");
     return off ? 1 : 0;
@@ -172,9 +185,10 @@ int check(const std::string& chapter, const MeasureOptions& o) {
 int main(int argc, char** argv) {
     return seal(run_program([&] {
         MeasureOptions o = parse_measure_options(
-            argc, argv, "CHAPTER",
-            "Renders the known scenes by a chapter, and says what is not as it should be.", {});
-        if (o.words.size() != 1) throw UsageError("error: one chapter is needed, such as 09");
+            argc, argv, "CHAPTER [SCENE]",
+            "Renders the known scenes by a chapter, and says what is not as it should be.",
+            {.seconds = 10});
+        if (o.words.empty()) throw UsageError("error: one chapter is needed, such as 09");
         return check(o.words[0], o);
     }));
 }
