@@ -163,7 +163,7 @@ TEST_SUITE("ch17 sky image") {
         CHECK(cdf[1] == 0);
         CHECK(cdf[2] == doctest::Approx(1.25 / 3.5).epsilon(1e-5).scale(0));
         CHECK(cdf[3] == cdf[2]);
-        CHECK(cdf[4] == doctest::Approx(1).epsilon(1e-9));
+        CHECK(cdf[4] == doctest::Approx(1).epsilon(1e-9).scale(0));
         // Longitude and latitude: by solid angle, rows have the shares (1 - cos 45)/2 and sin 45/2
         // but for the rule of the middle. The mean over pixels would be another one: 7/4.
         SkyImage image = sky_of(SkyImage::Map::wide, 4, [](Vec3, int, int j, int) {
