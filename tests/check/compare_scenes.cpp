@@ -18,7 +18,7 @@ constexpr int batches = 16;
 
 /// What each class of path brings, from the spread of several renders; "all": the picture's mean.
 std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownScene& known,
-                                        const MeasureOptions& o, int samples) {
+                                        const MeasureOptions& o, int samples, uint32_t first_seed) {
     Scene scene = parse_scene("known.pbrt", known.text, nullptr);
     prepare(scene, o.threads);
     std::map<std::string, RunningStats> stats;
@@ -26,7 +26,8 @@ std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownSc
     bool shared_out = method.name.starts_with("19") && known.name == "rare-light";
     int spp = std::max(samples / batches, shared_out ? 32 : 2);
     for (int batch = 0; batch < batches; batch++) {
-        Rendering r = render_once(method, scene, o, spp, static_cast<uint32_t>(batch + 1), true);
+        Rendering r =
+            render_once(method, scene, o, spp, first_seed + static_cast<uint32_t>(batch), true);
         std::map<std::string, double> values = {{"all", r.film.mean()}};
         for (const auto& [name, film] : r.classes) values[name] = film.mean();
         for (const auto& [name, value] : values) stats[name];
@@ -86,15 +87,20 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
              Findings& findings) {
     constexpr int times_blurred = 40, times = 3;  // as many samples as the scene says
     bool blurred = is_blurred(scene, method);
-    auto measured = measure(method, scene, o, scene.samples * (blurred ? times_blurred : times));
+    int samples = scene.samples * (blurred ? times_blurred : times);
+    double least = blurred ? 0.12 : 0.008;
+    auto measured = measure(method, scene, o, samples, 1);
     auto expected = scene.light;
     for (const auto& [name, q] : measured) expected.insert({name, Quantity{}});
-    size_t before = findings.off.size();
+    std::vector<Off> off;
+    bool is_sure = false;
     auto look_at = [&](const std::string& name, Quantity should) {
         Quantity is = measured[name];
-        if (!is_seen(method, name) || !is_off(is, should, blurred ? 0.12 : 0.008)) return;
+        if (!is_seen(method, name) || !is_off(is, should, least)) return;
         bool leaks = !(should.mean > 0);
-        findings.off.push_back({&scene, name, leaks ? is : ratio_of(is, should), leaks});
+        Quantity ratio = leaks ? is : ratio_of(is, should);
+        off.push_back({&scene, name, ratio, leaks});
+        is_sure |= !(std::abs(ratio.mean - 1) < 20 * ratio.se) && is.mean != 0 && !leaks;
     };
     for (const auto& [name, should] : expected) {
         if (!is_class(name)) continue;
@@ -102,7 +108,15 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
         findings.black &= measured[name].mean == 0;
         look_at(name, should);
     }
-    if (findings.off.size() == before) look_at("all", expected["all"]);
+    if (off.empty()) look_at("all", expected["all"]);
+    if (findings.off.empty() && !off.empty() && !is_sure) {
+        // A rare path may be missing, or there too often, by chance: but not twice.
+        auto again = measure(method, scene, o, 8 * samples, 1000);
+        std::erase_if(off, [&](const Off& found) {
+            return !is_off(again[found.name], expected[found.name], least);
+        });
+    }
+    findings.off.insert(findings.off.end(), off.begin(), off.end());
 }
 
 /// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
