@@ -162,7 +162,7 @@ TEST_SUITE("ch04 integrals") {
 
     TEST_CASE("identity: a density proportional to f >= 0 makes every sample the integral") {
         for (double u : {lowest_u, 0.001, 0.37, 0.999, highest_u}) {
-            CHECK(find(ch04::integrals(), "x^-1/2", "1/(2 sqrt x)").X(u) == 2);
+            CHECK(relative(find(ch04::integrals(), "x^-1/2", "1/(2 sqrt x)").X(u), 2) < 1e-15);
             CHECK(relative(find(ch04::integrals(), "x^2", "3x^2").X(u), 1.0 / 3) < 1e-15);
         }
     }
@@ -176,7 +176,7 @@ TEST_SUITE("ch04 integrals") {
 
     TEST_CASE("identity: of N equal samples each has the share 1/N of the squares") {
         Experiment e = find(ch04::integrals(), "x^-1/2", "1/(2 sqrt x)");
-        CHECK(ch04::run(e, 1000, 1).largest_share == 0.001);
+        CHECK(ch04::run(e, 1000, 1).largest_share == nearly(0.001, 1e-12));
         CHECK(ch04::run(e, 1, 1).largest_share == 1);
     }
 }

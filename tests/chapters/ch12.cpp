@@ -43,13 +43,23 @@ struct Resampling {
             if (!twice) others[light] = 0;
             double weight = target[light] / pmf[light];
             double share = weight > 0 ? weight / (double{kept.weight_sum} + weight) : 0;
+            auto offered = [&](size_t number, float& u) {
+                ch12::Reservoir next = kept;
+                next.offer(number, static_cast<float>(target[light]), static_cast<float>(weight),
+                           u);
+                return next;
+            };
+            // It may be taken by the lowest u, or by the highest.
+            float lowest = 0;
+            constexpr size_t other = 4;  // than any that is kept
+            bool by_lowest = offered(other, lowest).light == other;
             for (bool taken : {true, false}) {
                 double chance = taken ? share : 1 - share;
                 if (chance == 0) continue;
                 // u decides, and is uniform again afterwards: 0.3 of the way through either part.
-                float u = static_cast<float>(taken ? 0.3 * share : share + 0.3 * (1 - share));
-                ch12::Reservoir next = kept;
-                next.offer(light, static_cast<float>(target[light]), static_cast<float>(weight), u);
+                double before = taken == by_lowest ? 0 : 1 - chance;
+                float u = static_cast<float>(before + 0.3 * chance);
+                ch12::Reservoir next = offered(light, u);
                 CHECK(u == nearly(0.3, 1e-5));
                 CHECK(next.light == (taken ? light : kept.light));
                 follow(next, k + 1, probability * drawn * chance, others);

@@ -1,4 +1,5 @@
-// compare_scenes NN: renders the known scenes by chapter NN, and says what is not as it should be.
+// compare_scenes NN [SCENE]: renders the known scenes by chapter NN, or one of them, and says what
+// is not as it should be; "first: ..." as soon as something is off.
 #include <algorithm>
 #include <cstdio>
 #include <set>
@@ -7,6 +8,7 @@
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/check/findings.h"
+#include "tests/check/watch.h"
 #include "tests/measure/measure.h"
 #include "tests/support/seal.h"
 
@@ -16,7 +18,7 @@ constexpr int batches = 16;
 
 /// What each class of path brings, from the spread of several renders; "all": the picture's mean.
 std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownScene& known,
-                                        const MeasureOptions& o, int samples) {
+                                        const MeasureOptions& o, int samples, uint32_t first_seed) {
     Scene scene = parse_scene("known.pbrt", known.text, nullptr);
     prepare(scene, o.threads);
     std::map<std::string, RunningStats> stats;
@@ -24,7 +26,8 @@ std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownSc
     bool shared_out = method.name.starts_with("19") && known.name == "rare-light";
     int spp = std::max(samples / batches, shared_out ? 32 : 2);
     for (int batch = 0; batch < batches; batch++) {
-        Rendering r = render_once(method, scene, o, spp, static_cast<uint32_t>(batch + 1), true);
+        Rendering r =
+            render_once(method, scene, o, spp, first_seed + static_cast<uint32_t>(batch), true);
         std::map<std::string, double> values = {{"all", r.film.mean()}};
         for (const auto& [name, film] : r.classes) values[name] = film.mean();
         for (const auto& [name, value] : values) stats[name];
@@ -84,15 +87,20 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
              Findings& findings) {
     constexpr int times_blurred = 40, times = 3;  // as many samples as the scene says
     bool blurred = is_blurred(scene, method);
-    auto measured = measure(method, scene, o, scene.samples * (blurred ? times_blurred : times));
+    int samples = scene.samples * (blurred ? times_blurred : times);
+    double least = blurred ? 0.12 : 0.008;
+    auto measured = measure(method, scene, o, samples, 1);
     auto expected = scene.light;
     for (const auto& [name, q] : measured) expected.insert({name, Quantity{}});
-    size_t before = findings.off.size();
+    std::vector<Off> off;
+    bool is_sure = false;
     auto look_at = [&](const std::string& name, Quantity should) {
         Quantity is = measured[name];
-        if (!is_seen(method, name) || !is_off(is, should, blurred ? 0.12 : 0.008)) return;
+        if (!is_seen(method, name) || !is_off(is, should, least)) return;
         bool leaks = !(should.mean > 0);
-        findings.off.push_back({&scene, name, leaks ? is : ratio_of(is, should), leaks});
+        Quantity ratio = leaks ? is : ratio_of(is, should);
+        off.push_back({&scene, name, ratio, leaks});
+        is_sure |= !(std::abs(ratio.mean - 1) < 20 * ratio.se) && is.mean != 0 && !leaks;
     };
     for (const auto& [name, should] : expected) {
         if (!is_class(name)) continue;
@@ -100,14 +108,15 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
         findings.black &= measured[name].mean == 0;
         look_at(name, should);
     }
-    if (findings.off.size() == before) look_at("all", expected["all"]);
-}
-
-Findings findings_of(const NamedMethod& method, const MeasureOptions& o) {
-    Findings findings;
-    for (const KnownScene& scene : known_scenes())
-        if (fits(scene, method)) compare(scene, method, o, findings);
-    return findings;
+    if (off.empty()) look_at("all", expected["all"]);
+    if (findings.off.empty() && !off.empty() && !is_sure) {
+        // A rare path may be missing, or there too often, by chance: but not twice.
+        auto again = measure(method, scene, o, 8 * samples, 1000);
+        std::erase_if(off, [&](const Off& found) {
+            return !is_off(again[found.name], expected[found.name], least);
+        });
+    }
+    findings.off.insert(findings.off.end(), off.begin(), off.end());
 }
 
 /// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
@@ -126,6 +135,22 @@ std::string worst_of(const std::vector<Off>& off) {
         return what + "not a number: make mine names such a pixel, and what shows its path";
     return what + short_number(o.ratio.mean) + (factor.empty() ? "" : " (" + factor + ")") +
            " of what it should be";
+}
+
+Findings findings_of(const NamedMethod& method, const MeasureOptions& o, Watch& watch) {
+    Findings findings;
+    NamedMethod watched = watch.watched(method);
+    bool one_alone = o.words.size() > 1;
+    for (const KnownScene& scene : known_scenes()) {
+        if (!fits(scene, method) || (one_alone && scene.name != o.words[1])) continue;
+        watch.renders(scene.name);
+        bool was_right = findings.off.empty();
+        compare(scene, watched, o, findings);
+        if (was_right && !findings.off.empty())
+            std::printf("first: %s.\n", worst_of(findings.off).c_str());
+        std::fflush(stdout);
+    }
+    return findings;
 }
 
 /// What is off, by one way in which the chapter finds light. Returns whether anything is.
@@ -150,9 +175,10 @@ bool print_off(const Findings& found, const std::string& way) {
 }
 
 int check(const std::string& chapter, const MeasureOptions& o) {
+    Watch watch(o.seconds);
     const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
-    Findings found =
-        findings_of(methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0), o);
+    Findings found = findings_of(
+        methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0), o, watch);
     if (found.black) {
         std::printf("All pictures are black: trace brings no light at all. Does it return L?\n");
         return 1;
@@ -161,7 +187,8 @@ int check(const std::string& chapter, const MeasureOptions& o) {
     for (const NamedMethod& m : all_methods()) {
         bool by_area = m.name == chapter + "-area", by_bsdf = m.name == chapter + "-bsdf";
         if (by_area || by_bsdf)
-            off |= print_off(findings_of(m, o), by_area ? ", by area" : ", by the BSDF alone");
+            off |=
+                print_off(findings_of(m, o, watch), by_area ? ", by area" : ", by the BSDF alone");
     }
     if (!off) std::printf("Light comes by every class of path as it should.\n");
     return off ? 1 : 0;
@@ -172,9 +199,10 @@ int check(const std::string& chapter, const MeasureOptions& o) {
 int main(int argc, char** argv) {
     return seal(run_program([&] {
         MeasureOptions o = parse_measure_options(
-            argc, argv, "CHAPTER",
-            "Renders the known scenes by a chapter, and says what is not as it should be.", {});
-        if (o.words.size() != 1) throw UsageError("error: one chapter is needed, such as 09");
+            argc, argv, "CHAPTER [SCENE]",
+            "Renders the known scenes by a chapter, and says what is not as it should be.",
+            {.seconds = 10});
+        if (o.words.empty()) throw UsageError("error: one chapter is needed, such as 09");
         return check(o.words[0], o);
     }));
 }

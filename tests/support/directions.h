@@ -75,7 +75,8 @@ void check_inverse(const Sample& sample, const Invert& invert, float error) {
     for (int i = 0; i < 1000; i++) {
         Vec2 u = random.u2(), v = invert(sample(u));
         CHECK(std::abs(u.x - v.x) < error);
-        CHECK((v.y >= 0 && v.y <= 1));
+        CHECK(v.y >= 0);
+        CHECK(v.y <= 1);
         CHECK(std::abs(std::remainder(u.y - v.y, 1.0f)) * std::min(std::sqrt(u.x), 1 - u.x) <
               error);
     }
