@@ -4,37 +4,20 @@
 #include <limits>
 
 #include "common/base/numbers.h"
-#include "common/base/utf8.h"
 #include "common/scene_file/messages.h"
-
-namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-bool ends_word(char c) { return is_blank(c) || c == '[' || c == ']' || c == '"'; }
-
-}  // namespace
 
 Lexer::Lexer(std::string file, std::string bytes, const Report& report)
     : file_(std::move(file)), bytes_(std::move(bytes)), report_(report) {
-    check_encoding();
-    if (bytes_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
-    ahead_ = read();
-}
-
-void Lexer::check_encoding() const {
-    if (bytes_.starts_with("\xff\xfe") || bytes_.starts_with("\xfe\xff")) {
-        fail({file_}, "UTF-16 text: save it as UTF-8");
-    }
-    int line = 1, column = 1;
-    for (size_t i = 0; i < bytes_.size(); column++) {
+    for (size_t i = 0; i < bytes_.size();) {
         size_t length = utf8_length(bytes_, i);
-        if (length == 0) fail({file_, line, column}, "not UTF-8 text");
-        if (line_ends_at(i)) {
-            line++;
-            column = 0;
+        if (length == 0) {
+            while (position_ < i) advance();
+            fail({file_, line_, column_}, "not UTF-8 text");
         }
         i += length;
     }
+    if (bytes_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
+    ahead_ = read();
 }
 
 Token Lexer::next() {
@@ -43,47 +26,44 @@ Token Lexer::next() {
     return token;
 }
 
-// Of the two bytes CR LF only the second one ends the line.
-bool Lexer::line_ends_at(size_t byte) const {
-    if (bytes_[byte] == '\r') return byte + 1 == bytes_.size() || bytes_[byte + 1] != '\n';
-    return bytes_[byte] == '\n';
+bool Lexer::has_argument() const {
+    if (ahead_.type != Token::word) return ahead_.type != Token::end;
+    return ahead_.text[0] < 'A' || ahead_.text[0] > 'Z';
 }
 
-// Steps over one byte and counts lines and characters.
+// Steps over one byte and counts lines and characters. Of CR LF only the LF ends the line.
 void Lexer::advance() {
-    if (line_ends_at(position_++)) {
+    char c = bytes_[position_++];
+    if (c == '\n' || (c == '\r' && !stands_at("\n"))) {
         line_++;
         column_ = 1;
-    } else if (position_ == bytes_.size() || (bytes_[position_] & 0xc0) != 0x80) {
+    } else if ((c & 0xc0) != 0x80) {
         column_++;
     }
 }
 
+bool Lexer::stands_at(std::string_view any) const {
+    return position_ < bytes_.size() && any.find(bytes_[position_]) != any.npos;
+}
+
 void Lexer::skip_blanks_and_comments() {
-    while (position_ < bytes_.size()) {
-        if (is_blank(bytes_[position_])) {
+    while (stands_at(" \t\r\n#")) {
+        bool is_comment = stands_at("#");
+        do {
             advance();
-        } else if (bytes_[position_] == '#') {
-            while (position_ < bytes_.size() && bytes_[position_] != '\n' &&
-                   bytes_[position_] != '\r') {
-                advance();
-            }
-        } else {
-            return;
-        }
+        } while (is_comment && position_ < bytes_.size() && !stands_at("\r\n"));
     }
 }
 
 void Lexer::read_string() {
     Position start = {file_, line_, column_};
     advance();
-    while (position_ < bytes_.size() && bytes_[position_] != '"') {
-        if (line_ends_at(position_)) stop_reading(start, "the string does not end on its line");
-        bool escape = bytes_[position_] == '\\';
+    while (position_ < bytes_.size() && !stands_at("\"\r\n")) {
+        bool escape = stands_at("\\");
         advance();
-        if (escape && position_ < bytes_.size() && !line_ends_at(position_)) advance();
+        if (escape && stands_at("\\\"")) advance();
     }
-    if (position_ == bytes_.size()) stop_reading(start, "the file ends inside a string");
+    if (!stands_at("\"")) stop_reading(start, "the string does not end on its line");
     advance();
 }
 
@@ -95,37 +75,41 @@ Token Lexer::read() {
         double share = static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
         if (report_) report_("reading " + file_, share);
     }
-    Token token;
-    token.line = line_;
-    token.column = column_;
+    Token token = {Token::end, {}, line_, column_};
     size_t start = position_;
     if (start == bytes_.size()) return token;
-    switch (bytes_[start]) {
-        case '[':
-            token.type = Token::open;
-            advance();
-            break;
-        case ']':
-            token.type = Token::close;
-            advance();
-            break;
-        case '"':
-            token.type = Token::string;
-            read_string();
-            token.text = std::string_view(bytes_).substr(start + 1, position_ - start - 2);
-            return token;
-        default:
-            token.type = Token::word;
-            while (position_ < bytes_.size() && !ends_word(bytes_[position_])) advance();
+    if (stands_at("\"")) {
+        read_string();
+        token.type = Token::string;
+        token.text = std::string_view(bytes_).substr(start + 1, position_ - start - 2);
+        return token;
     }
+    token.type = stands_at("[") ? Token::open : stands_at("]") ? Token::close : Token::word;
+    do {
+        advance();
+    } while (token.type == Token::word && position_ < bytes_.size() && !stands_at(" \t\r\n[]\""));
     token.text = std::string_view(bytes_).substr(start, position_ - start);
     return token;
 }
 
-double Lexer::number(const Token& token, const std::string& what) const {
+void Lexer::fail_at(const Token& token, const std::string& text) const {
+    std::string what = token.type == Token::end      ? "the end of the file"
+                       : token.type == Token::string ? "the string " + quote(token.text)
+                                                     : quote(token.text);
+    fail(at(token), text + ", not " + what);
+}
+
+Token Lexer::expect(Token::Type type, const std::string& needs) {
+    Token token = next();
+    if (token.type != type) fail_at(token, needs);
+    return token;
+}
+
+double Lexer::number(const std::string& what) {
+    Token token = next();
     std::optional<double> value;
     if (token.type == Token::word) value = to_number(token.text);
-    if (!value) fail(at(token), what + " needs a number, not " + describe(token));
+    if (!value) fail_at(token, what + " needs a number");
     if (std::abs(*value) > std::numeric_limits<float>::max()) {
         fail(at(token), "number too large: " + quote(token.text));
     }
@@ -141,19 +125,11 @@ std::string Lexer::unescape(const Token& token) const {
             continue;
         }
         size_t letter = letters.find(token.text[++i]);
-        if (letter == std::string_view::npos) {
+        if (letter == letters.npos) {
             fail(at(token), "unknown escape " + quote(token.text.substr(i - 1, 2)) +
                                 ": write / between folders, and \\\\ for a \\ in a string");
         }
         text += meanings[letter];
     }
     return text;
-}
-
-std::string Lexer::describe(const Token& token) {
-    switch (token.type) {
-        case Token::end: return "the end of the file";
-        case Token::string: return "the string " + quote(token.text);
-        default: return quote(token.text);
-    }
 }

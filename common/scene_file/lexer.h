@@ -27,19 +27,22 @@ public:
 
     const Token& peek() const { return ahead_; }
     Token next();
+    /// Whether the next token looks like none that begins a directive.
+    bool has_argument() const;
     Position at(const Token& token) const { return {file_, token.line, token.column}; }
 
-    /// The number that the token is; throws `WHAT needs a number, not ...` when it is none.
-    double number(const Token& token, const std::string& what) const;
+    /// The next token, which must be of this type; throws `NEEDS, not ...` where it is another.
+    Token expect(Token::Type type, const std::string& needs);
+    /// The next number; throws `WHAT needs a number, not ...` where there is none.
+    double number(const std::string& what);
     /// What the quoted string means: its escapes \b \f \n \r \t \\ \' \" resolved.
     std::string unescape(const Token& token) const;
-    /// The token as messages name it: `"P"`, `the string "P"`, `the end of the file`.
-    static std::string describe(const Token& token);
+    /// Throws `TEXT, not TOKEN`.
+    [[noreturn]] void fail_at(const Token& token, const std::string& text) const;
 
 private:
-    void check_encoding() const;
-    bool line_ends_at(size_t byte) const;
     void advance();
+    bool stands_at(std::string_view any) const;
     void skip_blanks_and_comments();
     void read_string();
     Token read();

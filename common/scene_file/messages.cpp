@@ -1,32 +1,70 @@
 #include "common/scene_file/messages.h"
 
-#include <sstream>
+#include "common/scene_file/stand_ins.h"
 
 void stop_reading(const Position& at, const std::string& text) {
     throw ReadingEnds(message_at(at, "error", text));
 }
 
-Messages::Messages(std::string kind, std::vector<std::string>& lines)
-    : kind_(std::move(kind)), lines_(lines) {}
-
-void Messages::add(const Position& at, const std::string& text) {
-    constexpr size_t most = 100;
-    if (texts_.size() > most || !texts_.insert(text).second) return;
-    bool too_many = texts_.size() > most;
-    lines_.push_back(
-        message_at(at, kind_, too_many ? "there is more of which to take note" : text));
+void check_limit(const Position& at, uint64_t count, uint64_t most, const std::string& things) {
+    if (count > most) stop_reading(at, "more than " + std::to_string(most) + ' ' + things);
 }
 
-void Messages::add(const InputError& error) {
-    std::istringstream lines(error.what());
-    for (std::string line; std::getline(lines, line);) {
-        std::string text = line.substr(std::min(line.size(), line.find(": " + kind_ + ": ")));
-        if (texts_.insert(text).second) lines_.push_back(line);
+void Messages::note(const Position& at, const std::string& text) {
+    constexpr size_t most = 100;
+    if (notes_.size() > most || !texts_.insert(text).second) return;
+    bool too_many = notes_.size() == most;
+    notes_.push_back(
+        message_at(at, "note", too_many ? "there is more of which to take note" : text));
+}
+
+void Messages::error(const Position& at, const std::string& text) {
+    add(InputError(message_at(at, "error", text)));
+}
+
+void Messages::add(const std::exception& error) {
+    std::string line = error.what();
+    std::string text = line.substr(std::min(line.size(), line.find(": error: ")));
+    if (texts_.insert(text).second) errors_.push_back(line);
+}
+
+void Messages::stand_in(const Position& at, const std::string& what, const std::string& text) {
+    if (!stand_ins_) {
+        std::string wrong = text.empty() ? what + " is not supported" : text;
+        return error(at, wrong + or_stand_in(what).substr(wrong.ends_with('?') ? 1 : 0));
+    }
+    auto& [first, all] = used_.try_emplace(what, at, std::set<Position>{}).first->second;
+    all.insert(at);
+}
+
+bool Messages::try_to_read(const Position& at, const std::string& what,
+                           const std::function<void()>& read) {
+    try {
+        read();
+        return true;
+    } catch (const InputError& error) {
+        if (stand_ins_) {
+            stand_in(at, what);
+        } else {
+            add(InputError(error.what() + or_stand_in(what)));
+        }
+        return false;
     }
 }
 
-std::string join_lines(const std::vector<std::string>& lines) {
+std::vector<UsedStandIn> Messages::used() const {
+    std::vector<UsedStandIn> list;
+    for (const auto& [what, instead] : all_stand_ins()) {
+        auto found = used_.find(what);
+        if (found == used_.end()) continue;
+        const auto& [first, all] = found->second;
+        list.push_back({what, instead, all.size(), first});
+    }
+    return list;
+}
+
+void Messages::finish() const {
     std::string text;
-    for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-    return text;
+    for (const std::string& line : errors_) text += (text.empty() ? "" : "\n") + line;
+    if (!text.empty()) throw InputError(text);
 }

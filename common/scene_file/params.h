@@ -1,93 +1,76 @@
 // The parameters that follow a directive of a pbrt-v4 scene file: `"float fov" 45`.
 #pragma once
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "common/base/vec.h"
-#include "common/scene_file/param.h"
-#include "common/scene_file/spectra.h"
-#include "common/scene_file/stand_ins.h"
+#include "common/scene_file/lexer.h"
+#include "common/scene_file/messages.h"
 
-/// The colour of a parameter, or one of its numbers; throws for one that is not in the range.
-Rgb read_rgb(const Param& param, float low, float high);
-void check_range(const Param& param, double value, float low, float high);
+struct Param {
+    std::string type, name;
+    Position at;
+    std::vector<double> numbers;  // also of integers, points and colors; of bools 0 or 1
+    std::vector<std::string> strings;
+};
 
-/// The parameters of one directive. A directive asks for each that it knows; finish() then refuses
-/// those that nobody asked for. Of a parameter given twice the last one counts, with a note.
-///
-/// Everything here throws InputError at the parameter for what cannot be used.
+/// Reads a declaration and its value or values, and checks that they fit the type.
+Param read_param(Lexer& lexer);
+
+/// What a directive of one type knows of one of its parameters: see parameters.cpp.
+struct KnownParam {
+    std::vector<std::string> types;
+    std::string name;
+    double fallback, low, high;  // of each number
+    size_t values;               // how many numbers, points or strings; 0: any number
+    std::string stand_in;        // of a parameter that only pbrt has
+};
+/// Those of each directive, by its type, such as those of Shape and "disk".
+const std::map<std::string, std::map<std::string, std::vector<KnownParam>>>& known_params();
+
+/// The words between blanks.
+std::vector<std::string> words_of(const std::string& text);
+
+/// The parameters of one directive, of which all that is wrong is told. Those that cannot be used
+/// are left out; of two with one name the last one counts.
 class Params {
 public:
-    /// Reads what follows `directive`: its type, such as "perspective" (where it has one), and the
-    /// parameters up to a token that is none.
-    ///
-    /// defaults  parameters that Attribute has given: they count where the directive has none of
-    ///           that name, and may be such as the directive does not know
-    Params(Lexer& lexer, const Token& directive, SceneNotes& notes, bool has_type = true,
-           const std::vector<Param>& defaults = {});
+    /// Reads what follows `directive`: its type, such as "perspective", and the parameters up to a
+    /// token that is none. Throws for a type that is unknown.
+    Params(Lexer& lexer, const Token& directive, Messages& messages);
 
     const std::string& type() const { return type_; }
-    const std::vector<Param>& all() const { return params_; }
-    /// Takes the type from the parameter "string type", as MakeNamedMaterial gives it.
-    void read_type();
-    /// Whether the type has a stand-in that is to be taken, which is remembered.
-    bool stands_in();
-    /// Throws for a type that is none of the known ones.
-    [[noreturn]] void fail_type(const std::vector<std::string>& known) const;
+    /// Whether the type is not supported: what is read stands in for it.
+    bool stands_in() const { return stands_in_; }
+    Messages& messages() const { return *messages_; }
 
     /// Where the directive stands, and where a parameter does (the directive if it is not given).
     const Position& at() const { return at_; }
     const Position& at(const std::string& name) const;
     /// The directive and its type, for messages.
-    std::string owner() const;
+    std::string owner() const { return directive_ + ' ' + quote(type_); }
 
-    /// The one value of a parameter, from `low` to `high`; `fallback` where it is not given.
-    float number(const std::string& name, float fallback, float low = -infinity,
-                 float high = infinity);
-    int integer(const std::string& name, int fallback, int low, int high);
-    bool boolean(const std::string& name, bool fallback);
-    std::string string(const std::string& name, const std::string& fallback);
-    Vec3 point(const std::string& name, Vec3 fallback);
-    /// A color of components >= 0: `rgb`, or of luminance 1: `blackbody`.
-    Rgb illuminant(const std::string& name, Rgb fallback);
-    /// What a spectrum that is given by its name is; null where it is none of these, which is
-    /// remembered.
-    template <class Value>
-    const Value* named(const Param& spectrum, const std::map<std::string, Value>& known);
-    /// The parameter of this type and name; null if not given.
-    const Param* find(const std::string& type, const std::string& name);
-    /// The parameter of this type and name; an error unless it has exactly `count` values.
-    const Param* find_exactly(const std::string& type, const std::string& name, size_t count);
-    /// Accepts parameters that have no effect on what we render.
-    void ignore(const std::string& type, const std::vector<std::string>& names);
-    /// Remembers something that we have not, but have a stand-in for, named as in the table. It is
-    /// an error for finish() to throw only where stand-ins are not allowed, `text` if it has one.
-    void stand_in(const Position& at, const std::string& what, const std::string& text = "");
-    /// The same for a parameter, where it is given.
-    void replace(const std::string& type, const std::string& name, const std::string& what);
-    /// Whether stand-ins are allowed.
-    bool may_stand_in() const { return notes_->stand_ins(); }
-    /// Reads something, such as a file that a parameter names, and returns whether that worked.
-    /// What is wrong with it is remembered too, unless reading ends with it, or a stand-in is
-    /// taken.
-    bool read(const std::function<void()>& reader, const std::string& stand_in = "");
-    /// Accepts all parameters that have not been asked for.
-    void ignore_rest();
-    /// Throws for what is not supported, and for parameters that have not been asked for.
-    void finish();
+    /// The parameter of this name; null if not given.
+    const Param* find(const std::string& name) const;
+    /// The same; throws if not given.
+    const Param& required(const std::string& name) const;
+    /// The value of a parameter; where it is not given that of the table, or the one given here.
+    float number(const std::string& name) const { return number(name, fallback(name)); }
+    float number(const std::string& name, float fallback) const;
+    int integer(const std::string& name) const;
+    bool boolean(const std::string& name) const { return number(name) != 0; }
+    std::string string(const std::string& name, const std::string& fallback = "") const;
+    Vec3 point(const std::string& name, Vec3 fallback) const;
+    /// An `rgb`, or the color of luminance 1 of a `blackbody`.
+    Rgb color(const std::string& name) const;
 
 private:
     void add(Param param);
-    void refuse_old_type() const;
-    std::string table_name() const;
-    std::string what_is_wrong_with(const Param& param) const;
+    void check_type(const Position& at);
+    bool is_usable(const Param& param) const;
+    float fallback(const std::string& name) const;
 
-    SceneNotes* notes_;
-    Position at_, type_at_;
+    Messages* messages_;
+    Position at_;
     std::string directive_, type_;
+    bool stands_in_ = false;
+    const std::vector<KnownParam>* known_ = nullptr;
     std::vector<Param> params_;
-    std::vector<std::string> known_names_, known_types_;  // what was asked for
-    std::vector<std::string> wrong_;                      // lines, for finish()
 };

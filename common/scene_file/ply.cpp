@@ -1,13 +1,21 @@
 #include "common/scene_file/ply.h"
 
-#include "common/scene_file/ply_bytes.h"
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "common/base/numbers.h"
+#include "common/base/position.h"
 
 namespace {
+
+constexpr size_t corners = 8, unused = 9;  // after the eight numbers of a vertex
 
 struct Property {
     std::string name;
     const PlyScalar* type = nullptr;
     const PlyScalar* count_type = nullptr;  // of a list; null for a single value
+    size_t role = unused;
 };
 
 struct Element {
@@ -16,196 +24,239 @@ struct Element {
     Position at;
     std::vector<Property> properties;
 
-    const Property* find(const std::string& property) const {
-        for (const Property& p : properties) {
+    Property* find(const std::string& property) {
+        for (Property& p : properties) {
             if (p.name == property) return &p;
         }
         return nullptr;
     }
 };
 
-const PlyScalar* read_scalar(PlyBytes& reader) {
-    std::string_view name = reader.word();
-    for (const PlyScalar& type : ply_scalars) {
-        if (name == type.name || name == type.other_name) return &type;
-    }
-    reader.fail_here("unknown property type " + quote(name));
-}
+/// Reads the bytes of the file in words, or in binary values.
+class PlyReader {
+public:
+    PlyReader(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
-Property read_property(PlyBytes& reader) {
-    Property property;
-    PlyBytes look_ahead = reader;
-    if (look_ahead.word() == "list") {
-        reader.word();
-        property.count_type = read_scalar(reader);
-        if (property.count_type->is_float) reader.fail_here("a list cannot have a float for count");
-    }
-    property.type = read_scalar(reader);
-    property.name = reader.word();
-    if (property.name.empty()) reader.fail_here("a property without a name");
-    return property;
-}
+    TriangleMesh read(const Limits& limits) {
+        read_header();
+        Element& vertex = find_element("vertex", limits.vertices);
+        Element& face = find_element("face", limits.primitives);
+        find_roles(vertex, face);
 
-Element read_element(PlyBytes& reader) {
-    Element element;
-    element.name = reader.word();
-    element.at = reader.at();
-    std::string_view count = reader.word();
-    auto number = to_number(count);
-    if (!number || !(*number >= 0) || *number != std::floor(*number) || *number > 1e15) {
-        reader.fail_here("expected how many elements there are, not " + quote(count));
-    }
-    element.count = static_cast<uint64_t>(*number);
-    return element;
-}
-
-PlyFormat read_format(PlyBytes& reader) {
-    std::string_view name = reader.word();
-    std::optional<PlyFormat> format;
-    if (name == "ascii") format = PlyFormat::ascii;
-    if (name == "binary_little_endian") format = PlyFormat::little;
-    if (name == "binary_big_endian") format = PlyFormat::big;
-    if (!format) reader.fail_here("unknown format " + quote(name));
-    if (std::string_view version = reader.word(); version != "1.0") {
-        reader.fail_here("unknown version " + quote(version));
-    }
-    return *format;
-}
-
-// Reads the header and returns what follows it; the body starts where the reader stands.
-std::vector<Element> read_header(PlyBytes& reader) {
-    if (reader.word() != "ply") reader.fail_here("not a PLY file: it does not start with ply");
-    reader.end_line();
-    std::vector<Element> elements;
-    std::optional<PlyFormat> format;
-    while (true) {
-        std::string_view keyword = reader.word();
-        if (keyword == "end_header") break;
-        if (keyword == "format") {
-            format = read_format(reader);
-        } else if (keyword == "element") {
-            elements.push_back(read_element(reader));
-        } else if (keyword == "property") {
-            if (elements.empty()) reader.fail_here("a property before the first element");
-            elements.back().properties.push_back(read_property(reader));
-        } else if (keyword.empty() && reader.left() == 0) {
-            reader.fail_here("the file ends inside the header");
-        } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-            reader.fail_here("unknown word " + quote(keyword) + " in the header");
-        }
-        reader.end_line();
-    }
-    if (!format) reader.fail_here("the header names no format");
-    reader.end_line();
-    reader.format = *format;
-    return elements;
-}
-
-// Refuses a count that the rest of the file cannot hold, or that is beyond the limits, before
-// anything is allocated for it.
-void check_count(const PlyBytes& reader, const Element& element, const Limits& limits) {
-    uint64_t bytes = 0;  // of the smallest element
-    for (const Property& property : element.properties) {
-        const PlyScalar& first = property.count_type ? *property.count_type : *property.type;
-        bytes += reader.format == PlyFormat::ascii ? 2 : first.size;
-    }
-    if (bytes > 0 && element.count > (reader.left() + 1) / bytes) {
-        fail(element.at, "the file is too short for " + std::to_string(element.count) + ' ' +
-                             quote(element.name) + " elements");
-    }
-    uint64_t most = element.name == "vertex" ? limits.vertices : limits.primitives;
-    bool is_kept = element.name == "vertex" || element.name == "face";
-    if (is_kept && element.count > most) {
-        fail(element.at, "more than " + std::to_string(most) + ' ' + element.name + " elements");
-    }
-}
-
-// How many values the list has; 1 for a single value.
-uint64_t read_length(PlyBytes& reader, const Property& property) {
-    if (!property.count_type) return 1;
-    double length = reader.value(*property.count_type);
-    if (length < 0) reader.fail_here("a list of negative length");
-    if (length > static_cast<double>(reader.left())) {
-        reader.fail_here("the file is too short for a list of this length");
-    }
-    return static_cast<uint64_t>(length);
-}
-
-void skip(PlyBytes& reader, const Property& property) {
-    for (uint64_t n = read_length(reader, property); n > 0; n--) reader.value(*property.type);
-}
-
-void read_vertices(PlyBytes& reader, const Element& element, TriangleMesh& mesh) {
-    // Find where in a vertex its coordinates, its normal and its place in textures stand.
-    constexpr size_t count = 8;
-    std::array<const char*, count> names = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
-    for (auto [u, v] : {std::pair("s", "t"), std::pair("texture_u", "texture_v"),
-                        std::pair("texture_s", "texture_t")}) {
-        if (!element.find(names[6]) || !element.find(names[7])) names[6] = u, names[7] = v;
-    }
-    std::array<const Property*, count> wanted;
-    for (size_t i = 0; i < count; i++) {
-        wanted[i] = element.find(names[i]);
-        if (i < 3 && !wanted[i]) fail(element.at, "vertex has no property " + quote(names[i]));
-        if (wanted[i] && wanted[i]->count_type) {
-            fail(element.at, "property " + quote(names[i]) + " must not be a list");
-        }
-    }
-    bool has_normals = wanted[3] && wanted[4] && wanted[5], has_uvs = wanted[6] && wanted[7];
-
-    mesh.positions.reserve(element.count);
-    for (uint64_t n = 0; n < element.count; n++) {
-        std::array<float, count> v = {};
-        for (const Property& property : element.properties) {
-            size_t slot = 0;
-            while (slot < count && wanted[slot] != &property) slot++;
-            if (slot == count) {
-                skip(reader, property);
-                continue;
-            }
-            v[slot] = static_cast<float>(reader.value(*property.type));
-            if (slot < 6 && !std::isfinite(v[slot])) reader.fail_here("a vertex is not finite");
-        }
-        mesh.positions.push_back({v[0], v[1], v[2]});
-        if (has_normals) mesh.normals.push_back({v[3], v[4], v[5]});
-        if (has_uvs) mesh.uvs.push_back({v[6], v[7]});
-    }
-    if (!are_usable(mesh.uvs)) mesh.uvs.clear();
-}
-
-void read_faces(PlyBytes& reader, const Element& element, size_t vertices, TriangleMesh& mesh) {
-    const Property* corners = element.find("vertex_indices");
-    if (!corners) corners = element.find("vertex_index");
-    if (!corners || !corners->count_type || corners->type->is_float) {
-        fail(element.at, "face has no list of whole numbers \"vertex_indices\"");
-    }
-    for (uint64_t n = 0; n < element.count; n++) {
-        for (const Property& property : element.properties) {
-            if (&property != corners) {
-                skip(reader, property);
-                continue;
-            }
-            uint64_t length = read_length(reader, property);
-            if (length < 3 || length > 4) {  // as pbrt does
-                for (uint64_t i = 0; i < length; i++) reader.value(*property.type);
-                mesh.faces_left_out++;
-                continue;
-            }
-            std::array<uint32_t, 4> v = {};
-            for (uint64_t i = 0; i < length; i++) {
-                double index = reader.value(*property.type);
-                if (!(index >= 0 && index < static_cast<double>(vertices))) {
-                    reader.fail_here("vertex " + std::to_string(static_cast<int64_t>(index)) +
-                                     " of a face does not exist: there are " +
-                                     std::to_string(vertices));
+        TriangleMesh mesh;
+        for (const Element& element : elements_) {
+            if (element.properties.empty()) continue;
+            for (uint64_t n = 0; n < element.count; n++) {
+                std::array<float, corners> v = {};
+                for (const Property& property : element.properties) {
+                    read_values(property);
+                    size_t role = property.role;
+                    if (role == corners) add_face(vertex.count, mesh);
+                    if (role >= corners) continue;
+                    v[role] = static_cast<float>(values_[0]);
+                    if (role < 6 && !std::isfinite(v[role])) fail_here("a vertex is not finite");
                 }
-                v[i] = static_cast<uint32_t>(index);
+                if (&element != &vertex) continue;
+                mesh.positions.push_back({v[0], v[1], v[2]});
+                if (has_normals_) mesh.normals.push_back({v[3], v[4], v[5]});
+                if (has_uvs_) mesh.uvs.push_back({v[6], v[7]});
             }
-            mesh.indices.insert(mesh.indices.end(), {v[0], v[1], v[2]});
-            if (length == 4) mesh.indices.insert(mesh.indices.end(), {v[0], v[2], v[3]});
         }
+        if (!are_usable(mesh.uvs)) mesh.uvs.clear();
+        if (mesh.indices.empty()) fail(face.at, "the mesh has no faces of 3 or 4 corners");
+        return mesh;
     }
-}
+
+private:
+    size_t left() const { return bytes_.size() - position_; }
+    bool stands_at(std::string_view any) const {
+        return left() > 0 && any.find(bytes_[position_]) != any.npos;
+    }
+    // Where the last word read starts.
+    Position at() const { return {file_, line_, column_}; }
+    // Throws at the last word read, or at the byte that is reached.
+    [[noreturn]] void fail_here(const std::string& text) const {
+        if (format_ == 0) fail(at(), text);
+        fail({file_}, text + " at byte " + std::to_string(position_));
+    }
+
+    // The next word of the line; empty at its end.
+    std::string_view word() {
+        while (stands_at(" \t")) position_++;
+        size_t start = position_;
+        column_ = static_cast<int>(start - line_start_) + 1;
+        while (left() > 0 && !stands_at(" \t\r\n")) position_++;
+        return bytes_.substr(start, position_ - start);
+    }
+    // Reads over the rest of the line and its end: LF, CR LF or CR.
+    void end_line() {
+        while (left() > 0 && !stands_at("\r\n")) position_++;
+        bool carriage_return = stands_at("\r");
+        if (left() > 0) position_++;
+        if (carriage_return && stands_at("\n")) position_++;
+        line_start_ = position_;
+        line_++;
+    }
+
+    double value(const PlyScalar& type) { return format_ == 0 ? text_value(type) : binary(type); }
+    double text_value(const PlyScalar& type) {
+        std::string_view text = word();
+        while (text.empty() && left() > 0) {
+            end_line();
+            text = word();
+        }
+        auto number = to_number(text);
+        bool is_whole = number && *number == std::floor(*number) && std::abs(*number) < 0x1p32;
+        if (number && (type.is_float || is_whole)) return *number;
+        fail_here("expected a " + std::string(type.is_float ? "" : "whole ") + "number, not " +
+                  quote(text));
+    }
+    double binary(const PlyScalar& type) {
+        if (left() < type.size) fail_here("the file ends too early");
+        uint64_t bits = 0;
+        for (size_t i = 0; i < type.size; i++) {
+            size_t j = format_ == 1 ? i : type.size - 1 - i;
+            bits |= uint64_t{static_cast<unsigned char>(bytes_[position_ + i])} << (8 * j);
+        }
+        position_ += type.size;
+        if (type.size == 8) return std::bit_cast<double>(bits);
+        if (type.is_float) return double{std::bit_cast<float>(static_cast<uint32_t>(bits))};
+        if (!type.is_signed) return static_cast<double>(bits);
+        // Spread the sign bit over the bits above it.
+        int shift = static_cast<int>(64 - 8 * type.size);
+        return static_cast<double>(static_cast<int64_t>(bits << shift) >> shift);
+    }
+    // Reads the value of a property, or those of its list.
+    void read_values(const Property& property) {
+        double count = property.count_type ? value(*property.count_type) : 1;
+        if (!(count >= 0 && count <= static_cast<double>(left()))) {
+            fail_here("the file is too short for " + std::to_string(static_cast<int64_t>(count)) +
+                      " values");
+        }
+        values_.clear();
+        for (double n = 0; n < count; n++) values_.push_back(value(*property.type));
+    }
+
+    const PlyScalar* scalar(std::string_view name) const {
+        for (const PlyScalar& type : ply_scalars) {
+            if (name == type.name || name == type.other_name) return &type;
+        }
+        fail_here("unknown property type " + quote(name));
+    }
+    Property read_property() {
+        Property property;
+        std::string_view type = word();
+        if (type == "list") {
+            property.count_type = scalar(word());
+            if (property.count_type->is_float) fail_here("a list cannot have a float for count");
+            type = word();
+        }
+        property.type = scalar(type);
+        property.name = word();
+        return property;
+    }
+    Element read_element() {
+        Element element;
+        element.name = word();
+        element.at = at();
+        std::string_view count = word();
+        auto number = to_number(count);
+        if (!number || !(*number >= 0) || *number != std::floor(*number) || *number > 1e15) {
+            fail_here("expected how many elements there are, not " + quote(count));
+        }
+        element.count = static_cast<uint64_t>(*number);
+        return element;
+    }
+    // The body starts where the header ends.
+    void read_header() {
+        if (word() != "ply") fail_here("not a PLY file: it does not start with ply");
+        end_line();
+        std::string format;
+        while (true) {
+            std::string_view keyword = word();
+            if (keyword == "end_header") break;
+            if (keyword == "format") {
+                format = word();
+            } else if (keyword == "element") {
+                elements_.push_back(read_element());
+            } else if (keyword == "property" && !elements_.empty()) {
+                elements_.back().properties.push_back(read_property());
+            } else if (keyword.empty() && left() == 0) {
+                fail_here("the file ends inside the header");
+            } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+                fail_here("unexpected word " + quote(keyword) + " in the header");
+            }
+            end_line();
+        }
+        auto found = std::find(ply_formats.begin(), ply_formats.end(), format);
+        if (found == ply_formats.end()) fail_here("unknown format " + quote(format));
+        end_line();
+        format_ = static_cast<size_t>(found - ply_formats.begin());
+    }
+
+    Element& find_element(const std::string& name, uint64_t most) {
+        auto has_name = [&](const Element& element) { return element.name == name; };
+        auto found = std::find_if(elements_.begin(), elements_.end(), has_name);
+        if (found == elements_.end()) fail({file_}, "no element " + quote(name));
+        if (std::find_if(found + 1, elements_.end(), has_name) != elements_.end()) {
+            fail(found->at, "two elements " + quote(name));
+        }
+        if (found->count <= most) return *found;
+        fail(found->at, "more than " + std::to_string(most) + ' ' + name + " elements");
+    }
+    // Finds the coordinates of a vertex, its normal and its place in textures, and the faces.
+    void find_roles(Element& vertex, Element& face) {
+        std::array<const char*, corners> names = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
+        for (auto [u, v] : {std::pair("s", "t"), std::pair("texture_u", "texture_v"),
+                            std::pair("texture_s", "texture_t")}) {
+            if (!vertex.find(names[6]) || !vertex.find(names[7])) names[6] = u, names[7] = v;
+        }
+        std::array<bool, corners> has = {};
+        for (size_t i = 0; i < corners; i++) {
+            Property* property = vertex.find(names[i]);
+            has[i] = property && !property->count_type;
+            if (has[i]) property->role = i;
+            if (i < 3 && !has[i]) {
+                fail(vertex.at, "vertex has no number " + quote(names[i]));
+            }
+        }
+        has_normals_ = has[3] && has[4] && has[5];
+        has_uvs_ = has[6] && has[7];
+        Property* list = face.find("vertex_indices");
+        if (!list) list = face.find("vertex_index");
+        if (!list || !list->count_type || list->type->is_float) {
+            fail(face.at, "face has no list of whole numbers \"vertex_indices\"");
+        }
+        list->role = corners;
+    }
+    // Adds the face of the corners that were read; leaves it out where pbrt does.
+    void add_face(uint64_t vertices, TriangleMesh& mesh) {
+        if (values_.size() < 3 || values_.size() > 4) {
+            mesh.faces_left_out++;
+            return;
+        }
+        std::array<uint32_t, 4> v = {};
+        for (size_t i = 0; i < values_.size(); i++) {
+            double index = values_[i];
+            if (!(index >= 0 && index < static_cast<double>(vertices))) {
+                fail_here("vertex " + std::to_string(static_cast<int64_t>(index)) +
+                          " of a face does not exist: there are " + std::to_string(vertices));
+            }
+            v[i] = static_cast<uint32_t>(index);
+        }
+        mesh.indices.insert(mesh.indices.end(), {v[0], v[1], v[2]});
+        if (values_.size() == 4) mesh.indices.insert(mesh.indices.end(), {v[0], v[2], v[3]});
+    }
+
+    const std::string file_;
+    const std::string_view bytes_;
+    size_t format_ = 0;  // into ply_formats
+    size_t position_ = 0, line_start_ = 0;
+    int line_ = 1, column_ = 1;
+    std::vector<Element> elements_;
+    std::vector<double> values_;  // of the property that is read
+    bool has_normals_ = false, has_uvs_ = false;
+};
 
 }  // namespace
 
@@ -217,42 +268,5 @@ bool are_usable(const std::vector<Vec2>& uvs) {
 }
 
 TriangleMesh parse_ply(const std::string& file, const std::string& bytes, const Limits& limits) {
-    if (bytes.empty()) fail({file}, "the file is empty");
-    PlyBytes reader(file, bytes);
-    std::vector<Element> elements = read_header(reader);
-
-    // Know how many vertices there will be, since faces may come before them.
-    const Element *vertex = nullptr, *face = nullptr;
-    for (const Element& element : elements) {
-        if (element.name == "tristrips" && element.count > 0) {
-            fail(element.at, "triangle strips (tristrips) are not supported: " +
-                                 std::string("write the mesh with an element \"face\""));
-        }
-        const Element** known = element.name == "vertex" ? &vertex : &face;
-        if (element.name != "vertex" && element.name != "face") continue;
-        if (*known) fail(element.at, "a second element " + quote(element.name));
-        *known = &element;
-    }
-    if (!vertex || !face) {
-        fail({file}, "no element " + quote(vertex ? "face" : "vertex"));
-    }
-
-    TriangleMesh mesh;
-    for (const Element& element : elements) {
-        check_count(reader, element, limits);
-        if (&element == vertex) {
-            read_vertices(reader, element, mesh);
-        } else if (&element == face) {
-            read_faces(reader, element, vertex->count, mesh);
-        } else if (!element.properties.empty()) {
-            for (uint64_t n = 0; n < element.count; n++) {
-                for (const Property& property : element.properties) skip(reader, property);
-            }
-        }
-    }
-    if (mesh.indices.empty()) {
-        std::string of_which = mesh.faces_left_out > 0 ? " of 3 or 4 corners" : "";
-        fail(face->at, "the mesh has no faces" + of_which);
-    }
-    return mesh;
+    return PlyReader(file, bytes).read(limits);
 }

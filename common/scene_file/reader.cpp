@@ -1,65 +1,19 @@
 #include "common/scene_file/reader.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/numbers.h"
-#include "common/scene/origin.h"
-#include "common/scene_file/directives.h"
+#include "common/material/metal.h"
+#include "common/scene/mover.h"
+#include "common/scene_file/scene_parts.h"
 
 namespace {
 
-// Where a directive may stand, and what reads it.
-enum class Block { options, world, both };
-struct Directive {
-    Block block;
-    void (Directives::*read)(Lexer&, const Token&);
-};
+constexpr const char* moving_light = "a light or camera that moves";
 
-// All but Include and Import, which are read here.
-using D = Directives;
-const std::map<std::string, Directive, std::less<>> known_directives = {
-    {"Accelerator", {Block::options, &D::setting}},
-    {"ActiveTransform", {Block::both, &D::active_transform}},
-    {"AreaLightSource", {Block::world, &D::area_light_source}},
-    {"Attribute", {Block::both, &D::attribute}},
-    {"AttributeBegin", {Block::world, &D::begin}},
-    {"AttributeEnd", {Block::world, &D::end}},
-    {"Camera", {Block::options, &D::camera}},
-    {"ColorSpace", {Block::both, &D::color_space}},
-    {"ConcatTransform", {Block::both, &D::move}},
-    {"CoordSysTransform", {Block::both, &D::coord_sys_transform}},
-    {"CoordinateSystem", {Block::both, &D::coordinate_system}},
-    {"Film", {Block::options, &D::film}},
-    {"Identity", {Block::both, &D::move}},
-    {"Integrator", {Block::options, &D::setting}},
-    {"LightSource", {Block::world, &D::light_source}},
-    {"LookAt", {Block::both, &D::move}},
-    {"MakeNamedMaterial", {Block::world, &D::make_named_material}},
-    {"MakeNamedMedium", {Block::both, &D::make_named_medium}},
-    {"Material", {Block::world, &D::material}},
-    {"MediumInterface", {Block::both, &D::medium_interface}},
-    {"NamedMaterial", {Block::world, &D::named_material}},
-    {"ObjectBegin", {Block::world, &D::object_begin}},
-    {"ObjectEnd", {Block::world, &D::object_end}},
-    {"ObjectInstance", {Block::world, &D::object_instance}},
-    {"Option", {Block::options, &D::option}},
-    {"PixelFilter", {Block::options, &D::setting}},
-    {"ReverseOrientation", {Block::world, &D::reverse_orientation}},
-    {"Rotate", {Block::both, &D::move}},
-    {"Sampler", {Block::options, &D::setting}},
-    {"Scale", {Block::both, &D::move}},
-    {"Shape", {Block::world, &D::shape}},
-    {"Texture", {Block::world, &D::texture}},
-    {"Transform", {Block::both, &D::move}},
-    {"TransformBegin", {Block::world, &D::begin}},
-    {"TransformEnd", {Block::world, &D::end}},
-    {"TransformTimes", {Block::options, &D::transform_times}},
-    {"Translate", {Block::both, &D::move}},
-    {"WorldBegin", {Block::options, &D::world_begin}},
-};
-
-/// Reads directive by directive, in one file and in all that it includes. What is wrong with one
-/// directive does not keep it from reading the next.
+/// Reads directive by directive, in one file and in all that it includes, and keeps what holds for
+/// what comes next. What is wrong with one directive does not keep it from reading the next.
 class Reader {
 public:
     Reader(const std::string& path, const Limits& limits, const Report& report,
@@ -67,139 +21,521 @@ public:
         : main_file_(path),
           limits_(limits),
           report_(report),
-          notes_(notes, stand_ins),
-          directives_(path, limits, report, notes_) {}
+          messages_(notes, stand_ins),
+          files_(path, limits, report) {
+        scene_.materials.emplace_back();  // of shapes that are given none
+    }
 
-    Scene read_scene(std::string text);
+    Scene read_scene(std::string text) {
+        try {
+            files_.add_to_checksum(text);
+            read(main_file_, std::move(text));
+            // What is missing may be in what could not be used.
+            if (messages_.errors() == 0) finish();
+        } catch (const InputError& error) {
+            messages_.add(error);
+        } catch (const ReadingEnds& end) {
+            messages_.add(end);
+        }
+        messages_.finish();
+        Origin origin = {main_file_, files_.files_read(), files_.checksum(), messages_.used()};
+        origin.files.insert(main_file_);
+        scene_.origin = std::make_shared<Origin>(std::move(origin));
+        return std::move(scene_);
+    }
 
 private:
-    void read(const std::string& path, std::string text);
-    void read_directive(Lexer& lexer, const Token& word);
-    void include(Lexer& lexer, const Token& word);
+    // What AttributeBegin saves and AttributeEnd restores.
+    struct State {
+        Transform start, end;  // the current transform when the shutter opens and when it closes
+        std::string unusable;  // why nothing can stand there, as a message
+        bool set_start = true, set_end = true;  // which of them a transform directive changes
+        uint32_t material = 0;                  // into Scene::materials
+        std::optional<AreaEmission> emission;
+        bool reverse_orientation = false;
+    };
+    struct SavedState {
+        State state;
+        Position at;
+        std::string begin;  // AttributeBegin and its like
+    };
+    // What may be used before it is defined.
+    struct Named {
+        bool defined = false;
+        Position first_use;
+    };
+    struct NamedMaterial : Named {
+        uint32_t index = 0;  // into Scene::materials
+    };
+    // The shapes between ObjectBegin and ObjectEnd, which each ObjectInstance places.
+    struct Object : Named {
+        std::vector<std::pair<Params, State>> shapes;
+        std::vector<State> early;  // instances that stand before it
+    };
+    enum class Block { options, world, both };
+    struct Directives {
+        const char* names;
+        Block block;  // where they may stand
+        void (Reader::*read)();
+    };
+
+    static const std::map<std::string, const Directives*>& known_directives() {
+        using R = Reader;
+        static constexpr Directives rows[] = {
+            {"Accelerator Integrator PixelFilter Sampler", Block::options, &R::setting},
+            {"ActiveTransform", Block::both, &R::active_transform},
+            {"AreaLightSource", Block::world, &R::area_light_source},
+            {"Attribute MakeNamedMedium TransformTimes", Block::both, &R::replaced},
+            {"AttributeBegin TransformBegin", Block::world, &R::begin},
+            {"AttributeEnd TransformEnd", Block::world, &R::end},
+            {"Camera", Block::options, &R::camera},
+            {"ColorSpace MediumInterface Option", Block::both, &R::ignored},
+            {"CoordSysTransform", Block::both, &R::coord_sys_transform},
+            {"CoordinateSystem", Block::both, &R::coordinate_system},
+            {"Film", Block::options, &R::film},
+            {"Identity Translate Scale Rotate LookAt Transform ConcatTransform", Block::both,
+             &R::move},
+            {"Import", Block::world, &R::include},
+            {"Include", Block::both, &R::include},
+            {"LightSource", Block::world, &R::light_source},
+            {"MakeNamedMaterial", Block::world, &R::make_named_material},
+            {"Material", Block::world, &R::material},
+            {"NamedMaterial", Block::world, &R::named_material},
+            {"ObjectBegin", Block::world, &R::object_begin},
+            {"ObjectEnd", Block::world, &R::object_end},
+            {"ObjectInstance", Block::world, &R::object_instance},
+            {"ReverseOrientation", Block::world, &R::reverse_orientation},
+            {"Shape", Block::world, &R::shape},
+            {"Texture", Block::world, &R::texture},
+            {"WorldBegin", Block::options, &R::world_begin},
+        };
+        static const auto known = [] {
+            std::map<std::string, const Directives*> map;
+            for (const Directives& row : rows) {
+                for (const std::string& name : words_of(row.names)) map[name] = &row;
+            }
+            return map;
+        }();
+        return known;
+    }
+
+    void read(const std::string& path, std::string text) {
+        constexpr size_t most_errors = 20;
+        Lexer lexer(path, std::move(text), report_);
+        Lexer* outer = std::exchange(lexer_, &lexer);
+        open_files_.push_back(canonical(path));
+        while (lexer.peek().type != Token::end) {
+            try {
+                read_directive(lexer.next());
+            } catch (const InputError& error) {
+                messages_.add(error);
+                skip_arguments();
+            }
+            if (messages_.errors() < most_errors) continue;
+            stop_reading({main_file_}, "so much is wrong that the rest is not read");
+        }
+        open_files_.pop_back();
+        lexer_ = outer;
+    }
+
+    // Reads over what is left of a directive.
+    void skip_arguments() {
+        while (lexer_->has_argument()) lexer_->next();
+    }
+
+    void read_directive(const Token& word) {
+        word_ = word;
+        at_ = lexer_->at(word);
+        check_limit(at_, ++directives_read_, limits_.directives, "directives");
+        if (word.type != Token::word || to_number(word.text)) {
+            lexer_->fail_at(word, "expected a directive");
+        }
+        name_ = word.text;
+        auto found = known_directives().find(name_);
+        if (found == known_directives().end()) {
+            std::vector<std::string> known;
+            for (const auto& [directive, how] : known_directives()) known.push_back(directive);
+            fail_unknown(at_, "directive", name_, known);
+        }
+        const Block block = found->second->block;
+        if (name_ == "WorldBegin" && in_world_) fail(at_, "a second WorldBegin");
+        if (block == Block::options && in_world_) {
+            fail(at_, name_ + " must stand before WorldBegin");
+        }
+        if (block == Block::world && !in_world_) fail(at_, name_ + " must stand after WorldBegin");
+        if (block == Block::options && !options_read_.insert(name_).second) {
+            messages_.note(at_, "a second " + name_ + ": the last one counts");
+        }
+        (this->*found->second->read)();
+    }
+
+    Params params() { return Params(*lexer_, word_, messages_); }
+    // The name in quotes behind the directive.
+    std::string name() {
+        return lexer_->unescape(lexer_->expect(Token::string, name_ + " needs a name in quotes"));
+    }
+
+    void include() {
+        bool is_import = name_ == "Import";
+        Position at = at_;
+        std::string path = files_.find(at, name()), file = canonical(path), text;
+        if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
+            fail(at, quote_file(path) + " includes itself");
+        }
+        check_limit(at, open_files_.size(), 100, "files include each other");
+        check_limit(at, ++includes_, 10000, "files are included");
+        if (!messages_.try_to_read(at, "a scene file that cannot be read",
+                                   [&] { text = files_.read(path, at); })) {
+            return;
+        }
+        if (!is_import) return read(path, std::move(text));
+        // What Import changes, it changes for the file alone.
+        begin();
+        read(path, std::move(text));
+        name_ = "Import";
+        at_ = at;
+        end();
+    }
+
+    void move() {
+        TransformStep step = read_transform(*lexer_, word_);
+        if (step.replaces) state_.unusable.clear();
+        for (auto [is_set, t] :
+             {std::pair(state_.set_start, &state_.start), std::pair(state_.set_end, &state_.end)}) {
+            if (!is_set) continue;
+            *t = step.replaces ? step.transform : *t * step.transform;
+            if (is_usable(*t) || !state_.unusable.empty()) continue;
+            state_.unusable = message_at(
+                at_, "error", "the transform has no inverse, projects, or is too large or small");
+        }
+    }
+
+    void active_transform() {
+        Token which = lexer_->next();
+        bool all = which.text == "All", start = which.text == "StartTime";
+        if (which.type != Token::word || !(all || start || which.text == "EndTime")) {
+            lexer_->fail_at(which, "ActiveTransform needs All, StartTime or EndTime");
+        }
+        state_.set_start = all || start;
+        state_.set_end = all || !start;
+    }
+
+    void coordinate_system() {
+        std::string own = name();
+        if (!state_.unusable.empty()) throw InputError(state_.unusable);
+        coordinate_systems_[own] = {state_.start, state_.end};
+    }
+
+    void coord_sys_transform() {
+        std::string own = name();
+        auto found = coordinate_systems_.find(own);
+        if (found == coordinate_systems_.end()) {
+            std::vector<std::string> known;
+            for (const auto& [other, transforms] : coordinate_systems_) known.push_back(other);
+            fail_unknown(at_, "coordinate system", own, known);
+        }
+        std::tie(state_.start, state_.end) = found->second;
+        state_.unusable = {};
+    }
+
+    void replaced() {
+        skip_arguments();
+        messages_.stand_in(at_, name_);
+    }
+
+    void ignored() {
+        skip_arguments();
+        messages_.note(at_, name_ + " is ignored");
+    }
+
+    void camera() {
+        Params read = params();
+        Transform camera_from_world = still_transform(read);
+        scene_.camera = read_camera(read, camera_from_world);
+        Transform world_from_camera = inverse(camera_from_world);
+        coordinate_systems_["camera"] = {world_from_camera, world_from_camera};
+    }
+
+    void film() { iso_ = read_film(params(), scene_); }
+
+    void setting() { read_setting(name_, params(), scene_); }
+
+    void world_begin() {
+        in_world_ = true;
+        state_ = {};
+        coordinate_systems_["world"] = {};
+    }
+
+    void area_light_source() { state_.emission = read_area_light(params()); }
+
+    void begin() {
+        check_limit(at_, saved_.size() + 1, 1000, "blocks in each other");
+        saved_.push_back({state_, at_, name_});
+    }
+
+    void end() {
+        if (saved_.empty()) fail(at_, name_ + " without a beginning");
+        const SavedState& saved = saved_.back();
+        if (saved.begin.front() != name_.front()) {
+            fail(at_, name_ + " cannot close the " + saved.begin + " of line " +
+                          std::to_string(saved.at.line));
+        }
+        state_ = saved.state;
+        saved_.pop_back();
+    }
+
+    void light_source() {
+        Params read = params();
+        bool is_sky = read.type() == "infinite", is_picture = read.find("filename");
+        // A sky of one color is the same wherever it stands.
+        Transform place = is_sky && !is_picture ? Transform{} : still_transform(read);
+        if (is_picture && has_sky_image_) {
+            messages_.stand_in(at_, "a second picture of the sky");
+        } else if (is_picture) {
+            has_sky_image_ = true;  // also when it cannot be read: then it is not read again
+            sky_image_ = read_sky_image(read, place, files_);
+            if (sky_image_) return;
+        }
+        Light light = read_light(read, place);
+        if (!is_black(light.L)) scene_.lights.push_back(light);
+    }
+
+    void make_named_material() {
+        std::string own = name();
+        Params read = params();
+        bool is_used = named_materials_.contains(own);
+        NamedMaterial& named = find_material(own);
+        if (named.defined) fail(at_, "a second material " + quote(own));
+        named.defined = true;
+        std::optional<Material> material = read_material(read, textures_);
+        if (material) {
+            scene_.materials[named.index] = *material;
+            return;
+        }
+        absent_.insert(named.index);
+        if (is_used)
+            fail(at_, "a material of shapes that are left out must be made before its use");
+    }
+
+    void material() {
+        std::optional<Material> material = read_material(params(), textures_);
+        scene_.materials.push_back(material.value_or(Material{}));
+        state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
+        if (!material) absent_.insert(state_.material);
+    }
+
+    void named_material() { state_.material = find_material(name()).index; }
+
+    NamedMaterial& find_material(const std::string& own) {
+        auto [place, is_new] = named_materials_.try_emplace(own);
+        if (is_new) {
+            place->second.first_use = at_;
+            place->second.index = static_cast<uint32_t>(scene_.materials.size());
+            scene_.materials.emplace_back();
+        }
+        return place->second;
+    }
+
+    void reverse_orientation() { state_.reverse_orientation = !state_.reverse_orientation; }
+
+    void object_begin() {
+        std::string own = name();
+        if (open_object_) fail(at_, "ObjectBegin inside an object");
+        Object& object = objects_[own];
+        if (object.defined) fail(at_, "a second object " + quote(own));
+        begin();
+        object.defined = true;
+        open_object_ = &object;
+    }
+
+    void object_end() {
+        end();
+        const Object& object = *open_object_;
+        open_object_ = nullptr;
+        for (const State& state : object.early) place_object(object, state);
+    }
+
+    void object_instance() {
+        std::string own = name();
+        if (open_object_) fail(at_, "ObjectInstance inside an object");
+        Object& object = objects_[own];
+        if (object.defined) return place_object(object, state_);
+        if (object.early.empty()) object.first_use = at_;
+        object.early.push_back(state_);
+    }
+
+    void place_object(const Object& object, const State& state) {
+        for (const auto& [shape, inside] : object.shapes) {
+            check_limit(at_, ++placed_, limits_.directives, "shapes of objects are placed");
+            State where = inside;
+            where.start = state.start * inside.start;
+            where.end = state.end * inside.end;
+            if (where.unusable.empty()) where.unusable = state.unusable;
+            place(shape, where);
+        }
+    }
+
+    void shape() {
+        Params read = params();
+        if (!open_object_) return place(read, state_);
+        // Keep it for the instances.
+        open_object_->shapes.emplace_back(read, state_);
+        std::optional<AreaEmission>& emission = open_object_->shapes.back().second.emission;
+        if (emission) messages_.note(at_, "lights inside an object are left out, as in pbrt");
+        emission = {};
+    }
+
+    void place(const Params& params, State where) {
+        const Param* alpha = params.find("alpha");
+        bool is_clear = alpha && alpha->numbers == std::vector<double>{0} && !where.emission;
+        bool is_nothing = params.stands_in() && params.type() != "loopsubdiv";
+        if (absent_.contains(where.material) || is_nothing || is_clear) return;
+        if (!where.unusable.empty()) throw InputError(where.unusable);
+        bool moves = where.start != where.end;
+        if (moves && where.emission) {
+            messages_.stand_in(params.at(), moving_light);
+            moves = false;
+        }
+        std::optional<Mover> mover;
+        if (moves) {
+            check_limit(params.at(), scene_.movers.size() + 1, 1000, "shapes that move");
+            mover.emplace(where.start, where.end);
+            mover->at = kept(params.at());
+            std::swap(scene_.geometry, mover->geometry);
+        }
+        size_t primitives = scene_.geometry.size(), vertices = scene_.geometry.positions.size();
+        read_shape(params, {where.start, where.material, where.emission, where.reverse_orientation},
+                   files_, scene_);
+        primitives_ += scene_.geometry.size() - primitives;
+        vertices_ += scene_.geometry.positions.size() - vertices;
+        check_limit(params.at(), primitives_, limits_.primitives, "triangles, spheres and disks");
+        check_limit(params.at(), vertices_, limits_.vertices, "vertices");
+        if (!mover) return;
+        std::swap(scene_.geometry, mover->geometry);
+        if (mover->geometry.size() > 0) scene_.movers.push_back(std::move(*mover));
+    }
+
+    void texture() { textures_.read(*lexer_, word_); }
+
+    // The current transform; not supported where it moves while the shutter is open.
+    Transform still_transform(const Params& params) {
+        if (!state_.unusable.empty()) throw InputError(state_.unusable);
+        if (state_.start != state_.end) messages_.stand_in(params.at(), moving_light);
+        return state_.start;
+    }
+
+    template <class AnyNamed>
+    void check_names(const std::string& kind, const std::map<std::string, AnyNamed>& all) {
+        std::vector<std::string> known;
+        for (const auto& [name, named] : all) {
+            if (named.defined) known.push_back(name);
+        }
+        for (const auto& [name, named] : all) {
+            if (!named.defined) messages_.error(named.first_use, unknown(kind, name, known));
+        }
+    }
+
+    // A mesh may be given a material that is made later.
+    void check_uvs(const Geometry& g) {
+        for (const Triangle& t : g.triangles) {
+            Shape& shape = scene_.shapes[t.shape];
+            Material plain = scene_.materials[shape.material];
+            bool has_uv = !g.uvs.empty() && !std::isnan(g.uvs[t.v[0]].x);
+            if (plain.texture == 0 || has_uv) continue;
+            messages_.stand_in(*shape.at, "a textured mesh without usable uv");
+            plain.reflectance = textures_.mean(plain.texture - 1u);
+            if (plain.type == MaterialType::conductor) {
+                plain.k = k_of_reflectance(plain.reflectance);
+            }
+            plain.texture = 0;
+            shape.material = static_cast<uint32_t>(scene_.materials.size());
+            scene_.materials.push_back(plain);
+        }
+    }
+
+    // pbrt renders what is missing without complaint, and we only with stand-ins.
+    void check_complete() {
+        Position file = {main_file_};
+        if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
+        check_names("object", objects_);
+        check_names("material", named_materials_);
+        check_uvs(scene_.geometry);
+        for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
+        if (!in_world_) fail(file, "no WorldBegin");
+        if (!options_read_.contains("Camera")) fail(file, "no Camera");
+        if (scene_.geometry.size() == 0 && scene_.movers.empty()) {
+            messages_.stand_in(file, "a scene without shapes");
+        }
+        if (scene_.lights.empty() && !sky_image_) {
+            messages_.stand_in(file, "a scene without light");
+            Light sky;
+            sky.type = LightType::infinite;
+            sky.L = {0.5f, 0.5f, 0.5f};
+            scene_.lights.push_back(sky);
+        }
+    }
+
+    void finish() {
+        Position file = {main_file_};
+        check_complete();
+        number_light_primitives(scene_);
+
+        // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.
+        const Camera& camera = scene_.camera;
+        float exposure = (camera.shutter_close - camera.shutter_open) * iso_ / 100;
+        bool usable = true;
+        for (Light& light : scene_.lights) {
+            light.L *= exposure;
+            usable &= !too_bright(light.L) && !is_black(light.L);
+        }
+        if (sky_image_) {
+            for (Rgb& L : sky_image_->pixels) {
+                L *= exposure;
+                usable &= !too_bright(L);
+            }
+            scene_.sky_image = std::make_shared<SkyImage>(std::move(*sky_image_));
+        }
+        if (!usable) fail(file, "shutter or iso leave no usable light");
+        if (!options_read_.contains("PixelFilter")) {
+            messages_.note(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
+        }
+        // Keep what textures need only if there are some.
+        auto has_texture = [](const Material& m) { return m.texture != 0; };
+        if (std::any_of(scene_.materials.begin(), scene_.materials.end(), has_texture)) {
+            scene_.textures = std::make_shared<Textures>(textures_.take());
+        } else {
+            scene_.geometry.uvs = {};
+        }
+    }
 
     const std::string main_file_;
     const Limits limits_;
     const Report report_;
-    SceneNotes notes_;
-    std::vector<std::string> error_lines_;
-    Messages errors_{"error", error_lines_};
-    Directives directives_;
+    Messages messages_;
+    NamedFiles files_;
+    TextureReader textures_{limits_, files_, messages_};
+    Scene scene_;
+    std::optional<SkyImage> sky_image_;
+    float iso_ = 100;
+    bool in_world_ = false, has_sky_image_ = false;
+
+    Lexer* lexer_ = nullptr;               // of the innermost file
+    Token word_;                           // the directive that is read
+    std::string name_;                     // the same
+    Position at_;                          // where it stands
     std::vector<std::string> open_files_;  // by their canonical names
     std::set<std::string> options_read_;   // Camera and its like
-    uint64_t directives_read_ = 0;
-    int includes_ = 0;
+    uint64_t directives_read_ = 0, includes_ = 0;
+
+    State state_;
+    std::vector<SavedState> saved_;
+    std::map<std::string, NamedMaterial> named_materials_;
+    std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
+    std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
+    std::map<std::string, Object> objects_;
+    Object* open_object_ = nullptr;  // the one that is being defined
+    uint64_t placed_ = 0, primitives_ = 0, vertices_ = 0;
 };
-
-// Whether a token looks like none that begins a directive.
-bool is_argument(const Token& token) {
-    if (token.type != Token::word) return token.type != Token::end;
-    return token.text[0] < 'A' || token.text[0] > 'Z';
-}
-
-// Reads over what a directive that cannot be used leaves behind, up to what looks like the next.
-void skip_arguments(Lexer& lexer) {
-    while (is_argument(lexer.peek())) lexer.next();
-}
-
-Scene Reader::read_scene(std::string text) {
-    try {
-        directives_.files().add_to_checksum(text);
-        read(main_file_, std::move(text));
-        // What is missing may be in what could not be used.
-        if (error_lines_.empty()) {
-            Scene scene = directives_.finish();
-            Origin origin = {main_file_, directives_.files().files_read(),
-                             directives_.files().checksum(), notes_.used()};
-            origin.files.insert(main_file_);
-            scene.origin = std::make_shared<Origin>(std::move(origin));
-            return scene;
-        }
-    } catch (const InputError& error) {
-        errors_.add(error);
-    } catch (const ReadingEnds& end) {
-        errors_.add(InputError(end.what()));
-    }
-    throw InputError(join_lines(error_lines_));
-}
-
-void Reader::read(const std::string& path, std::string text) {
-    Lexer lexer(path, std::move(text), report_);
-    open_files_.push_back(canonical(path));
-    for (Token token = lexer.next(); token.type != Token::end; token = lexer.next()) {
-        try {
-            read_directive(lexer, token);
-        } catch (const InputError& error) {
-            errors_.add(error);
-            if (error_lines_.size() >= most_errors) {
-                stop_reading({main_file_}, too_much_is_wrong);
-            }
-            skip_arguments(lexer);
-        }
-    }
-    open_files_.pop_back();
-}
-
-void Reader::read_directive(Lexer& lexer, const Token& word) {
-    Position at = lexer.at(word);
-    if (++directives_read_ > limits_.directives) {
-        stop_reading(at, "more than " + std::to_string(limits_.directives) + " directives");
-    }
-    if (word.type != Token::word || to_number(word.text)) {
-        fail(at, "expected a directive, not " + Lexer::describe(word));
-    }
-    std::string name(word.text);
-    if (name == "Include" || name == "Import") return include(lexer, word);
-    auto found = known_directives.find(name);
-    if (found == known_directives.end()) {
-        if (name == "WorldEnd") fail(at, "WorldEnd is not part of pbrt-v4: leave it out");
-        std::vector<std::string> known = {"Import", "Include"};
-        for (const auto& [directive, how] : known_directives) known.push_back(directive);
-        // Else each directive of the block would be wrong too.
-        bool is_block = nearest_word(name, known).ends_with("Begin");
-        if (is_block) stop_reading(at, unknown("directive", name, known));
-        fail_unknown(at, "directive", name, known);
-    }
-    auto [block, read] = found->second;
-    bool in_world = directives_.in_world();
-    if (name == "WorldBegin" && in_world) fail(at, "a second WorldBegin");
-    if (block == Block::options && in_world) fail(at, name + " must stand before WorldBegin");
-    if (block == Block::world && !in_world) fail(at, name + " must stand after WorldBegin");
-    if (block == Block::options && name != "Option" && !options_read_.insert(name).second) {
-        notes_.add(at, "a second " + name + ": the last one counts");
-    }
-    (directives_.*read)(lexer, word);
-}
-
-void Reader::include(Lexer& lexer, const Token& word) {
-    constexpr size_t deepest = 100;
-    constexpr int most = 10000;
-    Token token = expect_string(lexer, word, "a file name");
-    Position at = lexer.at(token);
-    std::string path = directives_.files().find(at, lexer.unescape(token));
-    std::string file = canonical(path);
-    if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
-        fail(at, quote_file(path) + " includes itself");
-    }
-    if (open_files_.size() > deepest)
-        stop_reading(at, "files include each other more than 100 deep");
-    if (++includes_ > most) stop_reading(at, "more than 10000 files are included");
-    std::string text;
-    try {
-        text = directives_.files().read(path, at);
-    } catch (const InputError&) {
-        if (!notes_.stand_ins()) throw;
-        notes_.stand_in(at, "a scene file that cannot be read");
-        return;
-    }
-    if (word.text == "Include") return read(path, std::move(text));
-    // What Import changes, it changes for the file alone.
-    if (!directives_.in_world()) fail(lexer.at(word), "Import must stand after WorldBegin");
-    directives_.begin(lexer, word);
-    size_t depth = directives_.depth();
-    read(path, std::move(text));
-    if (directives_.depth() != depth) fail(at, quote_file(path) + " has a block without its end");
-    directives_.end(lexer, word);
-}
 
 }  // namespace
 

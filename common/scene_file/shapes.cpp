@@ -1,21 +1,141 @@
-#include "common/scene_file/shapes.h"
-
 #include <limits>
 
-#include "common/scene_file/mesh.h"
+#include "common/scene_file/scene_parts.h"
 
 namespace {
 
-// Refuses a radius of which the square is no float, or that reaches too far.
-void check_radius(const Params& params, Vec3 c, float r) {
-    if (!(r * r >= std::numeric_limits<float>::min())) {
-        fail(params.at("radius"), params.owner() + " is smaller than 1e-18: choose a smaller unit");
+// Throws for a point so far out that squares of areas would overflow a float.
+void check_extent(const Params& params, Vec3 p) {
+    if (is_finite(p) && max_component(abs(p)) <= 1e9f) return;
+    fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
+}
+
+std::vector<Vec3> group_by_three(const Param* param) {
+    if (!param) return {};
+    std::vector<Vec3> groups(param->numbers.size() / 3);
+    for (size_t i = 0; i < param->numbers.size(); i++) {
+        groups[i / 3][static_cast<int>(i % 3)] = static_cast<float>(param->numbers[i]);
     }
-    check_extent(params, abs(c) + Vec3{r, r, r});
+    return groups;
+}
+
+std::vector<uint32_t> read_indices(const Params& params, size_t vertices, size_t corners) {
+    std::vector<double> numbers = {0, 1, 2, 3};
+    numbers.resize(corners);
+    if (vertices != corners || params.find("indices")) numbers = params.required("indices").numbers;
+    Position at = params.at("indices");
+    if (numbers.size() % corners != 0) {
+        fail(at, std::to_string(numbers.size()) + " indices, not a multiple of " +
+                     std::to_string(corners));
+    }
+    std::vector<uint32_t> indices;
+    for (double index : numbers) {
+        if (index < 0 || index >= static_cast<double>(vertices)) {
+            fail(at, "index " + std::to_string(static_cast<int>(index)) +
+                         " is out of range: there are " + std::to_string(vertices) + " vertices");
+        }
+        indices.push_back(static_cast<uint32_t>(index));
+    }
+    return indices;
+}
+
+// The mesh in its own space. Of "bilinearmesh" each patch becomes two triangles.
+TriangleMesh read_mesh(const Params& params) {
+    size_t corners = params.type() == "bilinearmesh" ? 4 : 3;
+    TriangleMesh mesh;
+    mesh.positions = group_by_three(&params.required("P"));
+    for (auto [name, group] : {std::pair("N", 3), {"S", 3}, {"uv", 2}}) {
+        const Param* param = params.find(name);
+        size_t each = mesh.positions.size() * static_cast<size_t>(group);
+        if (!param || param->numbers.size() == each) continue;
+        fail(param->at, quote(name) + " is not given for each of the vertices");
+    }
+    mesh.normals = group_by_three(params.find("N"));
+    const Param* uv = params.find("uv");
+    for (size_t i = 0; uv && i < uv->numbers.size(); i += 2) {
+        mesh.uvs.push_back(
+            {static_cast<float>(uv->numbers[i]), static_cast<float>(uv->numbers[i + 1])});
+    }
+    if (!are_usable(mesh.uvs)) mesh.uvs.clear();
+    mesh.indices = read_indices(params, mesh.positions.size(), corners);
+    if (corners == 3) return mesh;
+
+    // The corners of a patch are at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+    params.messages().note(params.at(), "a bilinear patch is read as two triangles");
+    std::vector<uint32_t> patches = std::move(mesh.indices);
+    mesh.indices.clear();
+    for (size_t i = 0; i < patches.size(); i += 4) {
+        uint32_t a = patches[i], b = patches[i + 1], c = patches[i + 2], d = patches[i + 3];
+        mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
+    }
+    if (!uv && mesh.positions.size() == 4 && patches == std::vector<uint32_t>{0, 1, 2, 3}) {
+        mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    }
+    return mesh;
+}
+
+// Adds positions, uv, and normals in world space.
+void add_vertices(const Params& params, const TriangleMesh& mesh, const ShapeState& state,
+                  Geometry& g) {
+    size_t first = g.positions.size();
+    for (Vec3 p : mesh.positions) {
+        Vec3 world = to_vec3(transform_point(state.world_from_object, {p.x, p.y, p.z}));
+        check_extent(params, world);
+        g.positions.push_back(world);
+    }
+    if (!mesh.uvs.empty() || !g.uvs.empty()) {
+        g.uvs.resize(first, {NAN, NAN});
+        g.uvs.insert(g.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+        g.uvs.resize(g.positions.size(), {NAN, NAN});
+    }
+    if (mesh.normals.empty() && g.normals.empty()) return;
+    g.normals.resize(first);
+    for (Vec3 n : mesh.normals) {
+        Vec3d world = transform_normal(state.world_from_object, {n.x, n.y, n.z});
+        // Keep lengths, by which pbrt weighs them, but not those whose square leaves float.
+        double size = length(world);
+        if (size > 0 && !(size > 1e-6 && size < 1e6)) world = normalize(world);
+        g.normals.push_back(state.reverse_orientation ? -to_vec3(world) : to_vec3(world));
+    }
+    g.normals.resize(g.positions.size());
+}
+
+// Adds the mesh, and turns each triangle so that its corners run counter-clockwise on its outside.
+void add_mesh(const Params& params, const TriangleMesh& mesh, const ShapeState& state,
+              uint32_t shape, Geometry& g) {
+    uint32_t first = static_cast<uint32_t>(g.positions.size());
+    add_vertices(params, mesh, state, g);
+    bool mirrored = determinant(state.world_from_object) < 0;
+    size_t left_out = 0;
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+        uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
+                 c = first + mesh.indices[i + 2];
+        Vec3 normal = cross(g.positions[b] - g.positions[a], g.positions[c] - g.positions[a]);
+        if (!(length_squared(normal) >= std::numeric_limits<float>::min())) {
+            left_out++;
+            continue;
+        }
+        bool turn = mirrored != state.reverse_orientation;
+        if (!mesh.normals.empty()) {
+            float side = dot(normal, g.normals[a] + g.normals[b] + g.normals[c]);
+            if (side != 0) turn = side < 0;
+        }
+        if (turn) std::swap(b, c);
+        g.triangles.push_back({{a, b, c}, shape});
+    }
+    if (left_out > 0) {
+        params.messages().note(
+            params.at(), "left out triangles without area: " + std::to_string(left_out) + " of " +
+                             std::to_string(mesh.indices.size() / 3));
+    }
+    if (mesh.faces_left_out > 0) {
+        params.messages().note(params.at(), "left out faces that do not have 3 or 4 corners: " +
+                                                std::to_string(mesh.faces_left_out));
+    }
 }
 
 // The one factor by which the transform scales these axes; not supported where there is none.
-double uniform_scale(Params& params, const std::vector<Vec3d>& axes) {
+double uniform_scale(const Params& params, const std::vector<Vec3d>& axes) {
     constexpr double tolerance = 1e-3;  // for numbers written with few digits
     double scale = length(axes[0]);
     for (size_t i = 0; i < axes.size(); i++) {
@@ -23,7 +143,8 @@ double uniform_scale(Params& params, const std::vector<Vec3d>& axes) {
         bool same = std::abs(length(next) - scale) <= tolerance * scale;
         bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
         if (same && right_angle) continue;
-        params.stand_in(params.at(), "a sphere or disk scaled differently along its axes");
+        params.messages().stand_in(params.at(),
+                                   "a sphere or disk scaled differently along its axes");
         double product = 1;
         for (Vec3d axis : axes) product *= length(axis);
         return std::pow(product, 1 / static_cast<double>(axes.size()));
@@ -31,10 +152,20 @@ double uniform_scale(Params& params, const std::vector<Vec3d>& axes) {
     return scale;
 }
 
+// The radius in the world.
+float read_radius(const Params& params, Vec3 centre, const std::vector<Vec3d>& axes) {
+    float r = static_cast<float>(params.number("radius") * uniform_scale(params, axes));
+    if (!(r * r >= std::numeric_limits<float>::min())) {
+        fail(params.at("radius"), params.owner() + " is smaller than 1e-18: choose a smaller unit");
+    }
+    check_extent(params, abs(centre) + Vec3{r, r, r});
+    return r;
+}
+
 // Parts are not supported. pbrt clamps an angle above 360 degrees.
-void require_whole(Params& params, const std::string& name, bool is_whole) {
-    if (params.number("phimax", 360) >= 360 && is_whole) return;
-    params.stand_in(params.at(is_whole ? "phimax" : name), "a part of a sphere or disk");
+void require_whole(const Params& params, bool is_whole) {
+    if (params.number("phimax") >= 360 && is_whole) return;
+    params.messages().stand_in(params.at(), "a part of a sphere or disk");
 }
 
 // The number of the axes of a sphere or disk; -1 where they are the world's.
@@ -46,46 +177,22 @@ int add_axes(const Transform& t, Scene& scene) {
     return static_cast<int>(scene.axes.size()) - 1;
 }
 
-int add_sphere(Params& params, const ShapeState& state, Scene& scene) {
-    float radius = params.number("radius", 1, least_radius);
+void add_sphere(const Params& params, const Transform& t, Scene& scene) {
+    float radius = params.number("radius");
     // In either order, and clamped to the sphere, as in pbrt.
     float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
-    bool is_cut = std::min(z0, z1) > -radius || std::max(z0, z1) < radius;
-    require_whole(params, z1 == radius ? "zmin" : "zmax", !is_cut);
-    const Transform& t = state.world_from_object;
-    double scale = uniform_scale(params, {t.x, t.y, t.z});
-    Sphere sphere = {to_vec3(t.o), static_cast<float>(radius * scale),
-                     static_cast<uint32_t>(scene.shapes.size())};
-    check_radius(params, sphere.c, sphere.r);
-    scene.geometry.spheres.push_back(sphere);
-    return add_axes(t, scene);
+    require_whole(params, std::min(z0, z1) <= -radius && std::max(z0, z1) >= radius);
+    Vec3 centre = to_vec3(t.o);
+    scene.geometry.spheres.push_back({centre, read_radius(params, centre, {t.x, t.y, t.z}),
+                                      static_cast<uint32_t>(scene.shapes.size())});
 }
 
-int add_disk(Params& params, const ShapeState& state, Scene& scene) {
-    float radius = params.number("radius", 1, least_radius);
-    require_whole(params, "innerradius", params.number("innerradius", 0) == 0);
-    const Transform& t = state.world_from_object;
-    double scale = uniform_scale(params, {t.x, t.y});
-    Vec3d normal = transform_normal(t, {0, 0, state.reverse_orientation ? -1.0 : 1.0});
-    Disk disk = {to_vec3(transform_point(t, {0, 0, params.number("height", 0)})),
-                 to_vec3(normalize(normal)), static_cast<float>(radius * scale),
-                 static_cast<uint32_t>(scene.shapes.size())};
-    check_radius(params, disk.c, disk.r);
-    scene.geometry.disks.push_back(disk);
-    return add_axes(t, scene);
-}
-
-// Stops before the scene grows beyond the limits.
-void check_room(const Params& params, const ShapeState& state, const Geometry& g, size_t primitives,
-                size_t vertices, const Limits& limits) {
-    if (state.primitives_elsewhere + g.size() + primitives > limits.primitives) {
-        stop_reading(params.at(), "the scene has more than " + std::to_string(limits.primitives) +
-                                      " triangles, spheres and disks");
-    }
-    if (state.vertices_elsewhere + g.positions.size() + vertices > limits.vertices) {
-        stop_reading(params.at(),
-                     "the scene has more than " + std::to_string(limits.vertices) + " vertices");
-    }
+void add_disk(const Params& params, const Transform& t, bool reverse, Scene& scene) {
+    require_whole(params, params.number("innerradius") == 0);
+    Vec3 centre = to_vec3(transform_point(t, {0, 0, params.number("height")}));
+    Vec3 normal = to_vec3(normalize(transform_normal(t, {0, 0, reverse ? -1.0 : 1.0})));
+    scene.geometry.disks.push_back({centre, normal, read_radius(params, centre, {t.x, t.y}),
+                                    static_cast<uint32_t>(scene.shapes.size())});
 }
 
 float area(const Geometry& g, const Triangle& tri) {
@@ -95,12 +202,12 @@ float area(const Geometry& g, const Triangle& tri) {
 float area(const Geometry&, const Sphere& sphere) { return 4 * pi * sphere.r * sphere.r; }
 float area(const Geometry&, const Disk& disk) { return pi * disk.r * disk.r; }
 
-// Adds a light and returns its number.
-int add_light(const Params& params, Rgb L, bool two_sided, Scene& scene) {
-    check_brightness(params, L);
+// Adds a light of so many times the shape's L, and returns its number.
+int add_light(const Params& params, const AreaEmission& emission, float times, Scene& scene) {
     Light light;
-    light.L = L;
-    light.two_sided = two_sided;
+    light.L = times * emission.L;
+    check_brightness(params, light.L);
+    light.two_sided = emission.two_sided;
     light.at = kept(params.at());
     scene.lights.push_back(light);
     return static_cast<int>(scene.lights.size()) - 1;
@@ -108,25 +215,20 @@ int add_light(const Params& params, Rgb L, bool two_sided, Scene& scene) {
 
 // Adds the Shape of the primitives from `first` on, and what light they send.
 template <class Primitive>
-void add_shape(const Params& params, const ShapeState& state, std::vector<Primitive>& primitives,
-               size_t first, bool reverse, int axes, Scene& scene) {
+void add_shape(const Params& params, const ShapeState& state, Shape shape,
+               std::vector<Primitive>& primitives, size_t first, Scene& scene) {
     if (first == primitives.size()) return;
-    Shape shape = {state.material, -1, reverse, axes, kept(params.at())};
     bool shines = state.emission && !is_black(state.emission->L);
     if (!shines || state.emission->power == 0) {
-        if (shines) {
-            shape.light = add_light(params, state.emission->L, state.emission->two_sided, scene);
-        }
+        if (shines) shape.light = add_light(params, *state.emission, 1, scene);
         scene.shapes.push_back(shape);
         return;
     }
     // Make each primitive a light of its own that sends the whole power, as pbrt does.
     float sides = state.emission->two_sided ? 2 : 1;
     for (size_t i = first; i < primitives.size(); i++) {
-        float radiance = state.emission->power /
-                         (pi * area(scene.geometry, primitives[i]) * sides);  // for L = 1
-        shape.light =
-            add_light(params, radiance * state.emission->L, state.emission->two_sided, scene);
+        float of_one = pi * area(scene.geometry, primitives[i]) * sides;  // W, of L = 1
+        shape.light = add_light(params, *state.emission, state.emission->power / of_one, scene);
         primitives[i].shape = static_cast<uint32_t>(scene.shapes.size());
         scene.shapes.push_back(shape);
     }
@@ -134,56 +236,33 @@ void add_shape(const Params& params, const ShapeState& state, std::vector<Primit
 
 }  // namespace
 
-void read_shape(Params& params, const ShapeState& state, const Limits& limits, NamedFiles& files,
-                Scene& scene, SceneNotes& notes) {
+void read_shape(const Params& params, ShapeState state, NamedFiles& files, Scene& scene) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
-    check_room(params, state, g, 1, 0, limits);
-    int axes = -1;
-    auto add = [&](const TriangleMesh& mesh) {
-        check_room(params, state, g, mesh.indices.size() / 3, mesh.positions.size(), limits);
-        uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
-        add_mesh(params, mesh, state.world_from_object, state.reverse_orientation, shape, g, notes);
-    };
-    bool is_patches = params.type() == "bilinearmesh";
-    bool is_control_mesh = params.type() == "loopsubdiv" && params.stands_in();
-    if (params.type() == "trianglemesh" || is_patches || is_control_mesh) {
-        TriangleMesh mesh = read_triangle_mesh(params, is_patches ? 4 : 3);
-        if (is_patches && state.emission && state.emission->power > 0) {
-            params.stand_in(params.at(), "the power of a patch");
-            if (params.may_stand_in()) {
-                ShapeState without = state;
-                without.emission->power = 0;
-                return read_shape(params, without, limits, files, scene, notes);
-            }
-        }
-        if (is_control_mesh) params.ignore_rest();
-        params.finish();
-        if (is_patches) notes.add(params.at(), "a bilinear patch is read as two triangles");
-        add(mesh);
+    uint32_t number = static_cast<uint32_t>(scene.shapes.size());
+    Shape shape = {state.material, -1, false, -1, kept(params.at())};
+    const Transform& t = state.world_from_object;
+    if (params.type() == "sphere" || params.type() == "disk") {
+        bool is_sphere = params.type() == "sphere";
+        if (is_sphere) add_sphere(params, t, scene);
+        if (!is_sphere) add_disk(params, t, state.reverse_orientation, scene);
+        shape.reverse = is_sphere && state.reverse_orientation;
+        shape.axes = add_axes(t, scene);
     } else if (params.type() == "plymesh") {
-        const Param* name = params.find_exactly("string", "filename", 1);
+        const Param& name = params.required("filename");
         const TriangleMesh* mesh = nullptr;
-        if (name) {
-            params.read(
-                [&] { mesh = &files.mesh(files.find(name->at, name->strings[0]), name->at); },
-                "a mesh that cannot be read");
-        }
-        params.finish();
-        if (name && !mesh) return;
-        if (!name) fail(params.at(), params.owner() + " needs \"string filename\"");
-        add(*mesh);
-    } else if (params.type() == "sphere") {
-        axes = add_sphere(params, state, scene);
-    } else if (params.type() == "disk") {
-        axes = add_disk(params, state, scene);
+        params.messages().try_to_read(params.at(), "a mesh that cannot be read", [&] {
+            mesh = &files.mesh(files.find(name.at, name.strings[0]), name.at);
+        });
+        if (mesh) add_mesh(params, *mesh, state, number, g);
     } else {
-        params.fail_type({"bilinearmesh", "disk", "plymesh", "sphere", "trianglemesh"});
+        add_mesh(params, read_mesh(params), state, number, g);
+        // Half of a patch's power for each of its triangles.
+        if (params.type() == "bilinearmesh" && state.emission) state.emission->power /= 2;
     }
-    params.finish();
-    add_shape(params, state, g.triangles, triangles, false, axes, scene);
-    add_shape(params, state, g.spheres, spheres, state.reverse_orientation, axes, scene);
-    add_shape(params, state, g.disks, disks, false, axes, scene);
+    add_shape(params, state, shape, g.triangles, triangles, scene);
+    add_shape(params, state, shape, g.spheres, spheres, scene);
+    add_shape(params, state, shape, g.disks, disks, scene);
 }
 
 void number_light_primitives(Scene& scene) {

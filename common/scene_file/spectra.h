@@ -19,9 +19,6 @@ Rgb blackbody_rgb(double kelvin);
 /// Colors by their names in pbrt.
 using NamedColors = std::map<std::string, Rgb>;
 
-/// The relative luminance of a linear sRGB color.
-inline float luminance(Rgb a) { return 0.2126f * a.r + 0.7152f * a.g + 0.0722f * a.b; }
-
 /// "metal-Ag-eta" and "metal-Ag-k", the complex index of refraction eta + i k, and those of Al, Au
 /// and Cu.
 ///

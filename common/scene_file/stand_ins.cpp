@@ -1,7 +1,5 @@
 #include "common/scene_file/stand_ins.h"
 
-#include <algorithm>
-
 const std::vector<StandIn>& all_stand_ins() {
     static const std::vector<StandIn> all = {
         {"Material \"coatedconductor\"", "the metal under the coat"},
@@ -14,8 +12,7 @@ const std::vector<StandIn>& all_stand_ins() {
         {"Material \"thindielectric\"", "nothing: light passes"},
         {"rough glass", "smooth glass"},
         {"a roughness that differs between u and v", "their geometric mean"},
-        {"a spectrum as a list", "the default of its parameter"},
-        {"a spectrum of unknown name", "the default of its parameter"},
+        {"a spectrum that is not known", "the default of its parameter"},
         {"a bump or normal map", "none"},
         {"alpha", "1, or nothing where it is 0 everywhere"},
         {"a texture that is no reflectance", "the default of its parameter"},
@@ -27,7 +24,6 @@ const std::vector<StandIn>& all_stand_ins() {
         {"Texture \"ptex\"", "grey (0.5)"},
         {"a checkerboard of 3 dimensions", "its mean"},
         {"a mapping other than \"uv\"", "the mean of the texture"},
-        {"wrap \"octahedralsphere\"", "\"repeat\""},
         {"a textured mesh without usable uv", "the mean of the texture"},
         {"a picture that cannot be read", "grey (0.5)"},
         {"a mesh that cannot be read", "nothing"},
@@ -38,18 +34,17 @@ const std::vector<StandIn>& all_stand_ins() {
         {"a part of a sphere or disk", "the whole"},
         {"a sphere or disk scaled differently along its axes", "one of their mean size"},
         {"a light or camera that moves", "one that rests as when the shutter opens"},
-        {"TransformTimes other than 0 1", "from 0 to 1 s"},
+        {"Attribute", "nothing"},
+        {"TransformTimes", "0 1"},
         {"LightSource \"goniometric\"", "a point light"},
         {"LightSource \"projection\"", "a point light"},
         {"LightSource \"spot\"", "a point light"},
         {"an image on an area light", "its L alone"},
-        {"the power of a patch", "its L alone"},
         {"the illuminance of a picture of the sky", "the picture as it is"},
         {"a portal", "none: the light comes from everywhere"},
         {"a second picture of the sky", "grey (0.5)"},
         {"a scene without shapes", "its lights alone"},
         {"a scene without light", "a grey sky (0.5)"},
-        {"a scene without a camera", "pbrt's default: at the origin, looking along +z"},
         {"Camera \"orthographic\"", "a perspective one from far away"},
         {"Camera \"realistic\"", "a pinhole camera of 40 degrees"},
         {"Camera \"spherical\"", "a perspective camera of 90 degrees"},
@@ -57,7 +52,7 @@ const std::vector<StandIn>& all_stand_ins() {
         {"Film \"spectral\"", "\"rgb\""},
         {"a part of the film", "the whole"},
         {"a sensor or white balance", "\"cie1931\""},
-        {"a medium", "empty space"},
+        {"MakeNamedMedium", "empty space"},
         {"a lens, in a chapter without one", "a pinhole"},
         {"glass that disperses, in a chapter without it", "glass of one index"},
         {"a shape that moves, in a chapter where all rest", "one that rests at its start"},
@@ -71,25 +66,4 @@ std::string or_stand_in(const std::string& what) {
         if (stand_in.what == what) return "; --stand-in renders it as " + stand_in.instead;
     }
     return "";
-}
-
-void SceneNotes::stand_in(const Position& at, const std::string& what) {
-    auto [place, is_new] = used_.try_emplace(what);
-    if (is_new) place->second.first = at;
-    place->second.all.insert(at);
-}
-
-void SceneNotes::need(const Position& at, const std::string& what) {
-    if (!stand_ins_) fail(at, what + " is not supported" + or_stand_in(what));
-    stand_in(at, what);
-}
-
-std::vector<UsedStandIn> SceneNotes::used() const {
-    std::vector<UsedStandIn> list;
-    for (const auto& [what, instead] : all_stand_ins()) {
-        auto found = used_.find(what);
-        if (found == used_.end()) continue;
-        list.push_back({what, instead, found->second.all.size(), found->second.first});
-    }
-    return list;
 }

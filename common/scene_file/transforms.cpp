@@ -1,34 +1,32 @@
-#include "common/scene_file/transforms.h"
-
 #include <array>
+
+#include "common/scene_file/scene_parts.h"
 
 namespace {
 
 Vec3d read_three(Lexer& lexer, const std::string& name) {
     Vec3d v;
-    for (double* x : {&v.x, &v.y, &v.z}) *x = lexer.number(lexer.next(), name);
+    for (double* x : {&v.x, &v.y, &v.z}) *x = lexer.number(name);
     return v;
 }
 
 // Reads [ 16 numbers ], column by column.
 TransformStep read_matrix(Lexer& lexer, const Token& directive) {
     std::string name(directive.text);
-    auto expect = [&](Token::Type type, const std::string& what) {
-        Token token = lexer.next();
-        if (token.type == type) return;
-        fail(lexer.at(token), name + " needs " + what + ", not " + Lexer::describe(token));
-    };
-    expect(Token::open, "[ and 16 numbers");
+    lexer.expect(Token::open, name + " needs [ and 16 numbers");
     std::array<double, 16> m;
-    for (double& x : m) x = lexer.number(lexer.next(), name);
-    expect(Token::close, "] after 16 numbers");
+    for (double& x : m) x = lexer.number(name);
+    lexer.expect(Token::close, name + " needs ] after 16 numbers");
 
     constexpr double tolerance = 1e-6;
     double bottom = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
+    if (bottom > tolerance) m = {};
     Transform t = {
         {m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-    return {t, name == "Transform", bottom > tolerance};
+    return {t, name == "Transform"};
 }
+
+}  // namespace
 
 bool is_usable(const Transform& t) {
     constexpr double largest = 1e30;
@@ -40,8 +38,6 @@ bool is_usable(const Transform& t) {
     return std::abs(determinant(t)) > 1 / (largest * largest);
 }
 
-}  // namespace
-
 TransformStep read_transform(Lexer& lexer, const Token& directive) {
     std::string name(directive.text);
     if (name == "Identity") return {{}, true};
@@ -49,7 +45,7 @@ TransformStep read_transform(Lexer& lexer, const Token& directive) {
     if (name == "Translate") return {translation(read_three(lexer, name))};
     if (name == "Scale") return {scaling(read_three(lexer, name))};
     if (name == "Rotate") {
-        double degrees = lexer.number(lexer.next(), name);
+        double degrees = lexer.number(name);
         Vec3d axis = read_three(lexer, name);
         if (length(axis) == 0) fail(lexer.at(directive), "Rotate needs an axis other than 0 0 0");
         return {rotation(degrees, axis)};
@@ -62,13 +58,4 @@ TransformStep read_transform(Lexer& lexer, const Token& directive) {
         fail(lexer.at(directive), "LookAt needs an up that is not along the view");
     }
     return {inverse(world_from_camera)};
-}
-
-std::string what_is_wrong_with(const TransformStep& step, const Transform& after) {
-    if (is_usable(after) && step.projects) {
-        return std::string(step.replaces ? "Transform" : "ConcatTransform") +
-               " must not project: numbers 4, 8, 12, 16 must be 0 0 0 1";
-    }
-    if (is_usable(after)) return "";
-    return "the transform has no inverse, or its numbers are too large or too small";
 }

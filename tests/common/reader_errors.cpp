@@ -56,14 +56,7 @@ TEST_SUITE("reader: malformed input") {
             for (size_t at; (at = said.find(folder)) != std::string::npos;) {
                 said.erase(at, folder.size());
             }
-            std::string expected = c.message;
-            if (fs::path::preferred_separator == '\\') {  // a backslash stands between folders, too
-                for (std::string* text : {&said, &expected}) {
-                    text->erase(std::min(text->size(), text->find("; write / between folders")));
-                    std::replace(text->begin(), text->end(), '\\', '/');
-                }
-            }
-            CHECK(said == expected);
+            CHECK(said == c.message);
         }
     }
 
@@ -74,8 +67,7 @@ TEST_SUITE("reader: malformed input") {
         } cases[] = {
             {"WorldBegin Shape \"sphere\" LightSource \"infinite\"", "", "no Camera"},
             {"# \xc3\xbc\xe2\x82\xac\xf0\x9f\x98\x80\xff", ":1:6", utf8},
-            {{"\xff\xfe#\x00", 4}, "", "UTF-16 text: save it as UTF-8"},
-            {{"\xfe\xff\x00#", 4}, "", "UTF-16 text: save it as UTF-8"},
+            {{"\xff\xfe#\x00", 4}, ":1:1", utf8},  // UTF-16
             {std::string("A\x01\x7f\0B", 5), ":1:1", unknown + "\"A???B\""},
             {std::string(100, 'x'), ":1:1", unknown + '"' + std::string(60, 'x') + "...\""},
             // Lines end with LF, CR LF or CR.
@@ -121,7 +113,7 @@ TEST_SUITE("reader: malformed input") {
         std::string a = write(folder, "a.pbrt", "Include \"sub/b.pbrt\"");
         std::string b = write(folder, "sub/b.pbrt", "\n  Include \"../a.pbrt\"");
         CHECK(refuse_file(a) ==
-              b + ":2:11: error: \"" + folder / "sub/../a.pbrt" + "\" includes itself");
+              b + ":2:3: error: \"" + folder / "sub/../a.pbrt" + "\" includes itself");
         // A hundred may include each other in a row.
         for (int i = 0; i < 100; i++)
             write(folder, std::to_string(i), "Include \"" + std::to_string(i + 1) + "\"\n");
@@ -253,8 +245,7 @@ TEST_SUITE("reader: malformed input") {
         placed.directives = 20;
         const std::string instance = "ObjectInstance \"a\"\n",
                           object = "ObjectBegin \"a\"\n" + repeated(sphere, 5) + "ObjectEnd\n";
-        const std::string many = named("Shape \"sphere\"", 100),
-                          attributes = named("Attribute \"light\"", 100);
+        const std::string many = named("Shape \"sphere\"", 100);
         struct {
             Limits limits;
             std::string begin, one_more, place, message;
@@ -265,18 +256,19 @@ TEST_SUITE("reader: malformed input") {
             {primitives, sphere + moves + sphere + disk, sphere, "6:1", "spheres and disks"},
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
             {vertices, triangle, moves + triangle, "4:1", "more than 3 vertices"},
-            {vertices, sphere, "ObjectBegin \"a\"\n" + triangles + triangles, "5:1",
-             "objects of more than 24 numbers"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
             {placed, object + repeated(instance, 4), instance, "13:1",
              "more than 20 shapes of objects are placed"},
-            {{}, sphere, repeated("AttributeBegin ", 1001), "3:15001", "more than 1000 deep"},
-            {{}, sphere, many + " \"float x\" 1", "3:1406", "has more than 100 parameters"},
             {{},
-             sphere + attributes + '\n',
-             "Attribute \"light\" \"float x\" 1",
-             "4:19",
-             "more than 100 attributes of \"light\""},
+             sphere,
+             repeated("AttributeBegin ", 1001),
+             "3:15001",
+             "more than 1000 blocks in each other"},
+            {{},
+             sphere,
+             many + " \"float x\" 1",
+             "3:1406",
+             "more than 100 parameters of one directive"},
             {{},
              moves + repeated(sphere, 1000),
              sphere,
@@ -300,7 +292,7 @@ TEST_SUITE("reader: malformed input") {
         limits.file_bytes = 3000;
         CHECK(refuse(world + repeated(include, 3), limits, beside) == "");
         CHECK(refuse(world + repeated(include, 4), limits, beside)
-                  .starts_with(place + ":5:9: error: more than 3000 bytes"));
+                  .starts_with(place + ":5:1: error: more than 3000 bytes"));
 
         const std::string mesh = read_file("tests/support/includes/triangle.ply");
         write(folder, "a.ply", mesh);
@@ -313,7 +305,7 @@ TEST_SUITE("reader: malformed input") {
             CHECK(scene.geometry.positions[i].z == 1 + static_cast<float>(i / 3));
         // Too many are refused where they are.
         CHECK(refuse(often + with_mesh, limits, beside)
-                  .starts_with(place + ":102:1: error: the scene has more than 100"));
+                  .starts_with(place + ":102:1: error: more than 100 triangles"));
     }
 
     TEST_CASE("truth: reading and building tell what they are at, and how far") {

@@ -9,13 +9,13 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/position.h"
 #include "common/path/sampler.h"
 #include "common/picture/png.h"
 #include "common/scene/mover.h"
 #include "common/scene/sky_image.h"
 #include "common/scene/texture.h"
 #include "common/scene_file/ply.h"
-#include "common/scene_file/ply_bytes.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/folder.h"
 
@@ -74,13 +74,11 @@ struct RandomPly {
 };
 inline RandomPly random_ply(Dice& dice) {
     RandomPly ply;
-    const char* formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-    PlyFormat format = static_cast<PlyFormat>(dice.below(3));
+    const std::string format = ply_formats[dice.below(3)];
     const std::string line_end = dice.below(3) == 0 ? "\r\n" : dice.below(8) == 0 ? "\r" : "\n";
-    std::string body, header = "ply" + line_end + "format " + formats[static_cast<int>(format)] +
-                               " 1.0" + line_end;
+    std::string body, header = "ply" + line_end + "format " + format + " 1.0" + line_end;
     auto put = [&](const PlyScalar& type, double value) {
-        if (format == PlyFormat::ascii) {
+        if (format == ply_formats[0]) {
             body += type.is_float ? std::to_string(value) : std::to_string(static_cast<int>(value));
             body += dice.below(9) == 0 ? line_end : " ";
             return;
@@ -89,7 +87,7 @@ inline RandomPly random_ply(Dice& dice) {
                         : type.is_float ? std::bit_cast<uint32_t>(static_cast<float>(value))
                                         : static_cast<uint32_t>(value);
         for (size_t i = 0; i < type.size; i++) {
-            size_t byte = format == PlyFormat::little ? i : type.size - 1 - i;
+            size_t byte = format == ply_formats[1] ? i : type.size - 1 - i;
             body += static_cast<char>(bits >> (8 * byte) & 255);
         }
     };
@@ -141,7 +139,7 @@ inline RandomPly random_ply(Dice& dice) {
                                             {list[0], list[k - 1], list[k]});
                 ply.mesh.faces_left_out += list.size() < 3;
             }
-            if (format == PlyFormat::ascii) body += line_end;
+            if (format == ply_formats[0]) body += line_end;
             if (is_vertex) ply.mesh.positions.push_back({v[0], v[1], v[2]});
             if (is_vertex && has_normals) ply.mesh.normals.push_back({v[3], v[4], v[5]});
         }

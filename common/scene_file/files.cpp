@@ -1,6 +1,5 @@
-#include "common/scene_file/named_files.h"
+#include "common/scene_file/files.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "common/base/files.h"
@@ -23,9 +22,6 @@ std::string canonical(const std::string& path) {
     return file_name(fs::weakly_canonical(file_path(path), none));
 }
 
-NamedFiles::NamedFiles(std::string main_file, const Limits& limits, const Report& report)
-    : main_file_(std::move(main_file)), limits_(limits), report_(report) {}
-
 std::string NamedFiles::find(const Position& at, const std::string& name) const {
     fs::path path = file_path(at.file).parent_path() / file_path(name);
     fs::path from_main = file_path(main_file_).parent_path() / file_path(name);
@@ -40,44 +36,26 @@ std::string NamedFiles::read(const std::string& path, const Position& at) {
         bytes = read_scene_file(path);
     } catch (const InputError& error) {
         // Name the place that asks for the file, before what is wrong with it.
-        std::string text = error.what(), why = text.substr(text.rfind(": error: ") + 9);
-        auto is_windows = [](char c) { return c == '\\' || (c >= '\b' && c <= '\r'); };
-        if (std::any_of(path.begin(), path.end(), is_windows)) why += "; write / between folders";
-        fail(at, quote_file(path) + ": " + why);
+        std::string text = error.what();
+        fail(at, quote_file(path) + text.substr(text.rfind(": error: ") + 7));
     }
     files_read_.insert(path);
     bytes_read_ += bytes.size();
     add_to_checksum(bytes);
-    if (bytes_read_ > limits_.file_bytes) {
-        stop_reading(at, "more than " + std::to_string(limits_.file_bytes) +
-                             " bytes are read, from all files together");
-    }
+    check_limit(at, bytes_read_, limits_.file_bytes, "bytes in all files together");
     return bytes;
 }
 
-void NamedFiles::add_to_checksum(std::string_view bytes) {
-    add_number(bytes.size());
+void NamedFiles::add_to_checksum(const std::string& bytes) {
+    uint64_t size = bytes.size();
+    checksum_.add({reinterpret_cast<const char*>(&size), sizeof size});
     checksum_.add(bytes);
-}
-
-void NamedFiles::add_number(uint64_t number) {
-    checksum_.add({reinterpret_cast<const char*>(&number), sizeof number});
 }
 
 const TriangleMesh& NamedFiles::mesh(const std::string& path, const Position& at) {
     std::string file = canonical(path);
-    auto [place, is_new] = meshes_.try_emplace(file);
-    Mesh& known = place->second;
-    if (is_new) known.number = meshes_.size();
-    add_number(known.number);
-    if (!known.error.empty()) throw InputError(known.error);
-    if (!is_new) return known.mesh;
+    auto known = meshes_.find(file);
+    if (known != meshes_.end()) return known->second;
     if (report_) report_("reading " + path, 0);
-    try {
-        known.mesh = parse_ply(path, read(path, at), limits_);
-        return known.mesh;
-    } catch (const InputError& error) {
-        known.error = error.what();
-        throw;
-    }
+    return meshes_[file] = parse_ply(path, read(path, at), limits_);
 }

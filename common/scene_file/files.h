@@ -3,7 +3,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <string_view>
 
 #include "common/base/checksum.h"
 #include "common/base/position.h"
@@ -21,39 +20,30 @@ std::string canonical(const std::string& path);
 /// Finds and reads the files that a scene names, and counts how much is read.
 class NamedFiles {
 public:
-    NamedFiles(std::string main_file, const Limits& limits, const Report& report);
+    NamedFiles(std::string main_file, const Limits& limits, const Report& report)
+        : main_file_(std::move(main_file)), limits_(limits), report_(report) {}
 
     /// The path of the file that is named at a place in a scene file: relative to the file that
     /// names it, or, where there is no such file, to the main scene file, which is what pbrt does.
     std::string find(const Position& at, const std::string& name) const;
-
     /// The bytes of the file; throws at the place that names it when it cannot be read, or when
     /// more than the limit would be read in all.
     std::string read(const std::string& path, const Position& at);
-
-    /// Of the lengths and bytes of all files, in the order in which the scene names them. The main
-    /// file is read elsewhere, and added by who reads it.
-    uint64_t checksum() const { return checksum_.value(); }
-    void add_to_checksum(std::string_view bytes);
-    void add_number(uint64_t number);
-    const std::set<std::string>& files_read() const { return files_read_; }
-
-    /// The mesh in a PLY file, which is read once, however often it is named; also a file that is
-    /// no mesh, of which each place that names it is told the same.
+    /// The mesh in a PLY file, which is read once, however often it is named.
     const TriangleMesh& mesh(const std::string& path, const Position& at);
 
-private:
-    struct Mesh {
-        TriangleMesh mesh;
-        std::string error;    // of a file that is no mesh
-        uint64_t number = 0;  // in the order in which they are read
-    };
+    /// Of the lengths and bytes of all files, in the order in which they are read. The main file is
+    /// read elsewhere, and added by who reads it.
+    uint64_t checksum() const { return checksum_.value(); }
+    void add_to_checksum(const std::string& bytes);
+    const std::set<std::string>& files_read() const { return files_read_; }
 
+private:
     const std::string main_file_;
     const Limits limits_;
     const Report report_;
     std::set<std::string> files_read_;
     uint64_t bytes_read_ = 0;
     Checksum checksum_;
-    std::map<std::string, Mesh> meshes_;  // by the canonical names of their files
+    std::map<std::string, TriangleMesh> meshes_;  // by the canonical names of their files
 };

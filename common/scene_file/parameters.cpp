@@ -1,0 +1,144 @@
+// All parameters that directives have, and what they may be.
+#include "common/scene_file/params.h"
+
+namespace {
+
+struct Row {
+    const char *directive, *kinds;  // its types, separated by blanks, as are the types and names
+    const char *types, *names;
+    double fallback = 0, low = -double{infinity}, high = double{infinity};
+    size_t values = 1;
+    const char* stand_in = "";  // of parameters that only pbrt has
+};
+
+constexpr double inf = double{infinity};
+constexpr const char* cameras = "perspective orthographic realistic spherical";
+constexpr const char* films = "rgb gbuffer spectral";
+constexpr const char* filters = "box gaussian mitchell sinc triangle";
+constexpr const char* samplers = "halton independent paddedsobol pmj02bn sobol stratified zsobol";
+constexpr const char* integrators =
+    "ambientocclusion bdpt lightpath mlt path randomwalk simplepath simplevolpath sppm volpath";
+constexpr const char* reflecting =
+    "diffuse conductor coatedconductor coateddiffuse diffusetransmission hair measured mix "
+    "subsurface";
+constexpr const char* bare = "dielectric interface none thindielectric";
+constexpr const char* points = "point spot goniometric projection";
+constexpr const char* meshes = "trianglemesh bilinearmesh loopsubdiv";
+constexpr const char* shapes =
+    "sphere disk plymesh trianglemesh bilinearmesh loopsubdiv curve cylinder";
+constexpr const char* mapped = "imagemap checkerboard";
+constexpr const char* ignored = "bool float integer string";  // no effect on what is rendered
+
+constexpr Row rows[] = {
+    {"Camera", cameras, "float", "fov", 90, 0.001, 179.999},
+    {"Camera", cameras, "float", "frameaspectratio", 1, 1e-4, 1e4},
+    {"Camera", cameras, "float", "screenwindow", 0, -1e4, 1e4, 4},
+    {"Camera", cameras, "float", "lensradius", 0, 0, 1e6},
+    {"Camera", cameras, "float", "focaldistance", 1e6, 0, 1e9},
+    {"Camera", cameras, "float", "shutteropen", 0},
+    {"Camera", cameras, "float", "shutterclose", 1},
+
+    {"Film", films, "integer", "xresolution", 1280, 1, 1 << 16},
+    {"Film", films, "integer", "yresolution", 720, 1, 1 << 16},
+    {"Film", films, "float", "iso", 100, 1e-30},
+    {"Film", films, "float", "maxcomponentvalue whitebalance"},
+    {"Film", films, "string", "sensor"},
+    {"Film", films, "", "cropwindow pixelbounds", 0, 0, 0, 0, "a part of the film"},
+    {"Film", films, ignored, "diagonal filename savefp16"},
+
+    {"PixelFilter", filters, "float", "xradius yradius", 0.5},
+    {"PixelFilter", filters, ignored, "B C sigma tau"},
+
+    {"Sampler", "stratified", "integer", "xsamples ysamples", 4, 1, 1 << 12},
+    {"Sampler", "independent", "integer", "pixelsamples", 4, 1, 1 << 24},
+    {"Sampler", "halton paddedsobol pmj02bn sobol zsobol", "integer", "pixelsamples", 16, 1,
+     1 << 24},
+    {"Sampler", samplers, ignored, "jitter randomization seed"},
+
+    {"Integrator", integrators, "integer", "maxdepth", 5, 0, 1 << 30},
+    {"Integrator", integrators, ignored,
+     "bootstrapsamples chains cossample largestepprobability lightsampler maxdistance "
+     "mutationsperpixel photonsperiteration radius regularize rrthreshold samplebsdf samplelights "
+     "seed sigma visualizestrategies visualizeweights"},
+    {"Accelerator", "bvh kdtree", ignored,
+     "emptybonus intersectcost maxdepth maxnodeprims maxprims splitmethod traversalcost"},
+
+    {"Material", reflecting, "rgb texture", "reflectance", 0.5, 0, 1},
+    {"Material", "conductor", "rgb spectrum", "eta k", 0, 0, 1e4},
+    {"Material", "coatedconductor", "rgb spectrum", "conductor.eta conductor.k", 0, 0, 1e4},
+    {"Material", "dielectric", "float spectrum", "eta", 1.5, 1e-4, 1e4},
+    {"Material", "conductor dielectric", "float", "roughness uroughness vroughness", 0, 0, 100},
+    {"Material", "coatedconductor", "float",
+     "conductor.roughness conductor.uroughness conductor.vroughness", 0, 0, 100},
+    {"Material", "conductor coatedconductor dielectric", "bool", "remaproughness", 1},
+    {"Material", reflecting, "", "displacement normalmap", 0, 0, 0, 0, "a bump or normal map"},
+    {"Material", bare, "", "displacement normalmap", 0, 0, 0, 0, "a bump or normal map"},
+
+    {"AreaLightSource", "diffuse", "", "filename", 0, 0, 0, 0, "an image on an area light"},
+    {"AreaLightSource", "diffuse", "rgb blackbody", "L", 1, 0},
+    {"AreaLightSource", "diffuse", "float", "scale", 1, 0},
+    {"AreaLightSource", "diffuse", "float", "power"},
+    {"AreaLightSource", "diffuse", "bool", "twosided"},
+
+    {"LightSource", points, "rgb blackbody", "I", 1, 0},
+    {"LightSource", points, "float", "scale", 1, 0},
+    {"LightSource", points, "float", "power"},
+    {"LightSource", points, "point3", "from"},
+    {"LightSource", "distant infinite", "rgb blackbody", "L", 1, 0},
+    {"LightSource", "distant infinite", "float", "scale", 1, 0},
+    {"LightSource", "distant infinite", "float", "illuminance"},
+    {"LightSource", "distant", "point3", "from to"},
+    {"LightSource", "infinite", "string", "filename"},
+    {"LightSource", "infinite", "", "portal", 0, 0, 0, 0, "a portal"},
+
+    {"Shape", "sphere disk", "float", "radius", 1, 1.1e-19},  // the square of a smaller one is 0
+    {"Shape", "sphere disk", "float", "phimax", 360},
+    {"Shape", "sphere", "float", "zmin zmax"},
+    {"Shape", "disk", "float", "height innerradius"},
+    {"Shape", "plymesh", "string", "filename"},
+    {"Shape", shapes, "", "alpha", 0, 0, 0, 0, "alpha"},
+    {"Shape", shapes, "", "displacement displacement.edgelength edgelength", 0, 0, 0, 0,
+     "a bump or normal map"},
+    {"Shape", shapes, "", "emissionfilename", 0, 0, 0, 0, "an image on an area light"},
+    {"Shape", meshes, "point3", "P", 0, -inf, inf, 0},
+    {"Shape", meshes, "normal", "N", 0, -inf, inf, 0},
+    {"Shape", meshes, "vector3", "S", 0, -inf, inf, 0},
+    {"Shape", meshes, "point2", "uv", 0, -inf, inf, 0},
+    {"Shape", meshes, "integer", "indices faceIndices", 0, -inf, inf, 0},
+
+    {"Texture", "bilerp directionmix dots marble mix ptex", "", ""},
+    {"Texture", "constant", "rgb", "value", 1, 0, 1},
+    {"Texture", "scale", "rgb texture", "tex", 1, 0, 1},
+    {"Texture", "scale", "float", "scale", 1, 0, 1e9},
+    {"Texture", "checkerboard", "rgb texture", "tex1", 1, 0, 1},
+    {"Texture", "checkerboard", "rgb texture", "tex2", 0, 0, 1},
+    {"Texture", "checkerboard", "integer", "dimension", 2, 2, 3},
+    {"Texture", mapped, "string", "mapping"},
+    {"Texture", mapped, "float", "uscale vscale", 1, -1e9, 1e9},
+    {"Texture", mapped, "float", "udelta vdelta", 0, -1e9, 1e9},
+    {"Texture", mapped, "vector3", "v1 v2"},
+    {"Texture", "imagemap", "string", "encoding filename filter wrap"},
+    {"Texture", "imagemap", "float", "scale", 1, 0, 1e9},
+    {"Texture", "imagemap", ignored, "maxanisotropy"},
+    {"Texture", "imagemap", "bool", "invert"},
+};
+
+}  // namespace
+
+const std::map<std::string, std::map<std::string, std::vector<KnownParam>>>& known_params() {
+    static const auto all = [] {
+        std::map<std::string, std::map<std::string, std::vector<KnownParam>>> map;
+        map["Material"][""];  // the same as "none"
+        for (const Row& row : rows) {
+            for (const std::string& kind : words_of(row.kinds)) {
+                std::vector<KnownParam>& known = map[row.directive][kind];
+                for (const std::string& name : words_of(row.names)) {
+                    known.push_back({words_of(row.types), name, row.fallback, row.low, row.high,
+                                     row.values, row.stand_in});
+                }
+            }
+        }
+        return map;
+    }();
+    return all;
+}
