@@ -79,74 +79,61 @@ double median_ratio(const Image& a, const Image& b, int channel) {
         if (y > 0) ratios.push_back(value(a.pixels[i], channel) / y);
     }
     if (ratios.empty()) return NAN;
-    std::sort(ratios.begin(), ratios.end());
-    size_t middle = ratios.size() / 2;
-    return ratios.size() % 2 ? ratios[middle] : (ratios[middle - 1] + ratios[middle]) / 2;
+    auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
 }
 
-/// Compares one channel, block by block; `worst`: by block, what is worst in any channel so far.
-ChannelComparison compare_channel(const Image& a, const Image& b, int channel,
-                                  std::vector<double>& worst) {
+/// Adds the row of one channel, block by block.
+void add_row(const Image& a, const Image& b, int channel, Comparison& result) {
+    constexpr const char* names[] = {"red", "green", "blue", "brightness"};
+    constexpr int side = 8, fewest = 16;  // pixels of a block, to estimate their spread
     RunningStats mean_a, mean_b;
     for (Rgb p : a.pixels) mean_a.add(value(p, channel));
     for (Rgb p : b.pixels) mean_b.add(value(p, channel));
-    ChannelComparison result{mean_a.mean(), mean_b.mean(), median_ratio(a, b, channel)};
+    ChannelComparison row{names[channel], mean_a.mean(), mean_b.mean(),
+                          median_ratio(a, b, channel)};
     double variance = 0, pixels = 0;  // of the sum of the differences
-    size_t block = 0;
-    for (int y0 = 0; y0 < a.height; y0 += comparison_block) {
-        for (int x0 = 0; x0 < a.width; x0 += comparison_block) {
+    result.blocks = 0;
+    for (int y0 = 0; y0 < a.height; y0 += side) {
+        for (int x0 = 0; x0 < a.width; x0 += side) {
             RunningStats difference, level;
-            for (int y = y0; y < std::min(a.height, y0 + comparison_block); y++) {
-                for (int x = x0; x < std::min(a.width, x0 + comparison_block); x++) {
+            for (int y = y0; y < std::min(a.height, y0 + side); y++) {
+                for (int x = x0; x < std::min(a.width, x0 + side); x++) {
                     difference.add(value(a.at(x, y), channel) - value(b.at(x, y), channel));
                     level.add(std::abs(value(b.at(x, y), channel)));
                 }
             }
-            double& z = worst[block++];
-            if (difference.count() < 16) continue;  // too few pixels to estimate the spread
-            double n = static_cast<double>(difference.count());
+            if (difference.count() < fewest) continue;
+            double n = static_cast<double>(difference.count()), d = std::abs(difference.mean());
             variance += n * difference.variance();
             pixels += n;
-            z = std::max(z, 0.0);
-            double d = std::abs(difference.mean());
-            if (d <= 1e-6 * level.mean()) continue;  // rounding
-            z = std::max(z, d / difference.standard_error());
-            result.beyond_5 += d / difference.standard_error() > 5;
+            result.blocks++;
+            bool is_rounding = d <= 1e-6 * level.mean();
+            row.beyond_5 += !is_rounding && d / difference.standard_error() > 5;
         }
     }
-    result.standard_error = pixels > 0 ? std::sqrt(variance) / pixels : NAN;
-    return result;
+    row.standard_error = pixels > 0 ? std::sqrt(variance) / pixels : NAN;
+    result.rows.push_back(row);
 }
 
 }  // namespace
 
-Comparison compare(const Image& a, const Image& b, double trim) {
-    // Compare the brightness and, where they can differ otherwise, the channels.
-    int across = (a.width + comparison_block - 1) / comparison_block;
-    int down = (a.height + comparison_block - 1) / comparison_block;
-    std::vector<double> worst(static_cast<size_t>(across * down), -1);  // -1: too small a block
-    Comparison result{compare_channel(a, b, brightness, worst)};
-    bool are_grey = is_grey(a) && is_grey(b);
-    for (int channel = 0; channel < 3 && !are_grey; channel++)
-        result.channels.push_back(compare_channel(a, b, channel, worst));
-    for (int i = 0; i < across * down; i++) {
-        double z = worst[static_cast<size_t>(i)];
-        result.blocks += z >= 0;
-        if (z <= result.worst_z) continue;
-        result.worst_z = z;
-        result.worst_x = i % across * comparison_block;
-        result.worst_y = i / across * comparison_block;
-    }
-    result.beyond_5 =
-        static_cast<int>(std::count_if(worst.begin(), worst.end(), [](double z) { return z > 5; }));
+double ChannelComparison::difference() const {
+    double d = mean_a - mean_b;
+    return std::abs(d) <= 1e-6 * std::abs(mean_b) ? 0 : d / std::abs(mean_b);  // infinite for 0
+}
 
+double ChannelComparison::z() const {
+    return difference() == 0 ? 0 : std::abs(mean_a - mean_b) / standard_error;
+}
+
+Comparison compare(const Image& a, const Image& b, double trim) {
+    Comparison result;
+    add_row(a, b, brightness, result);
+    bool are_grey = is_grey(a) && is_grey(b);
+    for (int channel = 0; channel < 3 && !are_grey; channel++) add_row(a, b, channel, result);
     sum_errors(errors_of(a, b), trim, result);
-    for (size_t i = 0; i < a.pixels.size(); i++) {
-        Rgb p = a.pixels[i], q = b.pixels[i];
-        bool differ =
-            (p.r == 1) != (q.r == 1) || (p.g == 1) != (q.g == 1) || (p.b == 1) != (q.b == 1);
-        result.cut_off += differ;
-    }
     return result;
 }
 

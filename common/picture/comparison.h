@@ -1,42 +1,41 @@
 // The errors of one picture relative to another.
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/picture/image.h"
 
-/// The means of one channel, or of the brightness, which is the mean of the three.
+/// One channel, or the brightness, which is the mean of the three; a: the picture, b: the
+/// reference.
 struct ChannelComparison {
+    const char* name;
     double mean_a = 0, mean_b = 0;
-    double median_ratio = 0;    // median ratio of a / b where b > 0
+    double median_ratio = 0;    // of a / b over the pixels where b > 0
     double standard_error = 0;  // of mean_a - mean_b; NaN where there is no block
-    int beyond_5 = 0;           // blocks
+    int beyond_5 = 0;           // blocks that differ by more than 5 standard errors of their own
+
+    /// The relative difference of the means; 0 where they differ by rounding alone.
+    double difference() const;
+    /// How many standard errors the means differ by.
+    double z() const;
 };
 
-/// The result of compare(). Errors are means of a - b over pixels and channels; b: the reference.
-struct Comparison : ChannelComparison {         // of the brightness
-    std::vector<ChannelComparison> channels{};  // red, green and blue; none where both are grey
+/// The result of compare(). Errors are means over pixels and channels.
+struct Comparison {
+    /// The brightness; then red, green and blue, unless both pictures are grey.
+    std::vector<ChannelComparison> rows;
+    /// Of 8 x 8 pixels. The standard errors come from the spread of a - b within them, which needs
+    /// pixels with independent noise.
+    int blocks = 0;
     double mse = 0, rmse = 0;
     double rel_mse = 0;      // of (a-b)^2 / (b^2 + 0.01)
     double worst_share = 0;  // of the squared error, in the worst 0.1 % of the pixels
-    int cut_off = 0;         // pixels with a channel of 1, the most in 8 bits, in one picture only
-
-    // Differences of blocks of 8 x 8 pixels, in standard errors. These are estimated from the
-    // spread of a - b within a block, which needs pixels with independent noise. Of the brightness
-    // and the channels, the one that differs most counts.
-    int blocks = 0;
-    double worst_z = 0;
-    int worst_x = 0, worst_y = 0;  // top left pixel of that block
 };
-
-inline constexpr int comparison_block = 8;
-inline constexpr const char* channel_names[] = {"red", "green", "blue"};
 
 /// Compares a with the reference b, pictures of the same size.
 ///
 /// trim  percent of the pixels, those with the largest relative error, that mse, rmse, rel_mse and
-///       worst_share leave out; means, ratio and blocks take all
+///       worst_share leave out
 /// tested by  "brute: a comparison's numbers counted in another way"
 Comparison compare(const Image& a, const Image& b, double trim = 0);
 

@@ -17,7 +17,7 @@ Notes notes_in(const std::vector<std::string>& lines);
 /// The lines as a comment for write_image, below one that says whose notes they are, and back.
 /// Empty for a comment by another program.
 ///
-/// tested by  "identity: notes are read from a .ppm, a .png and a .json as they were written"
+/// tested by  "identity: notes are read from a .ppm and a .png as they were written"
 std::string comment_of(const Notes& notes);
 Notes notes_in(const std::string& comment);
 

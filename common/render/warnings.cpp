@@ -168,7 +168,7 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
                has_delta = std::ranges::any_of(scene.lights, is_delta),
                has_area = std::ranges::any_of(scene.lights, is_lamp) || scene.sky_image;
     const std::string larger = "the true error may be larger than the reported one",
-                      by_chance = "is found only by random hits: " + larger,
+                      at_random = "is found only by random hits: " + larger,
                       is_left_out =
                           "from a point or distant light is left out: no path can hit such a light",
                       by_mirrors = "light that reaches a surface through mirrors or glass ",
@@ -198,9 +198,9 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
         }
         case LightSearch::light_sampling:
             return told({{casts && has_delta, by_mirrors + is_left_out},
-                         {casts && has_area, by_mirrors + by_chance},
+                         {casts && has_area, by_mirrors + at_random},
                          {metal_casts && !casts && (has_area || has_delta),
-                          "light that reaches a surface via nearly smooth metal " + by_chance}});
+                          "light that reaches a surface via nearly smooth metal " + at_random}});
         case LightSearch::direct:
             return told({{receivers && scene.max_depth > 0,
                           "this chapter lights surfaces from the middle of each lamp, and leaves "
@@ -215,7 +215,7 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
                           "hardly any path from a point or distant light hits a mirror, glass or "
                           "smooth metal: the light that these cast on surfaces may be missing"},
                          {is_seen && has_delta, both_ends + is_left_out},
-                         {is_seen && !has_delta && has_area, both_ends + by_chance}});
+                         {is_seen && !has_delta && has_area, both_ends + at_random}});
         }
     }
     return {};

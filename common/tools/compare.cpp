@@ -1,12 +1,9 @@
 // compare A B: how far picture A is from the reference B.
 #include <cstdio>
-#include <filesystem>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/percent.h"
-#include "common/base/system.h"
-#include "common/picture/comparison.h"
 #include "common/picture/verdict.h"
 #include "common/render/options.h"
 #include "common/render/table.h"
@@ -26,17 +23,15 @@ CompareOptions parse(int argc, char** argv) {
     std::vector<Option> options = {
         {"out", "FILE", "write the error of each pixel as a colour (.ppm, .pfm or .png)",
          [&](const std::string& text) { o.out = parse_picture("out", text); }},
-        positive_option("range", "R",
-                        "the relative error that is white there (default: of all but "
-                        "1 %)",
+        positive_option("range", "R", "the relative error that is white there, not of all but 1 %",
                         o.range),
         positive_option("trim", "PERCENT", "leave the worst pixels out of the errors", o.trim)};
     parse_options(
         argc, argv, "A B",
-        "How far picture A is from the reference B, .pfm, .png or .ppm, figure by figure and "
-        "then in words. What a picture shows is known from its notes (.ppm and .png have them; "
-        "a .pfm cannot)\nand from what --stats wrote beside it (NAME.json); so are standard "
-        "errors, or from NAME.err.pfm.",
+        "How far picture A is from the reference B (.film, .pfm, .png or .ppm): in numbers, then "
+        "in words.\nA .film tells its standard error; of other pictures it is estimated from the "
+        "differences of pixels\nwithin blocks of 8x8, as if pixels were independent. A .pfm does "
+        "not tell what it shows.",
         options, [&](const std::string& word) { o.pictures.push_back(word); });
     if (o.trim >= 100) throw UsageError("error: --trim takes less than 100");
     if (o.pictures.size() != 2)
@@ -45,70 +40,18 @@ CompareOptions parse(int argc, char** argv) {
     return o;
 }
 
-/// The pictures, and what stands beside them.
-std::vector<std::string> all_read(const CompareOptions& o) {
-    std::vector<std::string> files = o.pictures;
-    for (const std::string& picture : o.pictures) {
-        std::filesystem::path errors = file_path(picture).replace_extension(".err.pfm");
-        if (std::filesystem::exists(errors)) files.push_back(file_name(errors));
-    }
-    return files;
-}
-
-void print_mean(const char* name, const PictureFacts& facts, double mean) {
-    std::printf("%s  %s  mean %.6g", name, facts.file.c_str(), mean);
-    bool known = !std::isnan(facts.standard_error);
-    if (known) std::printf(" +- %.2g (%s)\n", facts.standard_error, facts.known_from.c_str());
-    if (!known) std::printf(", standard error unknown\n");
-}
-
-/// "3 %), 20", of standard errors.
-std::string difference(const ChannelComparison& c, double standard_error) {
-    double d = c.mean_a - c.mean_b;
-    bool same = std::abs(d) <= 1e-6 * std::abs(c.mean_b);  // rounding
-    return percent(d / c.mean_b) + "), " + digits(same ? 0 : d / standard_error, 3);
-}
-
-/// A figure, and on the next line what it is.
-void explain(const char* words) { std::printf("    %s\n", words); }
-
-void print_errors(const CompareOptions& o, const Comparison& c) {
+void print(const CompareOptions& o, const Comparison& c) {
+    Table table{
+        {"", "mean A", "mean B", "A - B", "standard errors", "median A/B", "blocks beyond 5"}, {}};
+    for (const ChannelComparison& row : c.rows)
+        table.rows.push_back({row.name, digits(row.mean_a), digits(row.mean_b),
+                              percent(row.difference()), digits(row.z(), 3),
+                              digits(row.median_ratio),
+                              std::to_string(row.beyond_5) + " of " + std::to_string(c.blocks)});
+    std::printf("%s", aligned(table).c_str());
     if (o.trim > 0) std::printf("without the worst %g %% of the pixels:\n", o.trim);
     std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);
-    explain("mean of (a-b)^2; its root; mean of (a-b)^2 / (b^2 + 0.01), by which dark parts count");
     std::printf("worst 0.1 %% of the pixels: %.3g %% of the squared error\n", 100 * c.worst_share);
-    explain(
-        "0.1 to 2 %: noise everywhere; much more: a few bright specks, which samples hardly cure");
-    std::printf("median of A/B over the pixels: %.5g\n", c.median_ratio);
-    explain(
-        "of the middle pixel: 2 or 1/pi is a factor, below 1 also noise: most have too little, few "
-        "too much");
-    if (c.blocks == 0) return;
-    std::printf("%d blocks of 8x8: largest |z| %.3g at %d,%d; %d beyond 5\n", c.blocks, c.worst_z,
-                c.worst_x, c.worst_y, c.beyond_5);
-    explain("how many standard errors a block differs by: noise alone hardly ever passes 5");
-}
-
-void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b,
-           const Comparison& c) {
-    print_mean("A", a, c.mean_a);
-    print_mean("B", b, c.mean_b);
-    double se = std::hypot(a.standard_error, b.standard_error);
-    bool known = !std::isnan(se);
-    if (!known) se = c.standard_error;
-    std::printf("A - B  %.3g (%s standard errors by %s\n", c.mean_a - c.mean_b,
-                difference(c, se).c_str(),
-                known ? "the files beside both" : "the differences of pixels within blocks");
-    explain("below 5 standard errors the means may be the same, beyond they are not");
-    for (size_t i = 0; i < c.channels.size(); i++) {
-        const ChannelComparison& channel = c.channels[i];
-        std::printf(
-            "%-5s  means %.4g and %.4g: A - B %.3g (%s standard errors; median of A/B %.5g\n",
-            channel_names[i], channel.mean_a, channel.mean_b, channel.mean_a - channel.mean_b,
-            difference(channel, channel.standard_error).c_str(), channel.median_ratio);
-    }
-    print_errors(o, c);
-    std::printf("verdict: %s\n", verdict(c, se, a, b).c_str());
 }
 
 }  // namespace
@@ -116,15 +59,19 @@ void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b
 int main(int argc, char** argv) {
     return run_program([&] {
         CompareOptions o = parse(argc, argv);
-        if (!o.out.empty()) check_outputs({o.out}, all_read(o));
-        Image a = read_image(o.pictures[0]), b = read_image(o.pictures[1]);
-        PictureFacts facts_a = facts_of(o.pictures[0], a), facts_b = facts_of(o.pictures[1], b);
-        for (const std::string& line : doubts(facts_a, facts_b)) std::printf("%s\n", line.c_str());
-        check_comparable(a, o.pictures[0], b, o.pictures[1]);
-        print(o, facts_a, facts_b, compare(a, b, o.trim));
+        if (!o.out.empty()) check_outputs({o.out}, o.pictures);
+        Picture a = read_picture(o.pictures[0]), b = read_picture(o.pictures[1]);
+        for (const std::string& line : doubts(a, b)) std::printf("%s\n", line.c_str());
+        check_comparable(a.image, a.file, b.image, b.file);
+        Comparison c = compare(a.image, b.image, o.trim);
+        double known = std::hypot(a.standard_error, b.standard_error);
+        double scale = std::isnan(known) ? 1 : known / c.rows[0].standard_error;
+        for (ChannelComparison& row : c.rows) row.standard_error *= scale;
+        print(o, c);
+        std::printf("verdict: %s\n", verdict(c, a, b).c_str());
         if (o.out.empty()) return 0;
-        double range = o.range > 0 ? o.range : error_range(a, b);
-        write_image(o.out, error_image(a, b, range), o.command);
+        double range = o.range > 0 ? o.range : error_range(a.image, b.image);
+        write_image(o.out, error_image(a.image, b.image, range), o.command);
         std::printf("wrote %s: relative error |A-B| / sqrt(B^2 + 0.01), black 0, white %.3g\n",
                     o.out.c_str(), range);
         return 0;

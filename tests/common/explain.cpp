@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "common/base/vec.h"
-#include "common/picture/stats_file.h"
 #include "tests/support/run_program.h"
+#include "tests/support/stats_file.h"
 
 namespace {
 
@@ -103,7 +103,7 @@ TEST_SUITE("explain") {
                 sum += (told.rows.x + told.rows.y + told.rows.z) / 3;
                 for (size_t k = 0; k < 3; k++) CHECK(near(told.rows[k], told.printed[k]));
             }
-            CHECK(near(sum, *StatsFile(stats).number("largest_sample")));
+            CHECK(near(sum, *StatsFile{stats}.number("largest_sample")));
         }
     }
 

@@ -5,10 +5,9 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/json.h"
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
-#include "common/picture/stats_file.h"
+#include "common/picture/film_file.h"
 #include "common/picture/verdict.h"
 #include "tests/measure/numbers.h"
 #include "tests/support/folder.h"
@@ -33,44 +32,36 @@ Image noisy(Image image, float sigma, uint32_t seed) {
     return image;
 }
 
-/// The notes with another value of this name.
-Notes with(Notes notes, const std::string& name, const std::string& value) {
-    std::erase_if(notes, [&](const auto& note) { return note.first == name; });
-    notes.push_back({name, value});
-    return notes;
-}
-
 }  // namespace
 
 TEST_SUITE("comparison") {
     TEST_CASE("truth: verdicts, by what counts first") {
         Comparison c;
-        c.mean_a = 1.01, c.mean_b = 1, c.mse = 0.1, c.blocks = 64;
-        PictureFacts a, b;
+        c.rows = {{"brightness", 1.01, 1}}, c.mse = 0.1, c.blocks = 64;
+        Picture a, b;
         auto says = [&](double standard_error, const char* words) {
-            std::string line = verdict(c, standard_error, a, b);
+            c.rows[0].standard_error = standard_error;
+            std::string line = verdict(c, a, b);
             CAPTURE(line);
-            CHECK(line.find(words) != std::string::npos);
+            CHECK(line.starts_with(words));
         };
-        says(0.01, "the same mean within the noise");
-        says(0.001, "other means: A is 1 % brighter than B");
+        says(0.01, "the same mean within the noise (1 standard errors)");
+        says(0.001, "other means: A is 1 % brighter than B (10 standard errors)");
         says(NAN, "how sure the means are is not known");
-        c.beyond_5 = 3;
-        says(0.01, "not everywhere: 3 of 64 blocks");
-        c.beyond_5 = 0;
-        a.standard_error = std::sqrt(33.0) * 0.001, b.standard_error = 0.001;
-        says(0.01, "B has 97 % less squared error, worth 33 times as many samples");
-        b.standard_error = 1.04 * a.standard_error;
-        says(0.01, "; both have the same error");
-        // What lies beyond 1 is cut off in 8 bits: then noise alone can make a picture darker.
-        c.cut_off = 7, c.beyond_5 = 30;
-        b.file = "b.png";
-        says(0.001, "perhaps by noise that 8 bits");
-        // The difference of two scenes is no noise.
-        b.file = "b.pfm";
-        a.notes.push_back({"checksum", "1"}), b.notes.push_back({"checksum", "2"});
-        says(0.001, "the pictures show different scenes");
-        b.notes = a.notes;
+        c.rows[0].beyond_5 = 3;
+        says(0.01, "the same mean within the noise, but not everywhere: 3 of 64 blocks");
+        c.blocks = 600;
+        says(0.01, "the same mean within the noise (");
+        c.rows[0].beyond_5 = 2, c.blocks = 64;
+        says(0.01, "the same mean within the noise (");
+        // The difference of two scenes is no noise, also where only one has stand-ins.
+        for (auto [x, y] : {std::pair("1", "2"), {"1", ""}}) {
+            const char* name = *y == 0 ? "stand-ins" : "checksum";
+            a.notes = {{name, x}}, b.notes = {{name, y}};
+            says(0.001, "the pictures show different scenes");
+        }
+        b.notes = a.notes, c.rows[0].mean_b = c.rows[0].mean_a * (1 + 1e-7);  // rounding
+        says(1e-9, "the same mean within the noise (0 ");
         c.mse = 0;
         says(0.01, "the same picture");
     }
@@ -85,17 +76,14 @@ TEST_SUITE("comparison") {
             float by = i % 16 < 8 ? 0.1f : -0.1f;  // errors that cancel in each channel's mean
             a.pixels[i] = p + by * Rgb{1, -1, 0};
         }
-        auto verdict_of = [&](const Image& other) {
-            Comparison c = compare(other, b);
-            return verdict(c, c.standard_error, {}, {});
-        };
+        auto verdict_of = [&](const Image& other) { return verdict(compare(other, b), {}, {}); };
         CHECK(verdict_of(exchanged).find("60 % darker in red, 150 % brighter in blue than B") !=
               std::string::npos);
-        CHECK(verdict_of(brighter).find("A is 2 % brighter than B") != std::string::npos);
+        CHECK(verdict_of(brighter).find("A is 2 % brighter than B (") != std::string::npos);
         CHECK(verdict_of(a).find("64 of 64 blocks differ in red and green") != std::string::npos);
     }
 
-    TEST_CASE("identity: notes are read from a .ppm, a .png and a .json as they were written") {
+    TEST_CASE("identity: notes are read from a .ppm and a .png as they were written") {
         TemporaryFolder folder;
         const Notes notes = {{"scene", "a name # with \"blanks\".pbrt"}, {"paths", "LD(S|D)*E"}};
         // Letters that a format cannot keep are '?'; a name cannot make a note of its own. A
@@ -113,12 +101,6 @@ TEST_SUITE("comparison") {
             }
         write_image(folder / "c.pfm", grey(4, 3, 0.5f), comment_of(notes));
         CHECK(decode_comment("c.pfm", read_file(folder / "c.pfm")).empty());
-        JsonObject json;
-        json.add("notes", lines_of(notes));
-        CHECK(notes_in(StatsFile(json.text()).texts("notes")) == notes);
-        StatsFile stats("{\n \"mean\": 1.5e-3, \"none\": null}");
-        CHECK(stats.number("mean") == 1.5e-3);
-        CHECK(!stats.number("none"));
     }
 
     TEST_CASE("truth: what speaks against a comparison is told, and nothing else") {
@@ -129,55 +111,40 @@ TEST_SUITE("comparison") {
                              {"sampler", "sobol"},
                              {"spp", "16"},
                              {"seed", "0"}};
-        const PictureFacts a{"a.pfm", NAN, "", notes};
+        const Picture a{"a.pfm", {}, notes};
         auto told = [&](const std::string& name, const std::string& value) {
-            PictureFacts b = a;
-            b.notes = with(b.notes, name, value);
+            Picture b = a;
+            std::erase_if(b.notes, [&](const auto& note) { return note.first == name; });
+            b.notes.push_back({name, value});
             std::vector<std::string> lines = doubts(a, b);
             CHECK(lines.size() <= 1);
-            return lines.empty() ? "" : lines[0].substr(0, 32);
+            return lines.empty() ? "" : lines[0];
         };
         CHECK(told("chapter", "10_cosine_sampling") == "");
         CHECK(told("seed", "1") == "");
-        CHECK(told("checksum", "2") == "warning: A and B show different ");
-        CHECK(told("max-depth", "9") == "warning: A has light of up to 5 ");
-        CHECK(told("spp", "64") == "warning: A and B have samples in");
-        PictureFacts b = a;
-        b.file = "b.png";
-        CHECK(doubts(a, b).at(0).starts_with("warning: b.png has 8 bits"));
-        b = a, b.notes.clear();
-        CHECK(doubts(a, b).at(0).starts_with("note: whether both show the same scene is not"));
+        CHECK(told("checksum", "2") == "warning: A has checksum '1', B '2'");
+        CHECK(told("max-depth", "9") == "warning: A has max-depth '5', B '9'");
+        CHECK(told("paths", "LDE") == "warning: A has paths '', B 'LDE'");
+        CHECK(told("spp", "64").starts_with("warning: A and B have samples in common"));
+        for (const Picture& b : {Picture{"b.png", {}, notes}, Picture{"b.pfm", {}, {}}}) {
+            std::vector<std::string> lines = doubts(a, b);
+            CHECK(lines.size() == 1);
+            CHECK(lines[0].starts_with((b.notes.empty() ? "note: " : "warning: ") + b.file + ' '));
+        }
     }
 
-    TEST_CASE("truth: statistics beside a picture count where they are of that picture") {
+    TEST_CASE("identity: a film tells compare what its picture shows, and its error") {
         TemporaryFolder folder;
-        Notes notes = {{"chapter", "09_light_sampling"}, {"checksum", "1"}, {"seed", "0"}};
-        auto beside = [&](const std::string& file, const Notes& its_notes) {
-            write_file_atomically(folder / "a.json",
-                                  R"({"spp": 4, "standard_error": 0.5, "notes": ["chapter )" +
-                                      value_of(its_notes, "chapter") + R"(", "checksum )" +
-                                      value_of(its_notes, "checksum") + R"(", "seed )" +
-                                      value_of(its_notes, "seed") + "\"]}");
-            write_image(folder / file, grey(4, 4, 1), comment_of(notes));
-            return facts_of(folder / file, grey(4, 4, 1));
-        };
-        PictureFacts same = beside("a.png", notes);
-        CHECK(same.standard_error == 0.5);
-        CHECK(same.other_stats == "");
-        for (const char* name : {"chapter", "checksum", "seed"}) {
-            PictureFacts other = beside("a.png", with(notes, name, "2"));
-            CHECK(std::isnan(other.standard_error));
-            CHECK(other.notes == notes);
-            CHECK(doubts(other, other).at(0).find(" is of another picture than ") !=
-                  std::string::npos);
-        }
-        // A .pfm has no notes: what it shows is known from them alone.
-        CHECK(beside("a.pfm", notes).notes == notes);
-        // The standard error of each pixel; its picture must have as many.
-        write_image(folder / "a.err.pfm", grey(4, 4, 2), "");
-        CHECK(facts_of(folder / "a.pfm", grey(4, 4, 1)).standard_error == 0.5);  // 2 / sqrt(16)
-        write_image(folder / "a.err.pfm", grey(4, 3, 2), "");
-        CHECK(error_of([&] { facts_of(folder / "a.pfm", grey(4, 4, 1)); }) != "");
+        FilmLabel label;
+        label.options = {{"checksum", "1"}, {"code", "2"}, {"paths", ""}};
+        label.samples = {{7, 0, 2}};
+        Film film(3, 1);
+        for (size_t i = 0; i < 6; i++) film.add(i / 2, grey(static_cast<double>(i * i)));
+        write_film(folder / "a.film", label, film);
+        Picture picture = read_picture(folder / "a.film");
+        CHECK(picture.image.pixels == film.image().pixels);
+        CHECK(picture.standard_error == film.standard_error());
+        CHECK(picture.notes == Notes{{"checksum", "1"}, {"spp", "2"}, {"seed", "7"}});
     }
 
     TEST_CASE("input: pictures that cannot be compared") {
