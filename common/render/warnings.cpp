@@ -23,21 +23,14 @@ constexpr double much_blur = 0.1;     // of the standard error
 constexpr double few_pixels = 30, few_audits = 16;  // that the error is estimated from
 constexpr double few_hits = 50;                     // of a light that is found by random hits
 constexpr double few_reflections = 20;              // of a light, found via metal
-constexpr double few_paths = 10;                    // from lights, to the mirrors of a scene
-constexpr double few_missed = 0.01;                 // of the surfaces in view
+constexpr double few_paths = 10;                    // from lights, to a part of the scene
 
-using Lines = std::vector<std::string>;
-/// When a line is told.
-struct Rule {
-    bool holds;
-    std::string line;
+/// Warnings: conditions and lines.
+struct Lines : std::vector<std::string> {
+    void warn(bool is_so, const std::string& line) {
+        if (is_so) push_back(line);
+    }
 };
-Lines told(const std::vector<Rule>& rules) {
-    Lines lines;
-    for (const Rule& rule : rules)
-        if (rule.holds) lines.push_back(rule.line);
-    return lines;
-}
 
 /// Whether a surface reflects light, and is neither mirror nor glass.
 bool is_receiver(const Material& m) {
@@ -45,51 +38,45 @@ bool is_receiver(const Material& m) {
            !is_black(is_rough(m) ? fresnel_conductor(1, m.eta, m.k) : m.reflectance);
 }
 
-/// Mirrors, glass, and metal so smooth that its lobe rarely leads `paths` paths to a light.
-///
-/// A path finds a light reflected in metal if a sampled point of the light lies in the metal's
-/// lobe. The expected number of hits of N paths is N alpha^2.
-/// Measured with a metal plate beside a floor, a lamp of 0.5 to 9 degrees and alpha from 0.001 to
-/// 0.1: intervals cover the truth in 10 to 87 % of the runs for hits up to 8, in 93 % and more from
-/// 25 on.
-bool is_like_mirror(const Material& m, double paths) {
-    double alpha = double{m.alpha};
-    bool is_smooth = is_rough(m) && is_receiver(m) && paths * alpha * alpha < few_reflections;
-    return is_specular(m) || is_smooth;
-}
-
-/// Whether a random point of a random light shines on x.
-bool is_lit(const Scene& scene, const Hit& x, Sampler& sampler) {
-    size_t lights = scene.lights.size() + (scene.sky_image ? 1 : 0);
-    size_t i = static_cast<size_t>(sampler.u1() * static_cast<float>(lights));
-    LightSample y{Frame(x.n).to_world(sample_cosine_hemisphere(sampler.u2())), {}, infinity, 1};
-    if (i < scene.lights.size()) y = sample_one_light(scene, i, x, sampler.u2());
-    return y.pdf_w > 0 && dot(y.wi, x.n) > 0 && !occluded(scene, spawn_ray(x, y.wi, y.dist));
-}
-
-/// What rays through the middles of all pixels meet, in numbers of pixels.
+/// What rays through the middles of all pixels meet.
 struct InView {
-    double pixels = 0, hits = 0, backs = 0;         // backs: of surfaces
-    double mirrors = 0, receivers = 0, missed = 0;  // missed: black in the picture, though lit
+    double pixels = 0, hits = 0, backs = 0;   // numbers of rays; those that meet a back side
+    double mirrors = 0, receivers = 0;        // mirrors and glass; see is_receiver()
+    std::vector<std::pair<Ray, Hit>> points;  // about 1000 of the receivers
 };
-InView in_view(const Scene& scene, const Image& picture, double paths) {
+InView in_view(const Scene& scene) {
     InView seen;
-    CameraView view = camera_view(scene.camera, picture.width, picture.height);
-    Sampler sampler(SamplerType::independent, 1, 1);
-    for (int i = 0; i < picture.width * picture.height; i++) {
-        int x = i % picture.width, y = i / picture.width;
-        Vec2 middle = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-        std::optional<Hit> hit = intersect(scene, camera_ray(view, middle));
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    size_t width = static_cast<size_t>(scene.width), height = static_cast<size_t>(scene.height);
+    size_t every = 1 + width * height / 1000;
+    for (size_t i = 0; i < width * height; i++) {
+        Vec2 middle = {static_cast<float>(i % width) + 0.5f, static_cast<float>(i / width) + 0.5f};
+        Ray ray = camera_ray(view, middle);
+        std::optional<Hit> hit = intersect(scene, ray);
         seen.pixels++;
         if (!hit) continue;
-        sampler.start(0, static_cast<uint32_t>(i));
-        bool receives = is_receiver(*hit->material), black = is_black(picture.at(x, y));
         seen.hits++, seen.backs += !hit->front;
-        seen.mirrors += is_like_mirror(*hit->material, paths);
-        seen.receivers += receives;
-        seen.missed += receives && black && is_lit(scene, *hit, sampler);
+        seen.mirrors += is_specular(*hit->material);
+        if (!is_receiver(*hit->material)) continue;
+        if (static_cast<size_t>(seen.receivers++) % every == 0) seen.points.emplace_back(ray, *hit);
     }
     return seen;
+}
+
+/// Whether no light and no surface in view face each other.
+bool all_face_away(const Scene& scene, const InView& seen) {
+    if (scene.sky_image) return false;
+    Sampler sampler(SamplerType::independent, 1, 1);
+    size_t lights = std::min<size_t>(scene.lights.size(), 64);
+    for (uint32_t i = 0; i < seen.points.size(); i++) {
+        sampler.start(0, i);
+        for (size_t l = 0; l < lights; l++) {
+            const Hit& x = seen.points[i].second;
+            LightSample y = sample_one_light(scene, l, x, sampler.u2());
+            if (y.pdf_w > 0 && dot(y.wi, x.n) > 0) return false;
+        }
+    }
+    return true;
 }
 
 /// m^2: a light's power falls evenly on so large an area around p, if nothing is in its way.
@@ -105,145 +92,333 @@ double spread_of(const Scene& scene, size_t i, Vec3 p) {
     return 4 * std::numbers::pi * double{d} * double{d};
 }
 
-/// Whether a lamp that brings more than 1 % of the light to the camera is so small that random hits
-/// are too rare: in a closed room each part of the walls is hit in proportion to its area, at most
-/// the area of the scene's bounding sphere.
-bool has_rare_lamp(const Scene& scene, double samples) {
-    double R = double{scene.radius}, sphere = 4 * std::numbers::pi * R * R, all = 0;
-    std::vector<double> light;
+/// A light, and its share of all light that comes to a point, if nothing is in its way.
+struct Share {
+    size_t light;
+    double light_here;
+};
+/// The lights that bring more than 1 % of the light at p.
+std::vector<Share> important_lights(const Scene& scene, Vec3 p) {
+    std::vector<Share> lights;
+    double all = 0;
+    auto light_of = [&](size_t i) {
+        return double{light_power(scene, i)} / spread_of(scene, i, p);
+    };
+    for (size_t i = 0; i < scene.lights.size(); i++) all += light_of(i);
     for (size_t i = 0; i < scene.lights.size(); i++) {
-        light.push_back(double{light_power(scene, i)} / spread_of(scene, i, scene.camera.o));
-        all += light.back();
+        if (light_of(i) > 0.01 * all) lights.push_back({i, light_of(i) / all});
     }
-    for (size_t i = 0; i < light.size(); i++) {
-        bool counts = scene.lights[i].type == LightType::area && light[i] > 0.01 * all;
-        double area = double{scene.light_shapes[i].area};
-        if (counts && samples * area / sphere < few_hits) return true;
+    return lights;
+}
+
+/// Whether an important light is so small that random hits are too rare: in a closed room each part
+/// of the walls is hit in proportion to its area, at most the area of the scene's bounding sphere.
+bool has_rare_light(const Scene& scene, double samples) {
+    double R = double{scene.radius}, sphere = 4 * std::numbers::pi * R * R;
+    for (Share share : important_lights(scene, scene.camera.o)) {
+        bool is_area = scene.lights[share.light].type == LightType::area;
+        double area = double{scene.light_shapes[share.light].area};
+        if (is_area && samples * area / sphere < few_hits) return true;
     }
     return false;
 }
 
-bool is_delta(const Light& light) {
-    return light.type == LightType::point || light.type == LightType::distant;
-}
-
-/// Whether few paths from a point or distant light hit any mirror, glass or metal like a mirror.
-bool are_mirrors_rare(const Scene& scene, double paths) {
-    double area = 0;  // of the outlines, about
+/// The outlines of all surfaces of which material they are, about, and their middle.
+struct Outlines {
+    double area = 0;  // m^2
     Vec3 middle;
+};
+template <class Is>
+Outlines outlines_of(const Scene& scene, const Is& is) {
+    Outlines all;
     auto shape_of = [](const auto& primitive) { return primitive.shape; };
     for (uint32_t i = 0; i < scene.geometry.size(); i++) {
         uint32_t shape = visit(scene.geometry, i, shape_of, shape_of, shape_of);
-        if (!is_like_mirror(scene.materials[scene.shapes[shape].material], paths)) continue;
+        if (!is(scene.materials[scene.shapes[shape].material])) continue;
         Emitter e = emitter_of(scene, i);
-        float outline = area_of(e) / 4;
-        area += double{outline};
-        middle += outline * e.p0;
+        float area = area_of(e) / 4;
+        all.area += double{area};
+        all.middle += area * e.p0;
     }
-    if (area == 0 || scene.max_depth < 2) return false;
-    middle = middle / static_cast<float>(area);
-    Endpoints endpoints = endpoints_of(scene);
-    for (size_t i = 0; i < scene.lights.size(); i++) {
-        double hit = std::min(1.0, area / spread_of(scene, i, middle));
-        double pmf = (1 - endpoints.p_image) * double{pmf_light(endpoints.lights, i)};
-        if (is_delta(scene.lights[i]) && paths * pmf * hit < few_paths) return true;
+    all.middle = all.middle / static_cast<float>(all.area);
+    return all;
+}
+
+/// Whether metal is so smooth that its lobe rarely leads `paths` paths to a light.
+///
+/// A path finds a light reflected in metal if a sampled point of the light lies in the metal's
+/// lobe, or if a sampled direction of the lobe hits the light. The expected number of hits of N
+/// paths:
+///
+///   hits = N (alpha^2 + size),   size = A / (4 pi d^2)
+///
+/// Here each of the two terms alone must be too small.
+/// Measured with a metal plate beside a floor, a lamp of 0.5 to 9 degrees and alpha from 0.001 to
+/// 0.1: intervals cover the truth in 10 to 87 % of the runs for hits up to 8, in 93 % and more from
+/// 25 on.
+bool is_nearly_mirror(const Material& m, double paths) {
+    double alpha = double{m.alpha};
+    return is_rough(m) && is_receiver(m) && paths * alpha * alpha < few_reflections;
+}
+
+/// About the share of the picture's light that first hits metal that is nearly a mirror, from
+/// lights so small that too few of its reflections hit them. hits_lights: whether BSDF samples
+/// count, or light samples alone.
+double share_on_smooth_metal(const Scene& scene, double paths, bool hits_lights) {
+    Outlines metal =
+        outlines_of(scene, [&](const Material& m) { return is_nearly_mirror(m, paths); });
+    if (metal.area == 0) return 0;
+    if (scene.sky_image) return 1;  // it may hold a sun
+    Vec3 to_camera = scene.camera.o - metal.middle;
+    double in_view = 4 * std::numbers::pi * double{dot(to_camera, to_camera)}, sum = 0;
+    for (Share share : important_lights(scene, metal.middle)) {
+        double spread = spread_of(scene, share.light, metal.middle), size = 0;
+        if (scene.lights[share.light].type == LightType::infinite) continue;
+        if (hits_lights) size = double{scene.light_shapes[share.light].area} / spread;
+        if (paths * size < few_reflections)
+            sum += share.light_here * std::min(1.0, metal.area / std::min(spread, in_view));
+    }
+    return sum;
+}
+
+/// Whether a surface in view faces another one that reflects light.
+bool surfaces_face_each_other(const Scene& scene, const InView& seen) {
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < seen.points.size(); i++) {
+        const Hit& x = seen.points[i].second;
+        sampler.start(0, i);
+        Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(sampler.u2()));
+        std::optional<Hit> y = intersect(scene, spawn_ray(x, wi));
+        if (y && is_receiver(*y->material)) return true;
     }
     return false;
+}
+
+/// Whether a flat lamp is so near to a surface in view that it is no point: within twice the radius
+/// of a disk of its area. Below a disk a point is 25 % too bright there, and more if nearer.
+bool lamps_are_near(const Scene& scene, const InView& seen) {
+    auto is_near = [&](const LightShape& lamp) {
+        float near = 2 * std::sqrt(lamp.area / pi);
+        auto within = [&](const auto& point) {
+            return length(lamp.centre - point.second.p) < near;
+        };
+        return lamp.flat && std::any_of(seen.points.begin(), seen.points.end(), within);
+    };
+    return std::any_of(scene.light_shapes.begin(), scene.light_shapes.end(), is_near);
+}
+
+/// The part of the picture's mean that hardly any path from a light finds: the direct light of
+/// those places in view that the fewest paths reach, together fewer than few_paths. A light sample
+/// at each place tells how many of `paths` paths from that light reach it.
+double light_by_few_paths(const Scene& scene, const InView& seen, double paths) {
+    constexpr uint32_t tries = 4;
+    Endpoints endpoints = endpoints_of(scene);
+    double q = endpoints.p_image;
+    if (scene.max_depth == 0 || (scene.lights.empty() && q == 0)) return 0;
+    double part = seen.receivers / seen.pixels / static_cast<double>(tries * seen.points.size());
+    std::vector<std::pair<double, double>> places;  // paths that reach it; its light
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < tries * seen.points.size(); i++) {
+        const auto& [ray, x] = seen.points[i / tries];
+        sampler.start(0, i);
+        double u = to_unit_double(sampler.u2());
+        float pmf = static_cast<float>(q), power = pi * scene.radius * scene.radius;
+        LightSample y;
+        if (u < q) {
+            y = sample_image(*scene.sky_image, endpoints.image_cdf, u / q, sampler.u2());
+            power *= average(y.Le) / y.pdf_w;
+        } else {
+            size_t light = pick_light(endpoints.lights, (u - q) / (1 - q));
+            y = sample_one_light(scene, light, x, sampler.u2());
+            pmf = static_cast<float>(1 - q) * pmf_light(endpoints.lights, light);
+            power = light_power(scene, light);
+        }
+        float cos_x = dot(y.wi, x.n);
+        if (y.pdf_w == 0 || cos_x <= 0 || occluded(scene, spawn_ray(x, y.wi, y.dist))) continue;
+        // A path carries power / pmf; this place has this area, and this is its irradiance.
+        float pixels = importance_cos(endpoints.camera, ray.d) * std::abs(dot(ray.d, x.ng));
+        double area = part * double{x.t} * double{x.t} / double{pixels};
+        double E = double{average(y.Le) * cos_x / y.pdf_w};
+        Rgb L = eval_bsdf(x, -ray.d, y.wi) * y.Le * (cos_x / y.pdf_w / pmf);
+        places.emplace_back(paths * E * area / double{power}, part * double{average(L)});
+    }
+    std::sort(places.begin(), places.end());
+    double reached = 0, light = 0;
+    for (auto [here, L] : places) {
+        reached += here;
+        if (reached < few_paths) light += L;
+    }
+    return light;
+}
+
+/// The share of the light of point and distant lights to mirrors, glass and metal that is nearly a
+/// mirror that few paths carry.
+double share_by_few_paths_to_mirrors(const Scene& scene, double paths) {
+    if (scene.max_depth < 2) return 0;
+    Outlines mirrors = outlines_of(
+        scene, [&](const Material& m) { return is_specular(m) || is_nearly_mirror(m, paths); });
+    if (mirrors.area == 0) return 0;
+    Endpoints endpoints = endpoints_of(scene);
+    double few = 0, all = 0;
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        LightType type = scene.lights[i].type;
+        if (type != LightType::distant && type != LightType::point) continue;
+        double hit = std::min(1.0, mirrors.area / spread_of(scene, i, mirrors.middle));
+        double power = hit * double{light_power(scene, i)};
+        double pmf = (1 - endpoints.p_image) * double{pmf_light(endpoints.lights, i)};
+        all += power;
+        if (paths * pmf * hit < few_paths) few += power;
+    }
+    return all > 0 ? few / all : 0;
 }
 
 /// Light that this chapter's search misses in the scene, or finds too rarely for its reported error
 /// to be true. It follows from sizes and distances of lights and materials, what rays through the
 /// pixels meet, and the number of samples.
 Lines missed_light(const Scene& scene, const RenderOptions& options, const Film& film) {
-    const double samples = static_cast<double>(film.samples());
     auto any_material = [&](auto is) {
         return std::any_of(scene.shapes.begin(), scene.shapes.end(),
                            [&](const Shape& s) { return is(scene.materials[s.material]); });
     };
-    auto like_mirror = [&](const Material& m) { return is_like_mirror(m, samples); };
-    auto is_lamp = [](const Light& light) { return light.type == LightType::area; };
+    auto any_light = [&](auto... types) {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [&](const Light& light) { return (... || (light.type == types)); });
+    };
+    Lines lines;
+    const double samples = static_cast<double>(film.samples()), error = film.standard_error();
     const bool mirrors = any_material(is_specular), receivers = any_material(is_receiver),
                casts = mirrors && receivers && scene.max_depth > 1,
-               metal_casts = any_material(like_mirror) && receivers && scene.max_depth > 1,
-               has_delta = std::ranges::any_of(scene.lights, is_delta),
-               has_area = std::ranges::any_of(scene.lights, is_lamp) || scene.sky_image;
-    const std::string larger = "the true error may be larger than the reported one",
-                      at_random = "is found only by random hits: " + larger,
+               has_delta = any_light(LightType::point, LightType::distant),
+               has_area = any_light(LightType::area);
+    const std::string by_mirrors = "light that reaches a surface through mirrors or glass ",
                       is_left_out =
-                          "from a point or distant light is left out: no path can hit such a light",
-                      by_mirrors = "light that reaches a surface through mirrors or glass ",
-                      both_ends =
-                          "light that goes through mirrors or glass to a surface that the camera "
-                          "sees in mirrors or glass ";
+                          "from a point or distant light is left out: no path can hit "
+                          "such a light",
+                      at_random =
+                          "found only by random hits: the true error may be larger than the "
+                          "reported one",
+                      larger = "the true error may be larger than the reported one";
     switch (options.search) {
         case LightSearch::photons: break;  // they find all light, but blur it
         case LightSearch::random_hits:
-            return told(
-                {{has_rare_lamp(scene, samples),
-                  "this chapter finds lights only by random hits, and one is so small that few "
-                  "paths hit it: " +
-                      larger}});
+            lines.warn(
+                has_rare_light(scene, samples),
+                "this chapter finds lights only by random hits, and one is so small that few "
+                "paths hit it: " +
+                    larger);
+            break;
         case LightSearch::from_lights: {
-            InView seen = in_view(scene, film.image(), samples);
-            return told(
-                {{options.paths.empty() && scene.max_depth > 0 &&
-                      seen.missed > few_missed * seen.receivers,
-                  "no path from a light has reached " + percent(seen.missed / seen.receivers) +
-                      " of the surfaces in view, though light falls on them: " + larger},
-                 {seen.mirrors > 0,
-                  percent(seen.mirrors / seen.pixels) +
-                      " of the picture shows mirrors, glass or nearly smooth metal, and is "
-                      "too dark there: no path from a light, or hardly any, leaves them "
-                      "towards the camera"}});
+            InView seen = in_view(scene);
+            double metal = 0, share = seen.mirrors / seen.pixels;
+            for (const auto& [ray, x] : seen.points)
+                metal += is_nearly_mirror(*x.material, samples);
+            metal *= seen.receivers / seen.pixels /
+                     std::max<double>(1, static_cast<double>(seen.points.size()));
+            bool all = options.paths.empty();
+            lines.warn(all && metal * film.mean() > error,
+                       percent(metal) +
+                           " of the picture shows metal that is nearly a mirror: few paths from a "
+                           "light leave it towards the camera, so " +
+                           larger);
+            lines.warn(all && light_by_few_paths(scene, seen, samples) > 2 * error,
+                       "so few paths from a light reach a part of what the camera sees that its "
+                       "light may be missing: " +
+                           larger);
+            lines.warn(share > 0, percent(share) +
+                                      " of the picture shows a mirror or glass: this part is "
+                                      "black, because no vertex on it can be connected to the "
+                                      "camera");
+            break;
         }
-        case LightSearch::light_sampling:
-            return told({{casts && has_delta, by_mirrors + is_left_out},
-                         {casts && has_area, by_mirrors + at_random},
-                         {metal_casts && !casts && (has_area || has_delta),
-                          "light that reaches a surface via nearly smooth metal " + at_random}});
-        case LightSearch::direct:
-            return told({{receivers && scene.max_depth > 0,
-                          "this chapter lights surfaces from the middle of each lamp, and leaves "
-                          "out the light of the sky, of other surfaces, and through mirrors and "
-                          "glass: the error is not reported"}});
+        case LightSearch::light_sampling: {
+            // By default, chapter 13 samples lights only; later chapters also sample the metal's
+            // BSDF. What surfaces in view receive from metal may be ten times its share of all
+            // light.
+            bool lights_alone = std::ranges::count(options.own, std::pair<std::string, std::string>(
+                                                                    "strategy", "light")) > 0;
+            double hidden =
+                receivers ? 10 * share_on_smooth_metal(scene, samples, !lights_alone) * film.mean()
+                          : 0;
+            lines.warn(hidden > 0 && !(hidden <= error),
+                       "light that reaches a surface via nearly smooth metal is " + at_random);
+            lines.warn(casts && has_delta, by_mirrors + is_left_out);
+            lines.warn(casts && (has_area || scene.sky_image), by_mirrors + "is " + at_random);
+            break;
+        }
+        case LightSearch::direct: {
+            if (scene.max_depth == 0) break;
+            InView seen = in_view(scene);
+            lines.warn(scene.sky_light >= 0 && receivers,
+                       "light that surfaces receive from the sky is left out: the sky is seen only "
+                       "directly and in mirrors");
+            lines.warn(lamps_are_near(scene, seen),
+                       "a lamp near a surface lights it as if all came from the lamp's middle: the "
+                       "error is not reported");
+            lines.warn(scene.max_depth > 1 && !mirrors && surfaces_face_each_other(scene, seen),
+                       "light that one surface reflects to another is left out");
+            lines.warn(casts, by_mirrors +
+                                  "is left out, and so is light that one surface reflects "
+                                  "to another");
+            break;
+        }
         case LightSearch::both_ends:
         case LightSearch::merging: {
-            auto is_metal = [](const Material& m) { return is_rough(m) && is_receiver(m); };
             bool merges = options.search == LightSearch::merging;
+            auto is_metal = [](const Material& m) {
+                return is_receiver(m) && m.type != MaterialType::diffuse;
+            };
+            const std::string both =
+                "light that goes through mirrors or glass to a surface that the camera sees in "
+                "mirrors or glass ";
             bool is_seen = casts && scene.max_depth > 2 && (!merges || any_material(is_metal));
-            return told({{receivers && has_delta && are_mirrors_rare(scene, samples),
-                          "hardly any path from a point or distant light hits a mirror, glass or "
-                          "smooth metal: the light that these cast on surfaces may be missing"},
-                         {is_seen && has_delta, both_ends + is_left_out},
-                         {is_seen && !has_delta && has_area, both_ends + at_random}});
+            lines.warn(receivers && share_by_few_paths_to_mirrors(scene, samples) > 0.01,
+                       "hardly any path from a point or distant light hits a mirror, glass or "
+                       "smooth metal: the light that these cast on surfaces may be missing");
+            lines.warn(is_seen && has_delta, both + is_left_out);
+            lines.warn(is_seen && !has_delta && has_area, both + "is " + at_random);
+            break;
         }
     }
-    return {};
+    return lines;
 }
 
 }  // namespace
 
-Lines causes_of_black(const Scene& scene, const RenderOptions& options) {
-    InView seen = in_view(scene, Image(scene.width, scene.height), infinity);
-    bool is_deep = seen.hits > 0 && scene.max_depth > 0;
-    return told(
-        {{!options.paths.empty(), "--paths keeps no class of path that brings light"},
-         {seen.hits == 0, "the camera sees no surface: see its LookAt, fov and Scale"},
-         {seen.hits > 0 && scene.max_depth == 0,
-          "with a depth of 0 only lights themselves are seen, and none is in view"},
-         {is_deep && seen.backs == seen.hits,
-          "all that the camera sees it sees from behind: it may be inside something"},
-         {is_deep && seen.receivers == 0,
-          "the camera sees black surfaces, mirrors and glass alone, and no light in them"},
-         {is_deep && seen.receivers > 0 && seen.missed == 0,
-          "lights that shine away from all that is in view: ReverseOrientation turns a light, "
-          "\"bool twosided\" true lights both sides"},
-         {is_deep && seen.missed > 0,
-          "too few paths find a way from the lights to what is in view: more samples, or a chapter "
-          "that finds light in another way"}});
+std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options) {
+    Lines lines;
+    InView seen = in_view(scene);
+    bool is_deep = seen.hits > 0 && scene.max_depth > 0, all_mirrors = seen.mirrors == seen.hits,
+         all_black = seen.mirrors + seen.receivers == 0;
+    bool away = is_deep && seen.receivers > 0 && all_face_away(scene, seen);
+    auto shines = [](const Light& light) { return light.type == LightType::area && light.at; };
+    auto lamp = std::find_if(scene.lights.begin(), scene.lights.end(), shines);
+    std::string place;
+    if (lamp != scene.lights.end()) place = " (" + printable(place_text(*lamp->at)) + ")";
+    lines.warn(!options.paths.empty(), "--paths keeps no class of path that brings light");
+    lines.warn(seen.hits == 0, "the camera sees no surface: see its LookAt, fov and Scale");
+    lines.warn(seen.hits > 0 && scene.max_depth == 0,
+               "with a depth of 0 only lights themselves are seen, and none is in view");
+    lines.warn(is_deep && seen.backs == seen.hits,
+               "all that the camera sees it sees from behind: it may be inside something");
+    lines.warn(is_deep && all_mirrors,
+               "the camera sees mirrors and glass alone, and no light in them");
+    lines.warn(is_deep && all_black, "all surfaces in view are black: they reflect nothing");
+    lines.warn(away, "the lights and all that is in view face away from each other" + place +
+                         ": ReverseOrientation turns a light, \"bool twosided\" true lights both "
+                         "sides");
+    lines.warn(
+        is_deep && !all_mirrors && !all_black && !away,
+        options.search == LightSearch::random_hits
+            ? "this chapter finds lights only by random hits: more samples find them, or a "
+              "chapter that samples lights (from 09 on)"
+            : "too few paths find a way from the lights to what is in view: more samples, or "
+              "a chapter that finds light in another way");
+    return lines;
 }
 
-Lines warnings_of(const Film& film, const SampleCounts& counts, const std::string& place) {
+std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts,
+                                     const std::string& place) {
+    Lines lines;
     double samples = static_cast<double>(film.samples()), mean = film.mean(), sum = mean * samples;
     double error = film.standard_error(), effective = film.effective_samples();
     double empty =
@@ -257,35 +432,43 @@ Lines warnings_of(const Film& film, const SampleCounts& counts, const std::strin
     // is about the part by which blur changes the light that they bring.
     double half = static_cast<double>(counts.photons) / 2;
     double blur = std::abs(static_cast<double>(counts.inner_photons) / half - 1);
-    bool few_means = (film.has_audits() || film.has_halves()) && basis.squares > 0 &&
-                     basis.audits < few_audits,
-         few_passes = film.has_batches() && film.spp() > 1 && film.spp() < few_audits;
-    const std::string larger = ": the true error is larger than the reported one";
-    return told(
-        {{empty > 0, "rendering ended before " + percent(empty) +
-                         " of the pixels had a sample: they are black"},
-         {samples > 0 && sum == 0, "the picture is black: no sample found light"},
-         {sum > 0 && counts.largest > too_much * sum,
-          "one sample contains " + percent(counts.largest / sum) + " of the whole picture" + place},
-         {has_noise && effective > 0 && effective < few_samples,
-          "as few as " + std::to_string(std::lround(effective)) + " samples determine the picture" +
-              larger},
-         {has_noise && one_in_many && effective >= few_samples,
-          "a few bright samples determine the error" + larger},
-         {few_means || few_passes, "the error is estimated from few " +
-                                       std::string(few_passes ? "passes" : "pixels") +
-                                       ": the true one may be half or twice as large"},
-         {half > 0 && !(blur * mean < much_blur * error),
-          "photons blur light within their radius: the reported error does not include this "
-          "bias"}});
+    bool is_told_by_means = film.has_audits() || film.has_halves();
+    const std::string half_or_twice = ": the true one may be half or twice as large";
+
+    lines.warn(empty > 0, "rendering ended before " + percent(empty) +
+                              " of the pixels had a sample: they are black");
+    lines.warn(samples > 0 && sum == 0, "the picture is black: no sample found light");
+    lines.warn(
+        sum > 0 && counts.largest > too_much * sum,
+        "one sample contains " + percent(counts.largest / sum) + " of the whole picture" + place);
+    lines.warn(
+        has_noise && effective > 0 && effective < few_samples,
+        "as few as " + std::to_string(std::lround(effective)) +
+            " samples determine the picture: the true error is larger than the reported one");
+    lines.warn(has_noise && one_in_many && effective >= few_samples,
+               "a few bright samples determine the error: the true error is larger than the "
+               "reported one");
+    lines.warn(film.has_batches() && film.spp() > 1 && film.spp() < few_audits,
+               "the error is estimated from few passes" + half_or_twice);
+    lines.warn(half > 0 && !(blur * mean < much_blur * error),
+               "photons blur light within their radius: the reported error does not include this "
+               "bias");
+    lines.warn(is_told_by_means && basis.squares > 0 && basis.audits < few_audits,
+               "the error is estimated from few pixels" + half_or_twice);
+    return lines;
 }
 
-Lines warnings_of(const Scene& scene, const RenderOptions& options, const Rendering& r) {
+std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
+                                     const Rendering& r) {
     std::string at = r.stats.largest_at();
-    Lines lines = warnings_of(r.film, r.stats, at.empty() ? "" : ": see --explain " + at), black;
-    if (r.film.samples() > 0 && r.film.mean() == 0) black = causes_of_black(scene, options);
-    for (const std::string& cause : black) lines.push_back("possible cause: " + cause);
-    for (const Lines& more : {missed_light(scene, options, r.film), r.warnings})
+    auto lines = warnings_of(r.film, r.stats, at.empty() ? "" : ": see --explain " + at);
+    if (r.film.samples() > 0 && r.film.mean() == 0) {
+        for (const std::string& cause : causes_of_black(scene, options)) {
+            lines.push_back("possible cause: " + cause);
+        }
+    }
+    for (const auto& more :
+         {std::vector<std::string>(missed_light(scene, options, r.film)), r.warnings})
         lines.insert(lines.end(), more.begin(), more.end());
     return lines;
 }

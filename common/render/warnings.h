@@ -18,6 +18,6 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
                                      const std::string& place = "");
 
 /// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
-/// view tell them; nothing is rendered. Not empty.
+/// view and the lights tell them; nothing is rendered. Not empty.
 /// tested by  "truth: the causes of a black picture, all of them, and no others"
 std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);

@@ -35,8 +35,8 @@ constexpr std::array<ParamType, 13> param_types = {{{"blackbody", number, 1},
 // One message about a scene of pbrt-v3 is enough: nearly every line of it has to change.
 [[noreturn]] void fail_type(const Position& at, const std::string& kind, const std::string& type,
                             const std::vector<std::string>& known) {
-    for (const char* old : {"color", "point", "vector", "area", "glass", "image", "matte", "metal",
-                            "mirror", "plastic", "substrate", "uber"}) {
+    for (const char* old :
+         {"area", "glass", "image", "matte", "metal", "mirror", "plastic", "substrate", "uber"}) {
         if (type != old) continue;
         stop_reading(at, quote(type) + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
                              "pbrt --upgrade old.pbrt > new.pbrt");
