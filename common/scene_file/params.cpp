@@ -140,13 +140,17 @@ void Params::add(Param param) {
 void Params::check_type(const Position& at) {
     stands_in_ = !or_stand_in(owner()).empty();
     if (stands_in_) messages_->stand_in(at, owner());
-    std::vector<std::string> types;
-    for (const auto& [type, known] : known_params().at(directive_)) {
-        if (type == type_) known_ = &known;
-        if (or_stand_in(directive_ + ' ' + quote(type)).empty()) types.push_back(type);
+    const auto& types = known_params().at(directive_);
+    auto found = types.find(type_);
+    if (found == types.end()) {
+        refuse_old(at, type_);
+        std::vector<std::string> known = names_of(types);
+        std::erase_if(known, [&](const std::string& type) {
+            return !or_stand_in(directive_ + ' ' + quote(type)).empty();
+        });
+        fail_unknown(at, directive_, type_, known);
     }
-    if (!known_) refuse_old(at, type_);
-    if (!known_) fail_unknown(at, directive_, type_, types);
+    known_ = &found->second;
 }
 
 bool Params::is_usable(const Param& param) const {

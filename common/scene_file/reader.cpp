@@ -47,6 +47,8 @@ public:
 private:
     // What AttributeBegin saves and AttributeEnd restores.
     struct State {
+        std::string begin;  // what began the block, and where
+        Position at;
         Transform start, end;  // the current transform when the shutter opens and when it closes
         std::string unusable;  // why nothing can stand there, as a message
         bool set_start = true, set_end = true;  // which of them a transform directive changes
@@ -55,11 +57,6 @@ private:
         bool reverse_orientation = false;
         std::map<std::string, std::vector<Param>> defaults = {
             {"light", {}}, {"material", {}}, {"medium", {}}, {"shape", {}}, {"texture", {}}};
-    };
-    struct SavedState {
-        State state;
-        Position at;
-        std::string begin;  // AttributeBegin and its like
     };
     // What may be used before it is defined.
     struct Named {
@@ -278,17 +275,18 @@ private:
 
     void begin() {
         check_limit(at_, saved_.size() + 1, 1000, "blocks in each other");
-        saved_.push_back({state_, at_, name_});
+        saved_.push_back(state_);
+        state_.begin = name_;
+        state_.at = at_;
     }
 
     void end() {
         if (saved_.empty()) fail(at_, name_ + " without a beginning");
-        const SavedState& saved = saved_.back();
-        if (saved.begin.front() != name_.front()) {
-            fail(at_, name_ + " cannot close the " + saved.begin + " of line " +
-                          std::to_string(saved.at.line));
+        if (state_.begin.front() != name_.front()) {
+            fail(at_, name_ + " cannot close the " + state_.begin + " of line " +
+                          std::to_string(state_.at.line));
         }
-        state_ = saved.state;
+        state_ = saved_.back();
         saved_.pop_back();
     }
 
@@ -465,7 +463,7 @@ private:
     // pbrt renders what is missing without complaint, and we only with stand-ins.
     void check_complete() {
         Position file = {main_file_};
-        if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
+        if (!saved_.empty()) fail(state_.at, state_.begin + " is never closed");
         check_names("object", objects_);
         check_names("material", named_materials_);
         check_uvs(scene_.geometry);
@@ -537,7 +535,7 @@ private:
     uint64_t directives_read_ = 0, includes_ = 0;
 
     State state_;
-    std::vector<SavedState> saved_;
+    std::vector<State> saved_;
     std::map<std::string, NamedMaterial> named_materials_;
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end

@@ -106,7 +106,7 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const ShapeState& 
     uint32_t first = static_cast<uint32_t>(g.positions.size());
     add_vertices(params, mesh, state, g);
     bool mirrored = determinant(state.world_from_object) < 0;
-    size_t left_out = 0;
+    uint64_t left_out = mesh.faces_left_out;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
                  c = first + mesh.indices[i + 2];
@@ -124,13 +124,10 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const ShapeState& 
         g.triangles.push_back({{a, b, c}, 0});
     }
     if (left_out > 0) {
-        params.messages().note(
-            params.at(), "left out triangles without area: " + std::to_string(left_out) + " of " +
-                             std::to_string(mesh.indices.size() / 3));
-    }
-    if (mesh.faces_left_out > 0) {
-        params.messages().note(params.at(), "left out faces that do not have 3 or 4 corners: " +
-                                                std::to_string(mesh.faces_left_out));
+        params.messages().note(params.at(),
+                               "left out triangles without area, and faces that do "
+                               "not have 3 or 4 corners: " +
+                                   std::to_string(left_out));
     }
 }
 

@@ -64,12 +64,7 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
                      {"float", "spectrum"});
     }
     if (known_.contains(name)) fail(lexer.at(name_token), "a second texture " + quote(name));
-    try {
-        known_[name] = read_texture(params);
-    } catch (const InputError&) {
-        known_[name] = {};  // so that who names it is not wrong too
-        throw;
-    }
+    known_[name] = read_texture(params);
 }
 
 std::optional<NamedTexture> TextureReader::find(const Params& params,

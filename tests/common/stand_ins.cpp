@@ -133,7 +133,7 @@ TEST_SUITE("stand-ins") {
             "Texture 'n' 'float' 'fbm' Texture 'wood' 'spectrum' 'imagemap' 'string filename' "
             "'a.png' ";
         auto metal = [](const std::string& name) {
-            const NamedColors& known = metals();
+            const auto& known = metals();
             return "metal " + in_words(known.at("metal-" + name + "-eta")) + ", " +
                    in_words(known.at("metal-" + name + "-k"));
         };
