@@ -40,10 +40,8 @@ const Value* find_spectrum(const Params& params, const std::string& parameter,
     const std::string& name = spectrum->strings[0];
     auto found = known.find(name);
     if (found != known.end()) return &found->second;
-    std::vector<std::string> names;
-    for (const auto& [word, value] : known) names.push_back(word);
     params.messages().stand_in(spectrum->at, "a spectrum that is not known",
-                               unknown("spectrum", name, names));
+                               unknown("spectrum", name, names_of(known)));
     return nullptr;
 }
 

@@ -16,6 +16,22 @@ struct ReadingEnds : std::runtime_error {
 /// Stops where there are more than `most` things.
 void check_limit(const Position& at, uint64_t count, uint64_t most, const std::string& things);
 
+/// The names of what a map has, and what it has under a name; throws `unknown KIND "NAME"` at a
+/// place.
+template <class Map>
+std::vector<std::string> names_of(const Map& map) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : map) names.push_back(name);
+    return names;
+}
+template <class Map>
+const auto& look_up(const Map& map, const std::string& name, const std::string& kind,
+                    const Position& at) {
+    auto found = map.find(name);
+    if (found == map.end()) fail_unknown(at, kind, name, names_of(map));
+    return found->second;
+}
+
 /// Notes and errors, each text only once: with the first place it is said of.
 class Messages {
 public:

@@ -41,8 +41,8 @@ constexpr Row rows[] = {
     {"Film", films, "integer", "xresolution", 1280, 1, 1 << 16},
     {"Film", films, "integer", "yresolution", 720, 1, 1 << 16},
     {"Film", films, "float", "iso", 100, 1e-30},
-    {"Film", films, "float", "maxcomponentvalue whitebalance"},
-    {"Film", films, "string", "sensor"},
+    {"Film", films, "float", "maxcomponentvalue"},
+    {"Film", films, "", "sensor whitebalance", 0, 0, 0, 0, "a sensor or white balance"},
     {"Film", films, "", "cropwindow pixelbounds", 0, 0, 0, 0, "a part of the film"},
     {"Film", films, ignored, "diagonal filename savefp16"},
 
@@ -60,8 +60,6 @@ constexpr Row rows[] = {
      "bootstrapsamples chains cossample largestepprobability lightsampler maxdistance "
      "mutationsperpixel photonsperiteration radius regularize rrthreshold samplebsdf samplelights "
      "seed sigma visualizestrategies visualizeweights"},
-    {"Accelerator", "bvh kdtree", ignored,
-     "emptybonus intersectcost maxdepth maxnodeprims maxprims splitmethod traversalcost"},
 
     {"Material", reflecting, "rgb texture", "reflectance", 0.5, 0, 1},
     {"Material", "conductor", "rgb spectrum", "eta k", 0, 0, 1e4},

@@ -11,46 +11,27 @@
 namespace {
 
 struct ParamType {
-    std::string_view name;
     std::string_view needs;  // what each of its values must be
-    size_t group;            // how many of them make one
+    size_t group = 1;        // how many of them make one
 };
 constexpr std::string_view number = "a number", text = "a string in quotes",
                            whole = "a whole number", truth = "true or false",
                            spectrum = "a name or numbers";
-constexpr std::array<ParamType, 13> param_types = {{{"blackbody", number, 1},
-                                                    {"bool", truth, 1},
-                                                    {"float", number, 1},
-                                                    {"integer", whole, 1},
-                                                    {"normal", number, 3},
-                                                    {"point3", number, 3},
-                                                    {"point2", number, 2},
-                                                    {"rgb", number, 3},
-                                                    {"spectrum", spectrum, 1},
-                                                    {"string", text, 1},
-                                                    {"texture", text, 1},
-                                                    {"vector3", number, 3},
-                                                    {"vector2", number, 2}}};
+const std::map<std::string, ParamType> param_types = {
+    {"blackbody", {number}}, {"bool", {truth}},       {"float", {number}},
+    {"integer", {whole}},    {"normal", {number, 3}}, {"point3", {number, 3}},
+    {"point2", {number, 2}}, {"rgb", {number, 3}},    {"spectrum", {spectrum}},
+    {"string", {text}},      {"texture", {text}},     {"vector3", {number, 3}},
+    {"vector2", {number, 2}}};
 
 // One message about a scene of pbrt-v3 is enough: nearly every line of it has to change.
-[[noreturn]] void fail_type(const Position& at, const std::string& kind, const std::string& type,
-                            const std::vector<std::string>& known) {
+void refuse_old(const Position& at, const std::string& word) {
     for (const char* old :
          {"area", "glass", "image", "matte", "metal", "mirror", "plastic", "substrate", "uber"}) {
-        if (type != old) continue;
-        stop_reading(at, quote(type) + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
+        if (word != old) continue;
+        stop_reading(at, quote(word) + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
                              "pbrt --upgrade old.pbrt > new.pbrt");
     }
-    fail_unknown(at, kind, type, known);
-}
-
-const ParamType& find_type(const Position& at, const std::string& name) {
-    std::vector<std::string> names;
-    for (const ParamType& type : param_types) {
-        if (type.name == name) return type;
-        names.emplace_back(type.name);
-    }
-    fail_type(at, "parameter type", name, names);
 }
 
 // Adds one value to the parameter.
@@ -101,7 +82,8 @@ Param read_param(Lexer& lexer) {
     if (words.size() != 2) fail(param.at, "expected \"type name\", not " + quote(declared));
     param.type = words[0];
     param.name = words[1];
-    const ParamType& type = find_type(param.at, param.type);
+    refuse_old(param.at, param.type);
+    const ParamType& type = look_up(param_types, param.type, "parameter type", param.at);
     if (lexer.peek().type != Token::open) {
         read_value(lexer, type, param);
     } else {
@@ -112,15 +94,13 @@ Param read_param(Lexer& lexer) {
         }
         lexer.next();
     }
-    size_t count = param.numbers.size() + param.strings.size();
-    if (count == 0 || count % type.group != 0) {
-        fail(param.at, quote(declared) + " has " + std::to_string(count) +
-                           " values, not a multiple of " + std::to_string(type.group));
-    }
+    if (param.numbers.empty() && param.strings.empty())
+        fail(param.at, quote(declared) + " is empty");
     return param;
 }
 
-Params::Params(Lexer& lexer, const Token& directive, Messages& messages)
+Params::Params(Lexer& lexer, const Token& directive, Messages& messages,
+               const std::vector<Param>& defaults)
     : messages_(&messages), at_(lexer.at(directive)), directive_(directive.text) {
     bool is_named = directive_ == "MakeNamedMaterial";  // of which the type is a parameter
     Position type_at = at_;
@@ -130,6 +110,9 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& messages)
         type_at = lexer.at(token);
     }
     while (lexer.peek().type == Token::string) add(read_param(lexer));
+    for (auto param = defaults.rbegin(); param != defaults.rend(); ++param) {
+        if (!find(param->name)) params_.push_back(*param);
+    }
     // Say here what is wrong, not where a parameter behind it is missing.
     if (lexer.has_argument()) lexer.fail_at(lexer.peek(), "expected a directive");
     if (is_named) {
@@ -157,24 +140,30 @@ void Params::add(Param param) {
 void Params::check_type(const Position& at) {
     stands_in_ = !or_stand_in(owner()).empty();
     if (stands_in_) messages_->stand_in(at, owner());
-    std::vector<std::string> types;
-    for (const auto& [type, known] : known_params().at(directive_)) {
-        if (type == type_) known_ = &known;
-        if (or_stand_in(directive_ + ' ' + quote(type)).empty()) types.push_back(type);
+    const auto& types = known_params().at(directive_);
+    auto found = types.find(type_);
+    if (found == types.end()) {
+        refuse_old(at, type_);
+        std::vector<std::string> known = names_of(types);
+        std::erase_if(known, [&](const std::string& type) {
+            return !or_stand_in(directive_ + ' ' + quote(type)).empty();
+        });
+        fail_unknown(at, directive_, type_, known);
     }
-    if (!known_) fail_type(at, directive_, type_, types);
+    known_ = &found->second;
 }
 
 bool Params::is_usable(const Param& param) const {
     const std::string given = quote(param.type + ' ' + param.name) + " of " + owner();
     auto has_name = [&](const KnownParam& known) { return known.name == param.name; };
     auto row = std::find_if(known_->begin(), known_->end(), has_name);
-    size_t count =
-        (param.numbers.size() + param.strings.size()) / find_type(param.at, param.type).group;
+    size_t count = param.numbers.size() + param.strings.size();
+    size_t group = param_types.at(param.type).group;
     std::string wrong, stand_in;
     if (row == known_->end()) {
         std::vector<std::string> names;
         for (const KnownParam& known : *known_) names.push_back(known.name);
+        if (param.is_default) return false;
         wrong = unknown(owner() + " parameter", param.name, names);
     } else if (!row->stand_in.empty()) {
         messages_->stand_in(param.at, row->stand_in, given + " is not supported");
@@ -187,9 +176,10 @@ bool Params::is_usable(const Param& param) const {
         for (const std::string& type : row->types) {
             wrong += (type == row->types[0] ? "" : " or ") + type;
         }
-    } else if (row->values > 0 && count != row->values) {
-        wrong = given + " takes " + std::to_string(row->values) +
-                (row->values == 1 ? " value" : " values") + ", not " + std::to_string(count);
+    } else if (row->values > 0 ? count != row->values * group : count % group != 0) {
+        wrong = given + " has " + std::to_string(count) + " values, not " +
+                (row->values > 0 ? "" : "a multiple of ") +
+                std::to_string(std::max(row->values, size_t{1}) * group);
     } else {
         for (double x : param.numbers) {
             if (x >= row->low && x <= row->high) continue;

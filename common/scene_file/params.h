@@ -9,6 +9,7 @@ struct Param {
     Position at;
     std::vector<double> numbers;  // also of integers, points and colors; of bools 0 or 1
     std::vector<std::string> strings;
+    bool is_default = false;  // given by Attribute, also to directives that do not know it
 };
 
 /// Reads a declaration and its value or values, and checks that they fit the type.
@@ -33,8 +34,10 @@ std::vector<std::string> words_of(const std::string& text);
 class Params {
 public:
     /// Reads what follows `directive`: its type, such as "perspective", and the parameters up to a
-    /// token that is none. Throws for a type that is unknown.
-    Params(Lexer& lexer, const Token& directive, Messages& messages);
+    /// token that is none; `defaults` count where it has none of their name. Throws for a type that
+    /// is unknown.
+    Params(Lexer& lexer, const Token& directive, Messages& messages,
+           const std::vector<Param>& defaults = {});
 
     const std::string& type() const { return type_; }
     /// Whether the type is not supported: what is read stands in for it.

@@ -148,7 +148,6 @@ private:
         std::string_view type = word();
         if (type == "list") {
             property.count_type = scalar(word());
-            if (property.count_type->is_float) fail_here("a list cannot have a float for count");
             type = word();
         }
         property.type = scalar(type);
@@ -160,8 +159,8 @@ private:
         element.name = word();
         element.at = at();
         std::string_view count = word();
-        auto number = to_number(count);
-        if (!number || !(*number >= 0) || *number != std::floor(*number) || *number > 1e15) {
+        std::optional<int> number = to_integer(count);
+        if (!number || *number < 0) {
             fail_here("expected how many elements there are, not " + quote(count));
         }
         element.count = static_cast<uint64_t>(*number);
@@ -198,9 +197,6 @@ private:
         auto has_name = [&](const Element& element) { return element.name == name; };
         auto found = std::find_if(elements_.begin(), elements_.end(), has_name);
         if (found == elements_.end()) fail({file_}, "no element " + quote(name));
-        if (std::find_if(found + 1, elements_.end(), has_name) != elements_.end()) {
-            fail(found->at, "two elements " + quote(name));
-        }
         if (found->count <= most) return *found;
         fail(found->at, "more than " + std::to_string(most) + ' ' + name + " elements");
     }

@@ -47,17 +47,16 @@ public:
 private:
     // What AttributeBegin saves and AttributeEnd restores.
     struct State {
+        std::string begin;  // what began the block, and where
+        Position at;
         Transform start, end;  // the current transform when the shutter opens and when it closes
         std::string unusable;  // why nothing can stand there, as a message
         bool set_start = true, set_end = true;  // which of them a transform directive changes
         uint32_t material = 0;                  // into Scene::materials
         std::optional<AreaEmission> emission;
         bool reverse_orientation = false;
-    };
-    struct SavedState {
-        State state;
-        Position at;
-        std::string begin;  // AttributeBegin and its like
+        std::map<std::string, std::vector<Param>> defaults = {
+            {"light", {}}, {"material", {}}, {"medium", {}}, {"shape", {}}, {"texture", {}}};
     };
     // What may be used before it is defined.
     struct Named {
@@ -82,14 +81,15 @@ private:
     static const std::map<std::string, const Directives*>& known_directives() {
         using R = Reader;
         static constexpr Directives rows[] = {
-            {"Accelerator Integrator PixelFilter Sampler", Block::options, &R::setting},
+            {"Integrator PixelFilter Sampler", Block::options, &R::setting},
             {"ActiveTransform", Block::both, &R::active_transform},
             {"AreaLightSource", Block::world, &R::area_light_source},
-            {"Attribute MakeNamedMedium TransformTimes", Block::both, &R::replaced},
+            {"MakeNamedMedium TransformTimes", Block::both, &R::replaced},
+            {"Attribute", Block::both, &R::attribute},
             {"AttributeBegin TransformBegin", Block::world, &R::begin},
             {"AttributeEnd TransformEnd", Block::world, &R::end},
             {"Camera", Block::options, &R::camera},
-            {"ColorSpace MediumInterface Option", Block::both, &R::ignored},
+            {"Accelerator ColorSpace MediumInterface Option", Block::both, &R::ignored},
             {"CoordSysTransform", Block::both, &R::coord_sys_transform},
             {"CoordinateSystem", Block::both, &R::coordinate_system},
             {"Film", Block::options, &R::film},
@@ -151,13 +151,7 @@ private:
             lexer_->fail_at(word, "expected a directive");
         }
         name_ = word.text;
-        auto found = known_directives().find(name_);
-        if (found == known_directives().end()) {
-            std::vector<std::string> known;
-            for (const auto& [directive, how] : known_directives()) known.push_back(directive);
-            fail_unknown(at_, "directive", name_, known);
-        }
-        const Block block = found->second->block;
+        auto [names, block, read] = *look_up(known_directives(), name_, "directive", at_);
         if (name_ == "WorldBegin" && in_world_) fail(at_, "a second WorldBegin");
         if (block == Block::options && in_world_) {
             fail(at_, name_ + " must stand before WorldBegin");
@@ -166,10 +160,13 @@ private:
         if (block == Block::options && !options_read_.insert(name_).second) {
             messages_.note(at_, "a second " + name_ + ": the last one counts");
         }
-        (this->*found->second->read)();
+        (this->*read)();
     }
 
-    Params params() { return Params(*lexer_, word_, messages_); }
+    // Those of the directive, and of Attribute for what it makes.
+    Params params(const std::string& what = "medium") {
+        return Params(*lexer_, word_, messages_, state_.defaults[what]);
+    }
     // The name in quotes behind the directive.
     std::string name() {
         return lexer_->unescape(lexer_->expect(Token::string, name_ + " needs a name in quotes"));
@@ -198,12 +195,13 @@ private:
     }
 
     void move() {
-        TransformStep step = read_transform(*lexer_, word_);
-        if (step.replaces) state_.unusable.clear();
+        Transform step = read_transform(*lexer_, word_);
+        bool replaces = name_ == "Identity" || name_ == "Transform";
+        if (replaces) state_.unusable.clear();
         for (auto [is_set, t] :
              {std::pair(state_.set_start, &state_.start), std::pair(state_.set_end, &state_.end)}) {
             if (!is_set) continue;
-            *t = step.replaces ? step.transform : *t * step.transform;
+            *t = replaces ? step : *t * step;
             if (is_usable(*t) || !state_.unusable.empty()) continue;
             state_.unusable = message_at(
                 at_, "error", "the transform has no inverse, projects, or is too large or small");
@@ -220,6 +218,17 @@ private:
         state_.set_end = all || !start;
     }
 
+    void attribute() {
+        std::string what = name();
+        look_up(state_.defaults, what, "Attribute", at_);
+        std::vector<Param>& defaults = state_.defaults[what];
+        while (lexer_->peek().type == Token::string) {
+            check_limit(at_, defaults.size() + 1, 100, "attributes");
+            defaults.push_back(read_param(*lexer_));
+            defaults.back().is_default = true;
+        }
+    }
+
     void coordinate_system() {
         std::string own = name();
         if (!state_.unusable.empty()) throw InputError(state_.unusable);
@@ -227,14 +236,8 @@ private:
     }
 
     void coord_sys_transform() {
-        std::string own = name();
-        auto found = coordinate_systems_.find(own);
-        if (found == coordinate_systems_.end()) {
-            std::vector<std::string> known;
-            for (const auto& [other, transforms] : coordinate_systems_) known.push_back(other);
-            fail_unknown(at_, "coordinate system", own, known);
-        }
-        std::tie(state_.start, state_.end) = found->second;
+        std::tie(state_.start, state_.end) =
+            look_up(coordinate_systems_, name(), "coordinate system", at_);
         state_.unusable = {};
     }
 
@@ -262,30 +265,33 @@ private:
 
     void world_begin() {
         in_world_ = true;
-        state_ = {};
+        State fresh;
+        fresh.defaults = std::move(state_.defaults);
+        state_ = std::move(fresh);
         coordinate_systems_["world"] = {};
     }
 
-    void area_light_source() { state_.emission = read_area_light(params()); }
+    void area_light_source() { state_.emission = read_area_light(params("light")); }
 
     void begin() {
         check_limit(at_, saved_.size() + 1, 1000, "blocks in each other");
-        saved_.push_back({state_, at_, name_});
+        saved_.push_back(state_);
+        state_.begin = name_;
+        state_.at = at_;
     }
 
     void end() {
         if (saved_.empty()) fail(at_, name_ + " without a beginning");
-        const SavedState& saved = saved_.back();
-        if (saved.begin.front() != name_.front()) {
-            fail(at_, name_ + " cannot close the " + saved.begin + " of line " +
-                          std::to_string(saved.at.line));
+        if (state_.begin.front() != name_.front()) {
+            fail(at_, name_ + " cannot close the " + state_.begin + " of line " +
+                          std::to_string(state_.at.line));
         }
-        state_ = saved.state;
+        state_ = saved_.back();
         saved_.pop_back();
     }
 
     void light_source() {
-        Params read = params();
+        Params read = params("light");
         bool is_sky = read.type() == "infinite", is_picture = read.find("filename");
         // A sky of one color is the same wherever it stands.
         Transform place = is_sky && !is_picture ? Transform{} : still_transform(read);
@@ -318,7 +324,7 @@ private:
     }
 
     void material() {
-        std::optional<Material> material = read_material(params(), textures_);
+        std::optional<Material> material = read_material(params("material"), textures_);
         scene_.materials.push_back(material.value_or(Material{}));
         state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
         if (!material) absent_.insert(state_.material);
@@ -376,13 +382,14 @@ private:
     }
 
     void shape() {
-        Params read = params();
+        Params read = params("shape");
         if (!open_object_) return place(read, state_);
         // Keep it for the instances.
         open_object_->shapes.emplace_back(read, state_);
-        std::optional<AreaEmission>& emission = open_object_->shapes.back().second.emission;
-        if (emission) messages_.note(at_, "lights inside an object are left out, as in pbrt");
-        emission = {};
+        State& kept = open_object_->shapes.back().second;
+        kept.defaults.clear();
+        if (kept.emission) messages_.note(at_, "lights inside an object are left out, as in pbrt");
+        kept.emission = {};
     }
 
     void place(const Params& params, State where) {
@@ -415,7 +422,7 @@ private:
         if (mover->geometry.size() > 0) scene_.movers.push_back(std::move(*mover));
     }
 
-    void texture() { textures_.read(*lexer_, word_); }
+    void texture() { textures_.read(*lexer_, word_, state_.defaults["texture"]); }
 
     // The current transform; not supported where it moves while the shutter is open.
     Transform still_transform(const Params& params) {
@@ -456,7 +463,7 @@ private:
     // pbrt renders what is missing without complaint, and we only with stand-ins.
     void check_complete() {
         Position file = {main_file_};
-        if (!saved_.empty()) fail(saved_.back().at, saved_.back().begin + " is never closed");
+        if (!saved_.empty()) fail(state_.at, state_.begin + " is never closed");
         check_names("object", objects_);
         check_names("material", named_materials_);
         check_uvs(scene_.geometry);
@@ -528,7 +535,7 @@ private:
     uint64_t directives_read_ = 0, includes_ = 0;
 
     State state_;
-    std::vector<SavedState> saved_;
+    std::vector<State> saved_;
     std::map<std::string, NamedMaterial> named_materials_;
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end

@@ -5,21 +5,17 @@
 #include "common/scene/sky_image.h"
 #include "common/scene_file/textures.h"
 
-/// What one directive does: multiply the current transform from the right, or replace it.
-struct TransformStep {
-    Transform transform;
-    bool replaces = false;
-};
 /// Reads the numbers after Identity, Translate, Scale, Rotate, LookAt, Transform or
-/// ConcatTransform. A matrix that projects becomes one that is not usable.
-TransformStep read_transform(Lexer& lexer, const Token& directive);
+/// ConcatTransform: what the current transform is multiplied by from the right, or replaced by. A
+/// matrix that projects becomes one that is not usable.
+Transform read_transform(Lexer& lexer, const Token& directive);
 /// Whether it has an inverse, of numbers that are not too large.
 bool is_usable(const Transform& transform);
 
 Camera read_camera(const Params& params, const Transform& camera_from_world);
 /// Sets the size of the picture, and returns the film's speed, which scales it in pbrt.
 float read_film(const Params& params, Scene& scene);
-/// PixelFilter, Sampler, Integrator and Accelerator: how pbrt renders, of which little counts here.
+/// PixelFilter, Sampler and Integrator: how pbrt renders, of which little counts here.
 void read_setting(const std::string& directive, const Params& params, Scene& scene);
 
 /// Nothing for a material that is as if the surface were not there: it only bounds media.

@@ -78,9 +78,6 @@ float read_film(const Params& params, Scene& scene) {
     scene.width = params.integer("xresolution");
     scene.height = params.integer("yresolution");
     if (int64_t{scene.width} * scene.height > 1 << 28) fail(params.at(), "more than 2^28 pixels");
-    if (params.string("sensor", "cie1931") != "cie1931" || params.number("whitebalance") != 0) {
-        params.messages().stand_in(params.at(), "a sensor or white balance");
-    }
     if (params.find("maxcomponentvalue")) {
         note(params, "maxcomponentvalue is ignored: nothing is clamped");
     }
@@ -96,10 +93,8 @@ void read_setting(const std::string& directive, const Params& params, Scene& sce
         scene.spp = type == "stratified" ? params.integer("xsamples") * params.integer("ysamples")
                                          : params.integer("pixelsamples");
         if (type != "independent") note(params, "only sets the samples per pixel");
-    } else if (directive == "Integrator") {
+    } else {
         scene.max_depth = params.integer("maxdepth");
         if (type != "path") note(params, "only sets the depth: the program is the integrator");
-    } else if (type != "bvh") {
-        note(params, "is ignored: all programs use a BVH");
     }
 }

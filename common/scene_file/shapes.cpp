@@ -102,11 +102,11 @@ void add_vertices(const Params& params, const TriangleMesh& mesh, const ShapeSta
 
 // Adds the mesh, and turns each triangle so that its corners run counter-clockwise on its outside.
 void add_mesh(const Params& params, const TriangleMesh& mesh, const ShapeState& state,
-              uint32_t shape, Geometry& g) {
+              Geometry& g) {
     uint32_t first = static_cast<uint32_t>(g.positions.size());
     add_vertices(params, mesh, state, g);
     bool mirrored = determinant(state.world_from_object) < 0;
-    size_t left_out = 0;
+    uint64_t left_out = mesh.faces_left_out;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
                  c = first + mesh.indices[i + 2];
@@ -121,16 +121,13 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const ShapeState& 
             if (side != 0) turn = side < 0;
         }
         if (turn) std::swap(b, c);
-        g.triangles.push_back({{a, b, c}, shape});
+        g.triangles.push_back({{a, b, c}, 0});
     }
     if (left_out > 0) {
-        params.messages().note(
-            params.at(), "left out triangles without area: " + std::to_string(left_out) + " of " +
-                             std::to_string(mesh.indices.size() / 3));
-    }
-    if (mesh.faces_left_out > 0) {
-        params.messages().note(params.at(), "left out faces that do not have 3 or 4 corners: " +
-                                                std::to_string(mesh.faces_left_out));
+        params.messages().note(params.at(),
+                               "left out triangles without area, and faces that do "
+                               "not have 3 or 4 corners: " +
+                                   std::to_string(left_out));
     }
 }
 
@@ -183,16 +180,14 @@ void add_sphere(const Params& params, const Transform& t, Scene& scene) {
     float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
     require_whole(params, std::min(z0, z1) <= -radius && std::max(z0, z1) >= radius);
     Vec3 centre = to_vec3(t.o);
-    scene.geometry.spheres.push_back({centre, read_radius(params, centre, {t.x, t.y, t.z}),
-                                      static_cast<uint32_t>(scene.shapes.size())});
+    scene.geometry.spheres.push_back({centre, read_radius(params, centre, {t.x, t.y, t.z}), 0});
 }
 
 void add_disk(const Params& params, const Transform& t, bool reverse, Scene& scene) {
     require_whole(params, params.number("innerradius") == 0);
     Vec3 centre = to_vec3(transform_point(t, {0, 0, params.number("height")}));
     Vec3 normal = to_vec3(normalize(transform_normal(t, {0, 0, reverse ? -1.0 : 1.0})));
-    scene.geometry.disks.push_back({centre, normal, read_radius(params, centre, {t.x, t.y}),
-                                    static_cast<uint32_t>(scene.shapes.size())});
+    scene.geometry.disks.push_back({centre, normal, read_radius(params, centre, {t.x, t.y}), 0});
 }
 
 float area(const Geometry& g, const Triangle& tri) {
@@ -219,18 +214,17 @@ void add_shape(const Params& params, const ShapeState& state, Shape shape,
                std::vector<Primitive>& primitives, size_t first, Scene& scene) {
     if (first == primitives.size()) return;
     bool shines = state.emission && !is_black(state.emission->L);
-    if (!shines || state.emission->power == 0) {
-        if (shines) shape.light = add_light(params, *state.emission, 1, scene);
-        scene.shapes.push_back(shape);
-        return;
-    }
-    // Make each primitive a light of its own that sends the whole power, as pbrt does.
-    float sides = state.emission->two_sided ? 2 : 1;
+    // With a power each primitive is a light of its own that sends all of it, as in pbrt.
+    bool has_power = shines && state.emission->power > 0;
     for (size_t i = first; i < primitives.size(); i++) {
-        float of_one = pi * area(scene.geometry, primitives[i]) * sides;  // W, of L = 1
-        shape.light = add_light(params, *state.emission, state.emission->power / of_one, scene);
-        primitives[i].shape = static_cast<uint32_t>(scene.shapes.size());
-        scene.shapes.push_back(shape);
+        if (i == first || has_power) {
+            float sides = state.emission && state.emission->two_sided ? 2 : 1;
+            float of_one = pi * area(scene.geometry, primitives[i]) * sides;  // W, of L = 1
+            float times = has_power ? state.emission->power / of_one : 1;
+            if (shines) shape.light = add_light(params, *state.emission, times, scene);
+            scene.shapes.push_back(shape);
+        }
+        primitives[i].shape = static_cast<uint32_t>(scene.shapes.size() - 1);
     }
 }
 
@@ -239,7 +233,6 @@ void add_shape(const Params& params, const ShapeState& state, Shape shape,
 void read_shape(const Params& params, ShapeState state, NamedFiles& files, Scene& scene) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
-    uint32_t number = static_cast<uint32_t>(scene.shapes.size());
     Shape shape = {state.material, -1, false, -1, kept(params.at())};
     const Transform& t = state.world_from_object;
     if (params.type() == "sphere" || params.type() == "disk") {
@@ -254,9 +247,9 @@ void read_shape(const Params& params, ShapeState state, NamedFiles& files, Scene
         params.messages().try_to_read(params.at(), "a mesh that cannot be read", [&] {
             mesh = &files.mesh(files.find(name.at, name.strings[0]), name.at);
         });
-        if (mesh) add_mesh(params, *mesh, state, number, g);
+        if (mesh) add_mesh(params, *mesh, state, g);
     } else {
-        add_mesh(params, read_mesh(params), state, number, g);
+        add_mesh(params, read_mesh(params), state, g);
         // Half of a patch's power for each of its triangles.
         if (params.type() == "bilinearmesh" && state.emission) state.emission->power /= 2;
     }

@@ -24,15 +24,16 @@ Rgb blackbody_rgb(double kelvin) {
             static_cast<float>(scale * rgb[2])};
 }
 
-const NamedColors& metals() {
-    static const NamedColors colors = {{"metal-Ag-eta", {0.155265f, 0.116723f, 0.138381f}},
-                                       {"metal-Ag-k", {4.828343f, 3.122246f, 2.146950f}},
-                                       {"metal-Al-eta", {1.657460f, 0.880369f, 0.521229f}},
-                                       {"metal-Al-k", {9.223869f, 6.269523f, 4.837001f}},
-                                       {"metal-Au-eta", {0.143119f, 0.374957f, 1.442479f}},
-                                       {"metal-Au-k", {3.983160f, 2.385721f, 1.603215f}},
-                                       {"metal-Cu-eta", {0.200438f, 0.924033f, 1.102212f}},
-                                       {"metal-Cu-k", {3.912949f, 2.452848f, 2.142188f}}};
+const std::map<std::string, Rgb>& metals() {
+    static const std::map<std::string, Rgb> colors = {
+        {"metal-Ag-eta", {0.155265f, 0.116723f, 0.138381f}},
+        {"metal-Ag-k", {4.828343f, 3.122246f, 2.146950f}},
+        {"metal-Al-eta", {1.657460f, 0.880369f, 0.521229f}},
+        {"metal-Al-k", {9.223869f, 6.269523f, 4.837001f}},
+        {"metal-Au-eta", {0.143119f, 0.374957f, 1.442479f}},
+        {"metal-Au-k", {3.983160f, 2.385721f, 1.603215f}},
+        {"metal-Cu-eta", {0.200438f, 0.924033f, 1.102212f}},
+        {"metal-Cu-k", {3.912949f, 2.452848f, 2.142188f}}};
     return colors;
 }
 

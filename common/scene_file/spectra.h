@@ -7,23 +7,18 @@
 #include "common/base/vec.h"
 #include "common/material/glass.h"
 
-/// The color of a black body, as linear sRGB with luminance 1.
+/// The color of a black body of 500 to 1e6 K, as linear sRGB with luminance 1: the spectrum
 ///
 ///   B(lambda) = 1 / (lambda^5 (exp(c2 / (lambda T)) - 1)),  weighted with the CIE 1931 observer
 ///
-/// kelvin  T, from 500 to 1e6; what lies outside of sRGB (below about 1900 K) is cut off at 0
-/// source  Planck 1901; CIE 015
-/// tested by  "truth: black bodies have the chromaticities that the CIE gives"
+/// What lies outside of sRGB (below about 1900 K) is cut off at 0.  source  Planck 1901; CIE 015
 Rgb blackbody_rgb(double kelvin);
-
-/// Colors by their names in pbrt.
-using NamedColors = std::map<std::string, Rgb>;
 
 /// "metal-Ag-eta" and "metal-Ag-k", the complex index of refraction eta + i k, and those of Al, Au
 /// and Cu.
 ///
 /// source  measured spectra (Palik 1985), averaged over the sRGB primaries' color matching curves
-const NamedColors& metals();
+const std::map<std::string, Rgb>& metals();
 
 /// pbrt's measured glasses, such as "glass-BK7".
 ///

@@ -34,7 +34,6 @@ const std::vector<StandIn>& all_stand_ins() {
         {"a part of a sphere or disk", "the whole"},
         {"a sphere or disk scaled differently along its axes", "one of their mean size"},
         {"a light or camera that moves", "one that rests as when the shutter opens"},
-        {"Attribute", "nothing"},
         {"TransformTimes", "0 1"},
         {"LightSource \"goniometric\"", "a point light"},
         {"LightSource \"projection\"", "a point light"},

@@ -44,15 +44,12 @@ Texture::Wrap read_wrap(const Params& params) {
     const std::map<std::string, Texture::Wrap> known = {{"black", Texture::Wrap::black},
                                                         {"clamp", Texture::Wrap::clamp},
                                                         {"repeat", Texture::Wrap::repeat}};
-    std::string wrap = params.string("wrap", "repeat");
-    auto found = known.find(wrap);
-    if (found != known.end()) return found->second;
-    fail_unknown(params.at("wrap"), "wrap", wrap, {"black", "clamp", "repeat"});
+    return look_up(known, params.string("wrap", "repeat"), "wrap", params.at("wrap"));
 }
 
 }  // namespace
 
-void TextureReader::read(Lexer& lexer, const Token& word) {
+void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults) {
     Token name_token = lexer.expect(Token::string, "Texture needs a name in quotes");
     Token type = lexer.expect(Token::string, "Texture needs \"float\" or \"spectrum\"");
     std::string name = lexer.unescape(name_token);
@@ -61,29 +58,20 @@ void TextureReader::read(Lexer& lexer, const Token& word) {
         while (lexer.peek().type == Token::string) read_param(lexer);
         return;
     }
-    Params params(lexer, word, messages_);
+    Params params(lexer, word, messages_, defaults);
     if (type.text != "spectrum") {
         fail_unknown(lexer.at(type), "type of texture", std::string(type.text),
                      {"float", "spectrum"});
     }
     if (known_.contains(name)) fail(lexer.at(name_token), "a second texture " + quote(name));
-    try {
-        known_[name] = read_texture(params);
-    } catch (const InputError&) {
-        known_[name] = {};  // so that who names it is not wrong too
-        throw;
-    }
+    known_[name] = read_texture(params);
 }
 
 std::optional<NamedTexture> TextureReader::find(const Params& params,
                                                 const std::string& name) const {
     const Param* param = params.find(name);
     if (!param || param->type != "texture") return {};
-    auto found = known_.find(param->strings[0]);
-    if (found != known_.end()) return found->second;
-    std::vector<std::string> names;
-    for (const auto& [known, texture] : known_) names.push_back(known);
-    fail_unknown(param->at, "texture", param->strings[0], names);
+    return look_up(known_, param->strings[0], "texture", param->at);
 }
 
 NamedTexture TextureReader::read_texture(const Params& params) {

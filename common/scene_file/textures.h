@@ -19,7 +19,7 @@ public:
         : limits_(limits), files_(files), messages_(messages) {}
 
     /// Reads what stands after the word Texture.
-    void read(Lexer& lexer, const Token& word);
+    void read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults);
     /// The texture that a parameter "texture NAME" names; nothing where it is not given.
     std::optional<NamedTexture> find(const Params& params, const std::string& name) const;
     /// What the texture of this number is on average.

@@ -11,7 +11,7 @@ Vec3d read_three(Lexer& lexer, const std::string& name) {
 }
 
 // Reads [ 16 numbers ], column by column.
-TransformStep read_matrix(Lexer& lexer, const Token& directive) {
+Transform read_matrix(Lexer& lexer, const Token& directive) {
     std::string name(directive.text);
     lexer.expect(Token::open, name + " needs [ and 16 numbers");
     std::array<double, 16> m;
@@ -21,9 +21,7 @@ TransformStep read_matrix(Lexer& lexer, const Token& directive) {
     constexpr double tolerance = 1e-6;
     double bottom = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
     if (bottom > tolerance) m = {};
-    Transform t = {
-        {m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-    return {t, name == "Transform"};
+    return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
 }  // namespace
@@ -38,17 +36,17 @@ bool is_usable(const Transform& t) {
     return std::abs(determinant(t)) > 1 / (largest * largest);
 }
 
-TransformStep read_transform(Lexer& lexer, const Token& directive) {
+Transform read_transform(Lexer& lexer, const Token& directive) {
     std::string name(directive.text);
-    if (name == "Identity") return {{}, true};
+    if (name == "Identity") return {};
     if (name == "Transform" || name == "ConcatTransform") return read_matrix(lexer, directive);
-    if (name == "Translate") return {translation(read_three(lexer, name))};
-    if (name == "Scale") return {scaling(read_three(lexer, name))};
+    if (name == "Translate") return translation(read_three(lexer, name));
+    if (name == "Scale") return scaling(read_three(lexer, name));
     if (name == "Rotate") {
         double degrees = lexer.number(name);
         Vec3d axis = read_three(lexer, name);
         if (length(axis) == 0) fail(lexer.at(directive), "Rotate needs an axis other than 0 0 0");
-        return {rotation(degrees, axis)};
+        return rotation(degrees, axis);
     }
     Vec3d eye = read_three(lexer, name), look = read_three(lexer, name);
     Vec3d up = read_three(lexer, name);
@@ -57,5 +55,5 @@ TransformStep read_transform(Lexer& lexer, const Token& directive) {
     if (!is_usable(world_from_camera)) {
         fail(lexer.at(directive), "LookAt needs an up that is not along the view");
     }
-    return {inverse(world_from_camera)};
+    return inverse(world_from_camera);
 }

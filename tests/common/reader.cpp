@@ -141,7 +141,7 @@ TEST_SUITE("reader") {
                                    {"PixelFilter 'box' 'float yradius' .6", 1},
                                    {"PixelFilter 'box' 'float xradius' .4", 0},
                                    {"PixelFilter 'mitchell'", 1},
-                                   {"Sampler 'independent' Integrator 'path' Accelerator 'bvh'", 1},
+                                   {"Sampler 'independent' Integrator 'path'", 1},
                                    {"Option 'disablepixeljitter' true", 2}}) {
             CAPTURE(text);
             notes.clear();
@@ -309,6 +309,13 @@ TEST_SUITE("reader") {
              "sphere 0 0 0, 1 1 0 0 reversed light 1\nsphere 0 0 0, 1\narea 1 1 1, 1 from 0"},
             // What only bounds a medium is no surface.
             {"MakeNamedMaterial 'air' 'string type' 'interface' NamedMaterial 'air'" + sphere, ""},
+            {"AttributeBegin Attribute 'shape' 'float radius' 3 'float height' 3 "
+             "Attribute 'material' 'rgb reflectance' [1 0 0] Attribute 'shape' 'float radius' 2 "
+             "Material 'diffuse' Shape 'sphere' Shape 'sphere' 'float radius' 4 Shape 'disk' "
+             "AttributeEnd" +
+                 sphere,
+             "sphere 0 0 0, 2 1 0 0\nsphere 0 0 0, 4 1 0 0\nsphere 0 0 0, 1\ndisk 0 0 3, 0 0 1, 2 "
+             "1 0 0"},
         });
     }
 
@@ -393,7 +400,7 @@ TEST_SUITE("reader") {
         CHECK(box.geometry.triangles.size() == 36);
         CHECK(box.geometry.normals.size() == box.geometry.positions.size());
         CHECK(box.max_depth == 4);
-        CHECK(notes.size() == 2);
+        CHECK(notes.size() == 3);
         REQUIRE(box.lights.size() == 1);
         CHECK(box.lights[0].L == Rgb{17, 12, 4});
         CHECK(box.lights[0].prims == 2);

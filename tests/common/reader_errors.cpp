@@ -245,7 +245,8 @@ TEST_SUITE("reader: malformed input") {
         placed.directives = 20;
         const std::string instance = "ObjectInstance \"a\"\n",
                           object = "ObjectBegin \"a\"\n" + repeated(sphere, 5) + "ObjectEnd\n";
-        const std::string many = named("Shape \"sphere\"", 100);
+        const std::string many = named("Shape \"sphere\"", 100),
+                          attributes = named("Attribute \"light\"", 100);
         struct {
             Limits limits;
             std::string begin, one_more, place, message;
@@ -269,6 +270,11 @@ TEST_SUITE("reader: malformed input") {
              many + " \"float x\" 1",
              "3:1406",
              "more than 100 parameters of one directive"},
+            {{},
+             sphere + attributes + '\n',
+             "Attribute \"light\" \"float x\" 1",
+             "4:1",
+             "attributes"},
             {{},
              moves + repeated(sphere, 1000),
              sphere,

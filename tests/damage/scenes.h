@@ -1,6 +1,5 @@
 // Damages scenes and meshes at random, and asks that the reader refuses or reads them, no more.
 #pragma once
-#include <bit>
 #include <ctime>
 #include <sstream>
 #include <stdexcept>
@@ -15,7 +14,6 @@
 #include "common/scene/mover.h"
 #include "common/scene/sky_image.h"
 #include "common/scene/texture.h"
-#include "common/scene_file/ply.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/folder.h"
 
@@ -64,88 +62,6 @@ inline std::string repeat_line(const std::string& bytes, Dice& dice) {
         lines += numbered ? line.substr(0, number_at) + std::to_string(i) + line.substr(number_at)
                           : line;
     return bytes.substr(0, start) + lines + bytes.substr(start);
-}
-
-/// A mesh as a PLY file that was never seen before: elements and properties in any order, of any
-/// types, in any format; and what must be read from it.
-struct RandomPly {
-    std::string bytes;
-    TriangleMesh mesh;
-};
-inline RandomPly random_ply(Dice& dice) {
-    RandomPly ply;
-    const std::string format = ply_formats[dice.below(3)];
-    const std::string line_end = dice.below(3) == 0 ? "\r\n" : dice.below(8) == 0 ? "\r" : "\n";
-    std::string body, header = "ply" + line_end + "format " + format + " 1.0" + line_end;
-    auto put = [&](const PlyScalar& type, double value) {
-        if (format == ply_formats[0]) {
-            body += type.is_float ? std::to_string(value) : std::to_string(static_cast<int>(value));
-            body += dice.below(9) == 0 ? line_end : " ";
-            return;
-        }
-        uint64_t bits = type.size == 8  ? std::bit_cast<uint64_t>(value)
-                        : type.is_float ? std::bit_cast<uint32_t>(static_cast<float>(value))
-                                        : static_cast<uint32_t>(value);
-        for (size_t i = 0; i < type.size; i++) {
-            size_t byte = format == ply_formats[1] ? i : type.size - 1 - i;
-            body += static_cast<char>(bits >> (8 * byte) & 255);
-        }
-    };
-    auto shuffle = [&](std::vector<std::string>& all) {
-        for (size_t i = all.size(); i > 1; i--) std::swap(all[i - 1], all[dice.below(i)]);
-    };
-
-    // Write vertices, faces and an element that nobody knows, with properties around what counts.
-    size_t vertices = 1 + dice.below(20);
-    bool has_normals = dice.below(2) == 0;
-    const std::vector<std::string> known = {"x", "y", "z", "nx", "ny", "nz"};
-    std::vector<std::string> elements = {"vertex", "face", "camera"};
-    shuffle(elements);
-    for (const std::string& element : elements) {
-        bool is_vertex = element == "vertex";
-        size_t count = is_vertex ? vertices : dice.below(20);
-        std::vector<std::string> names = {"u", "values"};  // values: a list
-        if (is_vertex) names.insert(names.end(), known.begin(), known.end() - 3 * !has_normals);
-        if (element == "face") names.push_back("vertex_indices");
-        shuffle(names);
-        header += "comment element vertex 7" + line_end + "element " + element + ' ' +
-                  std::to_string(count) + line_end;
-        std::vector<PlyScalar> types, counts;
-        for (const std::string& name : names) {
-            types.push_back(ply_scalars[dice.below(name == "vertex_indices" ? 6 : 8)]);
-            counts.push_back(ply_scalars[dice.below(6)]);  // integers
-            bool is_list = name.starts_with("v"), other = dice.below(2) == 0;
-            header += "property " +
-                      (is_list ? "list " + std::string(counts.back().name) + ' ' : "") +
-                      (other ? types.back().other_name : types.back().name) + ' ' + name + line_end;
-        }
-        for (size_t n = 0; n < count; n++) {
-            std::array<float, 6> v = {};
-            for (size_t i = 0; i < names.size(); i++) {
-                if (!names[i].starts_with("v")) {
-                    double value = static_cast<double>(dice.below(100));
-                    put(types[i], value);
-                    auto at = std::find(known.begin(), known.end(), names[i]) - known.begin();
-                    if (at < 6) v[static_cast<size_t>(at)] = static_cast<float>(value);
-                    continue;
-                }
-                std::vector<uint32_t> list(dice.below(5));
-                for (uint32_t& value : list) value = static_cast<uint32_t>(dice.below(vertices));
-                put(counts[i], static_cast<double>(list.size()));
-                for (uint32_t value : list) put(types[i], value);
-                if (names[i] == "values") continue;
-                for (size_t k = 2; k < list.size(); k++)
-                    ply.mesh.indices.insert(ply.mesh.indices.end(),
-                                            {list[0], list[k - 1], list[k]});
-                ply.mesh.faces_left_out += list.size() < 3;
-            }
-            if (format == ply_formats[0]) body += line_end;
-            if (is_vertex) ply.mesh.positions.push_back({v[0], v[1], v[2]});
-            if (is_vertex && has_normals) ply.mesh.normals.push_back({v[3], v[4], v[5]});
-        }
-    }
-    ply.bytes = header + "end_header" + line_end + body;
-    return ply;
 }
 
 /// The .png with right checksums wherever its chunks have a right length.
@@ -264,7 +180,6 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
     for (uint32_t i = first; i < first + count; i++) {
         Dice dice(i);
         auto [path, bytes] = corpus[dice.below(corpus.size())];
-        if (path.ends_with(".ply") && dice.below(2) == 0) bytes = random_ply(dice).bytes;
         if (dice.below(200) == 0) bytes = repeat_line(bytes, dice);
         for (size_t changes = 1 + dice.below(5) * dice.below(2); changes > 0; changes--)
             bytes = mutate(bytes, corpus[dice.below(corpus.size())].second, words, dice);
