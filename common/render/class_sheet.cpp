@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/percent.h"
+#include "common/base/numbers.h"
 #include "common/picture/sheet.h"
 
 namespace {

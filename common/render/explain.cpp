@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/percent.h"
+#include "common/base/numbers.h"
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/path/camera_sample.h"
