@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "chapters/26_radiosity/show.h"
-#include "common/base/percent.h"
+#include "common/base/numbers.h"
 #include "common/base/position.h"
 #include "common/base/progress.h"
 #include "common/path/method.h"

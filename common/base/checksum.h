@@ -1,8 +1,6 @@
 // A checksum of bytes.
 #pragma once
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 
 /// A number of 64 bits for any bytes, given piece by piece; where the pieces end does not matter.
@@ -15,18 +13,9 @@
 class Checksum {
 public:
     void add(std::string_view bytes) {
-        length_ += bytes.size();
-        while (!bytes.empty()) {
-            if (waiting_ == 0 && bytes.size() >= 8) {
-                uint64_t word;
-                std::memcpy(&word, bytes.data(), 8);
-                step(word);
-                bytes.remove_prefix(8);
-                continue;
-            }
-            word_ |= uint64_t{static_cast<unsigned char>(bytes[0])} << 8 * waiting_;
-            bytes.remove_prefix(1);
-            if (++waiting_ == 8) step(word_), word_ = 0, waiting_ = 0;
+        for (char byte : bytes) {
+            word_ |= uint64_t{static_cast<unsigned char>(byte)} << 8 * (length_ % 8);
+            if (++length_ % 8 == 0) step(word_), word_ = 0;
         }
     }
     uint64_t value() const {
@@ -43,6 +32,4 @@ private:
         sum_ ^= sum_ >> 29;
     }
     uint64_t sum_ = 0x243f6a8885a308d3u, word_ = 0, length_ = 0;
-    int waiting_ = 0;  // bytes in word_
 };
-static_assert(std::endian::native == std::endian::little, "words are read as they lie");

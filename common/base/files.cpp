@@ -1,13 +1,12 @@
 #include "common/base/files.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <thread>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/position.h"
@@ -18,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int most_tries = 100;
+constexpr int most_tries = 50;
 void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
@@ -56,25 +55,12 @@ std::string why_not_replaced(const fs::path& file) {
     return std::ofstream(file, std::ios::app) ? "" : std::strerror(errno);
 }
 
-// Renames a file, over what has that name. On Windows this fails as long as a program has the old
-// one open.
-std::error_code rename_over(const std::string& from, const std::string& to) {
-    std::error_code error;
-    for (int i = 0; i < most_tries; i++) {
-        fs::rename(file_path(from), file_path(to), error);
-        if (!error || fs::is_directory(file_path(to))) break;
-        wait_a_little();
-    }
-    return error;
-}
-
 }  // namespace
 
-FileLock::FileLock(const std::string& path, const std::string& file, int tries)
-    : name_(file + ".lock") {
+FileLock::FileLock(const std::string& path, const std::string& file) : name_(file + ".lock") {
     for (int i = 0; (lock_ = lock_file(name_)) < 0; i++) {
         if (errno != EWOULDBLOCK) fail(path, "cannot write", errno);
-        if (i >= tries)
+        if (i >= most_tries)
             throw InputError(printable(path + ": error: another program is writing it"));
         wait_a_little();
     }
@@ -83,23 +69,17 @@ FileLock::~FileLock() { unlock_file(lock_, name_); }
 
 NewFile::NewFile(const std::string& path) : path_(path) {
     if (!is_device(path)) {
-        fs::path target = after_links(path);
-        std::error_code none;
-        fs::file_status old = fs::status(target, none);
-        if (fs::is_directory(old)) fail(path, "cannot write", EISDIR);
-        target_ = file_name(target), temporary_ = target_ + ".part";
-        lock_.emplace(path, temporary_, most_tries);
-        std::error_code error;  // it may be a link to another file, and somebody else's
+        target_ = file_name(after_links(path)), temporary_ = target_ + ".part";
+        std::error_code error;
+        if (fs::is_directory(file_path(target_), error)) fail(path, "cannot write", EISDIR);
+        lock_.emplace(path, temporary_);
+        // It may be a link to another file, and somebody else's.
         fs::remove(file_path(temporary_), error);
         if (error) fail(path, "cannot write", error.default_error_condition().value());
     }
     errno = 0;
     file_.open(file_path(temporary_.empty() ? path : temporary_), std::ios::binary);
     if (!file_) fail(path, "cannot write", errno);
-    std::error_code none;  // some file systems have no modes
-    fs::file_status old = fs::status(file_path(target_), none);
-    if (!temporary_.empty() && fs::exists(old))
-        fs::permissions(file_path(temporary_), old.permissions(), none);
 }
 
 NewFile::~NewFile() {
@@ -114,23 +94,23 @@ void NewFile::write(std::string_view bytes) {
         fail(path_, "cannot write", errno);
 }
 
-void NewFile::write_through() {
-    errno = 0;
-    if (!file_.flush() || !reach_disk(temporary_)) fail(path_, "cannot write", errno);
-}
-
 void NewFile::commit() {
     errno = 0;
     file_.close();
     if (!file_) fail(path_, "cannot write", errno);
     if (temporary_.empty()) return;
-    std::string why = why_not_replaced(file_path(target_)), kept = target_ + ".kept";
+    std::string why = why_not_replaced(file_path(target_));
     std::error_code error;
-    if (why.empty()) error = rename_over(temporary_, target_);
+    // On Windows this fails as long as a program has the old one open.
+    for (int i = 0; why.empty() && i < most_tries; i++) {
+        fs::rename(file_path(temporary_), file_path(target_), error);
+        if (!error || fs::is_directory(file_path(target_))) break;
+        wait_a_little();
+    }
     if (error) why = error.message();
-    if (!why.empty() && !rename_over(temporary_, kept))
-        why += "; what was to be written is " + kept;
-    if (!why.empty()) throw InputError(printable(path_ + ": error: cannot write: " + why));
+    if (why.empty()) return;
+    why += "; what was to be written is " + std::exchange(temporary_, "");
+    throw InputError(printable(path_ + ": error: cannot write: " + why));
 }
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {
@@ -139,10 +119,8 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
-void write_outputs(std::vector<Output> outputs) {
+void write_outputs(const std::vector<Output>& outputs) {
     std::string errors;
-    std::stable_partition(outputs.begin(), outputs.end(),
-                          [](const Output& output) { return !is_device(output.first); });
     for (const auto& [path, write] : outputs) {
         try {
             write();
@@ -162,12 +140,6 @@ void check_writable(const std::string& path) {
     NewFile never_committed(path);
 }
 
-uint64_t size_of(const std::string& path) {
-    std::error_code none;
-    uint64_t size = fs::file_size(file_path(path), none);
-    return none ? 0 : size;
-}
-
 bool same_file(const std::string& a, const std::string& b) {
     std::error_code none;
     return fs::equivalent(file_path(a), file_path(b), none) || after_links(a) == after_links(b);
@@ -182,13 +154,11 @@ bool has_ending(const std::string& path, const std::string& ending) {
 void make_folder(const std::string& path) {
     std::error_code error, none;
     fs::create_directories(file_path(path), error);
-    bool is_file = error == std::errc::file_exists;  // as libc++ calls it
     if (!fs::is_directory(file_path(path), none))
-        fail(path, "cannot make the folder", is_file ? ENOTDIR : error.value());
+        fail(path, "cannot make the folder", error.default_error_condition().value());
 }
 
-void check_outputs(const std::vector<std::string>& files, const std::vector<std::string>& inputs,
-                   const std::function<uint64_t(const std::string&)>& bytes_of) {
+void check_outputs(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
     std::string errors;
     size_t refused = 0;
     for (size_t i = 0; i < files.size(); i++) {
@@ -205,7 +175,6 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
         }
         try {
             check_writable(files[i]);
-            if (bytes_of) check_space(files[i], bytes_of(files[i]));
         } catch (const InputError& error) {
             errors += error.what() + std::string("\n");
             refused++;
@@ -216,27 +185,20 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
     tell(errors);
 }
 
-void check_space(const std::string& path, uint64_t bytes) {
-    std::error_code error;
-    uint64_t free = fs::space(after_links(path).parent_path(), error).available;
-    if (error || bytes <= free || is_device(path)) return;
-    throw InputError(printable(path + ": error: cannot write: " + std::strerror(ENOSPC) + ": " +
-                               megabytes(bytes) + " are to be written, " + megabytes(free) +
-                               " are free"));
-}
-
 std::string read_file(const std::string& path) {
     constexpr size_t largest = size_t{1} << 30;
     std::error_code none;
     if (fs::is_directory(file_path(path), none)) fail(path, "cannot read", EISDIR);
-    // Not by std::ifstream: that of libc++ takes what cannot be read for the end of the file.
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_to_read(path), std::fclose);
+    errno = 0;
+    std::ifstream file(file_path(path), std::ios::binary);
     if (!file) fail(path, "cannot read", errno);
     // Read in pieces, since a pipe has no size to ask for.
     std::string bytes, piece(1 << 16, '\0');
-    for (size_t n = 1; n > 0 && bytes.size() <= largest; bytes.append(piece, 0, n))
-        n = std::fread(piece.data(), 1, piece.size(), file.get());
-    if (std::ferror(file.get()) != 0) fail(path, "cannot read", errno);
+    while (file && bytes.size() <= largest) {
+        file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        bytes.append(piece, 0, static_cast<size_t>(file.gcount()));
+    }
+    if (file.bad()) fail(path, "cannot read", errno);
     if (bytes.size() > largest) throw InputError(path + ": error: larger than 1 GiB");
     return bytes;
 }

@@ -6,22 +6,19 @@
 #include <string_view>
 #include <vector>
 
-/// How many letters must be inserted, deleted, replaced or swapped to turn a into b.
+/// How many letters must be inserted, deleted or replaced to turn a into b.
 inline size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<size_t> above(b.size() + 1), row(b.size() + 1), before(b.size() + 1);
-    std::iota(above.begin(), above.end(), size_t{0});
-    for (size_t i = 1; i <= a.size(); i++) {
-        row[0] = i;
-        for (size_t j = 1; j <= b.size(); j++) {
-            row[j] =
-                std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] != b[j - 1])});
-            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (char letter : a) {
+        size_t diagonal = row[0]++;
+        for (size_t j = 0; j < b.size(); j++) {
+            size_t replaced = diagonal + (letter != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({diagonal + 1, row[j] + 1, replaced});
         }
-        std::swap(before, above);
-        std::swap(above, row);
     }
-    return above[b.size()];
+    return row.back();
 }
 
 /// The known word nearest to `word`; empty when none is closer than half its length. Only the first

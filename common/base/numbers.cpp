@@ -5,8 +5,6 @@
 #include <string>
 #include <version>
 
-#include "common/base/system.h"
-
 namespace {
 
 std::string_view without_plus(std::string_view text) {
@@ -29,7 +27,7 @@ std::optional<double> to_number(std::string_view text) {
     if (digits.find_first_not_of("0123456789.eE+-") != std::string_view::npos) return {};
     std::string copy(text);
     char* end = nullptr;
-    double rounded = plain_strtod(copy.c_str(), &end);
+    double rounded = std::strtod(copy.c_str(), &end);
     if (end != copy.c_str() + copy.size()) return {};
     return rounded;
 }

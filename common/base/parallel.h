@@ -1,33 +1,21 @@
 // Work shared out among threads.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <list>
 #include <mutex>
+#include <system_error>
 #include <thread>
-#include <vector>
 
 #include "common/base/ray_count.h"
 
 /// A thread that is waited for at the end of its block: std::jthread, which not all libraries have.
-/// Where no thread can be had, this one does the work.
-class JoinedThread {
-public:
-    template <typename Work>
-    explicit JoinedThread(const Work& work) {
-        try {
-            thread_ = std::thread(work);
-        } catch (const std::exception&) {
-            work();
-        }
-    }
-    JoinedThread(JoinedThread&&) = default;
-    ~JoinedThread() {
-        if (thread_.joinable()) thread_.join();
-    }
-
-private:
-    std::thread thread_;
+struct JoinedThread {
+    std::thread thread;
+    explicit JoinedThread(std::thread started) : thread(std::move(started)) {}
+    ~JoinedThread() { thread.join(); }
 };
 
 /// Whether the user wants the program to end: asked by work that takes long.
@@ -52,12 +40,15 @@ void parallel_for(int count, int threads, const Work& work) {
         }
     };
     {
-        std::vector<JoinedThread> others;  // joined at the end of this block
-        for (int t = 1; t < std::min(threads, count); t++)
-            others.emplace_back([&] {
-                run();
-                rays_of_others += rays_traced;
-            });
+        std::list<JoinedThread> others;  // joined at the end of this block
+        try {
+            for (int t = 1; t < std::min(threads, count); t++)
+                others.emplace_back(std::thread([&] {
+                    run();
+                    rays_of_others += rays_traced;
+                }));
+        } catch (const std::system_error&) {  // fewer threads do the work
+        }
         run();
     }
     rays_traced.add(rays_of_others);

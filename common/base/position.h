@@ -43,8 +43,7 @@ inline std::string printable(std::string_view text) {
 }
 
 /// A word of the input in quotes, cut off where it is too long to print.
-inline std::string quote(std::string_view word) {
-    constexpr size_t longest = 60;
+inline std::string quote(std::string_view word, size_t longest = 60) {
     if (word.size() <= longest) return '"' + std::string(word) + '"';
     // Cut before a character, not inside one.
     size_t end = longest;
@@ -52,12 +51,8 @@ inline std::string quote(std::string_view word) {
     return '"' + std::string(word.substr(0, end)) + "...\"";
 }
 
-/// The name of a file in quotes, never cut off: the end of a path says which file it is. Only what
-/// is too long to be the name of a file is cut.
-inline std::string quote_file(const std::string& name) {
-    constexpr size_t longest = 4096;
-    return name.size() <= longest ? '"' + name + '"' : quote(name);
-}
+/// The name of a file in quotes. Only what is too long for one is cut: the end says which it is.
+inline std::string quote_file(const std::string& name) { return quote(name, 4096); }
 
 /// "file:line:column"; for a file as a whole "file".
 inline std::string place_text(const Position& at) {

@@ -9,10 +9,8 @@
 #include "common/base/position.h"
 #include "common/base/report.h"
 
-Progress::Progress(double pause) : Progress(pause, isatty(STDERR_FILENO)) {}
-
-Progress::Progress(double pause, bool is_terminal)
-    : is_terminal_(is_terminal), pause_(is_terminal ? std::min(pause, 0.1) : pause) {}
+Progress::Progress(double pause)
+    : is_terminal_(isatty(STDERR_FILENO)), pause_(is_terminal_ ? std::min(pause, 0.1) : pause) {}
 
 void Progress::clear() {
     std::lock_guard lock(mutex_);
@@ -20,19 +18,15 @@ void Progress::clear() {
     is_shown_ = false;
 }
 
-void Progress::show(const std::string& what, double share) { show(what, share, NAN); }
-
 void Progress::show(const std::string& what, double share, double seconds) {
     std::unique_lock lock(mutex_, std::try_to_lock);  // or another thread is showing it
     if (!lock || Clock::now() - last_ < pause_) return;
     last_ = Clock::now();
     share = std::clamp(share, 0.0, 1.0);
     char numbers[100];
-    int size = std::snprintf(numbers, sizeof numbers, " ... %2.0f %%", 100 * share);
-    if (!std::isnan(seconds)) {
-        std::snprintf(numbers + size, sizeof numbers - static_cast<size_t>(size), ", %.0f s left",
-                      seconds / share - seconds);
-    }
+    std::snprintf(numbers, sizeof numbers,
+                  std::isnan(seconds) ? " ... %2.0f %%" : " ... %2.0f %%, %.0f s left", 100 * share,
+                  seconds / share - seconds);
     std::string text = printable(what) + numbers;
     tell(is_terminal_ ? "\r" + text + "\033[K" : text + "\n");
     is_shown_ = is_terminal_;

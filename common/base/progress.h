@@ -1,6 +1,7 @@
 // What a program shows of its progress.
 #pragma once
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <string>
 
@@ -10,15 +11,13 @@ class Progress {
 public:
     /// pause   s, between lines in a file; what takes less shows none
     explicit Progress(double pause);
-    Progress(double pause, bool is_terminal);
     ~Progress() { clear(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// "WHAT ... 12 %": a `share` of the work, from 0 to 1. Any thread may call it.
-    void show(const std::string& what, double share);
-    /// The same with the time that is left, where the share took `seconds`.
-    void show(const std::string& what, double share, double seconds);
+    /// "WHAT ... 12 %": a `share` of the work, from 0 to 1; with the time that is left, where it is
+    /// known that the share took `seconds`. Any thread may call it.
+    void show(const std::string& what, double share, double seconds = NAN);
     /// Clears the line on the terminal, so that other lines can be printed.
     void clear();
 

@@ -20,8 +20,7 @@ public:
 
 private:
     friend class RayCount;
-    std::function<bool()> ends_;
-    const TracingLimit* before_;
+    const std::function<bool()> ends_;
 };
 
 /// A number of rays, which each of them makes larger by 1. It counts down in between, since that is

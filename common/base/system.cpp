@@ -3,8 +3,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
-#include <sstream>
 #include <system_error>
 
 namespace fs = std::filesystem;
@@ -13,13 +11,6 @@ fs::path file_path(const std::string& name) { return std::u8string(name.begin(),
 std::string file_name(const fs::path& path) {
     std::u8string name = path.generic_u8string();
     return {name.begin(), name.end()};
-}
-std::FILE* open_to_read(const std::string& name) {
-#ifdef _WIN32
-    return _wfopen(file_path(name).c_str(), L"rb");
-#else
-    return std::fopen(name.c_str(), "rb");
-#endif
 }
 
 static std::vector<void (*)(int)> handlers_before(stop_signals.size());
@@ -43,7 +34,6 @@ void release_stop_signals() {
 #define WIN32_LEAN_AND_MEAN
 #include <fcntl.h>
 #include <io.h>
-#include <locale.h>
 #include <windows.h>
 
 #include <deque>
@@ -64,22 +54,10 @@ int lock_file(const std::string& name) {
 }
 void unlock_file(int lock, const std::string&) { _close(lock); }
 
-bool reach_disk(const std::string& name) {
-    int file = _wopen(file_path(name).c_str(), _O_WRONLY | _O_BINARY);
-    bool is_there = file >= 0 && _commit(file) == 0;
-    if (file >= 0) _close(file);
-    return is_there;
-}
-
 fs::path own_file(const std::string&) {
     std::wstring name(32768, L'\0');  // the longest that there is
     DWORD length = GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size()));
     return fs::path(name.substr(0, length));
-}
-
-double plain_strtod(const char* text, char** end) {
-    static const _locale_t plain = _create_locale(LC_ALL, "C");
-    return _strtod_l(text, end, plain);
 }
 
 // Windows calls this in a thread of its own. When the window is closed or the user logs off, it
@@ -122,58 +100,32 @@ extern "C" int wmain(int argc, wchar_t** argv) {
 #else
 
 #include <fcntl.h>
-#include <locale.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#ifdef __APPLE__
-#include <xlocale.h>
-#endif
 
 int lock_file(const std::string& name) {
-    for (;;) {
-        int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-        if (file < 0) return -1;
-        // Some file systems have no locks.
-        bool is_locked = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-        // Another program may have removed the file between the two.
-        struct stat opened = {}, named = {};
-        bool is_there = ::fstat(file, &opened) == 0 && ::stat(name.c_str(), &named) == 0 &&
-                        opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-        if (is_there && !is_locked) return file;
-        ::close(file);
-        errno = EWOULDBLOCK;
-        if (is_locked) return -1;
-    }
+    int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file < 0) return -1;
+    // Some file systems have no locks.
+    bool is_locked = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    // Another program may have removed the file between the two.
+    struct stat opened = {}, named = {};
+    bool is_there = ::fstat(file, &opened) == 0 && ::stat(name.c_str(), &named) == 0 &&
+                    opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+    if (is_there && !is_locked) return file;
+    ::close(file);
+    errno = EWOULDBLOCK;
+    return -1;
 }
 void unlock_file(int lock, const std::string& name) {
     ::unlink(name.c_str());
     ::close(lock);
 }
 
-bool reach_disk(const std::string& name) {
-    int file = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
-    bool is_there = file >= 0 && (::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP);
-    if (file >= 0) ::close(file);
-    return is_there;
-}
-
 fs::path own_file(const std::string& program) {
     std::error_code none;
-    if (program.find('/') != std::string::npos) return fs::canonical(program, none);
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        fs::path file = fs::path(folder.empty() ? "." : folder) / program;
-        bool runs = ::access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file, none);
-        if (runs) return fs::canonical(file, none);
-    }
-    return {};
-}
-
-double plain_strtod(const char* text, char** end) {
-    static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", locale_t{});
-    return ::strtod_l(text, end, plain);
+    return fs::canonical(program, none);
 }
 
 void prepare_streams() {

@@ -2,7 +2,6 @@
 // program, and its streams. All else is written in standard C++.
 #pragma once
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,22 +11,14 @@
 std::filesystem::path file_path(const std::string& name);
 std::string file_name(const std::filesystem::path& path);
 
-/// Null if it cannot be opened: errno says why.
-std::FILE* open_to_read(const std::string& name);
-
 /// Makes a file that no other program can make until this one removes it or ends, in whatever way:
-/// the number of the lock. -1: errno is EWOULDBLOCK where another program has it.
+/// the number of the lock. -1: errno is EWOULDBLOCK where another program has it, or just had it.
 int lock_file(const std::string& name);
 void unlock_file(int lock, const std::string& name);
-/// Waits until what was written is on the disk. False where it cannot get there: errno says why.
-bool reach_disk(const std::string& name);
 
 /// The file of this program, which was started by the command `program`; with links resolved, and
 /// empty if it is not known.
 std::filesystem::path own_file(const std::string& program);
-
-/// What strtod does where a point is a point, whatever the user's language makes of it.
-double plain_strtod(const char* text, char** end);
 
 /// Opens those of stdin, stdout and stderr that are closed, to read or write nothing. Else the next
 /// file opened would take its number, and printed text would end up in that file. Then lets what

@@ -1,6 +1,5 @@
 // UTF-8, the encoding of text files.
 #pragma once
-#include <cstdint>
 #include <string_view>
 
 /// The bytes of the UTF-8 character that starts at bytes[i]; 0 when it is not well formed.
@@ -19,14 +18,8 @@ inline size_t utf8_length(std::string_view bytes, size_t i) {
     return refused ? 0 : length;
 }
 
-/// Whether a terminal may obey this well-formed character instead of printing it: a control
-/// character (U+0000 to U+001F, U+007F to U+009F), the end of a line or paragraph, or a change of
-/// the direction of the text.
+/// Whether this well-formed character is a control character (U+0000 to U+001F, U+007F to U+009F),
+/// which a terminal may obey instead of printing it.
 inline bool utf8_is_control(std::string_view character) {
-    uint32_t code = static_cast<unsigned char>(character[0]);
-    if (character.size() > 1) code &= 0x7f >> character.size();
-    for (char byte : character.substr(1)) code = code << 6 | (byte & 0x3f);
-    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e ||
-           code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||
-           (code >= 0x2066 && code <= 0x2069);
+    return character < " " || (character >= "\x7f" && character < "\xc2\xa0");
 }

@@ -1,27 +1,26 @@
 #include "common/picture/film.h"
 
-Film::Channels Film::mean_of(size_t pixel, double spp) const {
+Rgbd Film::mean_of(size_t pixel, double spp) const {
     auto mean = [](const PixelSum& p) {
         double n = std::max(p.n, 1u);
-        return Channels{p.r() / n, p.g() / n, p.b() / n};
+        return Rgbd{p.r() / n, p.g() / n, p.b() / n};
     };
-    Channels c = mean(pixels_[pixel]);
+    Rgbd c = mean(pixels_[pixel]);
     if (has_halves_ && audits_[pixel].n > 0) {
-        Channels b = mean(audits_[pixel]);
-        c = pixels_[pixel].n == 0 ? b : Channels{(c.r + b.r) / 2, (c.g + b.g) / 2, (c.b + b.b) / 2};
+        Rgbd b = mean(audits_[pixel]);
+        c = pixels_[pixel].n == 0 ? b : 0.5 * (c + b);
     }
     if (splats_.empty()) return c;
     const PixelSum& splats = splats_[pixel];
-    return {c.r + splats.r() / spp, c.g + splats.g() / spp, c.b + splats.b() / spp};
+    return c + Rgbd{splats.r() / spp, splats.g() / spp, splats.b() / spp};
 }
 
-Film::Channels Film::mean_channels() const {
-    Channels sum;
+Rgbd Film::mean_channels() const {
+    Rgbd sum;
     double all = spp(), seen = 0;
     for (size_t i = 0; i < pixels_.size(); i++) {
         if (count_of(i) == 0) continue;
-        Channels c = mean_of(i, all);
-        sum.r += c.r, sum.g += c.g, sum.b += c.b;
+        sum += mean_of(i, all);
         seen++;
     }
     seen = std::max(seen, 1.0);
@@ -31,11 +30,7 @@ Film::Channels Film::mean_channels() const {
 Image Film::image() const {
     Image image(width, height);
     double all = spp();
-    for (size_t i = 0; i < pixels_.size(); i++) {
-        Channels c = mean_of(i, all);
-        image.pixels[i] = {static_cast<float>(c.r), static_cast<float>(c.g),
-                           static_cast<float>(c.b)};
-    }
+    for (size_t i = 0; i < pixels_.size(); i++) image.pixels[i] = to_rgb(mean_of(i, all));
     return image;
 }
 
@@ -46,16 +41,6 @@ Image Film::counts() const {
         image.pixels[i] = {n, n, n};
     }
     return image;
-}
-
-Rgb Film::mean_rgb() const {
-    Channels c = mean_channels();
-    return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
-}
-
-double Film::mean() const {
-    Channels c = mean_channels();
-    return (c.r + c.g + c.b) / 3;
 }
 
 static double variance_of_mean(const PixelSum& p) {
@@ -161,10 +146,8 @@ Film::ErrorBasis Film::error_basis() const {
         if (part.audited > 0)
             of_audits += share * share * part.audited2 / part.audited / part.audited;
     }
-    for (const PixelSum& p : measured()) basis.squares += p.n < 2 ? 0 : p.m2();
-    if (has_halves_) {
-        for (const PixelSum& p : audits_) basis.squares += p.n < 2 ? 0 : p.m2();
-    }
+    for (const Sums* half : measured_halves())
+        for (const PixelSum& p : *half) basis.squares += p.n < 2 ? 0 : p.m2();
     if (squares > 0) basis.pixels = sum * sum / squares;
     if (of_audits > 0) basis.audits = sum * sum / of_audits;
     if (has_halves_) basis.audits = basis.pixels;
@@ -173,21 +156,17 @@ Film::ErrorBasis Film::error_basis() const {
 
 double Film::effective_samples() const {
     double sum = 0, squares = 0;
-    for (int half = 0; half <= has_halves_; half++) {
-        for (const PixelSum& p : half == 0 ? measured() : audits_) {
+    for (const Sums* half : measured_halves())
+        for (const PixelSum& p : *half) {
             sum += p.n * p.mean();
             squares += p.sum_of_squares();
         }
-    }
     return squares > 0 ? sum * sum / squares : 0;
 }
 
 void Film::add(const Film& other) {
-    for (size_t i = 0; i < pixels_.size(); i++) pixels_[i].add(other.pixels_[i]);
-    for (size_t i = 0; i < audits_.size(); i++) audits_[i].add(other.audits_[i]);
-    for (size_t i = 0; i < splats_.size(); i++) splats_[i].add(other.splats_[i]);
-    for (size_t i = 0; i < totals_.size(); i++) totals_[i].add(other.totals_[i]);
-    for (size_t i = 0; i < batches_.size(); i++) batches_[i].add(other.batches_[i]);
+    for (size_t k = 0; k < sums().size(); k++)
+        for (size_t i = 0; i < sums()[k]->size(); i++) (*sums()[k])[i].add((*other.sums()[k])[i]);
 }
 
 size_t Film::empty_pixels() const {

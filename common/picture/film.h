@@ -31,11 +31,11 @@ public:
     const std::vector<PixelSum>& half(int number) const { return number == 0 ? pixels_ : audits_; }
 
     /// Adds the next sample of a pixel. Two threads must not add to one pixel.
-    void add(size_t pixel, Rgb L, int half = 0) { sum_of(pixel, half).add(L); }
+    void add(size_t pixel, Rgb L, int half = 0) { sum_in(pixel, half).add(L); }
 
     /// Adds one part of a sample, to the sums only: the film then has a mean but no error.
     /// count_as() sets the numbers of samples.
-    void add_part(size_t pixel, Rgb L, int half = 0) { sum_of(pixel, half).add_part(L); }
+    void add_part(size_t pixel, Rgb L, int half = 0) { sum_in(pixel, half).add_part(L); }
     /// This film holds parts of all samples of `whole`; it has halves if `whole` has.
     void count_as(const Film& whole) {
         for (size_t i = 0; i < pixels_.size(); i++) pixels_[i].n = whole.pixels_[i].n;
@@ -85,8 +85,6 @@ public:
     void add_to_batch(uint32_t pass, const PixelSum& samples) {
         batches_[hash32(pass) % most_batches].add(samples);
     }
-    std::vector<PixelSum>& batches() { return batches_; }
-    const std::vector<PixelSum>& batches() const { return batches_; }
 
     /// Adds the samples of another film of the same size; it must have audits if this film has.
     void add(const Film& other);
@@ -98,8 +96,8 @@ public:
     Image counts() const;
 
     /// Mean over channels and the pixels that have samples.
-    double mean() const;
-    Rgb mean_rgb() const;
+    double mean() const { return sum_of(mean_channels()) / 3; }
+    Rgb mean_rgb() const { return to_rgb(mean_channels()); }
 
     /// Standard error of mean(), from the variance within the pixels; unknown (NaN) if a pixel has
     /// only one sample, or samples in only one half. For a film with splats, from the variance of
@@ -137,28 +135,28 @@ public:
     }
 
     const std::vector<PixelSum>& pixels() const { return pixels_; }
-    /// The sums of the pixels and of the audits, to be written and read; see film_file.h.
     std::vector<PixelSum>& pixels() { return pixels_; }
-    std::vector<PixelSum>& audits() { return audits_; }
-    const std::vector<PixelSum>& audits() const { return audits_; }
-    std::vector<PixelSum>& splats() { return splats_; }
-    const std::vector<PixelSum>& splats() const { return splats_; }
-    std::vector<PixelSum>& totals() { return totals_; }
-    const std::vector<PixelSum>& totals() const { return totals_; }
+    /// All sums, to be added, written and read: those of the pixels, then those of the audits.
+    using Sums = std::vector<PixelSum>;
+    std::array<Sums*, 5> sums() { return {&pixels_, &audits_, &splats_, &totals_, &batches_}; }
+    std::array<const Sums*, 5> sums() const {
+        return {&pixels_, &audits_, &splats_, &totals_, &batches_};
+    }
 
 private:
-    struct Channels {
-        double r = 0, g = 0, b = 0;
-    };
     struct ErrorPart;
     std::array<ErrorPart, 2> error_parts() const;  // elsewhere, at edges
-    Channels mean_of(size_t pixel, double spp) const;
-    PixelSum& sum_of(size_t pixel, int half) { return half == 0 ? pixels_[pixel] : audits_[pixel]; }
-    Channels mean_channels() const;
+    Rgbd mean_of(size_t pixel, double spp) const;
+    PixelSum& sum_in(size_t pixel, int half) { return half == 0 ? pixels_[pixel] : audits_[pixel]; }
+    Rgbd mean_channels() const;
     double variance_of_batches() const;
 
-    /// The sums that the error is estimated from.
-    const std::vector<PixelSum>& measured() const { return splats_.empty() ? pixels_ : totals_; }
+    /// The sums that the error is estimated from, and (below) those of all samples.
+    const Sums& measured() const { return splats_.empty() ? pixels_ : totals_; }
+    std::array<const Sums*, 2> measured_halves() const {
+        static const Sums none;
+        return {&measured(), has_halves_ ? &audits_ : &none};
+    }
 
     std::vector<PixelSum> pixels_, audits_;  // the audits may be a second half
     bool has_halves_ = false;

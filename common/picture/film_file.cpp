@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "common/base/checksum.h"
 #include "common/base/files.h"
@@ -14,123 +15,47 @@
 
 namespace {
 
-constexpr size_t longest_label = 1 << 20;  // bytes
+/// The line that a film's file begins with, and what of it is the same in all versions.
+constexpr std::string_view any_version = "film of path-by-path, version ",
+                           first_line = "film of path-by-path, version 7\n";
 
 std::string_view bytes_of(const std::vector<PixelSum>& sums) {
     return {reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(PixelSum)};
 }
 
-/// All sums in a film's file, in order.
-std::array<const std::vector<PixelSum>*, 5> sums_of(const Film& film) {
-    return {&film.pixels(), &film.audits(), &film.splats(), &film.totals(), &film.batches()};
+/// What decides which sums a film has.
+std::array<int, 6> shape_of(const Film& film) {
+    return {film.width,        film.height,        film.takes_splats(),
+            film.has_halves(), film.has_batches(), film.has_audits()};
 }
 
-/// Reads a film from beginning to end, and computes its checksum.
-class FilmReader {
-public:
-    explicit FilmReader(const std::string& path) : path_(path) {
-        std::error_code none;
-        bool is_folder = std::filesystem::is_directory(file_path(path), none);
-        if (!is_folder) check_film_is_file(path);
-        errno = 0;
-        file_.open(file_path(path), std::ios::binary);
-        if (is_folder || !file_) refuse_to_read(is_folder ? EISDIR : errno);
-    }
-
-    LabeledFilm read();
-
-private:
-    [[noreturn]] void refuse(const std::string& why) const { fail({path_}, why); }
-    [[noreturn]] void refuse_numbers() const {
-        refuse("the film is damaged: its numbers contradict each other");
-    }
-
-    [[noreturn]] void refuse_to_read(int error) const {
-        refuse(std::string("cannot read: ") + std::strerror(error));
-    }
-
-    /// The next bytes, as many as there are up to `size`.
-    size_t read_some(char* to, size_t size) {
-        errno = 0;
-        file_.read(to, static_cast<std::streamsize>(size));
-        if (file_.bad()) refuse_to_read(errno);
-        return static_cast<size_t>(file_.gcount());
-    }
-    std::string read_text();
-    void read_sums(std::vector<PixelSum>& sums);
-    void read_pixels(Film& film, const FilmShape& shape);
-
-    std::string path_;
-    std::ifstream file_;
-    Checksum checksum_;
-};
-
-std::string FilmReader::read_text() {
-    std::string text;
-    auto begins_with = [&](std::string_view line) {
-        return text.starts_with(line.substr(0, text.size()));
+/// The file, ready to be read after its first line. Throws where it is not whole.
+std::ifstream whole_film(const std::string& path) {
+    check_film_is_file(path);
+    errno = 0;
+    std::ifstream file(file_path(path), std::ios::binary);
+    if (!file) fail({path}, std::string("cannot read: ") + std::strerror(errno));
+    std::string piece(1 << 16, '\0');
+    auto next = [&](uint64_t most) {
+        file.read(piece.data(),
+                  static_cast<std::streamsize>(std::min<uint64_t>(most, piece.size())));
+        return std::string_view(piece).substr(0, static_cast<size_t>(file.gcount()));
     };
-    while (!text.ends_with("\n\n")) {
-        char c;
-        if (text.size() > longest_label) refuse("a film whose label cannot be read");
-        if (!begins_with(film_any_version)) refuse("not a film");
-        if (!begins_with(film_version)) refuse("a film by another version of the program");
-        if (read_some(&c, 1) == 0) refuse(text.empty() ? "not a film" : "the film is cut short");
-        text += c;
+    std::string_view line = next(first_line.size());
+    if (!line.starts_with(any_version)) fail({path}, "not a film");
+    if (line != first_line) fail({path}, "a film by another version of the program");
+    Checksum sum;
+    sum.add(line);
+    uint64_t written = 0, left = std::filesystem::file_size(file_path(path)) - line.size();
+    while (left > sizeof written && file) {
+        line = next(left - sizeof written);
+        sum.add(line);
+        left -= line.size();
     }
-    checksum_.add(text);
-    return text;
-}
-
-void FilmReader::read_sums(std::vector<PixelSum>& sums) {
-    size_t size = sums.size() * sizeof(PixelSum);
-    if (read_some(reinterpret_cast<char*>(sums.data()), size) < size) {
-        refuse("the film is cut short");
-    }
-    checksum_.add(bytes_of(sums));
-}
-
-/// The pixels; those at the edges of lamps decide which are audited, and so how many audits follow.
-void FilmReader::read_pixels(Film& film, const FilmShape& shape) {
-    read_sums(film.pixels());
-    std::vector<bool> audited;
-    for (const PixelSum& p : film.pixels()) {
-        if (std::max(p.is_edge, p.is_audited) > shape.has_audits()) refuse_numbers();
-        audited.push_back(p.is_audited);
-    }
-    if (shape.has_audits()) film.start_audit();
-    for (size_t i = 0; i < audited.size(); i++) {
-        if (film.is_audited(i) != audited[i]) refuse_numbers();
-    }
-}
-
-LabeledFilm FilmReader::read() {
-    auto [label, shape] = parse_label(path_, read_text());
-    // Ask first whether there are so many bytes: a label alone must not take all memory.
-    uint64_t pixels = static_cast<uint64_t>(shape.width) * static_cast<uint64_t>(shape.height);
-    uint64_t least = pixels * (shape.takes_splats ? 3 : 1) + (shape.kind == 2 ? pixels : 0);
-    if (size_of(path_) < least * sizeof(PixelSum)) refuse("the film is cut short");
-    Film film(shape.width, shape.height, shape.takes_splats);
-    if (shape.kind == 2) film.start_halves();
-    if (shape.has_batches()) film.start_batches();
-    read_pixels(film, shape);
-    for (std::vector<PixelSum>* sums :
-         {&film.audits(), &film.splats(), &film.totals(), &film.batches()}) {
-        read_sums(*sums);
-    }
-    uint64_t written = 0;
-    char more;
-    if (read_some(reinterpret_cast<char*>(&written), 8) < 8) refuse("the film is cut short");
-    if (written != checksum_.value() || read_some(&more, 1) > 0) {
-        refuse("the film is damaged: its checksum is wrong");
-    }
-    for (const std::vector<PixelSum>* all : sums_of(film)) {
-        for (const PixelSum& p : *all) {
-            bool has_flags = p.is_edge || p.is_audited;
-            if (!p.is_possible() || (has_flags && all != &film.pixels())) refuse_numbers();
-        }
-    }
-    return {std::move(label), std::move(film)};
+    file.read(reinterpret_cast<char*>(&written), sizeof written);
+    if (!file || written != sum.value()) fail({path}, "the film is damaged, or cut short");
+    file.seekg(first_line.size());
+    return file;
 }
 
 }  // namespace
@@ -138,23 +63,18 @@ LabeledFilm FilmReader::read() {
 void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
     NewFile file(path);
     Checksum checksum;
-    std::string text = label_text(label, shape_of(film));
     auto write = [&](std::string_view bytes) {
         checksum.add(bytes);
         file.write(bytes);
     };
-    write(text);
-    for (const std::vector<PixelSum>* sums : sums_of(film)) write(bytes_of(*sums));
+    write(first_line);
+    write(label.text() + "size");
+    for (int number : shape_of(film)) write(' ' + std::to_string(number));
+    write("\n\n");
+    for (const Film::Sums* sums : film.sums()) write(bytes_of(*sums));
     uint64_t sum = checksum.value();
     file.write({reinterpret_cast<const char*>(&sum), sizeof sum});
-    file.write_through();
     file.commit();
-}
-
-uint64_t largest_size(const Film& film) {
-    uint64_t bytes = 1 << 13;  // of the label
-    for (const std::vector<PixelSum>* sums : sums_of(film)) bytes += bytes_of(*sums).size();
-    return bytes;
 }
 
 void check_film_is_file(const std::string& path) {
@@ -164,10 +84,28 @@ void check_film_is_file(const std::string& path) {
     fail({path}, "a film must be a file: what this is cannot be read and replaced");
 }
 
-LabeledFilm read_film(const std::string& path) { return FilmReader(path).read(); }
+LabeledFilm read_film(const std::string& path) {
+    std::ifstream file = whole_film(path);
+    FilmLabel label;
+    std::string line, word;
+    std::istringstream size;
+    for (; std::getline(file, line) && !line.empty(); label.add_line(line)) size.str(line);
+    int width = 0, height = 0;
+    bool takes_splats = false, has_halves = false, has_batches = false, has_audits = false;
+    size >> word >> width >> height >> takes_splats >> has_halves >> has_batches >> has_audits;
+    Film film(width, height, takes_splats);
+    if (has_halves) film.start_halves();
+    if (has_batches) film.start_batches();
+    for (Film::Sums* sums : film.sums()) {
+        file.read(reinterpret_cast<char*>(sums->data()),
+                  static_cast<std::streamsize>(bytes_of(*sums).size()));
+        // The pixels at the edges of lamps decide which are audited, and so how many audits follow.
+        if (has_audits && sums == &film.pixels()) film.start_audit();
+    }
+    return {std::move(label), std::move(film)};
+}
 
-void check_options(const std::string& path, const FilmLabel& label,
-                   const std::vector<std::pair<std::string, std::string>>& options) {
+void check_options(const std::string& path, const FilmLabel& label, const Notes& options) {
     for (size_t i = 0; i < std::max(options.size(), label.options.size()); i++) {
         if (i >= options.size() || i >= label.options.size() ||
             options[i].first != label.options[i].first) {
@@ -185,11 +123,10 @@ void check_options(const std::string& path, const FilmLabel& label,
 void check_sums(const std::string& path, const Film& film, const Film& sum) {
     if (shape_of(film) != shape_of(sum)) fail({path}, "a film by another version of the program");
     for (size_t i = 0; i < sum.pixels().size(); i++) {
-        const PixelSum &a = film.pixels()[i], &b = sum.pixels()[i];
-        if (a.is_edge != b.is_edge) fail({path}, "it has other pixels at the edges of lamps");
-        bool fits = a.n + b.n <= PixelSum::most;
-        if (sum.has_halves()) fits &= film.audits()[i].n + sum.audits()[i].n <= PixelSum::most;
-        if (!fits) fail({path}, "more than 2^28 samples of a pixel, in all");
+        if (film.pixels()[i].is_edge != sum.pixels()[i].is_edge)
+            fail({path}, "it has other pixels at the edges of lamps");
+        if (film.count_of(i) + sum.count_of(i) > PixelSum::most)
+            fail({path}, "more than 2^28 samples of a pixel, in all");
     }
 }
 

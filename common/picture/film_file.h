@@ -15,23 +15,20 @@ struct LabeledFilm {
 inline constexpr const char* film_ending = ".film";
 
 /// Writes a film: a label in lines of text, the sums as they are in memory, and a checksum of both.
-/// The bytes depend on the samples, but not on their order. Throws
-/// InputError; the file that was there before stays until the new one is whole and on the disk.
+/// The bytes depend on the samples, but not on their order. Throws InputError; the file that was
+/// there before stays until the new one is whole.
 void write_film(const std::string& path, const FilmLabel& label, const Film& film);
-/// The most bytes that its file has.
-uint64_t largest_size(const Film& film);
 
 /// Throws InputError for a pipe or a device: a film is read before it is written again.
 void check_film_is_file(const std::string& path);
 
 /// Reads a film. Throws InputError, one line, for a file that is cut short, damaged in any bit, or
-/// no film; and for one whose numbers contradict each other, though its checksum is right.
+/// no film.
 LabeledFilm read_film(const std::string& path);
 
 /// Throws InputError, a line that names the first difference, when the film read from `path` is of
 /// other options than these.
-void check_options(const std::string& path, const FilmLabel& label,
-                   const std::vector<std::pair<std::string, std::string>>& options);
+void check_options(const std::string& path, const FilmLabel& label, const Notes& options);
 
 /// Throws InputError when the sums of the film read from `path` cannot be added to those of `sum`.
 void check_sums(const std::string& path, const Film& film, const Film& sum);

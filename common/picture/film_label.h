@@ -3,10 +3,9 @@
 #include <compare>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "common/picture/film.h"
+#include "common/picture/notes.h"
 
 /// Samples number first to last - 1 of each pixel, with the random numbers of a seed.
 struct SampleRange {
@@ -49,8 +48,8 @@ struct SampleCounts {
 /// The label of a film. Two films can be added if their options are equal, and no sample is in
 /// both.
 struct FilmLabel {
-    std::vector<std::pair<std::string, std::string>> options;  // names and values, all that matter
-    std::vector<SampleRange> samples;                          // sorted, none touches the next
+    Notes options;                     // all that matter
+    std::vector<SampleRange> samples;  // sorted, none touches the next
     std::vector<Goal> goals;  // sorted, one for each seed; none for a seed that has reached its own
     SampleCounts counts;
 
@@ -61,27 +60,12 @@ struct FilmLabel {
     void add(const FilmLabel& other, const std::string& path);
     /// The samples that are missing, and the parts that they belong to: a line for each gap.
     std::vector<std::string> missing() const;
+
+    /// Lines of text, and back: adds what one of them says.
+    std::string text() const;
+    void add_line(const std::string& line);
 };
 
-/// The properties that decide which sums a film has.
-struct FilmShape {
-    int width = 0, height = 0;
-    int kind = 0;  // 0: pixels alone; 1: with audits; 2: with a second half of each; 3: with
-                   // batches; 4: with batches and audits
-    bool takes_splats = false;
-    bool has_audits() const { return kind == 1 || kind == 4; }
-    bool has_batches() const { return kind >= 3; }
-    bool operator==(const FilmShape&) const = default;
-};
-FilmShape shape_of(const Film& film);
-
-/// The line that a film's file begins with, and what of it is the same in all versions.
-inline constexpr const char* film_version = "film of path-by-path, version 6\n";
-inline constexpr const char* film_any_version = "film of path-by-path, version ";
-
-/// The lines of text at the beginning of a film's file, with the empty one that ends them.
-std::string label_text(const FilmLabel& label, const FilmShape& shape);
-
-/// The reverse of label_text(). Throws InputError for all that label_text() does not write; `path`
-/// is the file that the text is from.
-std::pair<FilmLabel, FilmShape> parse_label(const std::string& path, const std::string& text);
+/// The notes of a picture with this label, with `spp` samples per pixel on average. A label without
+/// samples describes a picture that was not sampled.
+Notes notes_of(const FilmLabel& label, double spp);

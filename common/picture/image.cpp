@@ -8,9 +8,7 @@
 #include <sstream>
 
 #include "common/base/files.h"
-#include "common/base/numbers.h"
 #include "common/base/position.h"
-#include "common/base/system.h"
 #include "common/picture/png.h"
 
 static_assert(std::endian::native == std::endian::little, "pfm rows are written as they lie");
@@ -68,107 +66,63 @@ std::string encode_pfm(const Image& image) {
     return bytes;
 }
 
-// A cursor over a header of words between blanks, for both formats that have one.
+/// What a .ppm or .pfm file begins with.
 struct Header {
-    const std::string& path;
-    std::string_view bytes;
-    size_t at = 0;
-
-    std::string_view word() {
-        skip_blanks();
-        size_t start = at;
-        while (at < bytes.size() && !is_blank(bytes[at])) at++;
-        return bytes.substr(start, at - start);
-    }
-    static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-    void skip_blanks() {
-        while (at < bytes.size()) {
-            if (bytes[at] == '#') {
-                while (at < bytes.size() && bytes[at] != '\n' && bytes[at] != '\r') at++;
-            } else if (is_blank(bytes[at])) {
-                at++;
-            } else {
-                return;
-            }
-        }
-    }
-    /// NaN for a word that is no number.
-    double number() {
-        std::string_view text = word();
-        if (text.empty()) fail(cut_short);
-        return to_number(text).value_or(NAN);
-    }
-    /// An image of the size that comes next.
-    Image image() {
-        double width = number(), height = number();
-        for (double side : {width, height}) {
-            if (side >= 1 && side <= 65536 && side == std::floor(side)) continue;
-            fail("a picture's sides must be whole numbers from 1 to 65536");
-        }
-        if (width * height > most_pixels) fail("a picture of more than 2^28 pixels");
-        Image sized;  // its pixels wait until the file is known to have them
-        sized.width = static_cast<int>(width), sized.height = static_cast<int>(height);
-        return sized;
-    }
-    /// The bytes after the header, `each` for a pixel: all of them. One blank ends the
-    /// header, or CR LF where the file then has the right size.
-    std::string_view body(Image& image, size_t each) {
-        size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
-        size_t size = each * pixels;
-        std::string_view rest = bytes.substr(at);
-        if (rest.starts_with("\r\n") && rest.size() == size + 2) rest.remove_prefix(1);
-        if (rest.size() < size + 1) fail(cut_short);
-        size_t more = rest.size() - size - 1;
-        if (more > 0) {
-            fail(std::to_string(more) + (more == 1 ? " byte is" : " bytes are") +
-                 " left over after the pixels");
-        }
-        image.pixels.resize(pixels);
-        return rest.substr(1);
-    }
-    [[noreturn]] void fail(const std::string& what) const { ::fail({path}, what); }
-
-    static constexpr const char* cut_short = "the picture is cut short";
+    std::string kind, comment;  // with the ends of its lines
+    int width = 0, height = 0;
+    double scale = 0;  // or the largest code
+    size_t size = 0;   // bytes, up to the blank that ends it
 };
 
-Image decode_ppm(Header header, float gamma) {
-    Image image = header.image();
-    if (header.number() != 255) header.fail("only 8-bit .ppm files (maxval 255) are read");
-    std::string_view body = header.body(image, 3);
-    std::array<float, 256> linear;
-    for (size_t i = 0; i < 256; i++) {
-        linear[i] = to_linear(static_cast<float>(i) / 255, gamma);
-    }
-    for (size_t i = 0; i < image.pixels.size(); i++) {
-        auto channel = [&](size_t c) {
-            return linear[static_cast<unsigned char>(body[3 * i + c])];
-        };
-        image.pixels[i] = {channel(0), channel(1), channel(2)};
-    }
-    return image;
+/// Reads as much of it as there is.
+Header header_of(const std::string& bytes) {
+    Header header;
+    std::istringstream text(bytes);
+    text >> header.kind;
+    for (std::string line; (text >> std::ws).peek() == '#' && std::getline(text, line);)
+        header.comment += line.substr(std::min<size_t>(2, line.size())) + '\n';
+    text >> header.width >> header.height >> header.scale;
+    header.size = std::min(static_cast<size_t>(text.tellg()), bytes.size());
+    return header;
 }
 
-/// The sign of the scale is the order of bytes; its magnitude multiplies all values, as in pbrt.
-Image decode_pfm(Header header, size_t channels) {
-    Image image = header.image();
-    float scale = static_cast<float>(header.number());
-    if (!std::isfinite(scale) || scale == 0) {
-        header.fail("a .pfm file's scale must be a finite number other than 0");
-    }
-    std::string_view body = header.body(image, 4 * channels);
+/// The scale of a .pfm: its sign is the order of bytes; its magnitude multiplies all values, as in
+/// pbrt.
+Image decode_ppm_or_pfm(const std::string& path, const std::string& bytes, float gamma) {
+    Header header = header_of(bytes);
+    bool is_ppm = header.kind == "P6", is_grey = header.kind == "Pf";
+    if (!is_ppm && !is_grey && header.kind != "PF")
+        fail({path}, "not a .ppm (P6), .pfm, .png, .jpg or .tga picture");
+    bool fits = std::min(header.width, header.height) > 0 &&
+                int64_t{header.width} * header.height <= most_pixels;
+    if (!fits) fail({path}, "a picture must have from 1 to 2^28 pixels");
+    float scale = static_cast<float>(header.scale);
+    if (is_ppm && scale != 255) fail({path}, "only 8-bit .ppm files (maxval 255) are read");
+    if (!std::isfinite(scale) || scale == 0)
+        fail({path}, "a .pfm file's scale must be a finite number other than 0");
+
+    // One blank ends the header, or CR LF where the file then has the right size.
+    size_t pixels = static_cast<size_t>(header.width) * static_cast<size_t>(header.height);
+    size_t channels = is_grey ? 1 : 3, size = channels * pixels * (is_ppm ? 1 : 4);
+    std::string_view body = std::string_view(bytes).substr(header.size);
+    if (body.starts_with("\r\n") && body.size() == size + 2) body.remove_prefix(1);
+    if (body.size() != size + 1) fail({path}, "the picture is cut short, or too long");
+    body.remove_prefix(1);
+
+    std::array<float, 256> linear;
+    for (size_t i = 0; i < 256; i++) linear[i] = to_linear(static_cast<float>(i) / 255, gamma);
     auto value = [&](size_t i) {
+        if (is_ppm) return linear[static_cast<unsigned char>(body[i])];
         uint32_t bits;
         std::memcpy(&bits, body.data() + 4 * i, 4);
         return std::bit_cast<float>(scale < 0 ? bits : __builtin_bswap32(bits)) * std::abs(scale);
     };
-    for (int y = 0; y < image.height; y++) {
-        for (int x = 0; x < image.width; x++) {
-            size_t i =
-                (static_cast<size_t>(image.height - 1 - y) * static_cast<size_t>(image.width) +
-                 static_cast<size_t>(x)) *
-                channels;
-            image.at(x, y) = channels == 1 ? Rgb{value(i), value(i), value(i)}
-                                           : Rgb{value(i), value(i + 1), value(i + 2)};
+    Image image(header.width, header.height);
+    size_t at = 0;
+    for (int row = 0; row < image.height; row++) {
+        for (int x = 0; x < image.width; x++, at += channels) {
+            image.at(x, is_ppm ? row : image.height - 1 - row) = {
+                value(at), value(is_grey ? at : at + 1), value(is_grey ? at : at + 2)};
         }
     }
     return image;
@@ -194,30 +148,14 @@ void write_image(const std::string& path, const Image& image, const std::string&
 Image read_image(const std::string& path) { return decode_image(path, read_file(path)); }
 
 Image decode_image(const std::string& path, const std::string& bytes, float gamma) {
-    if (is_png(bytes)) return decode_png(path, bytes, gamma);
-    if (is_jpg(bytes) || has_ending(path, ".tga")) return decode_jpg_or_tga(path, bytes, gamma);
-    if (bytes.starts_with("\x76\x2f\x31\x01")) {
-        fail({path}, "an .exr picture: pbrt makes a .pfm of it, by imgtool convert --outfile " +
-                         path.substr(0, path.rfind('.')) + ".pfm " + path);
-    }
-    Header header{path, bytes};
-    std::string_view magic = header.word();
-    if (magic == "P6") return decode_ppm(header, gamma);
-    if (magic == "PF") return decode_pfm(header, 3);
-    if (magic == "Pf") return decode_pfm(header, 1);
-    header.fail("not a .ppm (P6), .pfm, .png, .jpg or .tga picture");
+    if (is_png(bytes) || is_jpg(bytes) || has_ending(path, ".tga"))
+        return decode_by_stb(path, bytes, gamma);
+    if (bytes.starts_with("\x76\x2f\x31\x01"))
+        fail({path}, "an .exr picture: imgtool, a program of pbrt, converts it to .pfm");
+    return decode_ppm_or_pfm(path, bytes, gamma);
 }
 
 std::string decode_comment(const std::string& path, const std::string& bytes) {
     if (is_png(bytes)) return png_comment(path, bytes);
-    std::string_view rest = bytes;
-    if (!rest.starts_with("P6\n")) return "";
-    rest.remove_prefix(3);
-    std::string comment;
-    while (rest.starts_with("# ")) {
-        size_t end = std::min(rest.find('\n'), rest.size() - 1);
-        comment += rest.substr(2, end - 1);  // with its end
-        rest.remove_prefix(end + 1);
-    }
-    return comment;
+    return bytes.starts_with("P6") ? header_of(bytes).comment : "";
 }

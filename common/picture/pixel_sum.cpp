@@ -38,19 +38,6 @@ void PixelSum::add(const PixelSum& other) {
     n += other.n;
 }
 
-bool PixelSum::is_possible() const {
-    size_t end = pixel_sum::tops.limit.size();
-    if (top_channels < 2 || top_channels >= end || top_squares < 2 || top_squares >= end)
-        return false;
-    for (Sum sum : {red, green, blue, squares}) {
-        bool is_nan = std::isnan(bins[0][sum]);  // then all of them are
-        for (const auto& bin : bins) {
-            if (is_nan ? !std::isnan(bin[sum]) : !std::isfinite(bin[sum])) return false;
-        }
-    }
-    return true;
-}
-
 PixelSum::Double2 PixelSum::add(Double2 a, Double2 b) {  // source: Knuth's two-sum
     double sum = a.high + b.high, from_b = sum - a.high;
     double lost = (a.high - (sum - from_b)) + (b.high - from_b);

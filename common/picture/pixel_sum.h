@@ -59,8 +59,6 @@ struct PixelSum {
     }
     /// Adds part of a sample, to the sums of the channels only.
     void add_part(Rgb L) { add_numbers(double{L.r}, double{L.g}, double{L.b}, 0); }
-    /// Whether some numbers can have this sum: a check of sums read from a file.
-    bool is_possible() const;
     /// Adds the samples of another sum.
     void add(const PixelSum& other);
 

@@ -72,43 +72,33 @@ size_t little_endian_at(std::string_view bytes, size_t at, size_t count = 4) {
     return value;
 }
 
-/// Calls visit(kind, data) for each chunk, up to the one that ends the picture.
-template <typename Visit>
-void for_chunks(const std::string& path, std::string_view bytes, const Visit& visit) {
-    std::string_view kind;
-    for (size_t at = signature.size(); kind != "IEND";) {
-        size_t length = big_endian_at(bytes, at);
-        if (bytes.size() - at < 12 || length > bytes.size() - at - 12)
-            fail({path}, "the picture is cut short, or damaged");
-        kind = bytes.substr(at + 4, 4);
-        if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length))
-            fail({path}, "a damaged .png picture: a checksum is wrong");
-        visit(kind, bytes.substr(at + 8, length));
-        at += 12 + length;
-    }
-}
+/// The bytes that stb reads. It makes up what a file lacks; this sees that it does.
+struct Source {
+    std::string_view left;
+    bool is_cut = false;
+    stbi__context context = {};
 
-/// Whether a .tga file has fewer pixels than its header says: stb would make them up.
-bool tga_is_cut(std::string_view file) {
-    auto byte = [&](size_t i) { return byte_at(file, i); };
-    constexpr size_t header = 18;
-    if (file.size() < header) return true;
-    size_t palette = little_endian_at(file, 5, 2) * ((byte(7) + 7) / 8), each = (byte(16) + 7) / 8;
-    size_t left = little_endian_at(file, 12, 2) * little_endian_at(file, 14, 2);
-    size_t at = header + byte(0) + (byte(1) != 0 ? palette : 0);
-    bool is_packed = byte(2) >= 8;
-    if (!is_packed) return file.size() < at + left * each;
-    while (left > 0 && at < file.size()) {
-        size_t pixels = 1 + (byte(at) & 127);
-        at += 1 + (byte(at) & 128 ? 1 : pixels) * each;
-        left -= std::min(left, pixels);
+    static int read(void* self, char* to, int size) {
+        Source& source = *static_cast<Source*>(self);
+        size_t wanted = static_cast<size_t>(size), n = std::min(wanted, source.left.size());
+        // stb fills its buffer with what there is, and needs one byte of it.
+        bool is_buffer = to == reinterpret_cast<char*>(source.context.buffer_start);
+        source.is_cut |= n < (is_buffer ? 1 : wanted);
+        source.left.copy(to, n);
+        source.left.remove_prefix(n);
+        return static_cast<int>(n);
     }
-    return left > 0 || at > file.size();
-}
+    static void skip(void* self, int size) {
+        Source& source = *static_cast<Source*>(self);
+        size_t n = std::min(static_cast<size_t>(size), source.left.size());
+        source.is_cut |= n < static_cast<size_t>(size);
+        source.left.remove_prefix(n);
+    }
+    static int is_at_end(void* self) { return static_cast<Source*>(self)->left.empty(); }
+};
 
-/// Whether a .jpg file has no end, or a Huffman table of more than 256 codes: stb has no room for
-/// more.
-bool jpg_is_damaged(std::string_view file) {
+/// Whether a .jpg file has a Huffman table of more than 256 codes: stb has no room for more.
+bool has_large_table(std::string_view file) {
     constexpr size_t tables = 0xc4, end_of_picture = 0xd9;
     for (size_t at = 2; (at = file.find('\xff', at)) < file.size();) {
         size_t marker = byte_at(file, at + 1), end = at + 2 + big_endian_at(file, at + 2, 2);
@@ -123,7 +113,7 @@ bool jpg_is_damaged(std::string_view file) {
         bool has_segment = marker > 1 && marker != 0xff && (marker < 0xd0 || marker > 0xd8);
         at = has_segment ? end : at + (marker == 0xff ? 1 : 2);
     }
-    return true;
+    return false;
 }
 
 /// The bytes before the data: ten, and by the bits of the fourth an extra field, a name, a comment
@@ -134,35 +124,7 @@ size_t size_of_gzip_header(std::string_view bytes) {
     for (size_t flag : {8u, 16u})
         if (flags & flag) size = std::min(bytes.find('\0', size), bytes.size()) + 1;
     if (flags & 2) size += 2;
-    return is_gzip(bytes) && byte_at(bytes, 2) == 8 ? std::min(size, bytes.size()) : bytes.size();
-}
-
-/// What stb makes of a file, in linear values.
-Image decode(const std::string& path, const std::string& file, float gamma,
-             const std::string& damaged) {
-    auto* data = reinterpret_cast<const unsigned char*>(file.data());
-    int size = static_cast<int>(file.size()), width = 0, height = 0, channels = 0;
-    constexpr int64_t most = 1032;  // times smaller is what the .png format can make of it
-    most_memory = 1 << 16;
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
-        int64_t{width} * height > std::min(int64_t{most_pixels}, 8 * most * int64_t{size}))
-        fail({path}, damaged + ", or one of more than 2^28 pixels");
-    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
-    most_memory += 2 * file.size() + 32 * pixels;
-    // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
-    std::unique_ptr<uint16_t, void (*)(void*)> codes(
-        stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
-    if (!codes) fail({path}, damaged);
-    std::vector<float> linear(65536);
-    for (size_t i = 0; i < linear.size(); i++) {
-        linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
-    }
-    Image image(width, height);
-    for (size_t i = 0; i < pixels; i++) {
-        const uint16_t* code = codes.get() + 3 * i;
-        image.pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
-    }
-    return image;
+    return byte_at(bytes, 2) == 8 ? std::min(size, bytes.size()) : bytes.size();
 }
 
 }  // namespace
@@ -175,31 +137,26 @@ bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 std::string unpack_gzip(const std::string& path, const std::string& bytes) {
     constexpr size_t most = 1032, behind = 8;  // times larger; a checksum and the length
-    std::string text;
-    for (size_t at = 0; at < bytes.size();) {
-        // stb looks at a few bytes behind the data, and so is given the rest of the file too.
-        std::string_view part = std::string_view(bytes).substr(at);
-        auto* start = reinterpret_cast<stbi_uc*>(const_cast<char*>(part.data()));
-        stbi__zbuf state = {};
-        state.zbuffer = start + size_of_gzip_header(part);
-        state.zbuffer_end = start + part.size();
-        constexpr int room = 1 << 14;
-        most_memory = std::min(most_bytes, room + 2 * most * part.size());
-        auto* memory = static_cast<char*>(STBI_MALLOC(room));
-        bool is_whole = memory && stbi__do_zlib(&state, memory, room, 1, 0);
-        std::unique_ptr<char, void (*)(void*)> unpacked(state.zout_start, std::free);
-        size_t size = static_cast<size_t>(state.zout - state.zout_start);
-        size_t tail = static_cast<size_t>(state.zbuffer - start - state.num_bits / 8);
-        if (!is_whole || tail + behind > part.size() || size != little_endian_at(part, tail + 4) ||
-            crc32({unpacked.get(), size}) != little_endian_at(part, tail))
-            fail({path}, "damaged, cut short, or larger than 1 GB: packed by gzip");
-        text.append(unpacked.get(), size);
-        at = std::min(bytes.find_first_not_of('\0', at + tail + behind), bytes.size());
-    }
-    return text;
+    // stb looks at a few bytes behind the data, and so is given the rest of the file too.
+    auto* start = reinterpret_cast<stbi_uc*>(const_cast<char*>(bytes.data()));
+    stbi__zbuf state = {};
+    state.zbuffer = start + size_of_gzip_header(bytes);
+    state.zbuffer_end = start + bytes.size();
+    constexpr int room = 1 << 14;
+    most_memory = std::min(most_bytes, room + 2 * most * bytes.size());
+    auto* memory = static_cast<char*>(std::malloc(room));
+    bool is_whole = memory && stbi__do_zlib(&state, memory, room, 1, 0);
+    std::unique_ptr<char, void (*)(void*)> unpacked(state.zout_start, std::free);
+    size_t size = static_cast<size_t>(state.zout - state.zout_start);
+    size_t tail = static_cast<size_t>(state.zbuffer - start - state.num_bits / 8);
+    if (!is_whole || tail + behind != bytes.size() || size != little_endian_at(bytes, tail + 4) ||
+        crc32({unpacked.get(), size}) != little_endian_at(bytes, tail))
+        fail({path}, "damaged, cut short, or larger than 1 GB: packed by gzip");
+    return {unpacked.get(), size};
 }
 
 bool is_png(const std::string& bytes) { return bytes.starts_with(signature); }
+bool is_jpg(const std::string& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
 std::string encode_png(int width, int height, const std::string& codes,
                        const std::string& comment) {
@@ -214,31 +171,56 @@ std::string encode_png(int width, int height, const std::string& codes,
     return png.insert(after_header, png_chunk("tEXt" + std::string(comment_key) + comment));
 }
 
-Image decode_png(const std::string& path, const std::string& bytes, float gamma) {
-    std::string file(signature);  // without empty parts, which stb copies to nowhere
-    for_chunks(path, bytes, [&](std::string_view kind, std::string_view data) {
-        if (kind == "CgBI")
-            fail({path},
-                 "a .png picture of Xcode (CgBI), whose colors are in another order: save it anew");
-        if (kind == "IEND" || !data.empty())
-            file += png_chunk(std::string(kind) + std::string(data));
-    });
-    return decode(path, file, gamma, "a damaged .png picture");
-}
-
-bool is_jpg(const std::string& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
-
-Image decode_jpg_or_tga(const std::string& path, const std::string& bytes, float gamma) {
-    bool is_cut = is_jpg(bytes) ? jpg_is_damaged(bytes) : tga_is_cut(bytes);
-    if (is_cut || bytes.size() > most_bytes) fail({path}, "the picture is cut short, or too large");
-    return decode(path, bytes, gamma, "a damaged picture, or of a kind that is not read");
-}
-
-std::string png_comment(const std::string& path, const std::string& bytes) {
+std::string png_comment(const std::string& path, std::string_view bytes) {
     std::string comment;
-    for_chunks(path, bytes, [&](std::string_view kind, std::string_view data) {
+    std::string_view kind;
+    for (size_t at = signature.size(); kind != "IEND";) {
+        size_t length = big_endian_at(bytes, at);
+        if (bytes.size() - at < 12 || length > bytes.size() - at - 12)
+            fail({path}, "the picture is cut short, or damaged");
+        kind = bytes.substr(at + 4, 4);
+        std::string_view data = bytes.substr(at + 8, length);
+        if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length))
+            fail({path}, "a damaged .png picture: a checksum is wrong");
         if (comment.empty() && kind == "tEXt" && data.starts_with(comment_key))
             comment = data.substr(comment_key.size());
-    });
+        // The colors of the first are in another order; stb copies the second to nowhere.
+        if (kind == "CgBI" || (kind == "IDAT" && data.empty()))
+            fail({path}, "a .png picture of a rare kind (CgBI, empty IDAT): save it anew");
+        at += 12 + length;
+    }
     return comment;
+}
+
+Image decode_by_stb(const std::string& path, const std::string& bytes, float gamma) {
+    if (is_png(bytes)) png_comment(path, bytes);
+    if (bytes.size() > most_bytes) fail({path}, "the picture is too large");
+    auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    int size = static_cast<int>(bytes.size()), width = 0, height = 0, channels = 0;
+    constexpr int64_t most = 1032;  // times smaller is what the .png format can make of it
+    most_memory = 1 << 16;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
+        int64_t{width} * height > std::min(int64_t{most_pixels}, 8 * most * int64_t{size}))
+        fail({path}, "a damaged picture, of a kind that is not read, or of more than 2^28 pixels");
+    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+    most_memory += 2 * bytes.size() + 32 * pixels;
+    Source source{bytes};
+    stbi_io_callbacks callbacks = {Source::read, Source::skip, Source::is_at_end};
+    stbi__start_callbacks(&source.context, &callbacks, &source);
+    // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
+    std::unique_ptr<uint16_t, void (*)(void*)> codes(nullptr, std::free);
+    if (!is_jpg(bytes) || !has_large_table(bytes))
+        codes.reset(stbi__load_and_postprocess_16bit(&source.context, &width, &height, &channels,
+                                                     STBI_rgb));
+    if (!codes || source.is_cut) fail({path}, "the picture is cut short, or damaged");
+    std::vector<float> linear(65536);
+    for (size_t i = 0; i < linear.size(); i++) {
+        linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
+    }
+    Image image(width, height);
+    for (size_t i = 0; i < pixels; i++) {
+        const uint16_t* code = codes.get() + 3 * i;
+        image.pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
+    }
+    return image;
 }

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common/base/files.h"
-#include "common/base/percent.h"
+#include "common/base/numbers.h"
 #include "common/base/position.h"
 #include "common/picture/film_file.h"
 

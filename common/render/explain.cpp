@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "common/base/files.h"
+#include "common/base/numbers.h"
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/path/camera_sample.h"

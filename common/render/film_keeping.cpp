@@ -65,10 +65,9 @@ SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering) {
     if (options.film.empty()) return;
     rendering.film_lock = std::make_shared<FileLock>(options.film);
-    bool is_new = size_of(options.film) == 0;
-    // Each film is written beside the one before.
-    check_space(options.film, (is_new ? 2 : 1) * largest_size(rendering.film));
-    if (is_new) return save_film(scene, options, rendering);
+    std::error_code none;
+    bool is_there = std::filesystem::file_size(file_path(options.film), none) > 0 && !none;
+    if (!is_there) return save_film(scene, options, rendering);
     LabeledFilm found = read_film(options.film);
     check_options(options.film, found.label, film_options(scene, options));
     if (found.label.samples.empty()) return;  // it was stopped before it had samples

@@ -10,8 +10,8 @@
 SampleRange wanted_samples(const Scene& scene, const RenderOptions& options);
 
 /// Continues from the film that the options name, or makes one without samples; it is this
-/// program's alone then. Throws InputError if another program writes it, its options differ, it has
-/// other samples than the wanted ones, or its disk has no room to write it anew.
+/// program's alone then. Throws InputError if another program writes it, its options differ, or it
+/// has other samples than the wanted ones.
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering);
 
 /// The label of a film with all samples; and (below) with the given ones.

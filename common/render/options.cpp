@@ -8,7 +8,7 @@
 #include "common/base/files.h"
 #include "common/base/position.h"
 #include "common/base/system.h"
-#include "common/picture/notes.h"
+#include "common/picture/film_file.h"
 #include "common/recording/class_filter.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/base/percent.h"
+#include "common/base/numbers.h"
 #include "common/base/position.h"
 #include "common/light/light_table.h"
 #include "common/material/cosine.h"

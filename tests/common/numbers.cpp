@@ -3,11 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <clocale>
 #include <cmath>
 #include <limits>
-
-#include "common/base/percent.h"
 
 TEST_SUITE("numbers") {
     TEST_CASE("truth: numbers are rounded to the nearest double, halves to the even one") {
@@ -21,23 +18,18 @@ TEST_SUITE("numbers") {
         CHECK(to_number("1.7976931348623157e308") == std::numeric_limits<double>::max());
     }
 
-    TEST_CASE("input: what is a number, and what is none, in every country") {
-        for (const char* country : {"C", "de_DE.UTF-8"}) {
-            if (std::setlocale(LC_NUMERIC, country) == nullptr)
-                MESSAGE("skipped: no " << std::string(country));
-            CHECK(to_number("+1.5e+2") == 150);
-            CHECK(to_number("-.5") == -0.5);
-            CHECK(to_number("5.") == 5);
-            CHECK(std::signbit(to_number("-0").value()));
-            CHECK(to_number("1e999") == std::numeric_limits<double>::infinity());
-            CHECK(to_number("1e-999") == 0);
-            for (const char* none : {"", "+", "-", ".", "e5", "1e", "1e+", "1,5", "1 ", " 1",
-                                     "0x10", "inf", "nan", "1.2.3", "1-2", "+-1", "--1", "1f"}) {
-                CAPTURE(none);
-                CHECK_FALSE(to_number(none));
-            }
+    TEST_CASE("input: what is a number, and what is none") {
+        CHECK(to_number("+1.5e+2") == 150);
+        CHECK(to_number("-.5") == -0.5);
+        CHECK(to_number("5.") == 5);
+        CHECK(std::signbit(to_number("-0").value()));
+        CHECK(to_number("1e999") == std::numeric_limits<double>::infinity());
+        CHECK(to_number("1e-999") == 0);
+        for (const char* none : {"", "+", "-", ".", "e5", "1e", "1e+", "1,5", "1 ", " 1", "0x10",
+                                 "inf", "nan", "1.2.3", "1-2", "+-1", "--1", "1f"}) {
+            CAPTURE(none);
+            CHECK_FALSE(to_number(none));
         }
-        std::setlocale(LC_NUMERIC, "C");
         CHECK(to_integer("-2147483648") == std::numeric_limits<int>::min());
         CHECK(to_integer("+7") == 7);
         for (const char* none : {"2147483648", "1.0", "1e3", "", "+", "+-1"})

@@ -312,12 +312,9 @@ TEST_SUITE("stand-ins") {
         write_file_atomically(files.folder / "a.pbrt.gz", packed);
         CHECK(files.world(light + "Include 'a.pbrt.gz'").geometry.spheres.size() == 2);
         // What gzip makes of an empty file: two bytes of data, then a checksum and a length of 0.
-        const std::string none("\x1f\x8b\x08\0\0\0\0\0\0\3\3\0\0\0\0\0\0\0\0\0", 20),
-            padding(9, '\0');
+        const std::string none("\x1f\x8b\x08\0\0\0\0\0\0\3\3\0\0\0\0\0\0\0\0\0", 20);
         CHECK(unpack_gzip("none", none) == "");
-        CHECK(unpack_gzip("parts", none + packed + none + packed + padding) ==
-              unpack_gzip("a", packed) + unpack_gzip("a", packed));
-        CHECK_THROWS_AS(unpack_gzip("parts", packed + none.substr(0, 15)), InputError);
+        CHECK_THROWS_AS(unpack_gzip("short", packed.substr(0, 51)), InputError);
         CHECK_THROWS_AS(unpack_gzip("parts", packed + "more"), InputError);
         packed[packed.size() - 6] ^= 1;
         CHECK_THROWS_AS(unpack_gzip("damaged", packed), InputError);
