@@ -17,7 +17,7 @@ inline float ggx_D(Vec3 h, float alpha) {
     float a2 = alpha * alpha, d = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
     return a2 / (pi * d * d);
 }
-/// Lambda of Smith's shadowing G1(w) = 1 / (1 + Lambda(w)).     source  Smith 1967; Heitz 2014
+/// Smith's Lambda: the projected area of facets that face away from w, / cos.   source  Heitz 2014
 inline float ggx_lambda(Vec3 w, float alpha) {
     float tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
     return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
