@@ -3,14 +3,6 @@
 
 namespace {
 
-struct Row {
-    const char *directive, *kinds;  // its types, separated by blanks, as are the types and names
-    const char *types, *names;
-    double fallback = 0, low = -double{infinity}, high = double{infinity};
-    size_t values = 1;
-    const char* stand_in = "";  // of parameters that only pbrt has
-};
-
 constexpr double inf = double{infinity};
 constexpr const char* cameras = "perspective orthographic realistic spherical";
 constexpr const char* films = "rgb gbuffer spectral";
@@ -27,9 +19,10 @@ constexpr const char* meshes = "trianglemesh bilinearmesh loopsubdiv";
 constexpr const char* shapes =
     "sphere disk plymesh trianglemesh bilinearmesh loopsubdiv curve cylinder";
 constexpr const char* mapped = "imagemap checkerboard";
-constexpr const char* ignored = "bool float integer string";  // no effect on what is rendered
+constexpr const char* ignored =
+    "bool or float or integer or string";  // no effect on what is rendered
 
-constexpr Row rows[] = {
+constexpr ParamRow rows[] = {
     {"Camera", cameras, "float", "fov", 90, 0.001, 179.999},
     {"Camera", cameras, "float", "frameaspectratio", 1, 1e-4, 1e4},
     {"Camera", cameras, "float", "screenwindow", 0, -1e4, 1e4, 4},
@@ -61,10 +54,10 @@ constexpr Row rows[] = {
      "mutationsperpixel photonsperiteration radius regularize rrthreshold samplebsdf samplelights "
      "seed sigma visualizestrategies visualizeweights"},
 
-    {"Material", reflecting, "rgb texture", "reflectance", 0.5, 0, 1},
-    {"Material", "conductor", "rgb spectrum", "eta k", 0, 0, 1e4},
-    {"Material", "coatedconductor", "rgb spectrum", "conductor.eta conductor.k", 0, 0, 1e4},
-    {"Material", "dielectric", "float spectrum", "eta", 1.5, 1e-4, 1e4},
+    {"Material", reflecting, "rgb or texture", "reflectance", 0.5, 0, 1},
+    {"Material", "conductor", "rgb or spectrum", "eta k", 0, 0, 1e4},
+    {"Material", "coatedconductor", "rgb or spectrum", "conductor.eta conductor.k", 0, 0, 1e4},
+    {"Material", "dielectric", "float or spectrum", "eta", 1.5, 1e-4, 1e4},
     {"Material", "conductor dielectric", "float", "roughness uroughness vroughness", 0, 0, 100},
     {"Material", "coatedconductor", "float",
      "conductor.roughness conductor.uroughness conductor.vroughness", 0, 0, 100},
@@ -73,16 +66,16 @@ constexpr Row rows[] = {
     {"Material", bare, "", "displacement normalmap", 0, 0, 0, 0, "a bump or normal map"},
 
     {"AreaLightSource", "diffuse", "", "filename", 0, 0, 0, 0, "an image on an area light"},
-    {"AreaLightSource", "diffuse", "rgb blackbody", "L", 1, 0},
+    {"AreaLightSource", "diffuse", "rgb or blackbody", "L", 1, 0},
     {"AreaLightSource", "diffuse", "float", "scale", 1, 0},
     {"AreaLightSource", "diffuse", "float", "power"},
     {"AreaLightSource", "diffuse", "bool", "twosided"},
 
-    {"LightSource", points, "rgb blackbody", "I", 1, 0},
+    {"LightSource", points, "rgb or blackbody", "I", 1, 0},
     {"LightSource", points, "float", "scale", 1, 0},
     {"LightSource", points, "float", "power"},
     {"LightSource", points, "point3", "from"},
-    {"LightSource", "distant infinite", "rgb blackbody", "L", 1, 0},
+    {"LightSource", "distant infinite", "rgb or blackbody", "L", 1, 0},
     {"LightSource", "distant infinite", "float", "scale", 1, 0},
     {"LightSource", "distant infinite", "float", "illuminance"},
     {"LightSource", "distant", "point3", "from to"},
@@ -106,10 +99,10 @@ constexpr Row rows[] = {
 
     {"Texture", "bilerp directionmix dots marble mix ptex", "", ""},
     {"Texture", "constant", "rgb", "value", 1, 0, 1},
-    {"Texture", "scale", "rgb texture", "tex", 1, 0, 1},
+    {"Texture", "scale", "rgb or texture", "tex", 1, 0, 1},
     {"Texture", "scale", "float", "scale", 1, 0, 1e9},
-    {"Texture", "checkerboard", "rgb texture", "tex1", 1, 0, 1},
-    {"Texture", "checkerboard", "rgb texture", "tex2", 0, 0, 1},
+    {"Texture", "checkerboard", "rgb or texture", "tex1", 1, 0, 1},
+    {"Texture", "checkerboard", "rgb or texture", "tex2", 0, 0, 1},
     {"Texture", "checkerboard", "integer", "dimension", 2, 2, 3},
     {"Texture", mapped, "string", "mapping"},
     {"Texture", mapped, "float", "uscale vscale", 1, -1e9, 1e9},
@@ -123,17 +116,14 @@ constexpr Row rows[] = {
 
 }  // namespace
 
-const std::map<std::string, std::map<std::string, std::vector<KnownParam>>>& known_params() {
+const std::map<std::string, std::map<std::string, KnownParams>>& known_params() {
     static const auto all = [] {
-        std::map<std::string, std::map<std::string, std::vector<KnownParam>>> map;
+        std::map<std::string, std::map<std::string, KnownParams>> map;
         map["Material"][""];  // the same as "none"
-        for (const Row& row : rows) {
+        for (const ParamRow& row : rows) {
             for (const std::string& kind : words_of(row.kinds)) {
-                std::vector<KnownParam>& known = map[row.directive][kind];
-                for (const std::string& name : words_of(row.names)) {
-                    known.push_back({words_of(row.types), name, row.fallback, row.low, row.high,
-                                     row.values, row.stand_in});
-                }
+                KnownParams& known = map[row.directive][kind];
+                for (const std::string& name : words_of(row.names)) known[name] = &row;
             }
         }
         return map;

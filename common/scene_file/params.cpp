@@ -155,27 +155,24 @@ void Params::check_type(const Position& at) {
 
 bool Params::is_usable(const Param& param) const {
     const std::string given = quote(param.type + ' ' + param.name) + " of " + owner();
-    auto has_name = [&](const KnownParam& known) { return known.name == param.name; };
-    auto row = std::find_if(known_->begin(), known_->end(), has_name);
+    auto found = known_->find(param.name);
+    const ParamRow* row = found == known_->end() ? nullptr : found->second;
+    const std::vector<std::string> types = words_of(row ? row->types : "");
     size_t count = param.numbers.size() + param.strings.size();
     size_t group = param_types.at(param.type).group;
     std::string wrong, stand_in;
-    if (row == known_->end()) {
-        std::vector<std::string> names;
-        for (const KnownParam& known : *known_) names.push_back(known.name);
-        if (param.is_default) return false;
-        wrong = unknown(owner() + " parameter", param.name, names);
-    } else if (!row->stand_in.empty()) {
+    if (!row && param.is_default) {
+        return false;
+    } else if (!row) {
+        wrong = unknown(owner() + " parameter", param.name, names_of(*known_));
+    } else if (*row->stand_in) {
         messages_->stand_in(param.at, row->stand_in, given + " is not supported");
         return true;
-    } else if (std::find(row->types.begin(), row->types.end(), param.type) == row->types.end() ||
+    } else if (std::find(types.begin(), types.end(), param.type) == types.end() ||
                (param.type == "spectrum" && param.strings.empty())) {
         if (param.type == "texture") stand_in = "a texture that is no reflectance";
         if (param.type == "spectrum") stand_in = "a spectrum that is not known";
-        wrong = given + " must be of type ";
-        for (const std::string& type : row->types) {
-            wrong += (type == row->types[0] ? "" : " or ") + type;
-        }
+        wrong = given + " must be of type " + row->types;
     } else if (row->values > 0 ? count != row->values * group : count % group != 0) {
         wrong = given + " has " + std::to_string(count) + " values, not " +
                 (row->values > 0 ? "" : "a multiple of ") +
@@ -196,10 +193,8 @@ bool Params::is_usable(const Param& param) const {
 }
 
 float Params::fallback(const std::string& name) const {
-    for (const KnownParam& known : *known_) {
-        if (known.name == name) return static_cast<float>(known.fallback);
-    }
-    return 0;
+    auto found = known_->find(name);
+    return found == known_->end() ? 0 : static_cast<float>(found->second->fallback);
 }
 
 const Position& Params::at(const std::string& name) const {

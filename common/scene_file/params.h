@@ -15,16 +15,19 @@ struct Param {
 /// Reads a declaration and its value or values, and checks that they fit the type.
 Param read_param(Lexer& lexer);
 
-/// What a directive of one type knows of one of its parameters: see parameters.cpp.
-struct KnownParam {
-    std::vector<std::string> types;
-    std::string name;
-    double fallback, low, high;  // of each number
-    size_t values;               // how many numbers, points or strings; 0: any number
-    std::string stand_in;        // of a parameter that only pbrt has
+/// A row of the table of parameters, see parameters.cpp. Words are separated by blanks.
+struct ParamRow {
+    const char *directive, *kinds;                 // kinds: the types of the directive
+    const char *types, *names;                     // types: such as "rgb or texture"
+    double fallback = 0, low = -double{infinity};  // of each number
+    double high = double{infinity};
+    size_t values = 1;          // how many numbers, points or strings; 0: any number
+    const char* stand_in = "";  // of parameters that only pbrt has
 };
+/// The rows of the parameters of a directive of one type, by their names.
+using KnownParams = std::map<std::string, const ParamRow*>;
 /// Those of each directive, by its type, such as those of Shape and "disk".
-const std::map<std::string, std::map<std::string, std::vector<KnownParam>>>& known_params();
+const std::map<std::string, std::map<std::string, KnownParams>>& known_params();
 
 /// The words between blanks.
 std::vector<std::string> words_of(const std::string& text);
@@ -74,6 +77,6 @@ private:
     Position at_;
     std::string directive_, type_;
     bool stands_in_ = false;
-    const std::vector<KnownParam>* known_ = nullptr;
+    const KnownParams* known_ = nullptr;
     std::vector<Param> params_;
 };

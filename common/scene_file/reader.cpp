@@ -7,6 +7,7 @@
 #include "common/material/metal.h"
 #include "common/scene/mover.h"
 #include "common/scene_file/scene_parts.h"
+#include "common/scene_file/stand_ins.h"
 
 namespace {
 
@@ -81,18 +82,17 @@ private:
     static const std::map<std::string, const Directives*>& known_directives() {
         using R = Reader;
         static constexpr Directives rows[] = {
-            {"Integrator PixelFilter Sampler", Block::options, &R::setting},
+            {"Film Integrator PixelFilter Sampler", Block::options, &R::setting},
             {"ActiveTransform", Block::both, &R::active_transform},
             {"AreaLightSource", Block::world, &R::area_light_source},
-            {"MakeNamedMedium TransformTimes", Block::both, &R::replaced},
+            {"Accelerator ColorSpace MakeNamedMedium MediumInterface Option TransformTimes",
+             Block::both, &R::unsupported},
             {"Attribute", Block::both, &R::attribute},
             {"AttributeBegin TransformBegin", Block::world, &R::begin},
             {"AttributeEnd TransformEnd", Block::world, &R::end},
             {"Camera", Block::options, &R::camera},
-            {"Accelerator ColorSpace MediumInterface Option", Block::both, &R::ignored},
             {"CoordSysTransform", Block::both, &R::coord_sys_transform},
             {"CoordinateSystem", Block::both, &R::coordinate_system},
-            {"Film", Block::options, &R::film},
             {"Identity Translate Scale Rotate LookAt Transform ConcatTransform", Block::both,
              &R::move},
             {"Import", Block::world, &R::include},
@@ -210,12 +210,11 @@ private:
 
     void active_transform() {
         Token which = lexer_->next();
-        bool all = which.text == "All", start = which.text == "StartTime";
-        if (which.type != Token::word || !(all || start || which.text == "EndTime")) {
+        if (which.text != "All" && which.text != "StartTime" && which.text != "EndTime") {
             lexer_->fail_at(which, "ActiveTransform needs All, StartTime or EndTime");
         }
-        state_.set_start = all || start;
-        state_.set_end = all || !start;
+        state_.set_start = which.text != "EndTime";
+        state_.set_end = which.text != "StartTime";
     }
 
     void attribute() {
@@ -241,14 +240,10 @@ private:
         state_.unusable = {};
     }
 
-    void replaced() {
+    void unsupported() {
         skip_arguments();
+        if (or_stand_in(name_).empty()) return messages_.note(at_, name_ + " is ignored");
         messages_.stand_in(at_, name_);
-    }
-
-    void ignored() {
-        skip_arguments();
-        messages_.note(at_, name_ + " is ignored");
     }
 
     void camera() {
@@ -259,9 +254,7 @@ private:
         coordinate_systems_["camera"] = {world_from_camera, world_from_camera};
     }
 
-    void film() { iso_ = read_film(params(), scene_); }
-
-    void setting() { read_setting(name_, params(), scene_); }
+    void setting() { read_setting(name_, params(), scene_, iso_); }
 
     void world_begin() {
         in_world_ = true;

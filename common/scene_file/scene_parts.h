@@ -13,10 +13,9 @@ Transform read_transform(Lexer& lexer, const Token& directive);
 bool is_usable(const Transform& transform);
 
 Camera read_camera(const Params& params, const Transform& camera_from_world);
-/// Sets the size of the picture, and returns the film's speed, which scales it in pbrt.
-float read_film(const Params& params, Scene& scene);
-/// PixelFilter, Sampler and Integrator: how pbrt renders, of which little counts here.
-void read_setting(const std::string& directive, const Params& params, Scene& scene);
+/// Film, PixelFilter, Sampler and Integrator: how pbrt renders, of which little counts here. iso:
+/// the film's speed, which scales the picture.
+void read_setting(const std::string& directive, const Params& params, Scene& scene, float& iso);
 
 /// Nothing for a material that is as if the surface were not there: it only bounds media.
 std::optional<Material> read_material(const Params& params, const TextureReader& textures);

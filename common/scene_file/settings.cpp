@@ -74,19 +74,19 @@ Camera read_camera(const Params& params, const Transform& camera_from_world) {
     return camera;
 }
 
-float read_film(const Params& params, Scene& scene) {
-    scene.width = params.integer("xresolution");
-    scene.height = params.integer("yresolution");
-    if (int64_t{scene.width} * scene.height > 1 << 28) fail(params.at(), "more than 2^28 pixels");
-    if (params.find("maxcomponentvalue")) {
-        note(params, "maxcomponentvalue is ignored: nothing is clamped");
-    }
-    return params.number("iso");
-}
-
-void read_setting(const std::string& directive, const Params& params, Scene& scene) {
+void read_setting(const std::string& directive, const Params& params, Scene& scene, float& iso) {
     const std::string& type = params.type();
-    if (directive == "PixelFilter") {
+    if (directive == "Film") {
+        scene.width = params.integer("xresolution");
+        scene.height = params.integer("yresolution");
+        iso = params.number("iso");
+        if (int64_t{scene.width} * scene.height > 1 << 28) {
+            fail(params.at(), "more than 2^28 pixels");
+        }
+        if (params.find("maxcomponentvalue")) {
+            note(params, "maxcomponentvalue is ignored: nothing is clamped");
+        }
+    } else if (directive == "PixelFilter") {
         float radius = std::max(params.number("xradius"), params.number("yradius"));
         if (type != "box" || radius != 0.5f) note(params, "is replaced by the box of one pixel");
     } else if (directive == "Sampler") {

@@ -31,13 +31,10 @@ float read_encoding(const Params& params) {
     std::string encoding = params.string("encoding", "sRGB");
     if (encoding == "sRGB") return 0;
     if (encoding == "linear") return 1;
-    double gamma = 0;
-    if (encoding.starts_with("gamma ")) {
-        gamma = to_number(std::string_view(encoding).substr(6)).value_or(0);
-    }
-    if (gamma >= 0.01 && gamma <= 100) return static_cast<float>(gamma);
-    fail(params.at("encoding"), "encoding must be \"sRGB\", \"linear\", or \"gamma x\" with x " +
-                                    std::string("from 0.01 to 100"));
+    bool is_gamma = encoding.starts_with("gamma ");
+    auto gamma = to_number(std::string_view(encoding).substr(is_gamma ? 6 : 0));
+    if (is_gamma && gamma && *gamma >= 0.01 && *gamma <= 100) return static_cast<float>(*gamma);
+    fail(params.at("encoding"), "encoding must be sRGB, linear, or gamma and 0.01 to 100");
 }
 
 Texture::Wrap read_wrap(const Params& params) {
