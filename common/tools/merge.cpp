@@ -12,7 +12,7 @@
 namespace {
 
 struct MergeOptions {
-    std::string out, stats;
+    std::string out;
     std::vector<std::string> films;
 };
 
@@ -24,9 +24,7 @@ MergeOptions parse(int argc, char** argv) {
                   "render, or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or "
                   ".png picture of all their samples.\nParts make the same bytes as the whole, in "
                   "any order. The same samples twice are refused.",
-                  {{"stats", "FILE.json", "write samples, mean and standard error",
-                    [&](const std::string& text) { o.stats = text; }}},
-                  [&](const std::string& word) { words.push_back(word); });
+                  {}, [&](const std::string& word) { words.push_back(word); });
     if (words.size() < 2) {
         throw UsageError("error: name what to write, and the films to add; --help says how");
     }
@@ -35,38 +33,17 @@ MergeOptions parse(int argc, char** argv) {
     if (!is_image_path(o.out) && !has_ending(o.out, film_ending)) {
         throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
     }
-    std::vector<std::string> written = {o.out};
-    if (!o.stats.empty()) written.push_back(o.stats);
-    check_outputs(written, o.films);
+    check_outputs({o.out}, o.films);
     return o;
-}
-
-std::vector<std::string> warnings_of(const LabeledFilm& sum) {
-    std::vector<std::string> lines = sum.label.missing();
-    for (const std::string& line : warnings_of(sum.film, sum.label.counts)) lines.push_back(line);
-    return lines;
-}
-
-std::string stats_json(const LabeledFilm& sum) {
-    const auto& [label, film] = sum;
-    JsonObject json;
-    json.add("notes", lines_of(notes_of(label, film.spp())));
-    json.add("spp", film.spp());
-    json.add("rays", label.counts.rays);
-    json.add("mean", film.mean());
-    json.add("standard_error", film.standard_error());
-    json.add("samples_not_finite", label.counts.not_finite);
-    json.add("warnings", warnings_of(sum));
-    return json.text();
 }
 
 void print_summary(const MergeOptions& o, const LabeledFilm& sum) {
     const auto& [label, film] = sum;
     std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), film.width, film.height,
                 json_number(film.spp()).c_str(), mean_and_error(film).c_str());
-    for (const std::string& line : warnings_of(sum)) {
-        std::printf("warning: %s\n", line.c_str());
-    }
+    std::vector<std::string> lines = label.missing();
+    for (const std::string& line : warnings_of(film, label.counts)) lines.push_back(line);
+    for (const std::string& line : lines) std::printf("warning: %s\n", line.c_str());
     std::printf("wrote %s\n", o.out.c_str());
 }
 
@@ -79,19 +56,12 @@ int main(int argc, char** argv) {
         for (size_t i = 1; i < o.films.size(); i++) {
             add_film(sum, o.films[i], read_film(o.films[i]));
         }
-        std::vector<Output> outputs = {{o.out, [&] {
-                                            if (is_image_path(o.out)) {
-                                                Notes notes = notes_of(sum.label, sum.film.spp());
-                                                return write_image(o.out, sum.film.image(),
-                                                                   comment_of(notes));
-                                            }
-                                            FileLock lock(o.out);
-                                            write_film(o.out, sum.label, sum.film);
-                                        }}};
-        if (!o.stats.empty()) {
-            outputs.push_back({o.stats, [&] { write_file_atomically(o.stats, stats_json(sum)); }});
+        if (is_image_path(o.out)) {
+            write_image(o.out, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
+        } else {
+            FileLock lock(o.out);
+            write_film(o.out, sum.label, sum.film);
         }
-        write_outputs(outputs);
         print_summary(o, sum);
         const SampleCounts& counts = sum.label.counts;
         if (counts.not_finite == 0) return 0;
