@@ -46,42 +46,18 @@ std::vector<PixelError> errors_of(const Image& a, const Image& b) {
     return errors;
 }
 
+bool is_smaller(PixelError x, PixelError y) { return x.relative < y.relative; }
+
+/// The means over the pixels, without those that have the largest errors.
 void sum_errors(std::vector<PixelError> errors, double trim, Comparison& result) {
-    // Leave out the pixels with the largest errors.
-    auto smaller = [](PixelError x, PixelError y) { return x.relative < y.relative; };
-    std::sort(errors.begin(), errors.end(), smaller);
+    std::sort(errors.begin(), errors.end(), is_smaller);
     size_t left_out = static_cast<size_t>(trim / 100 * static_cast<double>(errors.size()));
     errors.resize(errors.size() - left_out);
-
-    // Average the rest.
-    std::vector<double> squared;
-    double sum = 0;
     for (PixelError e : errors) {
-        squared.push_back(e.squared);
-        sum += e.squared;
+        result.mse += e.squared / static_cast<double>(errors.size());
         result.rel_mse += e.relative / static_cast<double>(errors.size());
     }
-    result.mse = sum / static_cast<double>(errors.size());
     result.rmse = std::sqrt(result.mse);
-
-    // Compute the share of the worst thousandth.
-    std::sort(squared.rbegin(), squared.rend());
-    double worst = 0;
-    size_t few = std::max<size_t>(1, squared.size() / 1000);
-    for (size_t i = 0; i < few; i++) worst += squared[i];
-    result.worst_share = sum > 0 ? worst / sum : 0;
-}
-
-double median_ratio(const Image& a, const Image& b, int channel) {
-    std::vector<double> ratios;
-    for (size_t i = 0; i < a.pixels.size(); i++) {
-        double y = value(b.pixels[i], channel);
-        if (y > 0) ratios.push_back(value(a.pixels[i], channel) / y);
-    }
-    if (ratios.empty()) return NAN;
-    auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return *middle;
 }
 
 /// Adds the row of one channel, block by block.
@@ -91,8 +67,7 @@ void add_row(const Image& a, const Image& b, int channel, Comparison& result) {
     RunningStats mean_a, mean_b;
     for (Rgb p : a.pixels) mean_a.add(value(p, channel));
     for (Rgb p : b.pixels) mean_b.add(value(p, channel));
-    ChannelComparison row{names[channel], mean_a.mean(), mean_b.mean(),
-                          median_ratio(a, b, channel)};
+    ChannelComparison row{names[channel], mean_a.mean(), mean_b.mean()};
     double variance = 0, pixels = 0;  // of the sum of the differences
     result.blocks = 0;
     for (int y0 = 0; y0 < a.height; y0 += side) {
@@ -142,18 +117,14 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
     auto size = [](const Image& image) {
         return std::to_string(image.width) + "x" + std::to_string(image.height);
     };
-    if (a.width != b.width || a.height != b.height) {
+    if (size(a) != size(b))
         fail({name_b}, "has " + size(b) + " pixels, but " + name_a + " has " + size(a));
-    }
-    auto check = [](const Image& image, const std::string& name) {
-        for (size_t i = 0; i < image.pixels.size(); i++) {
-            if (is_finite(image.pixels[i])) continue;
-            int x = static_cast<int>(i) % image.width, y = static_cast<int>(i) / image.width;
+    for (const auto& [image, name] : {std::pair(&a, name_a), {&b, name_b}})
+        for (size_t i = 0; i < image->pixels.size(); i++) {
+            if (is_finite(image->pixels[i])) continue;
+            size_t width = static_cast<size_t>(image->width), x = i % width, y = i / width;
             fail({name}, "pixel " + std::to_string(x) + "," + std::to_string(y) + " is not finite");
         }
-    };
-    check(a, name_a);
-    check(b, name_b);
 }
 
 Rgb false_colour(double x) {
@@ -182,9 +153,8 @@ Image error_image(const Image& a, const Image& b, double range) {
 
 double error_range(const Image& a, const Image& b) {
     std::vector<PixelError> errors = errors_of(a, b);
-    auto smaller = [](PixelError x, PixelError y) { return x.relative < y.relative; };
     auto place =
         errors.begin() + static_cast<std::ptrdiff_t>(errors.size() - 1 - errors.size() / 100);
-    std::nth_element(errors.begin(), place, errors.end(), smaller);
+    std::nth_element(errors.begin(), place, errors.end(), is_smaller);
     return std::sqrt(place->relative);
 }

@@ -10,7 +10,6 @@
 struct ChannelComparison {
     const char* name;
     double mean_a = 0, mean_b = 0;
-    double median_ratio = 0;    // of a / b over the pixels where b > 0
     double standard_error = 0;  // of mean_a - mean_b; NaN where there is no block
     int beyond_5 = 0;           // blocks that differ by more than 5 standard errors of their own
 
@@ -28,14 +27,13 @@ struct Comparison {
     /// pixels with independent noise.
     int blocks = 0;
     double mse = 0, rmse = 0;
-    double rel_mse = 0;      // of (a-b)^2 / (b^2 + 0.01)
-    double worst_share = 0;  // of the squared error, in the worst 0.1 % of the pixels
+    double rel_mse = 0;  // of (a-b)^2 / (b^2 + 0.01)
 };
 
 /// Compares a with the reference b, pictures of the same size.
 ///
-/// trim  percent of the pixels, those with the largest relative error, that mse, rmse, rel_mse and
-///       worst_share leave out
+/// trim  percent of the pixels, those with the largest relative error, that mse, rmse and rel_mse
+///       leave out
 /// tested by  "brute: a comparison's numbers counted in another way"
 Comparison compare(const Image& a, const Image& b, double trim = 0);
 

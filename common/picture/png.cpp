@@ -90,9 +90,7 @@ struct Source {
     }
     static void skip(void* self, int size) {
         Source& source = *static_cast<Source*>(self);
-        size_t n = std::min(static_cast<size_t>(size), source.left.size());
-        source.is_cut |= n < static_cast<size_t>(size);
-        source.left.remove_prefix(n);
+        source.left.remove_prefix(std::min(static_cast<size_t>(size), source.left.size()));
     }
     static int is_at_end(void* self) { return static_cast<Source*>(self)->left.empty(); }
 };

@@ -41,17 +41,14 @@ CompareOptions parse(int argc, char** argv) {
 }
 
 void print(const CompareOptions& o, const Comparison& c) {
-    Table table{
-        {"", "mean A", "mean B", "A - B", "standard errors", "median A/B", "blocks beyond 5"}, {}};
+    Table table{{"", "mean A", "mean B", "A - B", "standard errors", "blocks beyond 5"}, {}};
     for (const ChannelComparison& row : c.rows)
         table.rows.push_back({row.name, digits(row.mean_a), digits(row.mean_b),
                               percent(row.difference()), digits(row.z(), 3),
-                              digits(row.median_ratio),
                               std::to_string(row.beyond_5) + " of " + std::to_string(c.blocks)});
     std::printf("%s", aligned(table).c_str());
     if (o.trim > 0) std::printf("without the worst %g %% of the pixels:\n", o.trim);
     std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);
-    std::printf("worst 0.1 %% of the pixels: %.3g %% of the squared error\n", 100 * c.worst_share);
 }
 
 }  // namespace

@@ -12,57 +12,38 @@
 namespace {
 
 struct MergeOptions {
-    std::string out, stats;
+    std::string out;
     std::vector<std::string> films;
 };
 
 MergeOptions parse(int argc, char** argv) {
     MergeOptions o;
     std::vector<std::string> words;
-    parse_options(
-        argc, argv, "OUT FILM...",
-        "Adds films of one scene, by one chapter with the same options: parts of one "
-        "render, or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or "
-        ".png picture of all their samples.\nParts make the same bytes as the whole, in "
-        "any order. The same samples twice are refused.",
-        {text_option("stats", "FILE.json", "write samples, mean and standard error", o.stats)},
-        [&](const std::string& word) { words.push_back(word); });
+    parse_options(argc, argv, "OUT FILM...",
+                  "Adds films of one scene, by one chapter with the same options: parts of one "
+                  "render, or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or "
+                  ".png picture of all their samples.\nParts make the same bytes as the whole, in "
+                  "any order. The same samples twice are refused.",
+                  {}, [&](const std::string& word) { words.push_back(word); });
     if (words.size() < 2)
         throw UsageError("error: name what to write, and the films to add; --help says how");
     o.out = words[0];
     o.films.assign(words.begin() + 1, words.end());
     if (!is_image_path(o.out) && !has_ending(o.out, film_ending))
         throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
-    std::vector<std::string> written = {o.out};
-    if (!o.stats.empty()) written.push_back(o.stats);
-    check_outputs(written, o.films);
-    return o;
+}
+check_outputs({o.out}, o.films);
+return o;
 }
 
-std::vector<std::string> warnings_of(const LabeledFilm& sum) {
-    std::vector<std::string> lines = sum.label.missing();
-    for (const std::string& line : warnings_of(sum.film, sum.label.counts)) lines.push_back(line);
-    return lines;
-}
-
-std::string stats_json(const LabeledFilm& sum) {
+void print_summary(const MergeOptions& o, const LabeledFilm& sum) {
     const auto& [label, film] = sum;
-    JsonObject json;
-    json.add("notes", lines_of(notes_of(label, film.spp())));
-    json.add("spp", film.spp());
-    json.add("rays", label.counts.rays);
-    json.add("mean", film.mean());
-    json.add("standard_error", film.standard_error());
-    json.add("samples_not_finite", label.counts.not_finite);
-    json.add("warnings", warnings_of(sum));
-    return json.text();
-}
-
-void write_sum(const std::string& path, const LabeledFilm& sum) {
-    if (is_image_path(path))
-        return write_image(path, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
-    FileLock lock(path);
-    write_film(path, sum.label, sum.film);
+    std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), film.width, film.height,
+                json_number(film.spp()).c_str(), mean_and_error(film).c_str());
+    std::vector<std::string> lines = label.missing();
+    for (const std::string& line : warnings_of(film, label.counts)) lines.push_back(line);
+    for (const std::string& line : lines) std::printf("warning: %s\n", line.c_str());
+    std::printf("wrote %s\n", o.out.c_str());
 }
 
 }  // namespace
@@ -73,15 +54,14 @@ int main(int argc, char** argv) {
         LabeledFilm sum = read_film(o.films[0]);
         for (size_t i = 1; i < o.films.size(); i++)
             add_film(sum, o.films[i], read_film(o.films[i]));
-        std::vector<Output> outputs = {{o.out, [&] { write_sum(o.out, sum); }}};
-        if (!o.stats.empty())
-            outputs.push_back({o.stats, [&] { write_file_atomically(o.stats, stats_json(sum)); }});
-        write_outputs(outputs);
-        std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), sum.film.width,
-                    sum.film.height, json_number(sum.film.spp()).c_str(),
-                    mean_and_error(sum.film).c_str());
-        for (const std::string& line : warnings_of(sum)) std::printf("warning: %s\n", line.c_str());
-        std::printf("wrote %s\n", o.out.c_str());
+        }
+        if (is_image_path(o.out)) {
+        write_image(o.out, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
+        } else {
+        FileLock lock(o.out);
+        write_film(o.out, sum.label, sum.film);
+        }
+        print_summary(o, sum);
         const SampleCounts& counts = sum.label.counts;
         if (counts.not_finite == 0) return 0;
         std::fprintf(stderr,
@@ -90,5 +70,5 @@ int main(int argc, char** argv) {
                      static_cast<unsigned long long>(counts.not_finite), counts.bad_seed,
                      counts.bad_x, counts.bad_y, counts.bad_sample);
         return 1;
-    });
+});
 }
