@@ -16,8 +16,3 @@ std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& op
 /// Only the warnings that follow from the samples. place: where the largest of them is, in words.
 std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts,
                                      const std::string& place = "");
-
-/// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
-/// view tell them; nothing is rendered. Not empty.
-/// tested by  "truth: the causes of a black picture, all of them, and no others"
-std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);

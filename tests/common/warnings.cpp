@@ -95,8 +95,7 @@ TEST_SUITE("warnings") {
         for (size_t i = 0; i < 192; i++)
             for (int s = 0; s < 4; s++) some.add(i, grey(1 + 0.01 * s));
         CHECK(are(told(some), {"rendering ended before 25 % of the pixels had a sample"}));
-        CHECK(are(told(film_with(2, [](size_t, int) { return 0; })),
-                  {"the picture is black: no sample found light"}));
+        CHECK(are(told(film_with(2, [](size_t, int) { return 0; })), {"the picture is black"}));
         // A sample that is 1 % of the picture.
         Film film = film_with(4, [](size_t, int) { return 1; });  // 1024 in all
         CHECK(are(told(film, 10.2), {}));
@@ -255,35 +254,5 @@ TEST_SUITE("warnings") {
         CHECK_FALSE(is_told("0.05", 64, "0.9 0.9 0.9"));  // 41
         CHECK_FALSE(is_told("0.3", 16, "0.9 0.9 0.9"));
         CHECK_FALSE(is_told("0.05", 16, "0 0 0"));
-    }
-
-    TEST_CASE("truth: the causes of a black picture, all of them, and no others") {
-        auto causes = [](Scene scene, int depth = 5, const std::string& paths = "") {
-            RenderOptions options;
-            options.paths = paths;
-            scene.max_depth = depth;
-            return causes_of_black(scene, options);
-        };
-        const std::string between = "too few paths find a way from the lights to what is in view",
-                          away = "lights that shine away from all that is in view";
-        const Scene lit = seen(grey_floor + small_lamp);
-        CHECK(are(causes(lit), {between}));
-        CHECK(are(causes(lit, 5, "LDE"), {"--paths keeps no", between}));
-        CHECK(are(causes(lit, 0), {"with a depth of 0 only lights"}));
-        CHECK(are(causes(seen(grey_floor + small_lamp, camera("0 2 -4  0 9 0  0 1 0"))),
-                  {"the camera sees no surface"}));
-        for (const std::string& surface : {black, mirror})
-            CHECK(are(causes(seen(in(surface, floor_2) + small_lamp, from_above)),
-                      {"the camera sees black surfaces, mirrors and glass alone"}));
-        CHECK(are(causes(seen(small_lamp + in(diffuse, ball("0 2 -4", "1")))),
-                  {"it may be inside something", away}));
-        for (const std::string& light :
-             {std::string("LightSource \"point\" \"point3 from\" [0 -5 0]\n"),
-              lamp("Translate 0 5 0 Rotate -90 1 0 0 Shape \"disk\"\n")})
-            CHECK(are(causes(seen(light + grey_floor)), {away}));
-        CHECK(are(causes(seen(grey_floor + sky)), {between}));
-        // What a chapter has to say of its own comes last.
-        Rendering r{film_with(2, [](size_t, int) { return 0; }), {}, {}, 0, {"its own"}};
-        CHECK(are(warnings_of(lit, {}, r), {"the picture is black", between, "its own"}));
     }
 }
