@@ -92,14 +92,12 @@ void fail_value(const std::string& option, const std::string& text, const std::s
 
 int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
                       int64_t high) {
-    char* end = nullptr;
-    errno = 0;
-    long long value = std::strtoll(text.c_str(), &end, 10);
-    if (text.empty() || *end != '\0' || errno != 0 || value < low || value > high) {
-        fail_value(option, text,
-                   "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
-    }
-    return value;
+    double value = to_number(text).value_or(NAN);
+    if (value == std::floor(value) && value >= static_cast<double>(low) &&
+        value <= static_cast<double>(high))
+        return static_cast<int64_t>(value);
+    fail_value(option, text,
+               "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
 }
 
 size_t parse_choice(const std::string& option, const std::string& text,

@@ -84,11 +84,8 @@ Scene load(const RenderOptions& options, Features features) {
         throw;
     }
     tell_notes();
-    if (options.stand_in) {
-        stand_in_for_features(scene, features);
-    } else {
-        refuse_features(scene, features);
-    }
+    if (options.stand_in) stand_in_for_features(scene, features);
+    if (!options.stand_in) refuse_features(scene, features);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
@@ -147,18 +144,17 @@ float radius_within(const Scene& scene, double radius) {
 }
 
 void refuse_delta_lights(const Scene& scene) {
-    for (const Light& light : scene.lights) {
-        if (light.type != LightType::point && light.type != LightType::distant) continue;
-        fail(scene.place(light.at),
-             std::string("a ") + (light.type == LightType::point ? "point" : "distant") +
-                 " light has no size, so no path can hit it; chapters from 09 on sample it");
-    }
+    for (const Light& light : scene.lights)
+        if (light.type == LightType::point || light.type == LightType::distant)
+            fail(scene.place(light.at),
+                 "a point or distant light has no size, so no path can hit it; chapters "
+                 "from 09 on sample it");
 }
 
 void refuse_glossy(const Scene& scene) {
     for (const Shape& shape : scene.shapes) {
         const Material& m = scene.materials[shape.material];
-        if (!is_rough(m)) continue;
-        fail(scene.place(m.at), "rough conductors are not supported before chapter 13");
+        if (is_rough(m))
+            fail(scene.place(m.at), "rough conductors are not supported before chapter 13");
     }
 }

@@ -37,35 +37,29 @@ struct Svg {
     }
 };
 
-/// A panel, and the projection from the world to it: across = (p - o).rx / z, down = (p - o).ry /
-/// z, z = (p - o).rz + w.
-struct View {
+/// A panel of the drawing: a camera, of which a pixel is one of the panel.
+struct Panel {
     bool is_camera;
-    Vec2 corner, size;
-    Vec3 o, rx, ry, rz;
-    float w;
+    float left;
+    int width, height;
+    CameraView view;
 
-    float depth(Vec3 p) const { return dot(p - o, rz) + w; }
-    /// The position of a point that is in front of the camera.
+    float volume() const { return dot(view.corner, cross(view.dx, view.dy)); }
+    /// z of  p - o = z (corner + x dx + y dy);  a point in front of the camera has z > 0.
+    float depth(Vec3 p) const { return dot(p - view.o, cross(view.dx, view.dy)) / volume(); }
+    /// The position of such a point.
     Vec2 project(Vec3 p) const {
-        return {corner.x + dot(p - o, rx) / depth(p), corner.y + dot(p - o, ry) / depth(p)};
+        Vec3 a = 1 / (depth(p) * volume()) * (p - view.o);
+        return {left + dot(a, cross(view.dy, view.corner)),
+                margin + dot(a, cross(view.corner, view.dx))};
     }
 };
 
-/// The view of the picture.      p - o = z (corner + x dx + y dy),   x and y in pixels
-View camera_panel(const Scene& scene) {
+Panel camera_panel(const Scene& scene) {
     float scale = side / static_cast<float>(std::max(scene.width, scene.height));
-    Vec2 size = {scale * static_cast<float>(scene.width), scale * static_cast<float>(scene.height)};
-    CameraView v = camera_view(scene.camera, scene.width, scene.height);
-    float det = dot(v.corner, cross(v.dx, v.dy));
-    return {true,
-            {margin, margin},
-            size,
-            v.o,
-            scale / det * cross(v.dy, v.corner),
-            scale / det * cross(v.corner, v.dx),
-            1 / det * cross(v.dx, v.dy),
-            0};
+    int width = std::max(2, static_cast<int>(scale * static_cast<float>(scene.width))),
+        height = std::max(2, static_cast<int>(scale * static_cast<float>(scene.height)));
+    return {true, margin, width, height, camera_view(scene.camera, width, height)};
 }
 
 /// The axis of the world that points up, for a camera that looks about horizontally. In doubt y, as
@@ -77,27 +71,28 @@ Vec3 upward(const Camera& camera) {
     return up;
 }
 
-/// The view from above; the camera's right is on the right.
-View panel_from_above(const Scene& scene, Box box, float left) {
+/// The view of a box from high above; the camera's right is on the right.
+Panel panel_from_above(const Scene& scene, Box box, float left) {
     Vec3 up = upward(scene.camera), forward = scene.camera.forward;
     Vec3 away = normalize(forward - dot(forward, up) * up), right = cross(up, away);
     if (dot(right, scene.camera.right) < 0) right = -right;
-    float extent = length(box.high - box.low);
-    float scale = side / (1.2f * (extent > 0 ? extent : scene.radius));
-    Vec3 o = 0.5f * (box.low + box.high) - side / 2 / scale * (right - away);
-    return {false, {left, margin}, {side, side}, o, scale * right, -scale * away, {}, 1};
+    float size = 1.2f * length(box.high - box.low);
+    if (size == 0) size = scene.radius;
+    Vec3 dx = size / side * right, dy = -size / side * away, down = -1000 * size * up;
+    return {false,
+            left,
+            static_cast<int>(side),
+            static_cast<int>(side),
+            {0.5f * (box.low + box.high) - down, down - side / 2 * (dx + dy), dx, dy}};
 }
 
 /// The ray that meets what a point of a panel shows; from above it starts at the eye's height.
-Ray ray_of(const Scene& scene, const View& view, Vec2 p) {
-    if (view.is_camera) {
-        float pixel = static_cast<float>(scene.width) / view.size.x;
-        return camera_ray(camera_view(scene.camera, scene.width, scene.height),
-                          {pixel * p.x, pixel * p.y});
-    }
-    Vec3 down = -upward(scene.camera);
-    Vec3 o = view.o + p.x / dot(view.rx, view.rx) * view.rx + p.y / dot(view.ry, view.ry) * view.ry;
-    return {o + dot(scene.camera.o - o, down) * down, down};
+Ray ray_of(const Scene& scene, const Panel& panel, Vec2 p) {
+    Ray ray = camera_ray(panel.view, p);
+    if (panel.is_camera) return ray;
+    Vec3 up = upward(scene.camera);
+    float t = dot(scene.camera.o - ray.o, up) / dot(ray.d, up);
+    return {ray.o + t * ray.d, ray.d};
 }
 
 std::string base64(const std::string& bytes) {
@@ -115,14 +110,12 @@ std::string base64(const std::string& bytes) {
 }
 
 /// The scene in flat colours, lit along the rays; lamps are yellow.
-void draw_scene(Svg& svg, const View& view, const Scene& scene) {
-    // A pixel is 2 x 2 of the panel.
-    Image image(std::max(1, static_cast<int>(view.size.x / 2)),
-                std::max(1, static_cast<int>(view.size.y / 2)));
+void draw_scene(Svg& svg, const Panel& panel, const Scene& scene) {
+    Image image(panel.width / 2, panel.height / 2);  // a pixel is 2 x 2 of the panel
     for (int i = 0; i < image.width * image.height; i++) {
         int x = i % image.width, y = i / image.width;
-        Ray ray =
-            ray_of(scene, view, {2 * static_cast<float>(x) + 1, 2 * static_cast<float>(y) + 1});
+        Vec2 middle = {2 * static_cast<float>(x) + 1, 2 * static_cast<float>(y) + 1};
+        Ray ray = ray_of(scene, panel, middle);
         std::optional<Hit> hit = intersect(scene, ray);
         Rgb& pixel = image.at(x, y);
         pixel = {0.8f, 0.85f, 0.9f};  // the sky
@@ -132,33 +125,34 @@ void draw_scene(Svg& svg, const View& view, const Scene& scene) {
         Rgb colour = diffuse ? hit->material->reflectance : Rgb{0.5f, 0.6f, 0.65f};
         pixel = shines ? Rgb{1, 0.75f, 0.05f} : (0.25f - 0.75f * dot(ray.d, hit->n)) * colour;
     }
-    svg.add("<image x='%.1f' y='%.1f' width='%.1f' height='%.1f' opacity='0.6' ",
-            double{view.corner.x}, double{view.corner.y}, double{view.size.x}, double{view.size.y});
+    svg.add("<image x='%.0f' y='%.0f' width='%d' height='%d' opacity='0.6' ", double{panel.left},
+            double{margin}, panel.width, panel.height);
     svg.text += "href='data:image/png;base64," + base64(encode_png(image, "")) + "'/>\n";
 }
 
 /// Draws the part of a segment in front of the camera.
-void draw_line(Svg& svg, const View& view, Vec3 a, Vec3 b, const char* style) {
-    float za = view.depth(a), zb = view.depth(b), near = 0.01f * std::max(za, zb);
+void draw_line(Svg& svg, const Panel& panel, Vec3 a, Vec3 b, const char* style) {
+    float za = panel.depth(a), zb = panel.depth(b), near = 0.01f * std::max(za, zb);
     if (!(near > 0)) return;
     if (za < near) a = a + (near - za) / (zb - za) * (b - a);
     if (zb < near) b = b + (near - zb) / (za - zb) * (a - b);
-    svg.line(view.project(a), view.project(b), style);
+    svg.line(panel.project(a), panel.project(b), style);
 }
 
-void draw_rays(Svg& svg, const View& view, const Scene& scene, const std::vector<TracedRay>& rays) {
+void draw_rays(Svg& svg, const Panel& panel, const Scene& scene,
+               const std::vector<TracedRay>& rays) {
     for (const auto& [ray, shadow, met, t] : rays) {
         if (met && !shadow) continue;  // part of the path
         const char* style = !shadow ? leaves : met ? blocked : open;
         float end = std::min(shadow ? ray.t_max : t, 2 * scene.radius);
-        draw_line(svg, view, ray.o, ray.o + end * ray.d, style);
+        draw_line(svg, panel, ray.o, ray.o + end * ray.d, style);
     }
 }
 
-void draw_vertices(Svg& svg, const View& view, Vec3 eye, const std::vector<PathVertex>& path) {
+void draw_vertices(Svg& svg, const Panel& panel, Vec3 eye, const std::vector<PathVertex>& path) {
     auto mark = [&](Vec3 p, const std::string& name, const char* style) {
-        if (!(view.depth(p) > 0)) return;
-        Vec2 at = view.project(p);
+        if (!(panel.depth(p) > 0)) return;
+        Vec2 at = panel.project(p);
         svg.add("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, style);
         svg.words({at.x + 6, at.y - 6}, name);
     };
@@ -166,10 +160,11 @@ void draw_vertices(Svg& svg, const View& view, Vec3 eye, const std::vector<PathV
     for (const PathVertex& x : path) {
         bool begins = x.from == -2, first = x.from == -1;
         styles.push_back(begins ? by_light : first ? by_eye : styles[static_cast<size_t>(x.from)]);
-        if (begins || (first && view.is_camera)) continue;  // seen end-on: a point
-        draw_line(svg, view, first ? eye : path[static_cast<size_t>(x.from)].p, x.p, styles.back());
+        if (begins || (first && panel.is_camera)) continue;  // seen end-on: a point
+        draw_line(svg, panel, first ? eye : path[static_cast<size_t>(x.from)].p, x.p,
+                  styles.back());
     }
-    if (!view.is_camera) mark(eye, "E", by_eye);
+    if (!panel.is_camera) mark(eye, "E", by_eye);
     for (size_t i = 0; i < path.size(); i++) mark(path[i].p, std::to_string(i + 1), styles[i]);
 }
 
@@ -193,25 +188,23 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
                       const std::vector<TracedRay>& rays) {
     Box box = {eye, eye};
     for (const PathVertex& x : path) box = {min(box.low, x.p), max(box.high, x.p)};
-    View camera = camera_panel(scene);
-    float right = camera.size.x + 2 * margin;
+    Panel camera = camera_panel(scene);
+    float right = static_cast<float>(camera.width) + 2 * margin;
     Svg svg;
     svg.add(
         "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n"
         "<rect width='100%%' height='100%%' fill='white'/>\n",
         double{std::max(right + side, 950.0f) + margin}, double{side + margin + 56});
-    for (const View& view : {camera, panel_from_above(scene, box, right)}) {
-        auto [x, y] = view.corner;
-        auto [width, height] = view.size;
-        svg.add(
-            "<svg x='%.1f' y='%.1f' width='%.1f' height='%.1f' viewBox='%.1f %.1f %.1f %.1f'>\n",
-            double{x}, double{y}, double{width}, double{height}, double{x}, double{y},
-            double{width}, double{height});
-        draw_scene(svg, view, scene);
-        draw_rays(svg, view, scene, rays);
-        draw_vertices(svg, view, eye, path);
+    for (const Panel& panel : {camera, panel_from_above(scene, box, right)}) {
+        svg.add("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='%.0f %.0f %d %d'>\n",
+                double{panel.left}, double{margin}, panel.width, panel.height, double{panel.left},
+                double{margin}, panel.width, panel.height);
+        draw_scene(svg, panel, scene);
+        draw_rays(svg, panel, scene, rays);
+        draw_vertices(svg, panel, eye, path);
         svg.text += "</svg>\n";
-        svg.words({x, y + height + 18}, view.is_camera ? "as the camera sees it" : "from above");
+        svg.words({panel.left, margin + static_cast<float>(panel.height) + 18},
+                  panel.is_camera ? "as the camera sees it" : "from above");
     }
     draw_legend(svg, margin + side + 42);
     return svg.text + "</svg>\n";

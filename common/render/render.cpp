@@ -38,7 +38,7 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Method
     uint32_t done = goes_on ? fewest_samples(result.film) : 0;
     FilmClock clock(scene, options);
     Progress progress(60);
-    TileRenderer renderer(scene, options, method, limit, clock, result, wanted.first);
+    TileRenderer renderer{scene, options, method, limit, clock, result, wanted.first};
     uint32_t pixels = static_cast<uint32_t>(scene.width) * static_cast<uint32_t>(scene.height);
     uint32_t most_per_pass = std::max(1u, (1u << 20) / pixels), spp = wanted.last - wanted.first;
     while (done < spp && !limit.reached()) {
@@ -54,9 +54,9 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Method
         result.begun = std::max(result.begun, next);
         renderer.set_goal(wanted.first + next);
         std::atomic<int> tiles = 0;
-        parallel_for(renderer.tiles(), options.threads, [&](int tile) {
+        parallel_for(renderer.tiles, options.threads, [&](int tile) {
             renderer.render(tile);
-            double of_pass = static_cast<double>(++tiles) / renderer.tiles();
+            double of_pass = static_cast<double>(++tiles) / renderer.tiles;
             double seconds = limit.elapsed();
             double by_time = options.time > 0 ? seconds / options.time : 0;
             double by_samples = (done + (next - done) * of_pass) / spp;
@@ -69,8 +69,8 @@ void take_samples(const Scene& scene, const RenderOptions& options, const Method
         done = next;
         result.stats.rays += rays_of_preparing;
         bool decides = in_pilot && done == allocation.pilot && !limit.reached();
-        if (decides && !renderer.pilot().half[0].empty())
-            allocation.choose_densities(renderer.pilot(), options.threads);
+        if (decides && !renderer.pilot.half[0].empty())
+            allocation.choose_densities(renderer.pilot, options.threads);
     }
 }
 

@@ -3,7 +3,6 @@
 #include <array>
 #include <mutex>
 
-#include "common/base/error.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
 #include "common/render/film_keeping.h"
@@ -11,48 +10,51 @@
 #include "common/render/stop.h"
 
 /// Renders the samples of the pixels of one tile, or fewer at the limit.
-class TileRenderer {
-public:
+struct TileRenderer {
     static constexpr int side = 16;             // pixels
     static constexpr size_t longest_class = 8;  // letters of a class that has its own film
-    static constexpr int between_looks =
-        64;  // samples without rays; rays check the limit themselves
+    static constexpr int between_looks = 64;    // samples without rays, which check the limit
 
-    TileRenderer(const Scene& scene, const RenderOptions& options, const Method& method,
-                 const Limit& limit, const FilmClock& clock, Rendering& result, uint32_t first)
-        : scene_(scene),
-          options_(options),
-          method_(method),
-          limit_(limit),
-          clock_(clock),
-          result_(result),
-          first_(first),
-          view_(camera_view(scene.camera, scene.width, scene.height)),
-          tiles_x_((scene.width + side - 1) / side),
-          pilot_{scene.width} {
-        bool has_pilot =
-            method.allocation.choose_densities && first == 0 && result.film.samples() == 0;
-        for (auto& half : pilot_.half)
-            if (has_pilot) half.resize(result.film.pixels().size());
-        set_goal(first);
-        from_ = to_;
+    const Scene& scene;
+    const RenderOptions& options;
+    const Method& method;
+    const Limit& limit;
+    const FilmClock& clock;
+    Rendering& result;
+    const uint32_t first;  // number of a pixel's first sample
+
+    const bool chooses = !options.paths.empty() || !options.strategy.empty();
+    const bool splits = !options.split.empty();
+    const int halves = method.allocation.pilot > 0 ? 2 : 1;
+    const CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    const int tiles_x = (scene.width + side - 1) / side;
+    const int tiles = tiles_x * ((scene.height + side - 1) / side);
+    Pilot pilot = start_pilot();  // what was seen of its samples; empty if they were taken before
+    uint32_t end = first;         // the number after the last sample
+    std::array<SamplesOf, 2> from = samples_to(first), to = from;  // the same for halves of pixels
+    std::mutex mutex = {};
+    std::array<std::mutex, 1024> splat_mutexes = {};  // each for some of the pixels
+
+    Pilot start_pilot() const {
+        Pilot start{scene.width};
+        bool is_first = method.allocation.choose_densities && first == 0;
+        for (auto& half : start.half)
+            if (is_first && result.film.samples() == 0) half.resize(result.film.pixels().size());
+        return start;
     }
-
-    /// What was seen of the samples of the pilot; empty if they were taken before.
-    Pilot& pilot() { return pilot_; }
-
-    int tiles() const { return tiles_x_ * ((scene_.height + side - 1) / side); }
-
-    /// From here on, render() takes samples up to `end`, the number of a sample.
-    void set_goal(uint32_t end) {
-        end_ = end;
-        for (size_t half : {0u, 1u})
-            if (halves() == 2) to_[half] = method_.allocation.samples(static_cast<int>(half), end);
+    std::array<SamplesOf, 2> samples_to(uint32_t number) const {
+        if (halves == 1) return {};
+        return {method.allocation.samples(0, number), method.allocation.samples(1, number)};
+    }
+    /// From here on, render() takes samples up to this number.
+    void set_goal(uint32_t number) {
+        end = number;
+        to = samples_to(number);
     }
 
     /// Takes the samples of a tile's pixels; none while the film waits to be saved.
     void render(int tile) {
-        if (limit_.reached() || clock_.due()) return;
+        if (limit.reached() || clock.due()) return;
         Tile now;
         std::exception_ptr thrown;
         try {
@@ -62,13 +64,12 @@ public:
         } catch (...) {
             thrown = std::current_exception();
         }
-        std::lock_guard lock(mutex_);
-        result_.stats.add(now.stats);
-        if (method_.prepare) result_.film.add_to_batch(end_ - 1, now.of_pass);
+        std::lock_guard lock(mutex);
+        result.stats.add(now.stats);
+        if (method.prepare) result.film.add_to_batch(end - 1, now.of_pass);
         if (thrown) std::rethrow_exception(thrown);
     }
 
-private:
     /// What the samples of a tile add up to besides its pixels.
     struct Tile {
         RenderStats stats;
@@ -83,9 +84,9 @@ private:
     /// What traces samples, one after the other, and the last of them.
     struct Tracer {
         explicit Tracer(const TileRenderer& r)
-            : sampler(r.options_.sampler, r.options_.seed, static_cast<uint32_t>(r.scene_.spp)),
-              recorder(r.chooses_ || r.splits_),
-              chosen(r.options_.paths) {}
+            : sampler(r.options.sampler, r.options.seed, static_cast<uint32_t>(r.scene.spp)),
+              recorder(r.chooses || r.splits),
+              chosen(r.options.paths) {}
 
         Sampler sampler;
         Recorder recorder;
@@ -95,33 +96,31 @@ private:
         std::vector<Contribution> parts = {};  // those selected, if they are of use
     };
 
-    int halves() const { return method_.allocation.pilot > 0 ? 2 : 1; }
-
     void render_pixels(int tile, Tile& now) {
-        int x0 = tile % tiles_x_ * side, y0 = tile / tiles_x_ * side;
-        int x1 = std::min(x0 + side, scene_.width), y1 = std::min(y0 + side, scene_.height);
+        int x0 = tile % tiles_x * side, y0 = tile / tiles_x * side;
+        int x1 = std::min(x0 + side, scene.width), y1 = std::min(y0 + side, scene.height);
         Tracer own(*this), again(*this);
         uint64_t rays_before = rays_traced;
-        bool in_pilot = !pilot_.half[0].empty() && end_ <= method_.allocation.pilot;
+        bool in_pilot = !pilot.half[0].empty() && end <= method.allocation.pilot;
         int taken = 0;
         for (int y = y0; y < y1; y++) {
-            for (int i = halves() * x0; i < halves() * x1; i++) {
-                int x = i / halves(), half = i % halves();
-                size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(scene_.width) +
+            for (int i = halves * x0; i < halves * x1; i++) {
+                int x = i / halves, half = i % halves;
+                size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(scene.width) +
                                static_cast<size_t>(x);
                 auto [s, last] = samples(pixel, half);
-                PilotPixel* seen = in_pilot ? &pilot_.half[half][pixel] : nullptr;
+                PilotPixel* seen = in_pilot ? &pilot.half[half][pixel] : nullptr;
                 uint64_t rays_of_others = rays_traced;
                 for (; s < last; s++) {
-                    bool over = limit_.seen() || (++taken % between_looks == 0 && limit_.reached());
+                    bool over = limit.seen() || (++taken % between_looks == 0 && limit.reached());
                     if (over) return;
                     Place at = {x, y, pixel, half, s};
                     // For the audit the same sample again, with numbers of another key.
-                    bool audited = result_.film.is_audited(pixel);
+                    bool audited = result.film.is_audited(pixel);
                     if (audited) trace(at, 1, again);
                     add_sample(at, own, now.stats);
-                    if (audited) result_.film.audit(pixel, again.total);
-                    if (method_.prepare) now.of_pass.add(own.total);
+                    if (audited) result.film.audit(pixel, again.total);
+                    if (method.prepare) now.of_pass.add(own.total);
                     if (seen) seen->add(own.L);
                     now.stats.rays = rays_traced - rays_before;  // of whole samples
                     now.stats.paths_cut = own.recorder.paths_cut();
@@ -136,20 +135,20 @@ private:
     /// The number of the next sample of a pixel's half, and the end: one more than the last to
     /// take.
     std::pair<uint32_t, uint32_t> samples(size_t pixel, int half) const {
-        uint32_t done = result_.film.half(half)[pixel].n;
-        if (halves() == 1) return {first_ + done, end_};
+        uint32_t done = result.film.half(half)[pixel].n;
+        if (halves == 1) return {first + done, end};
         size_t of = static_cast<size_t>(half);
-        return {from_[of](pixel) + done, to_[of](pixel)};
+        return {from[of](pixel) + done, to[of](pixel)};
     }
 
     [[gnu::always_inline]] void trace(const Place& at, int half, Tracer& t) {
         start_sample(t.sampler, at.pixel, half, at.sample);
         t.recorder.start();
-        bool centre = scene_.camera.pixel_centre;
-        Ray ray = camera_sample(view_, at.x, at.y, t.sampler, centre).ray;
+        bool centre = scene.camera.pixel_centre;
+        Ray ray = camera_sample(view, at.x, at.y, t.sampler, centre).ray;
         t.splats.clear();
-        t.L = method_.trace(scene_, ray, t.splats, t.sampler, t.recorder);
-        if (chooses_ || splits_) choose(t);
+        t.L = method.trace(scene, ray, t.splats, t.sampler, t.recorder);
+        if (chooses || splits) choose(t);
         t.total = t.L;
         for (const Splat& splat : t.splats) t.total += splat.L;
     }
@@ -158,12 +157,12 @@ private:
     void choose(Tracer& t) {
         t.parts = t.recorder.contributions();
         std::erase_if(t.parts, [&](const Contribution& part) {
-            bool other = !options_.strategy.empty() && part.way != options_.strategy;
+            bool other = !options.strategy.empty() && part.way != options.strategy;
             return other || !t.chosen.matches(part.path_class);
         });
         for (Contribution& part : t.parts)
-            if (options_.unweighted) part.L = part.L / part.mis;
-        if (!chooses_) return;
+            if (options.unweighted) part.L = part.L / part.mis;
+        if (!chooses) return;
         t.L = {};
         t.splats.clear();
         for (const Contribution& part : t.parts) {
@@ -176,26 +175,26 @@ private:
     void add_sample(const Place& at, Tracer& t, RenderStats& stats) {
         trace(at, at.half, t);
         // All that may fail comes first, so that no sample is in some of the films only.
-        if (!splits_) t.parts.clear();
+        if (!splits) t.parts.clear();
         for (const Contribution& part : t.parts) film_of(part);
-        int number = static_cast<int>(at.sample) * halves() + at.half;
+        int number = static_cast<int>(at.sample) * halves + at.half;
         double value = static_cast<double>(average(t.total));
         if (!is_finite(t.total)) {
-            stats.add_not_finite(options_.seed, number, at.y, at.x);
+            stats.add_not_finite(options.seed, number, at.y, at.x);
         } else if (value >= stats.largest) {
             stats.add_largest(value, at.x, at.y, number);
         }
-        result_.film.add(at.pixel, t.L, at.half);
-        if (method_.splats) {
-            result_.film.add_total(at.pixel, t.total);
+        result.film.add(at.pixel, t.L, at.half);
+        if (method.splats) {
+            result.film.add_total(at.pixel, t.total);
             for (const Splat& splat : t.splats) {
-                std::lock_guard lock(splat_mutexes_[splat.pixel % splat_mutexes_.size()]);
-                result_.film.splat(splat.pixel, splat.L);
+                std::lock_guard lock(splat_mutexes[splat.pixel % splat_mutexes.size()]);
+                result.film.splat(splat.pixel, splat.L);
             }
         }
         for (const Contribution& part : t.parts) {
             Film& film = film_of(part);
-            std::lock_guard lock(mutex_);
+            std::lock_guard lock(mutex);
             bool own = part.pixel == Contribution::own_pixel;
             if (own) film.add_part(at.pixel, part.L, at.half);
             if (!own) film.splat(part.pixel, part.L);
@@ -206,33 +205,10 @@ private:
     /// doubles with every letter.
     Film& film_of(const Contribution& part) {
         bool is_long = part.path_class.size() > longest_class;
-        std::lock_guard lock(mutex_);
-        size_t films = result_.classes.size() + 1;
-        uint64_t bytes = (method_.splats ? 3 : 1) * result_.film.pixels().size() * sizeof(PixelSum);
-        return needing_memory(
-            "--split: " + std::to_string(films) + " classes of paths, a film each,", films * bytes,
-            [&]() -> Film& {
-                auto [film, is_new] =
-                    result_.classes.try_emplace(is_long ? "longer" : part.path_class, scene_.width,
-                                                scene_.height, method_.splats);
-                if (is_new && result_.film.has_halves()) film->second.start_halves();
-                return film->second;
-            });
+        std::lock_guard lock(mutex);
+        auto [film, is_new] = result.classes.try_emplace(is_long ? "longer" : part.path_class,
+                                                         scene.width, scene.height, method.splats);
+        if (is_new && result.film.has_halves()) film->second.start_halves();
+        return film->second;
     }
-
-    const Scene& scene_;
-    const RenderOptions& options_;
-    const Method& method_;
-    const bool chooses_ = !options_.paths.empty() || !options_.strategy.empty();
-    const bool splits_ = !options_.split.empty();
-    const Limit& limit_;
-    const FilmClock& clock_;
-    Rendering& result_;
-    uint32_t first_, end_ = 0;            // numbers of the first sample, and after the last
-    std::array<SamplesOf, 2> from_, to_;  // the same for the halves of each pixel
-    CameraView view_;
-    int tiles_x_;
-    Pilot pilot_;
-    std::mutex mutex_;
-    std::array<std::mutex, 1024> splat_mutexes_;  // each for some of the pixels that splats go to
 };

@@ -25,15 +25,16 @@ MergeOptions parse(int argc, char** argv) {
                   ".png picture of all their samples.\nParts make the same bytes as the whole, in "
                   "any order. The same samples twice are refused.",
                   {}, [&](const std::string& word) { words.push_back(word); });
-    if (words.size() < 2)
+    if (words.size() < 2) {
         throw UsageError("error: name what to write, and the films to add; --help says how");
+    }
     o.out = words[0];
     o.films.assign(words.begin() + 1, words.end());
-    if (!is_image_path(o.out) && !has_ending(o.out, film_ending))
+    if (!is_image_path(o.out) && !has_ending(o.out, film_ending)) {
         throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
-}
-check_outputs({o.out}, o.films);
-return o;
+    }
+    check_outputs({o.out}, o.films);
+    return o;
 }
 
 void print_summary(const MergeOptions& o, const LabeledFilm& sum) {
@@ -52,14 +53,14 @@ int main(int argc, char** argv) {
     return run_program([&] {
         MergeOptions o = parse(argc, argv);
         LabeledFilm sum = read_film(o.films[0]);
-        for (size_t i = 1; i < o.films.size(); i++)
+        for (size_t i = 1; i < o.films.size(); i++) {
             add_film(sum, o.films[i], read_film(o.films[i]));
         }
         if (is_image_path(o.out)) {
-        write_image(o.out, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
+            write_image(o.out, sum.film.image(), comment_of(notes_of(sum.label, sum.film.spp())));
         } else {
-        FileLock lock(o.out);
-        write_film(o.out, sum.label, sum.film);
+            FileLock lock(o.out);
+            write_film(o.out, sum.label, sum.film);
         }
         print_summary(o, sum);
         const SampleCounts& counts = sum.label.counts;
@@ -70,5 +71,5 @@ int main(int argc, char** argv) {
                      static_cast<unsigned long long>(counts.not_finite), counts.bad_seed,
                      counts.bad_x, counts.bad_y, counts.bad_sample);
         return 1;
-});
+    });
 }

@@ -157,6 +157,10 @@ TEST_SUITE("render loop") {
             // trace() sums in float: half a unit in the last place for each of its 20 additions.
             CHECK(std::abs(sum - static_cast<double>(whole.pixels[i].g)) < 20 * 0x1p-24 * sum);
         }
+        RenderOptions alone = options;
+        alone.split.clear(), alone.paths = "LDE";
+        CHECK(render_film(scene, alone, random_classes).film.image().pixels ==
+              r.classes.at("LDE").image().pixels);
         options.threads = 1;
         Rendering one = render_film(scene, options, random_classes);
         for (const auto& [name, film] : r.classes)
