@@ -1,4 +1,4 @@
-// What programs print and write beside pictures: summaries, statistics, tables, explained paths,
+// What programs print and write beside pictures: statistics, tables, explained paths,
 // and the reasons why a film does not fit.
 #include <doctest/doctest.h>
 
@@ -58,30 +58,6 @@ Finished written(const Scene& scene, const RenderOptions& options, const Renderi
 }  // namespace
 
 TEST_SUITE("printed") {
-    TEST_CASE("truth: the summary of a render tells its mean, error, speed, files and warnings") {
-        TemporaryFolder folder;
-        Scene scene = small_scene();
-        RenderOptions options = options_of(folder.path());
-        Rendering r = rendering_of();
-        // The error: variance 0.04 / 3 of a sample of 4, of 100 pixels.
-        const std::string mean = "mean 1.000000 +- 0.005774\n",
-                          speed = "2.00 s, 0.00 M samples/s, 4.00 M rays/s, 3 threads\n",
-                          wrote = "wrote " + folder / "a.pfm" + "\n";
-        Finished end = written(scene, options, r);
-        CHECK(end.code == 0);
-        CHECK(end.err == "");
-        CHECK(end.out == "07_x  a folder/b.pbrt  10x10  4 spp\n" + mean + speed + wrote);
-        r.stats.interrupted = true, r.stats.paths_cut = 100;
-        r.warnings = {"one"};
-        end = written(scene, options, r);
-        CHECK(end.code == 3);
-        for (const char* words : {"4 spp (interrupted)\n", "\nwarning: one\n",
-                                  "\ndepth limit 7 cut 25 % of the paths\n"})
-            CHECK(end.out.find(words) != std::string::npos);
-        options.quiet = true;
-        CHECK(written(scene, options, r).out == "");
-    }
-
     TEST_CASE("truth: each figure of --stats is that of the film") {
         TemporaryFolder folder;
         Scene scene = small_scene();
@@ -120,28 +96,6 @@ TEST_SUITE("printed") {
         for (const char* list : {"\"mean_rgb\": [1, 2, 0]", "\"notes\": [\"chapter 07_x\", \"scene",
                                  "black\", \"its own\"]"})
             CHECK(stats.json.find(list) != std::string::npos);
-    }
-
-    TEST_CASE("truth: each picture has notes, that of one class also its name") {
-        TemporaryFolder folder;
-        Scene scene = small_scene();
-        RenderOptions options = options_of(folder.path());
-        options.out = {folder / "a.png"}, options.split = folder.path(), options.quiet = true;
-        options.pictures = {{folder / "m.png", [](const Film& film) { return film.counts(); }}};
-        options.sampler = SamplerType::stratified;
-        Rendering r = rendering_of();
-        r.classes.emplace("LDE", r.film);
-        CHECK(written(scene, options, r).code == 0);
-        auto notes_of_file = [&](const std::string& name) {
-            return notes_in(decode_comment(name, read_file(folder / name)));
-        };
-        Notes notes = {{"chapter", "07_x"}, {"scene", "b.pbrt"}, {"checksum", "0000000000000abc"},
-                       {"size", "10x10"},   {"max-depth", "7"},  {"sampler", "stratified"},
-                       {"strata", "4"},     {"spp", "4"},        {"seed", "5"}};
-        for (const char* name : {"a.png", "m.png", "classes.png"})
-            CHECK(notes_of_file(name) == notes);
-        CHECK(value_of(notes_of_file("LDE.png"), "paths") == "LDE");
-        CHECK(read_image(folder / "m.png").at(3, 3) == Rgb{1, 1, 1});  // 4, as far as it goes
     }
 
     TEST_CASE("truth: the command to see a sample that is not finite is told") {

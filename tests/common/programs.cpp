@@ -17,12 +17,6 @@ Words joined(Words words, const Words& more) {
     return words;
 }
 
-/// Options for a render of a few milliseconds.
-Words small(const std::string& program, const Words& more = {}) {
-    Words words = {spheres, "--size", "33x17", "--spp", "3", "--max-depth", "6"};
-    return joined(joined(words, few_photons(program)), more);
-}
-
 bool is_one_line(const std::string& text) { return text.find('\n') == text.size() - 1; }
 
 }  // namespace
@@ -213,48 +207,5 @@ TEST_SUITE("programs") {
             CHECK(read_file(folder / "b.film") == read_file(folder / "a.film"));
             CHECK(read_file(folder / "b.pfm") == read_file(folder / "a.pfm"));
         }
-    }
-
-    TEST_CASE("truth: compare tells the means, errors and difference of two even pictures") {
-        TemporaryFolder folder;
-        Image a(16, 16), b(16, 16);
-        std::fill(a.pixels.begin(), a.pixels.end(), Rgb{0.5f, 0.5f, 0.5f});
-        std::fill(b.pixels.begin(), b.pixels.end(), Rgb{0.25f, 0.25f, 0.25f});
-        write_image(folder / "a.pfm", a, ""), write_image(folder / "b.pfm", b, "");
-        for (bool ranged : {false, true}) {
-            Words words = {folder / "a.pfm", folder / "b.pfm", "--out", folder / "e.pfm"};
-            if (ranged) append(words, {"--range", "0.5"});
-            Finished end = run("compare", words);
-            CHECK(end.code == 0);
-            std::string white = ranged ? "white 0.5\n" : "white 0.928\n";  // .25 / sqrt(.0725)
-            for (const std::string& line :
-                 {std::string("\nbrightness     0.5    0.25  100 %         infinite "),
-                  std::string(" 4 of 4\nMSE 0.0625   RMSE 0.25   relMSE 0.8621\n"),
-                  "note: " + folder / "a.pfm does not tell which scene it shows\n",
-                  std::string("\nverdict: other means: A is 100 % brighter than B"), white}) {
-                CAPTURE(line);
-                CHECK(end.out.find(line) != std::string::npos);
-            }
-            CHECK(read_image(folder / "e.pfm").pixels[7].r == 1);
-        }
-    }
-
-    TEST_CASE("truth: the pyramid of 21 has a row for each length; weights make it darker") {
-        TemporaryFolder folder;
-        std::string pyramid = folder / "b.pfm";
-        REQUIRE(run("21_bidirectional", {"--size", "32x32", "--spp", "1", "--max-depth", "4",
-                                         "--pyramid", pyramid, "--out", folder / "a.pfm"})
-                    .code == 0);
-        Image all = read_image(pyramid);
-        CHECK(all.width >= 12 * 96);  // s = 0 to 5, without weights and with them
-        CHECK(all.width < 14 * 96);
-        CHECK(all.height >= 4 * 96);
-        CHECK(all.height < 7 * 96);
-        double dark[2] = {};
-        for (size_t i = 0; i < all.pixels.size(); i++) {
-            bool right = i % static_cast<size_t>(all.width) >= static_cast<size_t>(all.width) / 2;
-            dark[right] += all.pixels[i].g > 0 ? 0 : 1;
-        }
-        CHECK(dark[0] < dark[1]);
     }
 }

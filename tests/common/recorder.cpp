@@ -126,59 +126,6 @@ TEST_SUITE("recorder") {
         CHECK(found == std::map<std::string, Rgb>{{"LDSE", {0, 2, 0}}, {"LSDDSE", {2, 0, 2}}});
     }
 
-    TEST_CASE("truth: the story of a path ends with the reason why the path does") {
-        Material grey, black;
-        black.reflectance = {0, 0, 0};
-        using Steps = std::function<void(Recorder&, PathStory&)>;
-        auto meet = [](Recorder& r, const Material& wall) {
-            Hit hit{};
-            hit.material = &wall;
-            r.vertex(hit);
-        };
-        auto go_on = [&](Recorder& r) {
-            meet(r, grey);
-            r.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});
-        };
-        const std::pair<const char*, Steps> cases[] = {
-            {"absorbed at vertex 1: ", [&](Recorder& r, PathStory&) { meet(r, grey); }},
-            {"vertex 2 is black: ", [&](Recorder& r, PathStory&) { go_on(r), meet(r, black); }},
-            {"roulette stops it", [&](Recorder& r, PathStory&) { go_on(r); }},
-            {"it has left the scene",
-             [&](Recorder& r, PathStory& story) {
-                 go_on(r);
-                 r.roulette(0.5f, {1, 1, 1});
-                 story.rays.push_back({{}, false, false, infinity});
-             }},
-            {"the depth limit, 2 scattering events",
-             [&](Recorder& r, PathStory&) {
-                 meet(r, grey);
-                 r.cut();
-                 r.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {1, 1, 1});  // drawn alone
-             }},
-            {"the depth limit, 2 scattering events",
-             [&](Recorder& r, PathStory&) {
-                 r.start_at_light({});
-                 go_on(r), meet(r, grey);
-             }},
-            {"photons around vertex 1 tell", [&](Recorder& r, PathStory&) { meet(r, grey); }}};
-        for (const auto& [reason, steps] : cases) {
-            CAPTURE(reason);
-            PathStory story(2, std::string(reason).starts_with("photons"));
-            Recorder recorder(true, &story);
-            recorder.start();
-            story.rays.push_back({{}, false, true, 1});
-            story.rays.push_back({{}, true, true, 1});
-            steps(recorder, story);
-            story.ends();
-            CHECK(story.text.find("    shadow ray along (0, 0, 0): blocked\n") !=
-                  std::string::npos);
-            size_t last = story.text.rfind("    ends: ");
-            REQUIRE(last != std::string::npos);
-            CHECK(story.text.substr(last + 10).starts_with(reason));
-            CHECK(story.text.find("    ends: ") == last);
-        }
-    }
-
     TEST_CASE("identity: a selection has the classes that its filter matches, or all") {
         ClassFilter scattered("LD(S|D)*E"), part("DE"), all("");
         for (int again = 0; again < 2; again++) {  // then it remembers
