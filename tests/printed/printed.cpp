@@ -1,4 +1,4 @@
-// What programs render and print is what it was: every command of three pages runs, and what it
+// What programs render and print is what it was: every command of four pages runs, and what it
 // prints is compared with the page, but for times. On other systems than this the tests that
 // compare programs' pictures do the same.
 #include <doctest/doctest.h>
@@ -18,5 +18,6 @@ TEST_SUITE("printed") {
     TEST_CASE("files: programs render what they did") { check_page("pictures.md"); }
     TEST_CASE("files: programs render what they did by options") { check_page("options.md"); }
     TEST_CASE("files: programs print what they did") { check_page("runs.md"); }
+    TEST_CASE("files: programs explain paths as they did") { check_page("paths.md"); }
 }
 #endif
