@@ -33,8 +33,7 @@ void Messages::stand_in(const Position& at, const std::string& what, const std::
         std::string wrong = text.empty() ? what + " is not supported" : text;
         return error(at, wrong + or_stand_in(what).substr(wrong.ends_with('?') ? 1 : 0));
     }
-    auto& [first, all] = used_.try_emplace(what, at, std::set<Position>{}).first->second;
-    all.insert(at);
+    used_[what].insert(at);
 }
 
 bool Messages::try_to_read(const Position& at, const std::string& what,
@@ -57,8 +56,7 @@ std::vector<UsedStandIn> Messages::used() const {
     for (const auto& [what, instead] : all_stand_ins()) {
         auto found = used_.find(what);
         if (found == used_.end()) continue;
-        const auto& [first, all] = found->second;
-        list.push_back({what, instead, all.size(), first});
+        list.push_back({what, instead, found->second.size(), *found->second.begin()});
     }
     return list;
 }

@@ -61,7 +61,7 @@ public:
 private:
     std::vector<std::string>& notes_;
     const bool stand_ins_;
-    std::vector<std::string> errors_;                                      // lines
-    std::set<std::string> texts_;                                          // of errors and notes
-    std::map<std::string, std::pair<Position, std::set<Position>>> used_;  // first place and all
+    std::vector<std::string> errors_;                 // lines
+    std::set<std::string> texts_;                     // of errors and notes
+    std::map<std::string, std::set<Position>> used_;  // stand-ins, and where
 };

@@ -38,23 +38,21 @@ void refuse_old(const Position& at, const std::string& word) {
 void read_value(Lexer& lexer, const ParamType& type, Param& param) {
     std::string name = quote(param.type + ' ' + param.name);
     Token token = lexer.peek();
-    bool is_word = token.type == Token::word;
-    std::optional<double> value;
-    if (is_word && (type.needs == number || type.needs == spectrum)) {
-        value = lexer.number(name);
+    bool is_text = type.needs == text, is_either = type.needs == spectrum;
+    if (token.type == Token::string && (is_text || is_either)) {
+        param.strings.push_back(lexer.unescape(lexer.next()));
+    } else if (type.needs == number || is_either) {
+        param.numbers.push_back(lexer.number(name));
     } else {
         lexer.next();
-        if (is_word && type.needs == whole) value = to_integer(token.text);
-        if (is_word && type.needs == truth && token.text == "true") value = 1;
-        if (is_word && type.needs == truth && token.text == "false") value = 0;
-    }
-    bool is_text = type.needs == text || type.needs == spectrum;
-    if (value) {
+        std::optional<double> value;
+        if (type.needs == whole) value = to_integer(token.text);
+        if (type.needs == truth && token.text == "true") value = 1;
+        if (type.needs == truth && token.text == "false") value = 0;
+        if (!value || token.type != Token::word) {
+            lexer.fail_at(token, name + " needs " + std::string(type.needs));
+        }
         param.numbers.push_back(*value);
-    } else if (is_text && token.type == Token::string) {
-        param.strings.push_back(lexer.unescape(token));
-    } else {
-        lexer.fail_at(token, name + " needs " + std::string(type.needs));
     }
 }
 
@@ -197,11 +195,6 @@ float Params::fallback(const std::string& name) const {
     return found == known_->end() ? 0 : static_cast<float>(found->second->fallback);
 }
 
-const Position& Params::at(const std::string& name) const {
-    const Param* param = find(name);
-    return param ? param->at : at_;
-}
-
 const Param* Params::find(const std::string& name) const {
     for (const Param& param : params_) {
         if (param.name == name) return &param;
@@ -218,16 +211,6 @@ const Param& Params::required(const std::string& name) const {
 float Params::number(const std::string& name, float fallback) const {
     const Param* param = find(name);
     return param && !param->numbers.empty() ? static_cast<float>(param->numbers[0]) : fallback;
-}
-
-int Params::integer(const std::string& name) const {
-    const Param* param = find(name);
-    return static_cast<int>(param ? param->numbers[0] : double{fallback(name)});
-}
-
-std::string Params::string(const std::string& name, const std::string& fallback) const {
-    const Param* param = find(name);
-    return param ? param->strings[0] : fallback;
 }
 
 Vec3 Params::point(const std::string& name, Vec3 fallback) const {

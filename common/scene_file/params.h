@@ -49,7 +49,10 @@ public:
 
     /// Where the directive stands, and where a parameter does (the directive if it is not given).
     const Position& at() const { return at_; }
-    const Position& at(const std::string& name) const;
+    const Position& at(const std::string& name) const {
+        const Param* param = find(name);
+        return param ? param->at : at_;
+    }
     /// The directive and its type, for messages.
     std::string owner() const { return directive_ + ' ' + quote(type_); }
 
@@ -60,9 +63,12 @@ public:
     /// The value of a parameter; where it is not given that of the table, or the one given here.
     float number(const std::string& name) const { return number(name, fallback(name)); }
     float number(const std::string& name, float fallback) const;
-    int integer(const std::string& name) const;
+    int integer(const std::string& name) const { return static_cast<int>(number(name)); }
     bool boolean(const std::string& name) const { return number(name) != 0; }
-    std::string string(const std::string& name, const std::string& fallback = "") const;
+    std::string string(const std::string& name, const std::string& fallback = "") const {
+        const Param* param = find(name);
+        return param ? param->strings[0] : fallback;
+    }
     Vec3 point(const std::string& name, Vec3 fallback) const;
     /// An `rgb`, or the color of luminance 1 of a `blackbody`.
     Rgb color(const std::string& name) const;

@@ -44,16 +44,9 @@ Transform read_transform(Lexer& lexer, const Token& directive) {
     if (name == "Scale") return scaling(read_three(lexer, name));
     if (name == "Rotate") {
         double degrees = lexer.number(name);
-        Vec3d axis = read_three(lexer, name);
-        if (length(axis) == 0) fail(lexer.at(directive), "Rotate needs an axis other than 0 0 0");
-        return rotation(degrees, axis);
+        return rotation(degrees, read_three(lexer, name));
     }
     Vec3d eye = read_three(lexer, name), look = read_three(lexer, name);
     Vec3d up = read_three(lexer, name);
-    if (eye == look) fail(lexer.at(directive), "LookAt needs two different points");
-    Transform world_from_camera = look_at(eye, look, up);
-    if (!is_usable(world_from_camera)) {
-        fail(lexer.at(directive), "LookAt needs an up that is not along the view");
-    }
-    return inverse(world_from_camera);
+    return inverse(look_at(eye, look, up));
 }
