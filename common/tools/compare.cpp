@@ -1,59 +1,15 @@
 // compare A B: how far picture A is from the reference B.
 #include <cstdio>
-#include <filesystem>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/percent.h"
-#include "common/base/system.h"
 #include "common/picture/comparison.h"
 #include "common/picture/verdict.h"
 #include "common/render/options.h"
 #include "common/render/table.h"
 
 namespace {
-
-struct CompareOptions {
-    std::vector<std::string> pictures;
-    std::string out;
-    double trim = 0, range = 0;
-    std::string command;
-};
-
-CompareOptions parse(int argc, char** argv) {
-    CompareOptions o;
-    o.command = command_line(argc, argv);
-    std::vector<Option> options = {
-        {"out", "FILE", "write the error of each pixel as a colour (.ppm, .pfm or .png)",
-         [&](const std::string& text) { o.out = parse_picture("out", text); }},
-        positive_option("range", "R",
-                        "the relative error that is white there (default: of all but "
-                        "1 %)",
-                        o.range),
-        positive_option("trim", "PERCENT", "leave the worst pixels out of the errors", o.trim)};
-    parse_options(
-        argc, argv, "A B",
-        "How far picture A is from the reference B, .pfm, .png or .ppm, figure by figure and "
-        "then in words. What a picture shows is known from its notes (.ppm and .png have them; "
-        "a .pfm cannot)\nand from what --stats wrote beside it (NAME.json); so are standard "
-        "errors, or from NAME.err.pfm.",
-        options, [&](const std::string& word) { o.pictures.push_back(word); });
-    if (o.trim >= 100) throw UsageError("error: --trim takes less than 100");
-    if (o.pictures.size() != 2)
-        throw UsageError("error: two pictures are needed, not " +
-                         std::to_string(o.pictures.size()) + "; --help says how");
-    return o;
-}
-
-/// The pictures, and what stands beside them.
-std::vector<std::string> all_read(const CompareOptions& o) {
-    std::vector<std::string> files = o.pictures;
-    for (const std::string& picture : o.pictures) {
-        std::filesystem::path errors = file_path(picture).replace_extension(".err.pfm");
-        if (std::filesystem::exists(errors)) files.push_back(file_name(errors));
-    }
-    return files;
-}
 
 void print_mean(const char* name, const PictureFacts& facts, double mean) {
     std::printf("%s  %s  mean %.6g", name, facts.file.c_str(), mean);
@@ -72,8 +28,8 @@ std::string difference(const ChannelComparison& c, double standard_error) {
 /// A figure, and on the next line what it is.
 void explain(const char* words) { std::printf("    %s\n", words); }
 
-void print_errors(const CompareOptions& o, const Comparison& c) {
-    if (o.trim > 0) std::printf("without the worst %g %% of the pixels:\n", o.trim);
+void print_errors(double trim, const Comparison& c) {
+    if (trim > 0) std::printf("without the worst %g %% of the pixels:\n", trim);
     std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);
     explain("mean of (a-b)^2; its root; mean of (a-b)^2 / (b^2 + 0.01), by which dark parts count");
     std::printf("worst 0.1 %% of the pixels: %.3g %% of the squared error\n", 100 * c.worst_share);
@@ -89,8 +45,7 @@ void print_errors(const CompareOptions& o, const Comparison& c) {
     explain("how many standard errors a block differs by: noise alone hardly ever passes 5");
 }
 
-void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b,
-           const Comparison& c) {
+void print(double trim, const PictureFacts& a, const PictureFacts& b, const Comparison& c) {
     print_mean("A", a, c.mean_a);
     print_mean("B", b, c.mean_b);
     double se = std::hypot(a.standard_error, b.standard_error);
@@ -107,7 +62,7 @@ void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b
             channel_names[i], channel.mean_a, channel.mean_b, channel.mean_a - channel.mean_b,
             difference(channel, channel.standard_error).c_str(), channel.median_ratio);
     }
-    print_errors(o, c);
+    print_errors(trim, c);
     std::printf("verdict: %s\n", verdict(c, se, a, b).c_str());
 }
 
@@ -115,18 +70,39 @@ void print(const CompareOptions& o, const PictureFacts& a, const PictureFacts& b
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        CompareOptions o = parse(argc, argv);
-        if (!o.out.empty()) check_outputs({o.out}, all_read(o));
-        Image a = read_image(o.pictures[0]), b = read_image(o.pictures[1]);
-        PictureFacts facts_a = facts_of(o.pictures[0], a), facts_b = facts_of(o.pictures[1], b);
+        std::vector<std::string> pictures;
+        std::string out;
+        double trim = 0, range = 0;
+        std::vector<Option> options = {
+            {"out", "FILE", "write the error of each pixel as a colour (.ppm, .pfm or .png)",
+             [&](const std::string& text) { out = parse_picture("out", text); }},
+            positive_option("range", "R",
+                            "the relative error that is white there (default: of all but 1 %)",
+                            range),
+            positive_option("trim", "PERCENT", "leave the worst pixels out of the errors", trim)};
+        parse_options(
+            argc, argv, "A B",
+            "How far picture A is from the reference B, .pfm, .png or .ppm, figure by figure and "
+            "then in words. What a picture shows is known from its notes (.ppm and .png have them; "
+            "a .pfm cannot)\nand from what --stats wrote beside it (NAME.json); so are standard "
+            "errors, or from NAME.err.pfm.",
+            options, [&](const std::string& word) { pictures.push_back(word); });
+        if (trim >= 100) throw UsageError("error: --trim takes less than 100");
+        if (pictures.size() != 2)
+            throw UsageError("error: two pictures are needed, not " +
+                             std::to_string(pictures.size()) + "; --help says how");
+        if (!out.empty()) check_outputs({out}, pictures);
+
+        Image a = read_image(pictures[0]), b = read_image(pictures[1]);
+        PictureFacts facts_a = facts_of(pictures[0], a), facts_b = facts_of(pictures[1], b);
         for (const std::string& line : doubts(facts_a, facts_b)) std::printf("%s\n", line.c_str());
-        check_comparable(a, o.pictures[0], b, o.pictures[1]);
-        print(o, facts_a, facts_b, compare(a, b, o.trim));
-        if (o.out.empty()) return 0;
-        double range = o.range > 0 ? o.range : error_range(a, b);
-        write_image(o.out, error_image(a, b, range), o.command);
+        check_comparable(a, pictures[0], b, pictures[1]);
+        print(trim, facts_a, facts_b, compare(a, b, trim));
+        if (out.empty()) return 0;
+        if (range == 0) range = error_range(a, b);
+        write_image(out, error_image(a, b, range), command_line(argc, argv));
         std::printf("wrote %s: relative error |A-B| / sqrt(B^2 + 0.01), black 0, white %.3g\n",
-                    o.out.c_str(), range);
+                    out.c_str(), range);
         return 0;
     });
 }

@@ -11,34 +11,6 @@
 
 namespace {
 
-struct MergeOptions {
-    std::string out, stats;
-    std::vector<std::string> films;
-};
-
-MergeOptions parse(int argc, char** argv) {
-    MergeOptions o;
-    std::vector<std::string> words;
-    parse_options(
-        argc, argv, "OUT FILM...",
-        "Adds films of one scene, by one chapter with the same options: parts of one "
-        "render, or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or "
-        ".png picture of all their samples.\nParts make the same bytes as the whole, in "
-        "any order. The same samples twice are refused.",
-        {text_option("stats", "FILE.json", "write samples, mean and standard error", o.stats)},
-        [&](const std::string& word) { words.push_back(word); });
-    if (words.size() < 2)
-        throw UsageError("error: name what to write, and the films to add; --help says how");
-    o.out = words[0];
-    o.films.assign(words.begin() + 1, words.end());
-    if (!is_image_path(o.out) && !has_ending(o.out, film_ending))
-        throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
-    std::vector<std::string> written = {o.out};
-    if (!o.stats.empty()) written.push_back(o.stats);
-    check_outputs(written, o.films);
-    return o;
-}
-
 std::vector<std::string> warnings_of(const LabeledFilm& sum) {
     std::vector<std::string> lines = sum.label.missing();
     for (const std::string& line : warnings_of(sum.film, sum.label.counts)) lines.push_back(line);
@@ -69,19 +41,35 @@ void write_sum(const std::string& path, const LabeledFilm& sum) {
 
 int main(int argc, char** argv) {
     return run_program([&] {
-        MergeOptions o = parse(argc, argv);
-        LabeledFilm sum = read_film(o.films[0]);
-        for (size_t i = 1; i < o.films.size(); i++)
-            add_film(sum, o.films[i], read_film(o.films[i]));
-        std::vector<Output> outputs = {{o.out, [&] { write_sum(o.out, sum); }}};
-        if (!o.stats.empty())
-            outputs.push_back({o.stats, [&] { write_file_atomically(o.stats, stats_json(sum)); }});
+        std::vector<std::string> words;
+        std::string stats;
+        parse_options(
+            argc, argv, "OUT FILM...",
+            "Adds films of one scene, by one chapter with the same options: parts of one render, "
+            "or renders\nwith different seeds. OUT is a .film, or a .pfm, .ppm or .png picture of "
+            "all their samples.\nParts make the same bytes as the whole, in any order. The same "
+            "samples twice are refused.",
+            {text_option("stats", "FILE.json", "write samples, mean and standard error", stats)},
+            [&](const std::string& word) { words.push_back(word); });
+        if (words.size() < 2)
+            throw UsageError("error: name what to write, and the films to add; --help says how");
+        std::string out = words[0];
+        std::vector<std::string> films(words.begin() + 1, words.end()), written = {out};
+        if (!is_image_path(out) && !has_ending(out, film_ending))
+            throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
+        if (!stats.empty()) written.push_back(stats);
+        check_outputs(written, films);
+
+        LabeledFilm sum = read_film(films[0]);
+        for (size_t i = 1; i < films.size(); i++) add_film(sum, films[i], read_film(films[i]));
+        std::vector<Output> outputs = {{out, [&] { write_sum(out, sum); }}};
+        if (!stats.empty())
+            outputs.push_back({stats, [&] { write_file_atomically(stats, stats_json(sum)); }});
         write_outputs(outputs);
-        std::printf("%zu films  %dx%d  %s spp\n%s\n", o.films.size(), sum.film.width,
-                    sum.film.height, json_number(sum.film.spp()).c_str(),
-                    mean_and_error(sum.film).c_str());
+        std::printf("%zu films  %dx%d  %s spp\n%s\n", films.size(), sum.film.width, sum.film.height,
+                    json_number(sum.film.spp()).c_str(), mean_and_error(sum.film).c_str());
         for (const std::string& line : warnings_of(sum)) std::printf("warning: %s\n", line.c_str());
-        std::printf("wrote %s\n", o.out.c_str());
+        std::printf("wrote %s\n", out.c_str());
         const SampleCounts& counts = sum.label.counts;
         if (counts.not_finite == 0) return 0;
         std::fprintf(stderr,
