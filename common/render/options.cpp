@@ -117,7 +117,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
         flag_option("quiet", "print errors only", o.quiet),
     };
     std::erase_if(options, [&](const Option& option) {
-        return !takes.empty() && std::ranges::find(takes, option.name) == takes.end();
+        return !takes.empty() && std::find(takes.begin(), takes.end(), option.name) == takes.end();
     });
     options.insert(options.begin(), extra.begin(), extra.end());
     options = parse_options(

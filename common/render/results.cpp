@@ -34,16 +34,10 @@ Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering
 std::string stats_json(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
     Rgb mean_rgb = r.film.mean_rgb();
-    double sum = r.film.mean() * static_cast<double>(r.film.samples());
     double pixels = static_cast<double>(r.film.pixels().size());
     JsonObject json;
     json.add("scene", scene.origin->file);
-    json.add("chapter", options.name);
-    json.add("width", r.film.width);
-    json.add("height", r.film.height);
     json.add("spp", r.film.spp());
-    json.add("max_depth", scene.max_depth);
-    json.add("seed", uint64_t{options.seed});
     json.add("notes", lines_of(notes_of(scene, options, r)));
     std::vector<std::string> stand_ins;
     for (const UsedStandIn& used : scene.origin->stand_ins)
@@ -62,7 +56,6 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("paths_cut_by_depth", s.paths_cut);
     json.add("largest_sample", s.largest);
     json.add("largest_sample_at", s.largest_at());
-    json.add("largest_sample_share", sum > 0 ? s.largest / sum : 0);
     json.add("effective_samples", r.film.effective_samples());
     json.add("empty_pixels_share", static_cast<double>(r.film.empty_pixels()) / pixels);
     json.add("warnings", warnings_of(scene, options, r));

@@ -334,8 +334,9 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
             // By default, chapter 13 samples lights only; later chapters also sample the metal's
             // BSDF. What surfaces in view receive from metal may be ten times its share of all
             // light.
-            bool lights_alone = std::ranges::count(options.own, std::pair<std::string, std::string>(
-                                                                    "strategy", "light")) > 0;
+            bool lights_alone =
+                std::count(options.own.begin(), options.own.end(),
+                           std::pair<std::string, std::string>("strategy", "light")) > 0;
             double hidden =
                 receivers ? 10 * share_on_smooth_metal(scene, samples, !lights_alone) * film.mean()
                           : 0;
