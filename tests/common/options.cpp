@@ -40,37 +40,4 @@ TEST_SUITE("options") {
               "build/07_x 'it'\\''s' --paths 'LD(S|D)*E'");
     }
 
-    TEST_CASE("input: wrong options and values are named, and what is right") {
-        struct {
-            std::vector<std::string> words;
-            std::string error;
-        } cases[] = {
-            {{"-spp", "4"}, "unknown option '-spp', did you mean '--spp'?"},
-            {{"--max_depth", "4"}, "unknown option '--max_depth', did you mean '--max-depth'?"},
-            {{"--SPP", "4"}, "unknown option '--SPP'; --help"},
-            {{"--spp"}, "option '--spp' needs a value"},
-            {{"--out", ""}, "option '--out' needs a value"},
-            {{"--quiet=1"}, "option '--quiet' takes no value"},
-            {{"--spp", "0"}, "--spp takes a whole number from 1 to 1073741824, not '0'"},
-            {{"--seed", "-1"}, "--seed takes a whole number from 0 to 4294967295, not '-1'"},
-            {{"--max-depth", "-1"}, "--max-depth takes a whole number from 0 to 1073741824"},
-            {{"--time", "0"}, "--time takes a number greater than 0"},
-            {{"--size", "-2x-2"}, "--size takes WIDTHxHEIGHT"},
-            {{"--size", "0x4"}, "--size takes WIDTHxHEIGHT"},
-            {{"--size", "65537x1"}, "--size takes WIDTHxHEIGHT"},
-            {{"--size", "65536x65536"}, "--size takes WIDTHxHEIGHT"},
-            {{"--sampler", "sobel"},
-             "--sampler takes independent, stratified or sobol (did you "
-             "mean 'sobol'?)"},
-            {{"--out", "a.jpg"}, "--out takes a .ppm, .pfm or .png file"},
-            {{"--explain", "1,2,3,4"}, "--explain takes X,Y or X,Y,SAMPLE"},
-            {{"--paths", "LD("}, "--paths \"LD(\", column 3: "},
-            {{"a.pbrt", "--spp", "2", "b.pbrt"}, "two scenes: 'a.pbrt' and 'b.pbrt'"},
-            {{""}, "the name of the scene is empty"},
-        };
-        for (const auto& c : cases) {
-            CAPTURE(c.error);
-            CHECK(error_of([&] { parsed(c.words); }).starts_with("error: " + c.error));
-        }
-    }
 }
