@@ -92,8 +92,9 @@ std::vector<std::string> FilmLabel::missing() const {
     for (const Goal& goal : goals) {
         for (const SampleRange& gap : gaps(samples, goal)) {
             uint32_t first = goal.part_of(gap.first), last = goal.part_of(gap.last - 1);
-            std::string parts = ", parts " + std::to_string(first) + " to " + std::to_string(last) +
-                                " of " + std::to_string(goal.parts);
+            std::string to = last > first ? " to " + std::to_string(last) : "";
+            std::string parts =
+                ", part " + std::to_string(first) + to + " of " + std::to_string(goal.parts);
             lines.push_back("missing: " + text_of(gap) + (goal.parts > 1 ? parts : ""));
         }
     }
