@@ -39,6 +39,20 @@ Rgb random_classes(const Scene&, Ray, Sampler& sampler, Recorder& recorder) {
     return L;
 }
 
+/// Light of two classes: one part for the own pixel, one for another.
+Rgb random_splats(const Scene& scene, const Ray&, Splats& splats, Sampler& sampler,
+                  Recorder& recorder) {
+    Rgb L = {sampler.u1(), sampler.u1(), sampler.u1()};
+    auto pixels = static_cast<float>(scene.width * scene.height);
+    size_t pixel = static_cast<size_t>(sampler.u1() * pixels);
+    recorder.start_at_light({});
+    recorder.connected(L, 2, 1, 1, pixel);
+    splats.push_back({pixel, L});
+    recorder.start_at_eye();
+    recorder.emitted(L);
+    return L;
+}
+
 /// One sample of one pixel, as the loop must take it.
 Rgb sample_of(const Scene& scene, const RenderOptions& options, const Method& trace, int x, int y,
               int s) {
@@ -165,6 +179,14 @@ TEST_SUITE("render loop") {
         Rendering one = render_film(scene, options, random_classes);
         for (const auto& [name, film] : r.classes)
             CHECK(film.image().pixels == one.classes.at(name).image().pixels);
+        // Those with light for other pixels.
+        r = render_film(scene, options, Method(random_splats));
+        Image own = r.classes.at("LE").image(), others = r.classes.at("LDE").image();
+        whole = r.film.image();
+        for (size_t i = 0; i < whole.pixels.size(); i++) {
+            float sum = own.pixels[i].g + others.pixels[i].g;
+            CHECK(std::abs(sum - whole.pixels[i].g) <= 1e-6f * sum);
+        }
     }
 
     TEST_CASE("failure: samples that are not finite are counted, and none is painted black") {
