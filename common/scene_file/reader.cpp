@@ -59,18 +59,19 @@ private:
         std::map<std::string, std::vector<Param>> defaults = {
             {"light", {}}, {"material", {}}, {"medium", {}}, {"shape", {}}, {"texture", {}}};
     };
-    // What may be used before it is defined.
-    struct Named {
-        bool defined = false;
-        Position first_use;
-    };
-    struct NamedMaterial : Named {
+    struct NamedMaterial {
         uint32_t index = 0;  // into Scene::materials
+        bool defined = false;
+        Position first_use;  // which may be before it is defined
     };
-    // The shapes between ObjectBegin and ObjectEnd, which each ObjectInstance places.
-    struct Object : Named {
-        std::vector<std::pair<Params, State>> shapes;
-        std::vector<State> early;  // instances that stand before it
+    // A shape between ObjectBegin and ObjectEnd, which each ObjectInstance places.
+    struct ObjectShape {
+        Params params;
+        State state;
+    };
+    struct Instance {
+        std::string object;
+        State state;  // `at`: where the instance stands
     };
     enum class Block { options, world, both };
     struct Directives {
@@ -340,37 +341,35 @@ private:
     void object_begin() {
         std::string own = name();
         if (open_object_) fail(at_, "ObjectBegin inside an object");
-        Object& object = objects_[own];
-        if (object.defined) fail(at_, "a second object " + quote(own));
+        if (objects_.contains(own)) fail(at_, "a second object " + quote(own));
         begin();
-        object.defined = true;
-        open_object_ = &object;
+        open_object_ = &objects_[own];
     }
 
     void object_end() {
         end();
-        const Object& object = *open_object_;
         open_object_ = nullptr;
-        for (const State& state : object.early) place_object(object, state);
     }
 
+    // They are placed when all objects are known.
     void object_instance() {
         std::string own = name();
         if (open_object_) fail(at_, "ObjectInstance inside an object");
-        Object& object = objects_[own];
-        if (object.defined) return place_object(object, state_);
-        if (object.early.empty()) object.first_use = at_;
-        object.early.push_back(state_);
+        instances_.push_back({own, state_});
+        instances_.back().state.at = at_;
     }
 
-    void place_object(const Object& object, const State& state) {
-        for (const auto& [shape, inside] : object.shapes) {
-            check_limit(at_, ++placed_, limits_.directives, "shapes of objects are placed");
-            State where = inside;
-            where.start = state.start * inside.start;
-            where.end = state.end * inside.end;
-            if (where.unusable.empty()) where.unusable = state.unusable;
-            place(shape, where);
+    void place_instances() {
+        for (const auto& [object, state] : instances_) {
+            for (const auto& [shape, inside] : look_up(objects_, object, "object", state.at)) {
+                check_limit(state.at, ++placed_, limits_.directives,
+                            "shapes of objects are placed");
+                State where = inside;
+                where.start = state.start * inside.start;
+                where.end = state.end * inside.end;
+                if (where.unusable.empty()) where.unusable = state.unusable;
+                place(shape, where);
+            }
         }
     }
 
@@ -378,8 +377,8 @@ private:
         Params read = params("shape");
         if (!open_object_) return place(read, state_);
         // Keep it for the instances.
-        open_object_->shapes.emplace_back(read, state_);
-        State& kept = open_object_->shapes.back().second;
+        open_object_->push_back({read, state_});
+        State& kept = open_object_->back().state;
         kept.defaults.clear();
         if (kept.emission) messages_.note(at_, "lights inside an object are left out, as in pbrt");
         kept.emission = {};
@@ -424,17 +423,6 @@ private:
         return state_.start;
     }
 
-    template <class AnyNamed>
-    void check_names(const std::string& kind, const std::map<std::string, AnyNamed>& all) {
-        std::vector<std::string> known;
-        for (const auto& [name, named] : all) {
-            if (named.defined) known.push_back(name);
-        }
-        for (const auto& [name, named] : all) {
-            if (!named.defined) messages_.error(named.first_use, unknown(kind, name, known));
-        }
-    }
-
     // A mesh may be given a material that is made later.
     void check_uvs(const Geometry& g) {
         for (const Triangle& t : g.triangles) {
@@ -457,8 +445,15 @@ private:
     void check_complete() {
         Position file = {main_file_};
         if (!saved_.empty()) fail(state_.at, state_.begin + " is never closed");
-        check_names("object", objects_);
-        check_names("material", named_materials_);
+        std::vector<std::string> defined;
+        for (const auto& [name, material] : named_materials_) {
+            if (material.defined) defined.push_back(name);
+        }
+        for (const auto& [name, material] : named_materials_) {
+            if (material.defined) continue;
+            messages_.error(material.first_use, unknown("material", name, defined));
+        }
+        place_instances();
         check_uvs(scene_.geometry);
         for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
         if (!in_world_) fail(file, "no WorldBegin");
@@ -532,8 +527,9 @@ private:
     std::map<std::string, NamedMaterial> named_materials_;
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
-    std::map<std::string, Object> objects_;
-    Object* open_object_ = nullptr;  // the one that is being defined
+    std::map<std::string, std::vector<ObjectShape>> objects_;
+    std::vector<Instance> instances_;
+    std::vector<ObjectShape>* open_object_ = nullptr;  // the one that is being defined
     uint64_t placed_ = 0, primitives_ = 0, vertices_ = 0;
 };
 
