@@ -1,7 +1,7 @@
 // What programs render and print is what it was: every command of four pages runs, and what it
 // prints is compared with the page, but for times. After a change that is wanted `make readmes`
 // writes the pages again, and somebody reads the difference before it is committed. On other
-// systems than this the tests that compare programs' pictures do the same.
+// systems the tests that compare programs' pictures do the same.
 #include <doctest/doctest.h>
 
 #include "tests/support/process.h"
