@@ -78,8 +78,9 @@ TEST_SUITE("ch09 near lights") {
         Scene touching = floor_under("LightSource \"point\" \"point3 from\" [0 0 0]");
         Sampler random = random_numbers(1);
         CHECK(light_sample(touching, origin_of(touching), random).pdf_w == 0);
-        for (std::string type : {"distant", "infinite"}) {  // anything may be in between
-            Scene far = floor_under("LightSource \"" + type + "\"");
+        for (std::string light : {"\"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]",
+                                  "\"infinite\""}) {  // anything may be in between
+            Scene far = floor_under("LightSource " + light);
             CHECK(light_sample(far, origin_of(far), random).dist == infinity);
         }
     }
