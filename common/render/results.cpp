@@ -11,7 +11,7 @@
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/base/system.h"
-#include "common/picture/notes.h"
+#include "common/picture/film_label.h"
 #include "common/render/class_sheet.h"
 #include "common/render/command_line.h"
 #include "common/render/film_keeping.h"

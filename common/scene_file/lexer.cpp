@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "common/base/numbers.h"
-#include "common/base/utf8.h"
+#include "common/base/text.h"
 #include "common/scene_file/messages.h"
 
 namespace {
