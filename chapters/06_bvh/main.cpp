@@ -1,6 +1,6 @@
 // Chapter 06 as a program: measures its steps in a table, and draws the work of one as a heat map.
 #include "chapters/06_bvh/figure.h"
-#include "common/picture/notes.h"
+#include "common/picture/film_label.h"
 #include "common/render/film_keeping.h"
 #include "common/render/render.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/position.h"
+#include "common/base/text.h"
 
 /// A text in JSON's quotes, of what can be printed.
 inline std::string json_quoted(std::string_view text) {

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/base/nearest.h"
-#include "common/base/utf8.h"
+#include "common/base/text.h"
 
 /// A place in a text file; lines and columns count from 1, columns in characters. Line 0: the file
 /// as a whole.
@@ -28,31 +27,6 @@ inline const Position* kept(const Position& at) {
     std::lock_guard lock(mutex);
     return &*all.insert(at).first;
 }
-
-/// `text` made fit for one line of a terminal: what is no character to print becomes '?'.
-inline std::string printable(std::string_view text) {
-    std::string line;
-    for (size_t i = 0; i < text.size();) {
-        size_t length = utf8_length(text, i);
-        std::string_view character = text.substr(i, std::max(length, size_t{1}));
-        bool plain = length > 0 && !utf8_is_control(character);
-        line += plain ? character : "?";
-        i += character.size();
-    }
-    return line;
-}
-
-/// A word of the input in quotes, cut off where it is too long to print.
-inline std::string quote(std::string_view word, size_t longest = 60) {
-    if (word.size() <= longest) return '"' + std::string(word) + '"';
-    // Cut before a character, not inside one.
-    size_t end = longest;
-    while (end > 0 && (word[end] & 0xc0) == 0x80) end--;
-    return '"' + std::string(word.substr(0, end)) + "...\"";
-}
-
-/// The name of a file in quotes. Only what is too long for one is cut: the end says which it is.
-inline std::string quote_file(const std::string& name) { return quote(name, 4096); }
 
 /// "file:line:column"; for a file as a whole "file".
 inline std::string place_text(const Position& at) {

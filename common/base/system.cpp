@@ -48,8 +48,7 @@ int lock_file(const std::string& name) {
         return _open_osfhandle(reinterpret_cast<intptr_t>(handle), _O_BINARY | _O_NOINHERIT);
     std::error_code error(static_cast<int>(GetLastError()), std::system_category());
     bool is_locked = error.value() == ERROR_SHARING_VIOLATION;
-    bool is_known = error.default_error_condition().category() == std::generic_category();
-    errno = is_locked ? EWOULDBLOCK : is_known ? error.default_error_condition().value() : EINVAL;
+    errno = is_locked ? EWOULDBLOCK : error.default_error_condition().value();
     return -1;
 }
 void unlock_file(int lock, const std::string&) { _close(lock); }

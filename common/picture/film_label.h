@@ -1,11 +1,15 @@
-// The label of a film: its options, samples and counts, as a value and as text.
+// The label of a film: its options, samples and counts, as a value and as text; and the notes of a
+// picture about how it was made.
 #pragma once
 #include <compare>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "common/picture/notes.h"
+/// Names and values that describe how a picture was made. The same samples give the same notes, so
+/// they do not contain numbers of threads, times, folders, or names of outputs.
+using Notes = std::vector<std::pair<std::string, std::string>>;
 
 /// Samples number first to last - 1 of each pixel, with the random numbers of a seed.
 struct SampleRange {
@@ -69,3 +73,16 @@ struct FilmLabel {
 /// The notes of a picture with this label, with `spp` samples per pixel on average. A label without
 /// samples describes a picture that was not sampled.
 Notes notes_of(const FilmLabel& label, double spp);
+
+/// A line "NAME VALUE" for each.
+std::vector<std::string> lines_of(const Notes& notes);
+
+/// The lines as a comment for write_image, below one that says whose notes they are, and back.
+/// Empty for a comment by another program.
+///
+/// tested by  "identity: notes are read from a .ppm and a .png as they were written"
+std::string comment_of(const Notes& notes);
+Notes notes_in(const std::string& comment);
+
+/// The value of a note; empty where there is none.
+std::string value_of(const Notes& notes, const std::string& name);

@@ -1,15 +1,49 @@
 #include "common/picture/image.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <sstream>
 
 #include "common/base/files.h"
 #include "common/base/position.h"
-#include "common/picture/png.h"
+
+namespace {
+
+/// The most bytes that stb may ask for at once: a small file can be made to unpack to gigabytes.
+thread_local size_t most_memory = 0;
+
+void* limited_realloc(void* old, size_t size) {
+    return size > most_memory ? nullptr : std::realloc(old, size);
+}
+
+}  // namespace
+
+#pragma GCC diagnostic push  // stb is not written for our warnings
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_TGA
+#define STBI_NO_STDIO
+#define STBI_MALLOC(size) limited_realloc(nullptr, size)
+#define STBI_REALLOC limited_realloc
+#define STBI_FREE std::free
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#include <stb/stb_image.h>
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
 
 static_assert(std::endian::native == std::endian::little, "pfm rows are written as they lie");
 
@@ -28,6 +62,148 @@ float from_srgb(float code) {
 }
 
 namespace {
+
+constexpr size_t most_bytes = size_t{1} << 30;
+constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+constexpr std::string_view comment_key = {"Comment\0", 8};
+
+uint32_t crc32(std::string_view bytes) {
+    auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    return stbiw__crc32(const_cast<unsigned char*>(data), static_cast<int>(bytes.size()));
+}
+
+std::string big_endian(size_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
+    return bytes;
+}
+
+/// The byte at a place; 0 behind the end.
+size_t byte_at(std::string_view bytes, size_t at) {
+    return at < bytes.size() ? static_cast<uint8_t>(bytes[at]) : 0;
+}
+size_t big_endian_at(std::string_view bytes, size_t at, size_t count = 4) {
+    size_t value = 0;
+    for (size_t i = 0; i < count; i++) value = value << 8 | byte_at(bytes, at + i);
+    return value;
+}
+size_t little_endian_at(std::string_view bytes, size_t at, size_t count = 4) {
+    size_t value = 0;
+    for (size_t i = count; i-- > 0;) value = value << 8 | byte_at(bytes, at + i);
+    return value;
+}
+
+/// The bytes that stb reads. It makes up what a file lacks; this sees that it does.
+struct Source {
+    std::string_view left;
+    bool is_cut = false;
+    stbi__context context = {};
+
+    static int read(void* self, char* to, int size) {
+        Source& source = *static_cast<Source*>(self);
+        size_t wanted = static_cast<size_t>(size), n = std::min(wanted, source.left.size());
+        // stb fills its buffer with what there is, and needs one byte of it.
+        bool is_buffer = to == reinterpret_cast<char*>(source.context.buffer_start);
+        source.is_cut |= n < (is_buffer ? 1 : wanted);
+        source.left.copy(to, n);
+        source.left.remove_prefix(n);
+        return static_cast<int>(n);
+    }
+    static void skip(void* self, int size) {
+        Source& source = *static_cast<Source*>(self);
+        source.left.remove_prefix(std::min(static_cast<size_t>(size), source.left.size()));
+    }
+    static int is_at_end(void* self) { return static_cast<Source*>(self)->left.empty(); }
+};
+
+/// Whether a .jpg file has a Huffman table of more than 256 codes: stb has no room for more.
+bool has_large_table(std::string_view file) {
+    constexpr size_t tables = 0xc4, end_of_picture = 0xd9;
+    for (size_t at = 2; (at = file.find('\xff', at)) < file.size();) {
+        size_t marker = byte_at(file, at + 1), end = at + 2 + big_endian_at(file, at + 2, 2);
+        if (marker == end_of_picture) return false;
+        for (size_t table = at + 4; marker == tables && table < end;) {
+            size_t codes = 0;
+            for (size_t i = 1; i <= 16; i++) codes += byte_at(file, table + i);
+            if (codes > 256) return true;
+            table += 17 + codes;
+        }
+        // Fill bytes, pixels that are FF, and restarts are followed by no segment.
+        bool has_segment = marker > 1 && marker != 0xff && (marker < 0xd0 || marker > 0xd8);
+        at = has_segment ? end : at + (marker == 0xff ? 1 : 2);
+    }
+    return false;
+}
+
+/// The bytes before the data: ten, and by the bits of the fourth an extra field, a name, a comment
+/// and a checksum. All bytes where these are not packed by gzip.
+size_t size_of_gzip_header(std::string_view bytes) {
+    size_t flags = byte_at(bytes, 3), size = 10;
+    if (flags & 4) size += 2 + little_endian_at(bytes, size, 2);
+    for (size_t flag : {8u, 16u})
+        if (flags & flag) size = std::min(bytes.find('\0', size), bytes.size()) + 1;
+    if (flags & 2) size += 2;
+    return byte_at(bytes, 2) == 8 ? std::min(size, bytes.size()) : bytes.size();
+}
+
+bool is_jpg(std::string_view bytes) { return bytes.starts_with("\xff\xd8\xff"); }
+
+/// The text of the first comment of a .png; empty where there is none. Throws InputError where a
+/// chunk does not have its checksum, or is missing.
+std::string png_comment(const std::string& path, std::string_view bytes) {
+    std::string comment;
+    std::string_view kind;
+    for (size_t at = signature.size(); kind != "IEND";) {
+        size_t length = big_endian_at(bytes, at);
+        if (bytes.size() - at < 12 || length > bytes.size() - at - 12)
+            fail({path}, "the picture is cut short, or damaged");
+        kind = bytes.substr(at + 4, 4);
+        std::string_view data = bytes.substr(at + 8, length);
+        if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length))
+            fail({path}, "a damaged .png picture: a checksum is wrong");
+        if (comment.empty() && kind == "tEXt" && data.starts_with(comment_key))
+            comment = data.substr(comment_key.size());
+        // The colors of the first are in another order; stb copies the second to nowhere.
+        if (kind == "CgBI" || (kind == "IDAT" && data.empty()))
+            fail({path}, "a .png picture of a rare kind (CgBI, empty IDAT): save it anew");
+        at += 12 + length;
+    }
+    return comment;
+}
+
+/// Any kind of .png (grey, with a palette, of 16 bits; transparency is left out), a .jpg or a .tga.
+Image decode_by_stb(const std::string& path, const std::string& bytes, float gamma) {
+    if (bytes.starts_with(signature)) png_comment(path, bytes);  // checks it
+    if (bytes.size() > most_bytes || (is_jpg(bytes) && has_large_table(bytes)))
+        fail({path}, "a damaged picture, or one of more than 1 GB");
+    auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    int size = static_cast<int>(bytes.size()), width = 0, height = 0, channels = 0;
+    constexpr int64_t most = 1032;  // times smaller is what the .png format can make of it
+    most_memory = 1 << 16;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
+        int64_t{width} * height > std::min(int64_t{most_pixels}, 8 * most * int64_t{size}))
+        fail({path}, "a damaged picture, of a kind that is not read, or of more than 2^28 pixels");
+    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+    most_memory += 2 * bytes.size() + 32 * pixels;
+    Source source{bytes};
+    stbi_io_callbacks callbacks = {Source::read, Source::skip, Source::is_at_end};
+    stbi__start_callbacks(&source.context, &callbacks, &source);
+    // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
+    std::unique_ptr<uint16_t, void (*)(void*)> codes(
+        stbi__load_and_postprocess_16bit(&source.context, &width, &height, &channels, STBI_rgb),
+        std::free);
+    if (!codes || source.is_cut) fail({path}, "the picture is cut short, or damaged");
+    std::vector<float> linear(65536);
+    for (size_t i = 0; i < linear.size(); i++) {
+        linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
+    }
+    Image image(width, height);
+    for (size_t i = 0; i < pixels; i++) {
+        const uint16_t* code = codes.get() + 3 * i;
+        image.pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
+    }
+    return image;
+}
 
 // The colour of pixels that are not finite, in formats that cannot store them: magenta.
 constexpr Rgb not_a_color = {1, 0, 1};
@@ -130,12 +306,46 @@ Image decode_ppm_or_pfm(const std::string& path, const std::string& bytes, float
 
 }  // namespace
 
+std::string png_chunk(const std::string& kind_and_data) {
+    return big_endian(kind_and_data.size() - 4) + kind_and_data + big_endian(crc32(kind_and_data));
+}
+
+bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
+
+std::string unpack_gzip(const std::string& path, const std::string& bytes) {
+    constexpr size_t most = 1032, behind = 8;  // times larger; a checksum and the length
+    // stb looks at a few bytes behind the data, and so is given the rest of the file too.
+    auto* start = reinterpret_cast<stbi_uc*>(const_cast<char*>(bytes.data()));
+    stbi__zbuf state = {};
+    state.zbuffer = start + size_of_gzip_header(bytes);
+    state.zbuffer_end = start + bytes.size();
+    constexpr int room = 1 << 14;
+    most_memory = std::min(most_bytes, room + 2 * most * bytes.size());
+    auto* memory = static_cast<char*>(std::malloc(room));
+    bool is_whole = memory && stbi__do_zlib(&state, memory, room, 1, 0);
+    std::unique_ptr<char, void (*)(void*)> unpacked(state.zout_start, std::free);
+    size_t size = static_cast<size_t>(state.zout - state.zout_start);
+    size_t tail = static_cast<size_t>(state.zbuffer - start - state.num_bits / 8);
+    if (!is_whole || tail + behind != bytes.size() || size != little_endian_at(bytes, tail + 4) ||
+        crc32({unpacked.get(), size}) != little_endian_at(bytes, tail))
+        fail({path}, "damaged, cut short, or larger than 1 GB: packed by gzip");
+    return {unpacked.get(), size};
+}
+
 bool is_image_path(const std::string& path) {
     return has_ending(path, ".ppm") || has_ending(path, ".pfm") || has_ending(path, ".png");
 }
 
 std::string encode_png(const Image& image, const std::string& comment) {
-    return encode_png(image.width, image.height, srgb_bytes(image), ascii(comment));
+    std::string png, codes = srgb_bytes(image);
+    auto append = [](void* to, void* data, int size) {
+        static_cast<std::string*>(to)->append(static_cast<char*>(data), static_cast<size_t>(size));
+    };
+    if (!stbi_write_png_to_func(append, &png, image.width, image.height, 3, codes.data(),
+                                3 * image.width))
+        throw std::bad_alloc();
+    constexpr size_t after_header = signature.size() + 25;  // IHDR
+    return png.insert(after_header, png_chunk("tEXt" + std::string(comment_key) + ascii(comment)));
 }
 
 void write_image(const std::string& path, const Image& image, const std::string& comment) {
@@ -148,7 +358,7 @@ void write_image(const std::string& path, const Image& image, const std::string&
 Image read_image(const std::string& path) { return decode_image(path, read_file(path)); }
 
 Image decode_image(const std::string& path, const std::string& bytes, float gamma) {
-    if (is_png(bytes) || is_jpg(bytes) || has_ending(path, ".tga"))
+    if (bytes.starts_with(signature) || is_jpg(bytes) || has_ending(path, ".tga"))
         return decode_by_stb(path, bytes, gamma);
     if (bytes.starts_with("\x76\x2f\x31\x01"))
         fail({path}, "an .exr picture: imgtool, a program of pbrt, converts it to .pfm");
@@ -156,6 +366,6 @@ Image decode_image(const std::string& path, const std::string& bytes, float gamm
 }
 
 std::string decode_comment(const std::string& path, const std::string& bytes) {
-    if (is_png(bytes)) return png_comment(path, bytes);
+    if (bytes.starts_with(signature)) return png_comment(path, bytes);
     return bytes.starts_with("P6") ? header_of(bytes).comment : "";
 }

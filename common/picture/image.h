@@ -1,4 +1,5 @@
-// Pictures in memory and on disk: .ppm, .pfm, .png.
+// Pictures in memory and on disk: .ppm, .pfm, .png; and files that gzip packed, in the same way as
+// .png.
 #pragma once
 #include <string>
 #include <vector>
@@ -39,8 +40,9 @@ inline constexpr int most_pixels = 1 << 28;
 /// Throws InputError; see files.h.
 void write_image(const std::string& path, const Image& image, const std::string& comment);
 
-/// The bytes of the .png that write_image writes.
+/// The bytes of the .png that write_image writes, and of a chunk, with its length and its checksum.
 std::string encode_png(const Image& image, const std::string& comment);
+std::string png_chunk(const std::string& kind_and_data);
 
 /// Whether write_image knows the extension of `path`.
 bool is_image_path(const std::string& path);
@@ -56,3 +58,7 @@ Image read_image(const std::string& path);
 Image decode_image(const std::string& path, const std::string& bytes, float gamma = 0);
 /// The comment that write_image put into a .ppm or .png; empty where there is none.
 std::string decode_comment(const std::string& path, const std::string& bytes);
+
+/// Whether a file is packed by gzip, and what it holds; throws InputError for one that is damaged.
+bool is_gzip(std::string_view bytes);
+std::string unpack_gzip(const std::string& path, const std::string& bytes);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/picture/comparison.h"
-#include "common/picture/notes.h"
+#include "common/picture/film_label.h"
 
 /// A picture, and what is known of how it was made.
 struct Picture {

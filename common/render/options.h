@@ -72,7 +72,7 @@ std::string parse_picture(const std::string& option, const std::string& text,
 /// The options of the chapters without a scene (01 to 04).
 struct TableOptions {
     std::string name;
-    std::string comment;  // for the picture; see picture/notes.h
+    std::string comment;  // for the picture; see picture/film_label.h
     uint64_t n = 0;
     uint32_t seed = 0;
     std::vector<std::string> out;  // pictures, and .tsv for the table

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "common/picture/png.h"
+#include "common/picture/image.h"
 #include "common/scene/camera.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "common/base/position.h"
 #include "common/base/report.h"
 #include "common/base/system.h"
-#include "common/picture/notes.h"
+#include "common/picture/film_label.h"
 #include "common/picture/sheet.h"
 #include "common/render/film_keeping.h"
 #include "common/render/render.h"

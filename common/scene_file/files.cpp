@@ -4,7 +4,7 @@
 
 #include "common/base/files.h"
 #include "common/base/system.h"
-#include "common/picture/png.h"
+#include "common/picture/image.h"
 #include "common/scene_file/messages.h"
 
 namespace fs = std::filesystem;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/base/numbers.h"
+#include "common/base/text.h"
 #include "common/scene_file/messages.h"
 
 Lexer::Lexer(std::string file, std::string bytes, const Report& report)

@@ -12,7 +12,6 @@
 #include <set>
 
 #include "common/picture/image.h"
-#include "common/picture/png.h"
 #include "tests/support/folder.h"
 
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/path/camera_sample.h"
-#include "common/picture/notes.h"
+#include "common/picture/film_label.h"
 #include "common/render/film_keeping.h"
 #include "common/render/render.h"
 #include "common/render/table.h"

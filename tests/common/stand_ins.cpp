@@ -6,9 +6,8 @@
 #include <sstream>
 
 #include "common/base/files.h"
+#include "common/picture/film_label.h"
 #include "common/picture/image.h"
-#include "common/picture/notes.h"
-#include "common/picture/png.h"
 #include "common/render/loading.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"

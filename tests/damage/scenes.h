@@ -10,7 +10,7 @@
 #include "common/base/files.h"
 #include "common/base/position.h"
 #include "common/path/sampler.h"
-#include "common/picture/png.h"
+#include "common/picture/image.h"
 #include "common/scene/mover.h"
 #include "common/scene/sky_image.h"
 #include "common/scene/texture.h"

@@ -7,7 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/nearest.h"
+#include "common/base/text.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/support/work.h"
