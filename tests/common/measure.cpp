@@ -103,36 +103,6 @@ TEST_SUITE("comparison") {
         CHECK(decode_comment("c.pfm", read_file(folder / "c.pfm")).empty());
     }
 
-    TEST_CASE("truth: what speaks against a comparison is told, and nothing else") {
-        const Notes notes = {{"chapter", "09_light_sampling"},
-                             {"scene", "a.pbrt"},
-                             {"checksum", "1"},
-                             {"max-depth", "5"},
-                             {"sampler", "sobol"},
-                             {"spp", "16"},
-                             {"seed", "0"}};
-        const Picture a{"a.pfm", {}, notes};
-        auto told = [&](const std::string& name, const std::string& value) {
-            Picture b = a;
-            std::erase_if(b.notes, [&](const auto& note) { return note.first == name; });
-            b.notes.push_back({name, value});
-            std::vector<std::string> lines = doubts(a, b);
-            CHECK(lines.size() <= 1);
-            return lines.empty() ? "" : lines[0];
-        };
-        CHECK(told("chapter", "10_cosine_sampling") == "");
-        CHECK(told("seed", "1") == "");
-        CHECK(told("checksum", "2") == "warning: A has checksum '1', B '2'");
-        CHECK(told("max-depth", "9") == "warning: A has max-depth '5', B '9'");
-        CHECK(told("paths", "LDE") == "warning: A has paths '', B 'LDE'");
-        CHECK(told("spp", "64").starts_with("warning: A and B have samples in common"));
-        for (const Picture& b : {Picture{"b.png", {}, notes}, Picture{"b.pfm", {}, {}}}) {
-            std::vector<std::string> lines = doubts(a, b);
-            CHECK(lines.size() == 1);
-            CHECK(lines[0].starts_with((b.notes.empty() ? "note: " : "warning: ") + b.file + ' '));
-        }
-    }
-
     TEST_CASE("identity: a film tells compare what its picture shows, and its error") {
         TemporaryFolder folder;
         FilmLabel label;
