@@ -9,7 +9,7 @@
 #include "common/base/vec.h"
 #include "common/material/hit.h"
 
-class PathStory;
+struct PathStory;
 
 /// Part of a sample: the class of its path in Heckbert's notation, from light to eye, and how much.
 /// S: a vertex with one possible direction (mirror, glass); D: any other.

@@ -8,7 +8,6 @@
 #include "common/picture/film_label.h"
 #include "common/render/film_keeping.h"
 #include "common/render/render.h"
-#include "common/render/table.h"
 #include "common/scene/origin.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"

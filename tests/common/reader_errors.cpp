@@ -5,11 +5,9 @@
 #include <map>
 
 #include "common/base/files.h"
-#include "common/geometry/bvh_build.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
 #include "tests/support/malformed.h"
-#include "tests/support/run_program.h"
 
 namespace {
 
@@ -312,35 +310,5 @@ TEST_SUITE("reader: malformed input") {
         // Too many are refused where they are.
         CHECK(refuse(often + with_mesh, limits, beside)
                   .starts_with(place + ":102:1: error: more than 100 triangles"));
-    }
-
-    TEST_CASE("truth: reading and building tell what they are at, and how far") {
-        std::string text = world + repeated("Translate 0 0 1 Shape \"sphere\"\n", 150'000);
-        std::map<std::string, std::vector<double>> told;
-        auto report = [&](const std::string& what, double share) { told[what].push_back(share); };
-        build_bvh(parse_scene("a.pbrt", text, nullptr, report).geometry, 1, report);
-        REQUIRE(told.size() == 2);
-        for (const auto& [what, shares] : told) {
-            bool reads = what == "reading a.pbrt";
-            CHECK(shares.size() >= (reads ? 4 : 9));  // each MiB of 4.6, each 16384 references
-            CHECK(std::is_sorted(shares.begin(), shares.end()));
-            CHECK(shares.back() > 0.7);
-            CHECK(shares.back() <= 1);
-        }
-    }
-
-    TEST_CASE("input: a program prints notes and all errors of a scene, and with --quiet errors") {
-        TemporaryFolder folder;
-        std::string scene =
-            write(folder, "scene.pbrt", "Sampler \"halton\"\nMakeNamedMedium \"a\"\nCamra");
-        Finished loud = run(path_tracer, {scene}), quiet = run(path_tracer, {scene, "--quiet"});
-        for (const Finished* end : {&loud, &quiet}) {
-            CHECK(end->code == 1);
-            CHECK(end->out == "");
-            for (const char* place : {":2:1: error: ", ":3:1: error: "})
-                CHECK(end->err.find(scene + place) != std::string::npos);
-        }
-        CHECK(loud.err.starts_with(scene + ":1:1: note: "));
-        CHECK(quiet.err.find(": note: ") == std::string::npos);
     }
 }

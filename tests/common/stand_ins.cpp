@@ -6,16 +6,13 @@
 #include <sstream>
 
 #include "common/base/files.h"
-#include "common/picture/film_label.h"
 #include "common/picture/image.h"
-#include "common/render/loading.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 #include "common/scene/texture.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
-#include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
 
 namespace {
@@ -48,16 +45,6 @@ struct Files {
         std::string words = in_words(world(text));
         size_t at = words.find(kind + " ");
         return at == words.npos ? "" : words.substr(at, words.find('\n', at) - at);
-    }
-    /// Those that a world takes, with light, as text.
-    std::string taken(const std::string& text) const {
-        std::string all;
-        Scene scene = world("LightSource 'infinite' " + text);
-        for (UsedStandIn used : scene.origin->stand_ins) {
-            used.first.file = "s.pbrt";
-            all += used.text() + '\n';
-        }
-        return all;
     }
 };
 
@@ -96,34 +83,6 @@ TEST_SUITE("stand-ins") {
         }
         CHECK(read == 53);
         CHECK(replaced == 119);
-    }
-
-    TEST_CASE("truth: each stand-in is named once, with the number of places and the first") {
-        Files files;
-        const std::string first = " (1 place, s.pbrt:2:", spectrum =
-                                                              "a spectrum that is not known as the "
-                                                              "default of its parameter";
-        const std::pair<std::string, std::string> cases[] = {
-            {"Shape 'sphere'", ""},
-            {"\nMaterial 'coateddiffuse'\n  Material 'coateddiffuse' Shape 'curve' "
-             "MakeNamedMaterial 'a' 'string type' 'coateddiffuse'",
-             "Material \"coateddiffuse\" as diffuse (3 places, first s.pbrt:3:10)\n"
-             "Shape \"curve\" as nothing (1 place, s.pbrt:4:34)\n"},
-            // An object counts once, though it is placed often.
-            {"ObjectBegin 'o' Shape 'curve' ObjectEnd ObjectInstance 'o' ObjectInstance 'o'",
-             "Shape \"curve\" as nothing" + first + "46)\n"},
-            {"Material 'diffuse' 'spectrum reflectance' 'b.spd'", spectrum + first + "43)\n"},
-            {"Include 'none.pbrt'",
-             "a scene file that cannot be read as nothing" + first + "24)\n"},
-            {"Material 'coateddiffuse' 'texture displacement' 'b'",
-             "Material \"coateddiffuse\" as diffuse" + first + "33)\na bump or normal map as none" +
-                 first + "49)\n"},
-            {"Import 'a.pbrt'", ""},
-        };
-        for (const auto& [text, taken] : cases) CHECK(files.taken(text) == taken);
-        Scene bare = files.read("Camera 'perspective' WorldBegin Shape 'sphere'");
-        CHECK(bare.origin->stand_ins.size() == 1);
-        CHECK(in_words(bare.lights.at(0).L) == "0.5 0.5 0.5");
     }
 
     TEST_CASE("truth: what stands in has the mean of what it stands for") {
@@ -282,30 +241,6 @@ TEST_SUITE("stand-ins") {
         CHECK_THROWS_WITH_AS(
             decode_image("a.png", png.substr(0, 8) + png_chunk("CgBI1234") + png.substr(8)),
             doctest::Contains("CgBI"), InputError);
-    }
-
-    TEST_CASE(
-        "truth: a program says which stand-ins it takes, in print and in all that it writes") {
-        Files files;
-        files.write("s.pbrt",
-                    "Camera 'perspective' WorldBegin LightSource 'infinite'\n"
-                    "Material 'coateddiffuse' Shape 'sphere' Shape 'curve'");
-        const std::string film = files.folder / "a.film", stats = files.folder / "a.json",
-                          out = files.folder / "a.png", scene = files.folder / "s.pbrt";
-        Words words = {scene, "--size", "4x4", "--spp",   "2",  "--out",
-                       out,   "--film", film,  "--stats", stats};
-        CHECK(run("09_light_sampling", words).code == 1);
-        words.push_back("--stand-in");
-        Finished end = run("09_light_sampling", words);
-        CHECK(end.code == 0);
-        const std::string first = "Material \"coateddiffuse\" as diffuse (1 place, ",
-                          second = "Shape \"curve\" as nothing (1 place, ";
-        CHECK(end.out.find("\nstand-in: " + first + scene + ":2:10)\n") != std::string::npos);
-        CHECK(end.out.find("\nstand-in: " + second + scene + ":2:47)\n") != std::string::npos);
-        const std::string note = first + "s.pbrt:2:10); " + second + "s.pbrt:2:47)";
-        CHECK(value_of(notes_in(decode_comment(out, read_file(out))), "stand-ins") == note);
-        CHECK(read_file(film).find("option stand-ins " + note) != std::string::npos);
-        CHECK(read_file(stats).find("\"stand_ins\": [\"Material") != std::string::npos);
     }
 
     TEST_CASE("input: files that gzip packed") {
