@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
-#include <map>
 
 #include "common/base/files.h"
 #include "tests/support/described.h"
