@@ -64,9 +64,9 @@ std::string digits(double x) {
 
 }  // namespace
 
-std::vector<std::string> words_of(const std::string& text) {
+std::vector<std::string> words_of(const std::string& line) {
     std::vector<std::string> words;
-    std::istringstream in(text);
+    std::istringstream in(line);
     for (std::string word; in >> word;) words.push_back(word);
     return words;
 }
