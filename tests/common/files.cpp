@@ -74,15 +74,17 @@ TEST_SUITE("files") {
         std::string f = folder / "f";
         // Somebody makes a folder of its name, or protects the file, while it is written.
         for (std::string bytes : {"first", "second"}) {
-            NewFile file(f);
-            file.write(bytes);
-            if (bytes == "first") {
-                fs::create_directory(f);
-            } else {
-                std::ofstream(f) << "old";
-                ::chmod(f.c_str(), 0444);
-            }
-            std::string error = error_of([&] { file.commit(); });
+            std::string error = error_of([&] {
+                NewFile file(f);
+                file.write(bytes);
+                if (bytes == "first") {
+                    fs::create_directory(f);
+                } else {
+                    std::ofstream(f) << "old";
+                    ::chmod(f.c_str(), 0444);
+                }
+                file.commit();
+            });
             CHECK(error.starts_with(f + ": error: cannot write: "));
             CHECK(error.ends_with("; what was to be written is " + f + ".part"));
             CHECK(read_file(f + ".part") == bytes);

@@ -190,6 +190,8 @@ TEST_SUITE("film files") {
         CHECK(missing({{0, 1, 2}, {0, 4, 6}}, {{0, 6, 5}}) ==
               Lines{"missing: sample 0 of seed 0, part 1 of 5",
                     "missing: samples 2 to 3 of seed 0, part 3 to 4 of 5"});
+        CHECK(missing({{0, 0, 1}, {0, 8, 9}}, {{0, 6, 1}}) ==
+              Lines{"missing: samples 1 to 5 of seed 0"});
         CHECK(missing({}, {{3, 6, 1}}) == Lines{"missing: samples 0 to 5 of seed 3"});
         // Of several renders of one seed the largest counts; and each seed by itself.
         CHECK(missing({{0, 0, 4}, {1, 0, 2}}, {{0, 4, 2}, {0, 8, 2}, {0, 6, 3}, {1, 4, 2}}) ==

@@ -45,8 +45,8 @@ TEST_SUITE("comparison") {
             CAPTURE(line);
             CHECK(line.starts_with(words));
         };
-        says(0.01, "the same mean within the noise (1 standard errors)");
-        says(0.001, "other means: A is 1 % brighter than B (10 standard errors)");
+        says(0.0021, "the same mean within the noise (4.76 standard errors)");
+        says(0.0019, "other means: A is 1 % brighter than B (5.26 standard errors)");
         says(NAN, "how sure the means are is not known");
         c.rows[0].beyond_5 = 3;
         says(0.01, "the same mean within the noise, but not everywhere: 3 of 64 blocks");
