@@ -1,7 +1,6 @@
 // Colours that stand for numbers.
 #include <doctest/doctest.h>
 
-#include "common/base/files.h"
 #include "common/picture/comparison.h"
 #include "common/picture/heat_map.h"
 #include "tests/support/scenes.h"

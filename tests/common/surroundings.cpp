@@ -3,7 +3,6 @@
 
 #include "common/render/film_keeping.h"
 #include "common/render/loading.h"
-#include "common/render/options.h"
 #include "common/render/render.h"
 #include "common/scene/intersect.h"
 #include "tests/support/process.h"
