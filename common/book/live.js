@@ -176,16 +176,13 @@ class Live {
         this.print(done.out, '\n\nClick the same pixel again (or press Enter) to see its next sample.');
         this.lay(textOf(done.files['out/path.svg']));
     }
-    /// Lays the drawing of a path over the picture: of its two panels that of the camera, whose frame
-    /// is the first rectangle without a filling; without the background and the small picture that are in it.
+    /// Lays the drawing of a path over the picture: of its two panels that of the camera, without the
+    /// small picture that is in it.
     lay(text) {
-        const over = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement;
-        const frame = over.querySelector('rect[fill="none"]');
-        if (!frame) return;
-        for (const cover of over.querySelectorAll('image, rect[fill="white"]')) cover.remove();
-        const sides = ['x', 'y', 'width', 'height'].map(name => frame.getAttribute(name));
-        over.setAttribute('viewBox', sides.join(' '));
-        over.removeAttribute('width'), over.removeAttribute('height');
+        const over = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement.querySelector('svg');
+        if (!over) return;
+        over.querySelector('image').remove();
+        for (const name of ['x', 'y', 'width', 'height']) over.removeAttribute(name);
         this.viewer.overlay.replaceChildren(over);
     }
 }
