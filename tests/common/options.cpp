@@ -39,5 +39,4 @@ TEST_SUITE("options") {
         CHECK(parsed({"it's", "--paths", "LD(S|D)*E"}).command ==
               "build/07_x 'it'\\''s' --paths 'LD(S|D)*E'");
     }
-
 }
