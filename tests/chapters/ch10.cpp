@@ -37,7 +37,7 @@ TEST_SUITE("ch10 cosine sampling") {
         }
     }
 
-    TEST_CASE("truth: what the slides' densities make of an albedo: 4 pi, 2 pi, 2 times as much") {
+    TEST_CASE("truth: mixed-up densities make an albedo 4 pi, 2 pi, 2 times as large") {
         // "PDF = dot / (2 pi), BRDF = 2 color dot": without noise, so it looks right.
         Sampler random = random_numbers(1);
         for (int i = 0; i < 1000; i++) {

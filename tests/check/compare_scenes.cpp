@@ -2,9 +2,11 @@
 // is not as it should be; "first: ..." as soon as something is off.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <set>
 
 #include "common/base/error.h"
+#include "common/base/files.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/check/findings.h"
@@ -16,9 +18,28 @@ namespace {
 
 constexpr int batches = 16;
 
+/// Where a sample was not a number: the scene's file is written, for the command that shows the
+/// path.
+struct BadSample {
+    std::string folder;  // for that file
+    std::string says = "not a number", command = {};
+
+    void take(const KnownScene& known, const NamedMethod& method, const SampleCounts& counts) {
+        if (counts.not_finite == 0 || !command.empty()) return;
+        std::string file = folder + "/" + known.name + ".pbrt";
+        std::string pixel = std::to_string(counts.bad_x) + "," + std::to_string(counts.bad_y);
+        write_file_atomically(file, known.text);
+        says += ", first in pixel " + pixel;
+        command = "make mine CH=" + method.name.substr(0, 2) + " ARGS='" + file +
+                  " --sampler independent --seed " + std::to_string(counts.bad_seed) +
+                  " --explain " + pixel + "," + std::to_string(counts.bad_sample) + "'";
+    }
+};
+
 /// What each class of path brings, from the spread of several renders; "all": the picture's mean.
 std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownScene& known,
-                                        const MeasureOptions& o, int samples, uint32_t first_seed) {
+                                        const MeasureOptions& o, int samples, uint32_t first_seed,
+                                        BadSample& bad) {
     Scene scene = parse_scene("known.pbrt", known.text, nullptr);
     prepare(scene, o.threads);
     std::map<std::string, RunningStats> stats;
@@ -28,6 +49,7 @@ std::map<std::string, Quantity> measure(const NamedMethod& method, const KnownSc
     for (int batch = 0; batch < batches; batch++) {
         Rendering r =
             render_once(method, scene, o, spp, first_seed + static_cast<uint32_t>(batch), true);
+        bad.take(known, method, r.stats);
         std::map<std::string, double> values = {{"all", r.film.mean()}};
         for (const auto& [name, film] : r.classes) values[name] = film.mean();
         for (const auto& [name, value] : values) stats[name];
@@ -78,6 +100,7 @@ struct Off {
 };
 
 struct Findings {
+    BadSample bad;
     std::vector<Off> off = {};
     int classes = 0;    // compared
     bool black = true;  // no class brings anything
@@ -89,7 +112,7 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
     bool blurred = is_blurred(scene, method);
     int samples = scene.samples * (blurred ? times_blurred : times);
     double least = blurred ? 0.12 : 0.008;
-    auto measured = measure(method, scene, o, samples, 1);
+    auto measured = measure(method, scene, o, samples, 1, findings.bad);
     auto expected = scene.light;
     for (const auto& [name, q] : measured) expected.insert({name, Quantity{}});
     std::vector<Off> off;
@@ -111,7 +134,7 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
     if (off.empty()) look_at("all", expected["all"]);
     if (findings.off.empty() && !off.empty() && !is_sure) {
         // A rare path may be missing, or there too often, by chance: but not twice.
-        auto again = measure(method, scene, o, 8 * samples, 1000);
+        auto again = measure(method, scene, o, 8 * samples, 1000, findings.bad);
         std::erase_if(off, [&](const Off& found) {
             return !is_off(again[found.name], expected[found.name], least);
         });
@@ -120,25 +143,25 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
 }
 
 /// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
-std::string worst_of(const std::vector<Off>& off) {
+std::string worst_of(const Findings& found) {
     auto distance = [](const Off& o) {
         double z = std::abs(o.ratio.mean - 1) / std::max(o.ratio.se, 1e-3);
         return o.leaks ? 0 : std::isfinite(z) ? z : 1e9;
     };
-    const Off& o = *std::max_element(off.begin(), off.end(), [&](const Off& a, const Off& b) {
-        return distance(a) < distance(b);
-    });
+    auto less_sure = [&](const Off& a, const Off& b) { return distance(a) < distance(b); };
+    const Off& o = *std::max_element(found.off.begin(), found.off.end(), less_sure);
     std::string factor = name_factor(o.ratio.mean);
     std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.scene->what + " is ";
     if (o.leaks) return what + "there, and should not be";
-    if (!std::isfinite(o.ratio.mean))
-        return what + "not a number: make mine names such a pixel, and what shows its path";
+    if (!std::isfinite(o.ratio.mean)) return what + found.bad.says;
     return what + short_number(o.ratio.mean) + (factor.empty() ? "" : " (" + factor + ")") +
            " of what it should be";
 }
 
-Findings findings_of(const NamedMethod& method, const MeasureOptions& o, Watch& watch) {
-    Findings findings;
+/// folder    where the scene of a path that is not a number is written
+Findings findings_of(const NamedMethod& method, const MeasureOptions& o, const std::string& folder,
+                     Watch& watch) {
+    Findings findings{{folder}};
     NamedMethod watched = watch.watched(method);
     bool one_alone = o.words.size() > 1;
     for (const KnownScene& scene : known_scenes()) {
@@ -147,7 +170,7 @@ Findings findings_of(const NamedMethod& method, const MeasureOptions& o, Watch& 
         bool was_right = findings.off.empty();
         compare(scene, watched, o, findings);
         if (was_right && !findings.off.empty())
-            std::printf("first: %s.\n", worst_of(findings.off).c_str());
+            std::printf("first: %s.\n", worst_of(findings).c_str());
         std::fflush(stdout);
     }
     return findings;
@@ -159,8 +182,7 @@ bool print_off(const Findings& found, const std::string& way) {
     auto of_paths = std::count_if(found.off.begin(), found.off.end(),
                                   [](const Off& o) { return is_class(o.name); });
     std::printf("%d of %d classes of path are off%s. Most surely: %s.\n",
-                static_cast<int>(of_paths), found.classes, way.c_str(),
-                worst_of(found.off).c_str());
+                static_cast<int>(of_paths), found.classes, way.c_str(), worst_of(found).c_str());
     for (size_t i = 0; i < std::min<size_t>(found.off.size(), 12); i++) {
         const Off& o = found.off[i];
         std::printf("    %-18s %-10s ", o.scene->name.c_str(), o.name.c_str());
@@ -171,14 +193,15 @@ bool print_off(const Findings& found, const std::string& way) {
         else
             std::printf("%8.4f +- %.4f\n", o.ratio.mean, o.ratio.se);
     }
+    if (!found.bad.command.empty()) std::printf("To see that path: %s\n", found.bad.command.c_str());
     return true;
 }
 
-int check(const std::string& chapter, const MeasureOptions& o) {
+int check(const std::string& chapter, const MeasureOptions& o, const std::string& folder) {
     Watch watch(o.seconds);
     const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
     Findings found = findings_of(
-        methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0), o, watch);
+        methods_named({as.contains(chapter) ? as.at(chapter) : chapter}).at(0), o, folder, watch);
     if (found.black) {
         std::printf("All pictures are black: trace brings no light at all. Does it return L?\n");
         return 1;
@@ -187,8 +210,8 @@ int check(const std::string& chapter, const MeasureOptions& o) {
     for (const NamedMethod& m : all_methods()) {
         bool by_area = m.name == chapter + "-area", by_bsdf = m.name == chapter + "-bsdf";
         if (by_area || by_bsdf)
-            off |=
-                print_off(findings_of(m, o, watch), by_area ? ", by area" : ", by the BSDF alone");
+            off |= print_off(findings_of(m, o, folder, watch),
+                             by_area ? ", by area" : ", by the BSDF alone");
     }
     if (!off) std::printf("Light comes by every class of path as it should.\n");
     return off ? 1 : 0;
@@ -203,6 +226,6 @@ int main(int argc, char** argv) {
             "Renders the known scenes by a chapter, and says what is not as it should be.",
             {.seconds = 10});
         if (o.words.empty()) throw UsageError("error: one chapter is needed, such as 09");
-        return check(o.words[0], o);
+        return check(o.words[0], o, std::filesystem::path(argv[0]).parent_path().string());
     }));
 }
