@@ -193,7 +193,8 @@ bool print_off(const Findings& found, const std::string& way) {
         else
             std::printf("%8.4f +- %.4f\n", o.ratio.mean, o.ratio.se);
     }
-    if (!found.bad.command.empty()) std::printf("To see that path: %s\n", found.bad.command.c_str());
+    if (!found.bad.command.empty())
+        std::printf("To see that path: %s\n", found.bad.command.c_str());
     return true;
 }
 
