@@ -48,22 +48,39 @@ inline double share_to_come(const std::vector<Patch>& patch, const Solution& s) 
     return waits / area;
 }
 
+/// How far the shots are: what a bar shows, and what ends them.
+struct Shots {
+    const Patches& patches;
+    const Limit& limit;
+    bool quiet;
+    Progress progress{60};
+    double first = 0, last = 1;  // share to come, at the first shot and at the last look
+
+    bool are_enough(const Solution& s) {
+        constexpr double enough = 1e-3;  // of the light: may be unshot at the end
+        if (s.steps % 16 == 0) {
+            last = share_to_come(patches.patch, s);
+            if (s.steps == 0) first = last;
+            double share = std::log(last / first) / std::log(enough / first);
+            if (!quiet && last > enough) progress.show("shooting", share, limit.elapsed());
+        }
+        return last < enough;
+    }
+};
+
 /// Progressive refinement.
+///
+/// most_shots    0: until they are enough
 inline Solution refine(const Patches& patches, Matrix& G, const ExchangeOf& exchange,
                        uint64_t most_shots, const Limit& limit, const RenderOptions& o) {
-    constexpr double enough = 1e-3;  // of the light: may be unshot at the end
     Solution s;
     start(patches.patch, s);
-    Progress progress(60);
-    double first = share_to_come(patches.patch, s), last = 1;
-    while (!limit.reached() && (most_shots == 0 || s.steps < most_shots)) {
-        if (s.steps % 16 == 0) last = share_to_come(patches.patch, s);
-        if (most_shots == 0 && last < enough) break;
+    Shots shots{patches, limit, o.quiet};
+    while (!limit.reached()) {
+        if (most_shots > 0 ? s.steps == most_shots : shots.are_enough(s)) break;
         std::optional<size_t> i = brightest(patches.patch, s);
         if (!i) break;
         shoot(patches, *i, row_of(G, *i, o.threads, exchange), s);
-        double share = std::log(last / first) / std::log(enough / first);
-        if (!o.quiet) progress.show("shooting", share, limit.elapsed());
     }
     return s;
 }

@@ -354,7 +354,7 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
                        "directly and in mirrors");
             lines.warn(lamps_are_near(scene, seen),
                        "a lamp near a surface lights it as if all came from the lamp's middle: the "
-                       "error is not reported");
+                       "reported error does not include this");
             lines.warn(scene.max_depth > 1 && !mirrors && surfaces_face_each_other(scene, seen),
                        "light that one surface reflects to another is left out");
             lines.warn(casts, by_mirrors +
