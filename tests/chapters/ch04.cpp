@@ -83,6 +83,23 @@ TEST_SUITE("ch04 sums") {
         dice("0 for a = 1: biased", 275.0 / 12, 22475.0 / 432);
     }
 
+    TEST_CASE("identity: the exact variance is E[X^2] - E[X]^2, for any f and probabilities") {
+        for (int i = 0; i < 50; i++) {
+            std::vector<double> f(6), pmf(6);
+            double sum = 0, mean = 0, square = 0;
+            for (size_t k = 0; k < f.size(); k++) {
+                f[k] = k % 3 == 0 ? 0 : std::sin(i + 7.0 * static_cast<double>(k));
+                sum += pmf[k] = k == 2 ? 0 : 1.1 + std::cos(i + 3.0 * static_cast<double>(k));
+            }
+            for (size_t k = 0; k < f.size(); k++) {
+                pmf[k] /= sum;
+                if (pmf[k] == 0) continue;
+                mean += f[k], square += f[k] * f[k] / pmf[k];
+            }
+            CHECK(std::abs(ch04::exact_variance(f, pmf) - (square - mean * mean)) < 1e-10 * square);
+        }
+    }
+
     TEST_CASE("truth: mean and variance of two lights") {
         auto lights = [](const char* what, const char* density, double mean, double variance) {
             Experiment e = find(ch04::sums(), what, density);
@@ -110,7 +127,7 @@ TEST_SUITE("ch04 sums") {
 TEST_SUITE("ch04 densities") {
     TEST_CASE("consistency: invert finds the u of a sample") {
         for (const Density& density : all_densities) {
-            CAPTURE(density.name);
+            CAPTURE(std::string(density.name));
             for (double u : {lowest_u, 1e-6, 0.05, 0.1, 0.3, 0.5, 0.9, 0.999999, highest_u}) {
                 double x = density.sample(u);
                 CHECK(x >= 0);
@@ -122,7 +139,7 @@ TEST_SUITE("ch04 densities") {
 
     TEST_CASE("jacobian: the density is the slope of the inverse") {
         for (const Density& density : all_densities) {
-            CAPTURE(density.name);
+            CAPTURE(std::string(density.name));
             for (double x : {0.01, 0.1, 0.24, 0.26, 0.4, 0.49}) {
                 constexpr double h = 1e-5;
                 double slope = (density.invert(x + h) - density.invert(x - h)) / (2 * h);

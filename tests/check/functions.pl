@@ -8,8 +8,8 @@ my ($round, $curly);
 $round = qr/\((?:$comment|$string|[^()"]|(??{$round}))*?\)/s;
 $curly = qr/\{(?:$comment|$string|[^{}"]|(??{$curly}))*?\}/s;
 
-# A file in parts, in the order in which they stand: [text, name]. The name is that of a function or type;
-# the second function of a name is "name 2". All else has none, nor has what is only declared.
+# A file in parts, in the order in which they stand: [text, name]. The name is that of a function, type or
+# constant; the second function of a name is "name 2". All else has none, nor has what is only declared.
 sub parts_of_file {
     my ($text) = @_;
     my (@parts, %count);
@@ -27,6 +27,7 @@ sub parts_of_file {
         } elsif ($head =~ /(\w+|operator\W+)\s*\(/ && $text =~ /\G$curly/gcs) {
             ($head, $name) = ("$head$&", $head =~ /(\w+|operator[^\w\s]+)\s*\(/);
         } elsif ($text =~ /\G(?:$comment|$string|$round|$curly|[^;])*?(?:;|\z)/gcs) {
+            $name = $1 if $head =~ /\bconst(?:expr)?\b.*?(\w+)(?:\[\w*\])?\s*$/s;
             $head .= $&;
         }
         last if $head eq '';

@@ -326,8 +326,10 @@ void add_cameras(std::vector<KnownScene>& p) {
                      group(shining(1) + paint(0) + at(4, 4, 4) + turn(-90, x_axis) + scale(0.12) +
                            square(true)),
                  16, 19});
-    p.push_back({"moving", "a floor in the shadow of a board that moves",
-                 above + floor_here + lamp(at(0, 2, 0)) +
+    p.push_back({"moving", "a floor in the shadow of a board that moves, through a lens",
+                 view("0 1.2 0  0 0 0  0 0 1",
+                      "\"float fov\" 40 \"float lensradius\" 0.1 \"float focaldistance\" 1.2") +
+                     floor_here + lamp(at(0, 2, 0)) +
                      group(paint(0) + at(-1.4, 1.6, 0) + "ActiveTransform EndTime " +
                            at(1.6, 0, 0) + "ActiveTransform All " + scale(0.5) + square(false)),
                  16, 19});
@@ -350,6 +352,37 @@ void add_wavelengths_and_shares(std::vector<KnownScene>& p) {
                      lamp(at(1.5, 1, 0) + scale(0.15), 100, false, true) +
                      group(metal(1) + at(1.5, 2, 0) + scale(4) + square(false)),
                  19, 19, 512});
+}
+
+/// Other sizes, other distances, and several things at once: where one thing alone is right.
+void add_combinations(std::vector<KnownScene>& p) {
+    p.push_back({"small", "a lamp of a centimetre just above a floor",
+                 from_above(0.001) + scale(0.01) + floor_here + lamp(at(0, 0.2, 0))});
+    p.push_back({"great", "a board of two kilometres that hides half of a lamp",
+                 from_above(600) + scale(1000) + floor_here + lamp(at(0, 2, 0)) +
+                     group(paint(0) + at(1, 1, 0) + square(true))});
+    std::string sun =
+        "LightSource \"distant\" \"rgb L\" [1 1 1] \"point3 from\" [1 2 0] \"point3 to\" [0 0 0]\n";
+    std::string small_floor = floor_of(paint(0.5), "", 0.5);
+    p.push_back({"far-board", "a small floor in the shadow of boards far above it",
+                 from_above(1) + small_floor + sun + sky() +
+                     group(paint(0) + at(10.3, 20, 0) + scale(0.5) + square(false)) +
+                     group(paint(0) + at(-9, 9, 0) + scale(9) + square(false)),
+                 9, 19});
+    std::string row;
+    for (double x : {-2.2, -1.1, 0.0, 1.1, 2.2}) row += lamp(at(x, 0.3, 0), 1 + 0.3 * x);
+    p.push_back({"row", "a floor close under five lamps", from_above(0.25) + floor_here + row});
+    p.push_back({"metal-row", "rough metal close under five lamps",
+                 view("-0.5 0.25 0  0 0 0  0 1 0") + floor_of(metal(0.9, rough)) + row, 13});
+    p.push_back({"still-life", "a room with glass, a mirror and rough metal under three lamps",
+                 view("0 0 -0.95  0 -0.2 0  0 1 0", "\"float fov\" 80", 4) +
+                     group(cube(paint(0.5))) + lamp(at(0, 0.99, 0), 2) +
+                     lamp(at(-0.98, 0.2, 0) + turn(90, z_axis) + scale(0.5), 4) +
+                     lamp(at(0.6, 0.3, -0.2) + turn(40, z_axis) + scale(0.3), 3, true) +
+                     group(at(-0.4, -0.65, 0.3) + glass + ball(0.35)) +
+                     group(at(0.45, -0.7, 0.4) + metal(0.9) + ball(0.3)) +
+                     group(at(0, -0.8, -0.1) + metal(0.9, smoother) + ball(0.2)),
+                 13, 21, 256});
 }
 
 std::string quad(const std::string& corners) {
@@ -420,6 +453,7 @@ std::vector<KnownScene> all_scenes() {
     add_glass_and_metal(scenes);
     add_cameras(scenes);
     add_wavelengths_and_shares(scenes);
+    add_combinations(scenes);
     add_for_any_renderer(scenes);
     return scenes;
 }

@@ -90,6 +90,9 @@ TEST_SUITE("law: known light") {
     TEST_CASE("truth: known cameras, colors and skies") {
         check_known("corner", "sky-picture", 0.02, 0.06);
     }
+    TEST_CASE("truth: known light of several things at once") {
+        check_known("small", "still-life", 0.03);
+    }
     TEST_CASE("truth: known scenes for any renderer") { check_known("frame", "pearl", 0.03); }
 
     TEST_CASE("truth: a lamp whose normals lean lights as a flat one does") {
