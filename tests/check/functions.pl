@@ -27,8 +27,9 @@ sub parts_of_file {
         } elsif ($head =~ /(\w+|operator\W+)\s*\(/ && $text =~ /\G$curly/gcs) {
             ($head, $name) = ("$head$&", $head =~ /(\w+|operator[^\w\s]+)\s*\(/);
         } elsif ($text =~ /\G(?:$comment|$string|$round|$curly|[^;])*?(?:;|\z)/gcs) {
+            my $value = $&;
             $name = $1 if $head =~ /\bconst(?:expr)?\b.*?(\w+)(?:\[\w*\])?\s*$/s;
-            $head .= $&;
+            $head .= $value;
         }
         last if $head eq '';
         my $n = defined $name ? ++$count{$name} : 0;
