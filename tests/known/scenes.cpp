@@ -374,6 +374,26 @@ void add_combinations(std::vector<KnownScene>& p) {
     p.push_back({"row", "a floor close under five lamps", from_above(0.25) + floor_here + row});
     p.push_back({"metal-row", "rough metal close under five lamps",
                  view("-0.5 0.25 0  0 0 0  0 1 0") + floor_of(metal(0.9, rough)) + row, 13});
+    std::string point = "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [-0.4 0.8 0.3]\n";
+    std::string two_walls = floor_of(paint(0.5), "", 1) +
+                            group(paint(0.7) + at(-1, 1, 0) + turn(-90, z_axis) + square(true));
+    p.push_back({"corner-kinds", "a corner under a distant light, a point light and a disk",
+                 view("0 1.8 0  -0.3 0 0  0 0 1", "\"float fov\" 60", 3) + two_walls + sun + point +
+                     group(shining(4) + at(0.6, 0.9, 0) + turn(90, x_axis) +
+                           "Shape \"disk\" \"float radius\" 0.3\n"),
+                 9});
+    // A pane lets through even light, which photons do not blur.
+    std::string pane = group(at(0, 0.5, 0) + glass + scale(1.5) + square(true)) +
+                       group(at(0, 0.45, 0) + glass + scale(1.5) + square(false));
+    std::string under_pane = from_above(0.4, 3) + small_floor + pane;
+    p.push_back({"pane-sky", "a floor under a pane of glass and a white sky", under_pane + sky()});
+    p.push_back(
+        {"pane-picture", "a floor under a pane of glass and the picture of a sky",
+         under_pane + group(turn(-90, x_axis) + "LightSource \"infinite\" \"string filename\" "
+                                                "\"scenes/sky.pfm\"\n"),
+         21, 21, 128});
+    p.push_back({"pane-point", "a floor under a pane of glass, a point light and a distant one",
+                 under_pane + sun + point, 20});
     p.push_back({"still-life", "a room with glass, a mirror and rough metal under three lamps",
                  view("0 0 -0.95  0 -0.2 0  0 1 0", "\"float fov\" 80", 4) +
                      group(cube(paint(0.5))) + lamp(at(0, 0.99, 0), 2) +
