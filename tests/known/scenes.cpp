@@ -206,7 +206,10 @@ void add_kinds_of_lights(std::vector<KnownScene>& p) {
     auto shape = [](const std::string& place, const std::string& what) {
         return group(shining(1) + paint(0) + place + what);
     };
-    p.push_back({"point", "a floor under a point light", above + small_floor + point, 9});
+    p.push_back(
+        {"point", "a floor under a point light that is under a black ceiling",
+         above + small_floor + point + group(paint(0) + at(0, 1.6, 0) + scale(2) + square(false)),
+         9});
     p.push_back({"sun", "a floor under a distant light", above + small_floor + sun, 9});
     p.push_back({"kinds", "a floor under a lamp, a point light and a distant light",
                  above + small_floor + lamp(at(0, 2, 0), 5) + point + sun, 9});
@@ -341,11 +344,12 @@ void add_wavelengths_and_shares(std::vector<KnownScene>& p) {
                  view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 20", 20) + sky() +
                      group("Material \"dielectric\" \"spectrum eta\" \"glass-F11\" " + ball(1)),
                  18, 19});
-    p.push_back({"sky-picture", "a floor under the picture of a sky",
+    p.push_back({"sky-picture", "a floor under the picture of a sky and two lamps",
                  from_above(0.5) +
                      group(turn(-90, x_axis) +
                            "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
-                     floor_of(paint(0.5), "", 0.6),
+                     lamp(at(-0.4, 0.8, 0) + scale(0.3), 6) +
+                     lamp(at(0.4, 0.8, 0.2) + scale(0.3), 2) + floor_of(paint(0.5), "", 0.6),
                  17});
     p.push_back({"rare-light", "a floor on which light is found rarely",
                  from_above(0.5, 2) + floor_here +
@@ -379,6 +383,7 @@ void add_combinations(std::vector<KnownScene>& p) {
                             group(paint(0.7) + at(-1, 1, 0) + turn(-90, z_axis) + square(true));
     p.push_back({"corner-kinds", "a corner under a distant light, a point light and a disk",
                  view("0 1.8 0  -0.3 0 0  0 0 1", "\"float fov\" 60", 3) + two_walls + sun + point +
+                     group(paint(0) + at(-0.4, 0.75, 0.3) + scale(0.03) + square(false)) +
                      group(shining(4) + at(0.6, 0.9, 0) + turn(90, x_axis) +
                            "Shape \"disk\" \"float radius\" 0.3\n"),
                  9});
