@@ -349,7 +349,7 @@ void add_wavelengths_and_shares(std::vector<KnownScene>& p) {
                      group(turn(-90, x_axis) +
                            "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
                      lamp(at(-0.4, 0.8, 0) + scale(0.3), 6) +
-                     lamp(at(0.4, 0.8, 0.2) + scale(0.3), 2) + floor_of(paint(0.5), "", 0.6),
+                     lamp(at(0.4, 2.5, 0.2) + scale(0.3), 2) + floor_of(paint(0.5), "", 0.6),
                  17});
     p.push_back({"rare-light", "a floor on which light is found rarely",
                  from_above(0.5, 2) + floor_here +
