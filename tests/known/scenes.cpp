@@ -344,12 +344,11 @@ void add_wavelengths_and_shares(std::vector<KnownScene>& p) {
                  view("0 0 -4  0 0 0  0 1 0", "\"float fov\" 20", 20) + sky() +
                      group("Material \"dielectric\" \"spectrum eta\" \"glass-F11\" " + ball(1)),
                  18, 19});
-    p.push_back({"sky-picture", "a floor under the picture of a sky and two lamps",
+    p.push_back({"sky-picture", "a floor under the picture of a sky",
                  from_above(0.5) +
                      group(turn(-90, x_axis) +
                            "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n") +
-                     lamp(at(-0.4, 0.8, 0) + scale(0.3), 6) +
-                     lamp(at(0.4, 2.5, 0.2) + scale(0.3), 2) + floor_of(paint(0.5), "", 0.6),
+                     floor_of(paint(0.5), "", 0.6),
                  17});
     p.push_back({"rare-light", "a floor on which light is found rarely",
                  from_above(0.5, 2) + floor_here +
@@ -392,11 +391,17 @@ void add_combinations(std::vector<KnownScene>& p) {
                        group(at(0, 0.45, 0) + glass + scale(1.5) + square(false));
     std::string under_pane = from_above(0.4, 3) + small_floor + pane;
     p.push_back({"pane-sky", "a floor under a pane of glass and a white sky", under_pane + sky()});
-    p.push_back(
-        {"pane-picture", "a floor under a pane of glass and the picture of a sky",
-         under_pane + group(turn(-90, x_axis) + "LightSource \"infinite\" \"string filename\" "
-                                                "\"scenes/sky.pfm\"\n"),
-         21, 21, 128});
+    p.push_back({"through-pane", "the same floor, seen through the pane",
+                 from_above(1, 5) + small_floor + pane + sky()});
+    std::string picture = group(
+        turn(-90, x_axis) + "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n");
+    p.push_back({"picture-lamps", "a floor under two bright lamps and the picture of a sky",
+                 from_above(0.5) + picture + small_floor +
+                     lamp(at(-0.4, 0.8, 0) + scale(0.3), 300) +
+                     lamp(at(0.4, 2.5, 0.2) + scale(0.3), 100),
+                 17});
+    p.push_back({"pane-picture", "a floor under a pane of glass and the picture of a sky",
+                 under_pane + picture, 21, 21, 128});
     p.push_back({"pane-point", "a floor under a pane of glass, a point light and a distant one",
                  under_pane + sun + point, 20});
     p.push_back({"still-life", "a room with glass, a mirror and rough metal under three lamps",
