@@ -37,6 +37,18 @@ TEST_SUITE("ch10 cosine sampling") {
         }
     }
 
+    TEST_CASE("failure: under horizon-sky.pbrt chapter 10 is worse than 09, with the same mean") {
+        Scene scene = scene_from("scenes/horizon-sky.pbrt", 32, 8);
+        Method trace_09 = method_of<ch09::trace>(ch09::LightMeasure::solid_angle);
+        Film before = film_of(scene, trace_09, 256).film;
+        Film now = film_of(scene, method_of<ch10::trace>(), 512, 2).film;
+        CHECK(rel_mse(now) > 3 * rel_mse(before));
+        check_agreement(hold_against(now, before), 0.02);
+    }
+}
+
+// No claim of a reader's own file.
+TEST_SUITE("slides of chapter 10") {
     TEST_CASE("truth: mixed-up densities make an albedo 4 pi, 2 pi, 2 times as large") {
         // "PDF = dot / (2 pi), BRDF = 2 color dot": without noise, so it looks right.
         Sampler random = random_numbers(1);
@@ -48,14 +60,5 @@ TEST_SUITE("ch10 cosine sampling") {
             CHECK(f_cos / slide == nearly(2));
             CHECK(f_cos / pdf == nearly(1));
         }
-    }
-
-    TEST_CASE("failure: under horizon-sky.pbrt chapter 10 is worse than 09, with the same mean") {
-        Scene scene = scene_from("scenes/horizon-sky.pbrt", 32, 8);
-        Method trace_09 = method_of<ch09::trace>(ch09::LightMeasure::solid_angle);
-        Film before = film_of(scene, trace_09, 256).film;
-        Film now = film_of(scene, method_of<ch10::trace>(), 512, 2).film;
-        CHECK(rel_mse(now) > 3 * rel_mse(before));
-        check_agreement(hold_against(now, before), 0.02);
     }
 }

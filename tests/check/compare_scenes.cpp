@@ -129,7 +129,7 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
     };
     for (const auto& [name, should] : expected) {
         if (!is_class(name)) continue;
-        findings.classes += should.mean > 0;
+        findings.classes++;
         findings.black &= measured[name].mean == 0;
         look_at(name, should);
     }
@@ -156,7 +156,8 @@ std::string worst_of(const Findings& found) {
     std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.scene->what + " is ";
     if (o.leaks) return what + "there, and should not be";
     if (!std::isfinite(o.ratio.mean)) return what + found.bad.says;
-    return what + short_number(o.ratio.mean) + (factor.empty() ? "" : " (" + factor + ")") +
+    return what + short_number(o.ratio.mean) +
+           (factor.empty() || factor == short_number(o.ratio.mean) ? "" : " (" + factor + ")") +
            " of what it should be";
 }
 
@@ -185,7 +186,8 @@ bool print_off(const Findings& found, const std::string& way) {
                                   [](const Off& o) { return is_class(o.name); });
     std::printf("%d of %d classes of path are off%s. Most surely: %s.\n",
                 static_cast<int>(of_paths), found.classes, way.c_str(), worst_of(found).c_str());
-    for (size_t i = 0; i < std::min<size_t>(found.off.size(), 12); i++) {
+    constexpr size_t most = 12;
+    for (size_t i = 0; i < std::min(found.off.size(), most); i++) {
         const Off& o = found.off[i];
         std::printf("    %-18s %-10s ", o.scene->name.c_str(), o.name.c_str());
         if (o.leaks)
@@ -195,6 +197,8 @@ bool print_off(const Findings& found, const std::string& way) {
         else
             std::printf("%8.4f +- %.4f\n", o.ratio.mean, o.ratio.se);
     }
+    if (found.off.size() > most)
+        std::printf("    ... and %d more\n", static_cast<int>(found.off.size() - most));
     if (!found.bad.command.empty())
         std::printf("To see that path: %s\n", found.bad.command.c_str());
     return true;

@@ -62,6 +62,8 @@ double chance_of_directions(const DirectionCells& cells, const Sample& sample,
             c.push_back(counts[i]), e.push_back(expected);
         }
     }
+    INFO("these directions have the probability ", chance, ", and ", drawn / samples,
+         " of the samples");
     CHECK(std::abs(drawn - samples * chance) < 5 * std::sqrt(samples * 0.25));
     if (e[0] < 10) c[0] = e[0] = 1;  // too few to say anything
     return chi_square_tail(chi_square(c, e), static_cast<int>(c.size()) - 1);
@@ -74,6 +76,7 @@ void check_inverse(const Sample& sample, const Invert& invert, float error) {
     Sampler random = random_numbers(1);
     for (int i = 0; i < 1000; i++) {
         Vec2 u = random.u2(), v = invert(sample(u));
+        INFO("u is ", u.x, ", ", u.y, "; v = invert(sample(u)) should be u");
         CHECK(std::abs(u.x - v.x) < error);
         CHECK(v.y >= 0);
         CHECK(v.y <= 1);
