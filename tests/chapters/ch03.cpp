@@ -71,6 +71,14 @@ TEST_SUITE("ch03 low discrepancy") {
                   1e-7f);
         }
         CHECK(ch03::radical_inverse(2, 0xffffffffu) == 0x1.fffffep-1f);  // 1 - 2^-32 is no float
+
+        // Scrambled, each point is uniform, the first one too.
+        for (uint32_t i : {0u, 1u, 5u}) {
+            double mean = 0;
+            for (uint32_t seed = 1; seed <= 4000; seed++)
+                mean += double{ch03::radical_inverse(3, i, seed)} / 4000;
+            CHECK(std::abs(mean - 0.5) < 5 / std::sqrt(12 * 4000.0));
+        }
     }
 
     TEST_CASE("failure: Halton in bases 17 and 19 starts on a line") {
