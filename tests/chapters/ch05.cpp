@@ -113,6 +113,23 @@ TEST_SUITE("ch05 lamps") {
     }
 }
 
+TEST_SUITE("ch05 camera") {
+    TEST_CASE("identity: the field of view lies across the shorter side, and a pixel is square") {
+        for (auto [width, height] : {std::pair{60, 40}, {40, 60}, {40, 40}}) {
+            Camera camera;
+            camera.fov = 90;
+            camera.right = {1, 0, 0}, camera.up = {0, 1, 0}, camera.forward = {0, 0, 1};
+            ch05::CameraView view = ch05::camera_view(camera, width, height);
+            float w = static_cast<float>(width), h = static_cast<float>(height);
+            Vec3 corner = view.corner, middle = corner + w / 2 * view.dx + h / 2 * view.dy;
+            float half = std::min(w, h) / 2;
+            CHECK(length(middle - camera.forward) < 1e-6f);
+            CHECK(length(half * view.dx - camera.right) < 1e-6f);
+            CHECK(length(half * view.dy + camera.up) < 1e-6f);
+        }
+    }
+}
+
 TEST_SUITE("ch05 shapes") {
     TEST_CASE("agreement: the plain formulas find what common/geometry/shapes.h finds") {
         Sampler random = random_numbers(1);

@@ -273,7 +273,7 @@ void add_glass_and_metal(std::vector<KnownScene>& p) {
          view("0 0 -4  0.9 0 0  0 1 0", "\"float fov\" 1", 6) + sky() + group(glass + ball(1))});
     p.push_back(
         {"in-glass", "the sky seen from inside a ball of glass",
-         view("0 0 0  0 0 1  0 1 0", "\"float fov\" 20", 4) + sky() + group(glass + ball(1))});
+         view("0.5 0 0  0.5 0 1  0 1 0", "\"float fov\" 20", 6) + sky() + group(glass + ball(1))});
     p.push_back({"bulb", "a lamp in a ball of glass",
                  from_above(0.4, 3) + floor_here + group(at(0, 1.5, 0) + glass + ball(1)) +
                      group(shining(1) + paint(0) + at(0, 1.5, 0) + ball(0.3)),
@@ -372,6 +372,14 @@ void add_combinations(std::vector<KnownScene>& p) {
                      group(paint(0) + at(10.3, 20, 0) + scale(0.5) + square(false)) +
                      group(paint(0) + at(-9, 9, 0) + scale(9) + square(false)),
                  9, 19});
+    auto color = [](const char* rgb) {
+        return format("Material \"diffuse\" \"rgb reflectance\" [%s]\n", rgb);
+    };
+    p.push_back({"pure-colors", "a corner that reflects red and blue, or red and green",
+                 view("0 1.8 0  -0.3 0 0  0 0 1", "\"float fov\" 60", 3) +
+                     floor_of(color("0.8 0 0.4"), "", 1) +
+                     group(color("0.9 0.6 0") + at(-1, 1, 0) + turn(-90, z_axis) + square(true)) +
+                     lamp(at(0.5, 1.5, 0))});
     std::string row;
     for (double x : {-2.2, -1.1, 0.0, 1.1, 2.2}) row += lamp(at(x, 0.3, 0), 1 + 0.3 * x);
     p.push_back({"row", "a floor close under five lamps", from_above(0.25) + floor_here + row});
