@@ -24,11 +24,10 @@ numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)/*/*.cpp)))
 common    := $(call objects,common,common/tools/% common/book/%)
-tests     := $(call objects,tests,tests/measure/% \
-             tests/damage/fuzz_reader.cpp tests/check/compare_scenes.cpp)
+methods   := $(patsubst CHAPTER_%,$(BUILD)/obj/tests/methods/%.o,$(shell \
+             grep -o 'CHAPTER_[0-9]*$$' tests/methods/chapters.cpp))
+tests     := $(methods) $(call objects,tests,tests/measure/% tests/check/% %/chapters.cpp)
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
-# Programs that tests start: see tests/*/rules.mk.
-started    =
 made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt)
 
 .PHONY: all programs test host test-slow clean always $(numbers)
@@ -82,7 +81,7 @@ $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(BUILD)/packages
 	@$(CXX) $(CXXFLAGS) $(own_flags) $(if $(WERROR),-Werror) -MMD -MP -c $< -o $@
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
-include $(wildcard common/*/rules.mk tests/*/rules.mk)
+include $(wildcard common/*/rules.mk tests/*/rules.mk tests/rules.mk)
 
 #: starting: make clean        remove all that was built and rendered
 clean:

@@ -20,7 +20,7 @@ export CCACHE_SLOPPINESS
 $(BUILD)/obj/%.h.gch: $$(subst brief/,,$$*).h $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "$(counted)compile $<"; echo '#include "$<"' >$(basename $@)
 	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -MMD -MP -x c++-header $(basename $@) -o $@
-standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp tests/check/*.cpp tests/measure/*.cpp tests/methods/*.cpp))
+standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp tests/check/*.cpp tests/measure/*.cpp tests/methods/table.cpp)) $(methods)
 $(standard): own_flags += $(call precompiled,common/base/standard.h)
 $(standard): $(BUILD)/obj/common/base/standard.h.gch
 $(BUILD)/obj/common/base/standard.h.gch: own_flags =
@@ -48,14 +48,9 @@ $(BUILD)/include/stb: # of Debian's own compiler
 endif
 endif
 
-# One entry for each file that is compiled, in the form that editors and clang-tidy read.
-compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
-#: maintaining: make compile_commands.json   tells editors how files are compiled
-compile_commands.json: $(BUILD)/flags $(compiled)
-	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
-	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
-	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
-	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
+#: maintaining: make compile_flags.txt   tells editors how files are compiled
+compile_flags.txt: $(BUILD)/flags
+	@printf '%s\n' $(CXXFLAGS) $(hash_flags) >$@
 
 # Changes when the compiler or its flags do: then all is compiled again.
 $(BUILD)/flags: $(if $(COUNT),,always)

@@ -22,7 +22,6 @@ const labels = {
 };
 
 // kind  film: samples come one after the other;  once: one picture;  table: no scene, n samples
-// against: what it races with at first, if not with the chapter before it
 const film = (scene, own = [], more = {}) => ({kind: 'film', scene, own, spp: 16, ...more});
 const once = (scene, own, more) => ({kind: 'once', scene, own, ...more});
 const table = n => ({kind: 'table', n});
@@ -41,23 +40,21 @@ const chapters = {
     '10_cosine_sampling': film('cornell'),
     '11_light_importance': film('thousand-lights'),
     '12_ris': film('thousand-lights', [number('m', 16)]),
-    '13_glossy': film('veach-mis', [choice('strategy', 'light', 'bsdf')], {against: '13_glossy'}),
+    '13_glossy': film('veach-mis', [choice('strategy', 'light', 'bsdf')]),
     '14_mis': film('veach-mis', [choice('heuristic', 'power', 'balance')]),
     '15_mis_ris': film('thousand-lights', [number('m', 64)]),
-    '16_lens_and_shutter': film('bokeh', [number('m', 64), choice('pixel', 'area', 'centre')],
-        {against: '16_lens_and_shutter'}),
-    '17_sky_image': film('sky', [number('m', 64), choice('compensation', 'on', 'off')],
-        {against: '17_sky_image'}),
-    '18_dispersion': film('prism', [number('m', 64)], {against: '18_dispersion'}),
+    '16_lens_and_shutter': film('bokeh', [number('m', 64), choice('pixel', 'area', 'centre')]),
+    '17_sky_image': film('sky', [number('m', 64), choice('compensation', 'on', 'off')]),
+    '18_dispersion': film('prism', [number('m', 64)]),
     '19_adaptive': film('high-contrast', [number('pilot', 16), choice('pilot-half', 'other', 'own')]),
-    '20_light_tracing': film('caustic', [], {against: '15_mis_ris'}),
+    '20_light_tracing': film('caustic'),
     '21_bidirectional': film('cornell-spheres',
-        [choice('strategy', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2')], {against: '15_mis_ris', spp: 4}),
+        [choice('strategy', 'all', '0,2', '0,3', '1,2', '2,1', '3,1', '2,2')], {spp: 4}),
     '22_fast_bidirectional': film('cornell-spheres', [number('extra-samples', 16), choice('direct-by', '15', '21')],
         {spp: 8}),
     '23_photon_mapping': film('pool', gather, {spp: 8}),
     '24_progressive_photons': film('pool', gather, {spp: 8}),
-    '25_vertex_merging': film('sds', [number('photons', 0)], {against: '22_fast_bidirectional', spp: 4}),
+    '25_vertex_merging': film('sds', [number('photons', 0)], {spp: 4}),
     '26_radiosity': once('cornell',
         [number('patches', 1200), number('shots', 1000), choice('show', 'smooth', 'constant')])
 };

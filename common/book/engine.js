@@ -3,7 +3,6 @@
 /// The text of a worker. The module's own glue comes before it.
 const workerText = `
 onmessage = async ({data: job}) => {
-    const begin = performance.now();
     const send = (kind, value, owned = []) => postMessage({kind, ...value}, owned);
     try {
         const live = await Live({
@@ -15,8 +14,7 @@ onmessage = async ({data: job}) => {
             print: text => send('out', {text}),
             printErr: text => send('error', {text}),
             show(width, height, pixels, mean, error) {
-                const seconds = (performance.now() - begin) / 1000;
-                send('show', {width, height, pixels, mean, error, seconds}, [pixels.buffer]);
+                send('show', {width, height, pixels, mean, error}, [pixels.buffer]);
             }
         });
         for (const [name, content] of Object.entries(job.files)) {
@@ -54,17 +52,12 @@ async function unpack() {
     }
     const {'live.js': glue, 'live.wasm': wasm, ...others} = files;
     const worker = URL.createObjectURL(new Blob([glue, workerText], {type: 'text/javascript'}));
-    const data = {files: others, worker, module: await WebAssembly.compile(wasm)};
-    await Promise.all(made.split(' ').map(async name => {
-        const program = name.replace(/scenes\/(.*)\..*/, 'make_$1'), written = name.replace('scenes', 'out');
-        others[name] = (await new Run(data, program, [written], {}, () => {}).done).files[written];
-    }));
-    return data;
+    return {files: others, worker, module: await WebAssembly.compile(wasm)};
 }
 const textOf = bytes => new TextDecoder().decode(bytes);
 const engine = unpack();
 
-/// One run of a program. show({width, height, pixels, mean, error, seconds}) is called now and then;
+/// One run of a program. show({width, height, pixels, mean, error}) is called now and then;
 /// done is a promise of {code, files, out, errors}, where a run that is stopped has the code null.
 class Run {
     constructor(data, program, args, files, show) {
@@ -100,9 +93,7 @@ function joined(parts) {
     return {...parts[0], pixels};
 }
 
-/// The mean of a picture, or of what `value` makes of each number in it.
-function mean({pixels}, value = x => x) {
-    return pixels.reduce((sum, x, i) => i % 4 === 3 ? sum : sum + value(x, i), 0) / (pixels.length / 4 * 3);
+/// The mean of a picture.
+function mean({pixels}) {
+    return pixels.reduce((sum, x, i) => i % 4 === 3 ? sum : sum + x, 0) / (pixels.length / 4 * 3);
 }
-/// relMSE = mean((a - b)^2 / (b^2 + 0.01)), as build/compare has it.
-const relMse = (a, b) => mean(b, (x, i) => (a.pixels[i] - x) ** 2 / (x ** 2 + 0.01));

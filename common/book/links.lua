@@ -45,22 +45,6 @@ function Math(formula)
     if formula.mathtype == "DisplayMath" then return pandoc.Span({formula}, {class = "formula"}) end
 end
 
--- A number stays with its unit, and a unit in one line.
-local units = {["%"] = true, s = true, ms = true, m = true, kB = true, MB = true, GB = true, nm = true, samples = true}
-function Inlines(inlines)
-    for i = 2, #inlines - 1 do
-        local before, after = inlines[i - 1].text or "", (inlines[i + 1].text or ""):gsub("[.,;:)]*$", "")
-        local is_unit = after:match("^%a*⁻") or before:match("^[(]?[%d.,]+$") and units[after]
-        if inlines[i].t == "Space" and is_unit then inlines[i] = pandoc.Str("\u{a0}") end
-    end
-    for i = #inlines - 1, 1, -1 do -- nor does a formula leave what ends its sentence
-        if inlines[i].t == "Math" and (inlines[i + 1].text or ""):match("^[.,;:)]") then
-            inlines[i] = pandoc.Span({inlines[i], inlines:remove(i + 1)}, {class = "together"})
-        end
-    end
-    return inlines
-end
-
 -- Drawings become part of the page, in its colors. Other pictures are files of their own where they are photographs, and else
 -- in the page, since a page cannot read the pixels of a file.
 local captions, drawings, kinds = {}, 0, {png = "image/png", svg = "image/svg+xml"}
@@ -83,7 +67,7 @@ function Image(image)
         return image
     end
     if chapter then
-        local names = pandoc.pipe("common/tools/make_strips", {"--names", chapter}, "")
+        local names = pandoc.pipe("common/tools/make_pictures", {"--names", chapter}, "")
         image.attributes["data-names"] = names:gsub("\n$", "")
     end
     image.src = "data:" .. kinds[file:match("%w+$")] .. ";base64," .. pandoc.pipe("base64", {"-w0", file}, "")

@@ -9,6 +9,29 @@ function field(name, label, attributes, values) {
 }
 const count = (name, label, value, min = 1) => field(name, label, {type: 'number', min: Math.min(min, value), value});
 
+/// A button that splits the picture by classes of path, and the list of them.
+function layers(live) {
+    const list = make('div', {class: 'choices layers'});
+    const split = make('button', {type: 'button'}, 'Split by classes of path');
+    split.onclick = async () => {
+        list.textContent = 'working';
+        const {code, files, errors} = await live.start(live.name, [...live.words(), '--out', 'out/picture.pfm',
+            '--split', 'out/classes']);
+        list.textContent = '';
+        live.complain(errors);
+        if (code !== 0) return;
+        const whole = {...readPnm(files['out/picture.pfm']), name: 'all'};
+        const classes = Object.keys(files).filter(file => file.startsWith('out/classes/') && file.endsWith('.pfm'));
+        const found = classes.map(file => ({...readPnm(files[file]), name: file.slice(12, -4)}));
+        found.sort((a, b) => mean(b) - mean(a));
+        live.viewer.set([whole, found[0]]);
+        list.append(...[whole, ...found].map(picture => make('button', {
+            type: 'button', onclick: () => live.viewer.set([whole, picture])
+        }, `${picture.name} ${(100 * mean(picture) / mean(whole)).toFixed(1)} %`)));
+    };
+    return make('div', {class: 'by-class'}, split, list);
+}
+
 class Live {
     constructor(name, data) {
         this.name = name, this.data = data, this.about = chapters[name], this.runs = [];
@@ -28,7 +51,7 @@ class Live {
         this.node = document.getElementById('live');
         this.node.append(this.form, this.errors, this.viewer.node, this.status, this.text);
         if (this.about.kind === 'film') {
-            this.node.append(layers(this), race(this));
+            this.node.append(layers(this));
             this.viewer.pick = ([x, y]) => this.tell(x, y);
         }
         if (this.about.kind !== 'table') this.node.insertBefore(this.editor(), this.errors);
@@ -109,18 +132,7 @@ class Live {
     once() { return this.start(this.name, [...this.words(), '--out', 'out/picture.pfm']); }
     sceneName() { return `scenes/${this.form.elements.scene.value}.pbrt`; }
 
-    /// More and more samples, up to those asked for.
-    async table() {
-        const n = +this.form.elements.n.value, shares = [64, 8, 1];
-        let done;
-        for (const [stage, share] of shares.entries()) {
-            if (done) this.report(done, `stage ${stage} of ${shares.length}`);
-            const some = Math.max(1, Math.floor(n / share));
-            done = await this.run(this.name, ['--n', `${some}`, ...this.options(), '--out', 'out/picture.pfm'], {});
-            if (done.code !== 0) break;
-        }
-        return done;
-    }
+    table() { return this.run(this.name, [...this.words(), '--out', 'out/picture.pfm'], {}); }
 
     /// Parts of the samples in several workers, each into a film of its own; then all as one.
     async film() {
@@ -150,12 +162,12 @@ class Live {
     }
     seconds() { return ((performance.now() - this.began) / 1000).toFixed(1); }
 
-    report({code, files, out, errors}, how = 'done') {
+    report({code, files, out, errors}) {
         this.result = files;
         if (files['out/picture.pfm']) this.viewer.set([{...readPnm(files['out/picture.pfm']), name: this.name}]);
         this.print(out);
         this.complain(errors);
-        this.status.textContent = code === 0 ? `${how} in ${this.seconds()} s` : `the program ended with code ${code}`;
+        this.status.textContent = code === 0 ? `done in ${this.seconds()} s` : `the program ended with code ${code}`;
     }
     print(out, hint = '') {
         this.text.hidden = out.length === 0;

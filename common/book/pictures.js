@@ -32,13 +32,7 @@ function canvasOf(image) {
     canvas.getContext('2d').drawImage(image, 0, 0);
     return canvas;
 }
-/// A picture in the bytes of a .pfm, a .ppm or a .png file.
-async function readPicture(bytes) {
-    if (bytes[0] === 0x89) {
-        return linear(canvasOf(await createImageBitmap(new Blob([bytes]), {colorSpaceConversion: 'none'})));
-    }
-    return readPnm(bytes);
-}
+/// A picture in the bytes of a .pfm or a .ppm file.
 function readPnm(bytes) {
     const [head, kind, width, height] = new TextDecoder('latin1').decode(bytes.subarray(0, 1 << 16))
         .match(/^(P6|PF)\s(?:#.*\n)*(\d+)\s+(\d+)\s+(?:#.*\n)*\S+\s/);

@@ -19,7 +19,6 @@ student-edition:
 #: maintaining: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
 pictures: programs
 	common/tools/make_pictures $(BUILD)
-	common/tools/make_strips $(BUILD)
 #: maintaining: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
 readmes: programs
 	common/tools/fill_readmes $(if $(SLOW),--slow)
@@ -31,6 +30,6 @@ check_pages: programs
 	$(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
 
 #: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy (13 minutes)
-tidy: compile_commands.json
+tidy: $(BUILD)/include/code_hashes.h
 	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
-	printf '%s\n' $(compiled) | xargs -n 1 -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet -p .
+	git ls-files '*.cpp' ':!common/book' | xargs -I FILE -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet FILE -- $(CXXFLAGS) $(hash_flags)

@@ -26,38 +26,18 @@ const fill = (page, values) => page.evaluate(values => {
 }, values);
 const done = page => page.waitForFunction(`live.status.textContent.startsWith('done') &&
     document.querySelector('.stop').disabled`);
-function from_program(name, words, file) {
-    execFileSync(`${build}/${name}`, [...words, '--out', file, '--quiet']);
-    return file;
-}
 
-/// In the page: what is wrong with it, and its links. Contrast is that of each text and what is behind it.
+/// In the page: what is wrong with it, and its links.
 function look() {
     const all = selector => [...document.querySelectorAll(selector)], style = node => getComputedStyle(node);
-    const shade = color => {
-        const [r, g, b] = color.match(/[\d.]+/g).map(v => (v / 255) ** 2.2);
-        return 0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05;
-    };
-    const behind = node => {
-        while (node.parentElement && style(node).backgroundColor.endsWith(', 0)')) node = node.parentElement;
-        return style(node).backgroundColor;
-    };
-    const is_pale = node => {
-        const shades = [shade(style(node).color), shade(behind(node))];
-        return Math.max(...shades) < 4.5 * Math.min(...shades);
-    };
-    const has_text = node => [...node.childNodes].some(part => part.nodeType === 3 && part.data.trim());
-    const texts = all('body *').filter(node => has_text(node) && node.checkVisibility() &&
-        !node.matches('script, svg *, :disabled, math *'));
     const wrong = {
         'pictures without words': all('img').filter(img => img.loading !== 'lazy' && !img.naturalWidth ||
             !img.alt && !img.matches('.thumbnail')),
+        'formulas that are none': all('main :is(p, li, td)').filter(node =>
+            [...node.childNodes].some(part => part.nodeType === 3 && part.data.includes('$'))),
         'cut off': all('main table, main pre, .formula').filter(node => node.getBoundingClientRect().right > innerWidth ||
             node.scrollWidth > node.clientWidth + 1 && style(node).overflowX !== 'auto' || node.matches('.formula') &&
             node.offsetWidth > node.clientWidth),
-        'labels beyond their figure': all('.figure text').filter(node => [node, node.closest('svg')]
-            .map(part => part.getBoundingClientRect().right).reduce((label, edge) => label > edge + 1)),
-        'too pale': texts.filter(is_pale),
         'too wide': document.documentElement.scrollWidth > innerWidth ? [document.body] : []
     };
     return {
@@ -98,35 +78,10 @@ async function same_bytes(page, name) {
         const bytes = Array.from(live.result['out/picture.pfm'], byte => String.fromCharCode(byte)).join('');
         return [live.words(), live.status.textContent, bytes, data.filter((v, i) => i % 4 === 1 && v > 16).length / data.length];
     });
-    const file = from_program(name, words, `${build}/book-test.pfm`), same = bytes === fs.readFileSync(file).toString('latin1');
+    const file = `${build}/book-test.pfm`;
+    execFileSync(`${build}/${name}`, [...words, '--out', file, '--quiet']);
+    const same = bytes === fs.readFileSync(file).toString('latin1');
     check(`Render makes the bytes of the program: ${name}`, same && lit > 0.01, took);
-}
-
-/// Tab reaches all that a mouse can use, with a frame around it, and Enter renders.
-async function by_keyboard(page) {
-    await chapter(page, '15_mis_ris');
-    await fill(page, {scene: 'cornell', size: '24x24', spp: 1});
-    await page.evaluate(() => {
-        for (const part of document.querySelectorAll('details')) part.open = true;
-        window.left = new Set([...document.querySelectorAll('a[href], button, input, select, textarea, summary, [tabindex="0"]')]
-            .filter(node => node.checkVisibility() && !node.disabled && !node.closest('dialog')));
-    });
-    const count = await page.evaluate('left.size'), bare = [];
-    for (let presses = 0; presses < count + 50 && await page.evaluate('left.size'); presses++) {
-        await page.keyboard.press('Tab');
-        const frame = await page.evaluate(() => {
-            const node = document.activeElement;
-            return left.delete(node) && getComputedStyle(node).outlineStyle === 'none' && node.outerHTML.slice(0, 60);
-        });
-        if (frame) bare.push(frame);
-    }
-    const missed = await page.evaluate('[...left].map(node => node.outerHTML.slice(0, 60))');
-    check(`Tab reaches all ${count} links, buttons and fields, and frames them`, missed.length + bare.length === 0,
-        [...missed, ...bare].slice(0, 5).join(' '));
-    await page.focus('.go');
-    await page.keyboard.press('Enter');
-    await done(page);
-    check('Enter on its button renders', true);
 }
 
 /// The path of a pixel by click and by keys; classes of paths; a mistake in the scene; stopping.
@@ -169,51 +124,14 @@ async function live_part(page) {
     await page.waitForFunction(`live.status.textContent.endsWith('stopped')`, {timeout: 5000});
     check('stop ends a long render', true);
 }
-async function race(page) {
-    await chapter(page, '15_mis_ris');
-    await fill(page, {scene: 'veach-mis'});
-    await page.evaluate(() => {
-        document.querySelector('.race').open = true;
-        const form = document.querySelector('.race form'), {time, other} = form.elements;
-        time.value = 4, other.value = '13_glossy';
-        form.requestSubmit();
-    });
-    await page.waitForFunction(`document.querySelector('.race .status').textContent.includes('relMSE')`);
-    const said = await text(page, '.race .status');
-    check('two methods in equal time: MIS wins', parseFloat(said.match(/first is (\S+)/)[1]) > 2, said);
-}
 async function pictures(page) {
     await chapter(page, '15_mis_ris');
     await page.click('.hold');
     const tiles = await page.$$eval('dialog .choices button', list => list.map(button => button.textContent));
     check('a picture of the page opens, and its tiles have names', tiles.length === 4 && tiles[3].includes('error of 15'),
         tiles.join('; '));
-    await open(page, 'common/book/own_pictures.html');
-    check('there is no empty picture', await page.$eval('.viewer', node => !node.checkVisibility()));
-    const words = ['scenes/cornell.pbrt', '--size', '48x32', '--spp', '4', '--seed'], inputs = await page.$$('input[type=file]');
-    const files = ['a.pfm', 'b.png'].map((name, k) => from_program('15_mis_ris', [...words, k], `${build}/book-test-${name}`));
-    for (const [k, input] of inputs.entries()) await input.uploadFile(files[k]);
-    await page.waitForFunction(`said.textContent.includes('verdict:')`);
-    const native = files.reduce((s, file, k) => s.replaceAll(file, `${'AB'[k]}/${path.basename(file)}`),
-        String(execFileSync(`${build}/compare`, files)).trim());
-    check(`two files of the reader's own: what compare says`, native === (await text(page, '.own .printed')).trim());
-    check('and both are shown', await page.evaluate('viewer.pictures.length === 2 && viewer.node.checkVisibility()'));
-    await inputs[1].uploadFile(__filename);
-    await page.waitForFunction(`problem.textContent.includes('test.js')`);
-    check('a file that is no picture is named', true);
 }
-async function searching(page) {
-    await open(page, 'chapters/07_path_tracing/index.html');
-    await page.type('.sidebar .find input', 'Neyman 1934\n');
-    await page.waitForSelector('.results a');
-    const first = await page.$eval('.results a', a => a.href);
-    check('the search finds words on their page', first.includes('19_adaptive'), first);
-    const search = word => page.$eval('main input[name=q]', (input, word) => { input.value = word, input.oninput(); }, word);
-    await search('MIS');
-    check('it finds whole words, those of the glossary first', await text(page, '.results a') === 'Glossary: MIS');
-    await search('xyzzyx');
-    const said = await text(page, 'main .status');
-    check('it says when it finds nothing', said.includes('xyzzyx') && !await page.$('.results a'), said);
+async function glossary(page) {
     await open(page, 'chapters/09_light_sampling/index.html');
     await page.hover('a[data-tip]');
     const tip = await page.$eval('a[data-tip]', word => getComputedStyle(word, '::after').content !== 'none' && word.dataset.tip);
@@ -232,7 +150,7 @@ async function main() {
         page.on('console', message => message.type() === 'error' && problems.push(message.text()));
         page.on('request', request => /^(http|ws|ftp)/.test(request.url()) && problems.push(`asks for ${request.url()}`));
         await every_page(page, is_chrome);
-        for (const part of [pictures, searching, by_keyboard, live_part, race]) await part(page);
+        for (const part of [pictures, glossary, live_part]) await part(page);
         for (const name of Object.keys(await page.evaluate('chapters'))) await same_bytes(page, name);
         check('no error, and nothing asked of the network', problems.length === 0, problems.slice(0, 5).join('; '));
         await browser.close();

@@ -15,7 +15,7 @@ sub parts_of_file {
     my (@parts, %count);
     pos($text) = 0;
     while (pos($text) < length $text) {
-        if ($text =~ /\G(?:\s+|$comment|\#(?:[^\n\\]|\\.)*|(?:inline\s+)?namespace\b[^{;]*\{|[};])/gcs) {
+        if ($text =~ /\G(?:\s+|$comment|\#(?:[^\n\\]|\\.)*|(?:inline\s+)?namespace\b[^{;]*\{|(?:public|private):|[};])/gcs) {
             push @parts, [$&];
             next;
         }

@@ -5,18 +5,15 @@
 #include <map>
 
 #include "common/picture/film_file.h"
-#include "tests/support/run_program.h"
+#include "tests/support/process.h"
 
 namespace fs = std::filesystem;
 
 TEST_SUITE("films, slow") {
     TEST_CASE("identity: renders that are killed, and parts by job runners, lose nothing") {
-        for (const char* script : {"kills", "parts"}) {
-            Words words = {"bash", "tests/damage/" + std::string(script), program_folder, "30"};
-            Finished end = Process(words).wait();
-            CHECK(end.code == 0);
-            MESSAGE(end.out);
-        }
+        Finished end = Process(Words{"bash", "tests/damage/films", program_folder, "30"}).wait();
+        CHECK(end.code == 0);
+        MESSAGE(end.out);
     }
 }
 

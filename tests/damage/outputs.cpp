@@ -5,21 +5,14 @@
 
 #include <csignal>
 
+#include "common/base/system.h"
 #include "common/picture/image.h"
-#include "tests/support/run_program.h"
+#include "common/render/render.h"
+#include "common/render/stop.h"
+#include "tests/support/process.h"
+#include "tests/support/stand_ins.h"
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// Options for a render of a few milliseconds.
-Words brief(const std::string& scene, const Words& more) {
-    Words words = {scene, "--size", "16x16", "--spp", "2", "--max-depth", "3", "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-}  // namespace
 
 TEST_SUITE("outputs") {
     TEST_CASE("files: a write that fails in the middle keeps the old file, and leaves nothing") {
@@ -99,5 +92,44 @@ TEST_SUITE("outputs") {
         CHECK(end.code == 1);
         CHECK(end.err.starts_with("error: out of memory: a film of 5000x5000 pixels needs "));
 #endif
+    }
+}
+
+TEST_SUITE("render loop") {
+    TEST_CASE("truth: a signal ends the render, later the program; an ignored one does nothing") {
+        auto code_of = [](int signal, bool ignored) {
+            return Process([=] {
+                       prepare_streams();
+                       if (ignored) std::signal(signal, SIG_IGN);  // as nohup does
+                       auto raising = [=](const Scene&, Ray, Sampler&, Recorder&) {
+                           std::raise(signal);
+                           return Rgb{};
+                       };
+                       StopOnSignal until_the_end;
+                       Rendering r =
+                           render_film(empty_scene(300, 300, 1), stand_in_options(1), raising);
+                       // timeout sends each signal twice at once; a terminal that closes, others.
+                       for (int other : {SIGINT, SIGTERM, SIGHUP})
+                           if (!ignored) std::raise(other);
+                       return r.stats.interrupted ? 3 : 0;
+                   })
+                .wait()
+                .code;
+        };
+        for (int signal : stop_signals) {
+            CHECK(code_of(signal, false) == 3);
+            CHECK(code_of(signal, true) == 0);
+            CHECK(Process([=] {
+                      StopOnSignal stop;
+                      std::raise(signal);
+                      ::usleep(600'000);
+                      std::raise(signal);
+                      return 0;
+                  })
+                      .wait()
+                      .signal == signal);
+        }
+        // Errors of writing.
+        for (int signal : {SIGPIPE, SIGXFSZ}) CHECK(code_of(signal, false) == 0);
     }
 }

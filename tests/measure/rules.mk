@@ -1,14 +1,14 @@
 # The programs that measure: all methods against each other, in error, time and stability.
 measuring := $(basename $(notdir $(shell grep -l '^int main' tests/measure/*.cpp)))
-methods   := $(filter-out $(measuring:%=tests/measure/%.cpp),$(wildcard tests/measure/*.cpp)) $(wildcard tests/methods/*.cpp)
+measured  := $(filter-out $(measuring:%=$(BUILD)/obj/tests/measure/%.o),$(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/measure/*.cpp))) \
+             $(methods) $(BUILD)/obj/tests/methods/table.o
 comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
-quick      = $(if $(QUICK),$(1))
 of_reader  = $(filter mine/%,$(A) $(B))
 
-.PHONY: chart front stability agree efficiency compare radiosity references bench teeth break
+.PHONY: chart stability agree efficiency compare radiosity references bench teeth break
 
-$(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
+$(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(measured) $(common)
 	$(link)
 $(BUILD)/bench: LIBS += $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
 $(BUILD)/gnuplot:
@@ -16,11 +16,7 @@ $(BUILD)/gnuplot:
 
 #: measuring: make chart        error against time of all chapters (11 minutes; QUICK=1: 2; SCENE=cornell)
 chart: $(BUILD)/chart $(BUILD)/gnuplot $(made)
-	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
-#: maintaining: make front        the chart of the front page, anew
-front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
-	$(BUILD)/chart cornell --methods all --seconds 60
-	cp out/chart-cornell.svg tests/measure/front.svg
+	$(BUILD)/chart $(SCENE) $(chosen) $(if $(QUICK),--seconds 60)
 #: measuring: make stability    do methods fail where theory says, as it says, and nowhere else? (3 minutes)
 stability: $(BUILD)/stability $(made)
 	$<

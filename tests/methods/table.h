@@ -1,9 +1,8 @@
 // All ways to render a scene, in one table: tests of laws, charts, `make agree`, `make stability`
 // and `make check` read it.
 //
-// A chapter joins by a file NN.cpp in this folder: one row for the chapter, and one for each of its
-// options that is tested or measured by itself. (A file of its own, because what chapter NN teaches
-// is in common/ later under the same name, and overloads of both would be ambiguous.)
+// A chapter joins in chapters.cpp: one row for the chapter, and one for each of its options that is
+// tested or measured by itself.
 #pragma once
 #include <functional>
 #include <string>
