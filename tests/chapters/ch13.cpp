@@ -3,7 +3,6 @@
 
 #include "chapters/13_glossy/estimator.h"
 #include "tests/support/directions.h"
-#include "tests/support/ggx_truth.h"
 #include "tests/support/plates.h"
 
 using ch13::Strategy;

@@ -9,7 +9,7 @@
 #include "common/render/loading.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"
-#include "tests/support/run_program.h"
+#include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include "chapters/26_radiosity/run.h"
 #include "common/scene/diffuse_meshes.h"
 #include "tests/support/estimators.h"
-#include "tests/support/run_program.h"
+#include "tests/support/process.h"
 
 namespace {
 

@@ -5,6 +5,13 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
+
+#include "common/base/json.h"
+#include "common/base/position.h"
+#include "common/base/stats.h"
+#include "tests/support/gates.h"
 
 TEST_SUITE("numbers") {
     TEST_CASE("truth: numbers are rounded to the nearest double, halves to the even one") {
@@ -39,5 +46,90 @@ TEST_SUITE("numbers") {
         CHECK(percent(0.9994) == "99.9 %");
         CHECK(percent(0.9999) == "100 %");
         CHECK(percent(-52.345) == "-5234 %");
+    }
+}
+
+namespace {
+
+/// The character of a code point, in UTF-8.
+std::string utf8(uint32_t code) {
+    auto tail = [&](int shift) { return static_cast<char>(0x80 | (code >> shift & 0x3f)); };
+    if (code < 0x80) return {static_cast<char>(code)};
+    if (code < 0x800) return {static_cast<char>(0xc0 | code >> 6), tail(0)};
+    if (code < 0x10000) return {static_cast<char>(0xe0 | code >> 12), tail(6), tail(0)};
+    return {static_cast<char>(0xf0 | code >> 18), tail(12), tail(6), tail(0)};
+}
+
+}  // namespace
+
+TEST_SUITE("text") {
+    TEST_CASE("truth: of all characters, those that a terminal may obey are printed as ?") {
+        size_t wrong = 0;
+        for (uint32_t code = 0; code <= 0x10ffff; code++) {
+            if (code == 0xd800) code = 0xe000;  // no characters: halves of UTF-16
+            bool is_obeyed = code < 0x20 || (code >= 0x7f && code < 0xa0);
+            std::string text = utf8(code) + 'b';
+            wrong += printable(text) != (is_obeyed ? "?b" : text);
+        }
+        CHECK(wrong == 0);
+        CHECK(printable("gr\xfc\xdf") == "gr??");
+        CHECK(printable("\xc2") == "?");
+        CHECK(printable("") == "");
+    }
+
+    TEST_CASE("truth: what JSON cannot hold is escaped, or printed as ?") {
+        CHECK(json_quoted("gr\xfc\xdf \xc3\xbc") == "\"gr?? \xc3\xbc\"");
+        CHECK(json_quoted("a\n\"b\\\x1b") == "\"a?\\\"b\\\\?\"");
+    }
+}
+
+namespace {
+
+RunningStats stats_of(const std::vector<double>& samples) {
+    RunningStats s;
+    for (double x : samples) s.add(x);
+    return s;
+}
+
+}  // namespace
+
+TEST_SUITE("stats") {
+    TEST_CASE("identity: mean and variance of none, one and four numbers") {
+        RunningStats four = stats_of({2, 4, 4, 6});
+        CHECK(four.mean() == 4);
+        CHECK(four.variance() == nearly(8.0 / 3, 1e-15));
+        CHECK(four.standard_error() == nearly(std::sqrt(2.0 / 3), 1e-15));
+        for (const std::vector<double>& few : {std::vector<double>{}, {7}}) {
+            RunningStats s = stats_of(few);
+            CHECK(s.count() == few.size());
+            CHECK(s.mean() == (few.empty() ? 0 : 7));
+            CHECK(s.variance() == 0);
+            CHECK(s.standard_error() == 0);
+        }
+    }
+
+    TEST_CASE("identity: merged halves equal the whole, wherever it is cut") {
+        std::vector<double> x;
+        for (int i = 0; i < 101; i++) x.push_back(std::sin(i * i) * 1e3 + 1e6);
+        RunningStats whole = stats_of(x);
+        for (size_t cut : {size_t{0}, size_t{1}, size_t{50}, size_t{100}, size_t{101}}) {
+            auto middle = x.begin() + static_cast<std::ptrdiff_t>(cut);
+            RunningStats a = stats_of({x.begin(), middle});
+            a.merge(stats_of({middle, x.end()}));
+            CHECK(a.count() == whole.count());
+            CHECK(a.mean() == nearly(whole.mean(), 1e-14));
+            CHECK(a.variance() == nearly(whole.variance(), 1e-10));
+        }
+    }
+
+    TEST_CASE("truth: Welford keeps the digits that E[x^2] - E[x]^2 loses") {
+        // base, base + 1, base ...: s^2 = (n/4) / (n-1)
+        for (double base : {0.0, 1e3, 1e9}) {
+            CAPTURE(base);
+            RunningStats s;
+            for (int i = 0; i < 1000000; i++) s.add(base + i % 2);
+            CHECK(s.mean() == nearly(base + 0.5, 1e-15));
+            CHECK(std::abs(s.variance() - 0.25 * 1e6 / (1e6 - 1)) < 1e-6);
+        }
     }
 }

@@ -2,20 +2,13 @@
 #include <doctest/doctest.h>
 
 #include "common/picture/image.h"
-#include "tests/support/run_program.h"
+#include "tests/support/process.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
 const std::string overwritten = ", and would be overwritten\n", strange = "Größe 日本 🎨";
-
-/// Options for a render of a few milliseconds.
-Words brief(const std::string& scene, const Words& more) {
-    Words words = {scene, "--size", "16x16", "--spp", "2", "--max-depth", "3", "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
 
 }  // namespace
 

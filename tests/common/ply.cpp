@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/described.h"
 #include "tests/support/folder.h"
-#include "tests/support/malformed.h"
 
 namespace {
 

@@ -11,7 +11,6 @@
 #include "common/scene/origin.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
-#include "tests/support/stats_file.h"
 
 namespace {
 

@@ -5,8 +5,7 @@
 #include "common/picture/film_file.h"
 #include "common/picture/image.h"
 #include "common/render/loading.h"
-#include "tests/support/run_program.h"
-#include "tests/support/stats_file.h"
+#include "tests/support/process.h"
 
 namespace fs = std::filesystem;
 

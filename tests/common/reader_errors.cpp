@@ -6,7 +6,6 @@
 #include "common/base/files.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
-#include "tests/support/malformed.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "common/picture/film_file.h"
-#include "tests/support/run_program.h"
+#include "tests/support/process.h"
 
 namespace fs = std::filesystem;
 

@@ -6,20 +6,9 @@
 #include <csignal>
 
 #include "common/picture/image.h"
-#include "tests/support/run_program.h"
+#include "tests/support/process.h"
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// Options for a render of a few milliseconds.
-Words brief(const std::string& scene, const Words& more) {
-    Words words = {scene, "--size", "16x16", "--spp", "2", "--max-depth", "3", "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-}  // namespace
 
 TEST_SUITE("outputs") {
     TEST_CASE("files: a write that fails in the middle keeps the old file, and leaves nothing") {

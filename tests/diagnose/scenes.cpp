@@ -4,7 +4,7 @@
 
 #include "common/base/files.h"
 #include "common/scene_file/reader.h"
-#include "tests/diagnose/tiles.h"
+#include "tests/diagnose/judge.h"
 
 namespace {
 

@@ -1,10 +1,9 @@
-#include "tests/diagnose/tiles.h"
-
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 
 #include "common/base/files.h"
+#include "tests/diagnose/judge.h"
 
 namespace {
 

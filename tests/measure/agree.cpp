@@ -5,7 +5,6 @@
 #include "common/base/error.h"
 #include "common/scene/origin.h"
 #include "tests/measure/measure.h"
-#include "tests/support/work.h"
 
 namespace {
 

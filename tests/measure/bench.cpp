@@ -10,7 +10,6 @@
 #include "common/scene/camera.h"
 #include "common/scene/light_shape.h"
 #include "tests/measure/measure.h"
-#include "tests/support/work.h"
 
 #if __has_include(<embree3/rtcore.h>)
 #include <embree3/rtcore.h>

@@ -7,7 +7,6 @@
 #include "common/picture/comparison.h"
 #include "common/scene/origin.h"
 #include "tests/measure/measure.h"
-#include "tests/support/work.h"
 
 namespace {
 
@@ -145,7 +144,7 @@ int main(int argc, char** argv) {
         MeasureOptions o = parse_measure_options(
             argc, argv, "[SCENE...]",
             "Error against time of every method on every scene, against references of known error "
-            "(make references). Writes chart-SCENE.svg, .png and .tsv, and chart-summary.tsv.",
+            "(make references). Writes chart-SCENE.svg and .tsv, and chart-summary.tsv.",
             {.spp = 0, .runs = 4, .width = 64, .height = 64, .seconds = 600});
         if (o.words.empty()) o.words = own_scenes();
         Work work("chart: error against time on " + std::to_string(o.words.size()) + " scenes",

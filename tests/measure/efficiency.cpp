@@ -3,7 +3,6 @@
 
 #include "common/scene/origin.h"
 #include "tests/measure/measure.h"
-#include "tests/support/work.h"
 
 namespace {
 

@@ -10,7 +10,6 @@
 #include "common/base/text.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
-#include "tests/support/work.h"
 
 namespace {
 
@@ -123,7 +122,7 @@ void write_lines(const std::string& folder, const std::string& name, const std::
     std::string command = "gnuplot -c tests/measure/plot.gp '" + path + ".tsv' '" + words + "'";
     if (std::system(command.c_str()) != 0)
         throw InputError(path + ".tsv: error: gnuplot failed, or is not installed");
-    say_wrote(path + ".svg and .png");
+    say_wrote(path + ".svg");
 }
 
 std::string short_number(double x) {

@@ -5,7 +5,6 @@
 #include "common/picture/comparison.h"
 #include "common/scene/diffuse_meshes.h"
 #include "tests/measure/measure.h"
-#include "tests/support/work.h"
 
 namespace {
 
@@ -48,7 +47,7 @@ int main(int argc, char** argv) {
         MeasureOptions o = parse_measure_options(
             argc, argv, "[SCENE]",
             "relMSE against time: patches of chapter 26, paths of chapter 15. Writes "
-            "chart-radiosity.svg, .png and .tsv.",
+            "chart-radiosity.svg and .tsv.",
             {.spp = 1024, .width = 64, .height = 64, .max_depth = 60});
         std::string path = find_scene(o.words.empty() ? "cornell" : o.words[0]);
         std::string name = scene_name(path);

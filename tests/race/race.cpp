@@ -1,7 +1,7 @@
 // make race, with programs that pretend to be other renderers.
 #include <doctest/doctest.h>
 
-#include "tests/support/run_program.h"
+#include "tests/support/process.h"
 
 namespace fs = std::filesystem;
 

@@ -2,7 +2,10 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "common/base/files.h"
 #include "common/render/table.h"
 #include "common/scene_file/reader.h"
 
@@ -91,4 +94,40 @@ inline std::string settings_of(const Scene& s) {
         text += ", window " + in_words({x0, x1, y0, y1});
     }
     return text;
+}
+
+struct MalformedCase {
+    std::string input, message;
+    bool in_world = false;  // a scene: stands behind the first line of a world
+};
+
+/// Reads a table: lines up to one that starts with => are the input, the rest of that line is the
+/// message, and so are the lines after it that start with => too. Lines that start with ## are for
+/// the reader; [world] stands before inputs for a world.
+inline std::vector<MalformedCase> read_malformed_cases(const std::string& path) {
+    std::vector<MalformedCase> cases;
+    std::string text = read_file(path);
+    MalformedCase next;
+    bool more = false;  // of the last message
+    for (size_t start = 0; start < text.size();) {
+        size_t end = text.find('\n', start);
+        std::string line = text.substr(start, end - start);
+        start = end + 1;
+        if (line.starts_with("##") || line.empty()) continue;
+        if (line.starts_with("=> ") && more) {
+            cases.back().message += '\n' + line.substr(3);
+            continue;
+        }
+        more = line.starts_with("=> ");
+        if (line == "[world]") {
+            next.in_world = true;
+        } else if (line.starts_with("=> ")) {
+            next.message = line.substr(3);
+            cases.push_back(next);
+            next.input.clear();
+        } else {
+            next.input += line + '\n';
+        }
+    }
+    return cases;
 }

@@ -1,13 +1,17 @@
-// Helpers of the tests: programs that run beside the test, and what work prints.
+// Helpers of the tests: programs of the chapters and other processes that run beside the test, and
+// what they print.
 #pragma once
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <sstream>
+#include <string>
 #ifndef _WIN32
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -15,6 +19,7 @@
 #endif
 
 #include "common/base/files.h"
+#include "common/base/numbers.h"
 #include "common/base/system.h"
 #include "tests/support/folder.h"
 
@@ -110,3 +115,63 @@ private:
 };
 
 #endif
+
+using Words = std::vector<std::string>;
+
+inline const std::string spheres = "scenes/cornell-spheres.pbrt";
+inline const std::string path_tracer = "07_path_tracing", light_tracer = "20_light_tracing";
+
+inline void append(Words& words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+}
+inline Words with_words(const std::string& program, const Words& words) {
+    Words all = program_words(program);
+    append(all, words);
+    return all;
+}
+
+#ifndef _WIN32
+/// Becomes the program.
+inline int execute(const std::string& program, const Words& words) {
+    return execute_words(with_words(program, words));
+}
+#endif
+
+inline Process start(const std::string& program, const Words& words) {
+    return Process(with_words(program, words));
+}
+inline Finished run(const std::string& program, const Words& words) {
+    return start(program, words).wait();
+}
+
+/// The programs of the chapters; those that render a scene, or those that print a table.
+std::vector<std::string> programs(bool render);
+
+/// Waits until the file has its first content, which comes after its lock.
+bool comes_to_be(const std::string& path);
+
+/// Options for a render of a few milliseconds.
+inline Words brief(const std::string& scene, const Words& more) {
+    Words words = {scene, "--size", "16x16", "--spp", "2", "--max-depth", "3", "--quiet"};
+    append(words, more);
+    return words;
+}
+
+/// For programs that trace photons: few, since these take most of the time of a brief render.
+inline Words few_photons(const std::string& program) {
+    bool photons = program.find("photon") != std::string::npos;
+    return photons ? Words{"--photons", "2000"} : Words{};
+}
+
+/// A JSON object of one level.
+struct StatsFile {
+    std::string json;
+
+    /// The number of that name; nothing where it is null or missing.
+    std::optional<double> number(const std::string& name) const {
+        size_t at = json.find("\"" + name + "\": ");
+        if (at == std::string::npos) return {};
+        std::string rest = json.substr(at + name.size() + 4);
+        return to_number(rest.substr(0, rest.find_first_of(",\n}")));
+    }
+};
