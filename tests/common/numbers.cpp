@@ -1,10 +1,10 @@
 // Numbers from text: the nearest double, with every library.
-#include "common/base/numbers.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "common/base/text.h"
 
 TEST_SUITE("numbers") {
     TEST_CASE("truth: numbers are rounded to the nearest double, halves to the even one") {

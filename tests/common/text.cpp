@@ -1,8 +1,9 @@
 // Text from files as it is printed: on a terminal, in messages, in JSON.
+#include "common/base/text.h"
+
 #include <doctest/doctest.h>
 
-#include "common/base/json.h"
-#include "common/base/position.h"
+#include "common/base/error.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "common/base/numbers.h"
+#include "common/base/text.h"
 
 /// A JSON object of one level.
 struct StatsFile {
