@@ -3,9 +3,9 @@
 #include <cstdio>
 
 #include "chapters/26_radiosity/show.h"
-#include "common/base/numbers.h"
-#include "common/base/position.h"
+#include "common/base/error.h"
 #include "common/base/progress.h"
+#include "common/base/text.h"
 #include "common/path/method.h"
 #include "common/render/render.h"
 #include "common/scene/origin.h"

@@ -1,10 +1,17 @@
-// What is thrown when the user's input is wrong; main() prints what() and exits.
+// What is thrown when the user's input is wrong, and where in a file it stands; main() prints
+// what() and exits.
 #pragma once
 #include <cstdint>
 #include <cstdio>
+#include <mutex>
 #include <new>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/base/text.h"
 
 /// Bad input or a file that cannot be read or written: exit code 1.
 /// what() is the whole line, "file:line:column: error: text", or "file: error: text"; or several
@@ -18,11 +25,11 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// "12.3 MB"
-inline std::string megabytes(uint64_t bytes) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g MB", static_cast<double>(bytes) / 1e6);
-    return text;
+/// Throws these lines, each of an InputError, as one; unless there are none.
+inline void throw_lines(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+    if (!text.empty()) throw InputError(text);
 }
 
 /// Does the work; where there is too little memory for it, throws an InputError that says what
@@ -32,6 +39,72 @@ decltype(auto) needing_memory(const std::string& what, uint64_t bytes, const Wor
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        throw InputError("error: out of memory: " + what + " needs " + megabytes(bytes));
+        char size[32];
+        std::snprintf(size, sizeof size, "%.3g MB", static_cast<double>(bytes) / 1e6);
+        throw InputError("error: out of memory: " + what + " needs " + size);
     }
+}
+
+/// What stands in an exercise where a function is left to the reader. It ends whatever needs the
+/// function: make check says that it waits for it.
+[[noreturn]] inline void not_written(const std::string& function) {
+    throw std::logic_error("`" + function + "` is not written yet");
+}
+
+/// A place in a text file; lines and columns count from 1, columns in characters. Line 0: the file
+/// as a whole.
+struct Position {
+    std::string file;
+    int line = 0, column = 0;
+    bool operator<(const Position& other) const {
+        return std::tie(file, line, column) < std::tie(other.file, other.line, other.column);
+    }
+};
+
+/// A copy of the position that lasts as long as the program: what a scene is made of points to it.
+inline const Position* kept(const Position& at) {
+    static std::mutex mutex;
+    static std::set<Position> all;
+    std::lock_guard lock(mutex);
+    return &*all.insert(at).first;
+}
+
+/// "file:line:column"; for a file as a whole "file".
+inline std::string place_text(const Position& at) {
+    if (at.line == 0) return at.file;
+    return at.file + ':' + std::to_string(at.line) + ':' + std::to_string(at.column);
+}
+
+/// "file:line:column: kind: text", the form in which compilers and editors know it; for a file as a
+/// whole "file: kind: text".
+inline std::string message_at(const Position& at, const std::string& kind,
+                              const std::string& text) {
+    return printable(place_text(at) + ": " + kind + ": " + text);
+}
+
+/// Throws the InputError for something wrong at a place in a file.
+[[noreturn]] inline void fail(const Position& at, const std::string& text) {
+    throw InputError(message_at(at, "error", text));
+}
+
+/// `unknown KIND "word"` with the nearest of the known words, or with all of a few.
+inline std::string unknown(const std::string& kind, const std::string& word,
+                           const std::vector<std::string>& known) {
+    constexpr size_t few = 12;
+    std::string text = "unknown " + kind + ' ' + quote(word), nearest = nearest_word(word, known);
+    for (const std::string& name : known) {
+        if (nearest.empty() && name.starts_with(word) && !word.empty()) nearest = name;
+    }
+    if (!nearest.empty()) return text + ": did you mean " + quote(nearest) + '?';
+    if (known.empty() || known.size() > few) return text;
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    return text + " (known: " + list + ')';
+}
+
+/// Throws that a word is unknown.
+[[noreturn]] inline void fail_unknown(const Position& at, const std::string& kind,
+                                      const std::string& word,
+                                      const std::vector<std::string>& known) {
+    fail(at, unknown(kind, word, known));
 }

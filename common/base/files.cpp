@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/position.h"
-#include "common/base/report.h"
+#include "common/base/progress.h"
 #include "common/base/system.h"
 
 namespace fs = std::filesystem;
@@ -42,6 +41,12 @@ fs::path after_links(const std::string& path) {
     return file;
 }
 
+// Whether both names are of the same file, through links too; it need not exist yet.
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code none;
+    return fs::equivalent(file_path(a), file_path(b), none) || after_links(a) == after_links(b);
+}
+
 // Why the file cannot be replaced by another; empty where it can, or is not there.
 std::string why_not_replaced(const fs::path& file) {
     constexpr fs::perms to_write =
@@ -53,6 +58,21 @@ std::string why_not_replaced(const fs::path& file) {
     if ((status.permissions() & to_write) == fs::perms::none) return "it is write-protected";
     errno = 0;
     return std::ofstream(file, std::ios::app) ? "" : std::strerror(errno);
+}
+
+// What goes wrong while they are written, a line for each.
+std::vector<std::string> errors_of(const std::vector<Output>& outputs) {
+    std::vector<std::string> errors;
+    for (const auto& [path, write] : outputs) {
+        try {
+            write();
+        } catch (const InputError& error) {
+            errors.push_back(error.what());
+        } catch (const std::bad_alloc&) {
+            errors.push_back(path + ": error: cannot write: out of memory");
+        }
+    }
+    return errors;
 }
 
 }  // namespace
@@ -119,30 +139,13 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
-void write_outputs(const std::vector<Output>& outputs) {
-    std::string errors;
-    for (const auto& [path, write] : outputs) {
-        try {
-            write();
-        } catch (const InputError& error) {
-            errors += error.what() + std::string("\n");
-        } catch (const std::bad_alloc&) {
-            errors += path + ": error: cannot write: out of memory\n";
-        }
-    }
-    if (!errors.empty()) throw InputError(errors.substr(0, errors.size() - 1));
-}
+void write_outputs(const std::vector<Output>& outputs) { throw_lines(errors_of(outputs)); }
 
 void check_writable(const std::string& path) {
     if (is_device(path)) return;
     std::string why = why_not_replaced(after_links(path));
     if (!why.empty()) throw InputError(printable(path + ": error: cannot write: " + why));
     NewFile never_committed(path);
-}
-
-bool same_file(const std::string& a, const std::string& b) {
-    std::error_code none;
-    return fs::equivalent(file_path(a), file_path(b), none) || after_links(a) == after_links(b);
 }
 
 bool has_ending(const std::string& path, const std::string& ending) {
@@ -159,8 +162,7 @@ void make_folder(const std::string& path) {
 }
 
 void check_outputs(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
-    std::string errors;
-    size_t refused = 0;
+    std::vector<Output> checks;
     for (size_t i = 0; i < files.size(); i++) {
         if (file_name(file_path(files[i])).starts_with("out/")) make_folder("out");
         for (const std::string& input : inputs) {
@@ -173,16 +175,11 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
             if (!same_file(files[i], files[j])) continue;
             throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
         }
-        try {
-            check_writable(files[i]);
-        } catch (const InputError& error) {
-            errors += error.what() + std::string("\n");
-            refused++;
-        }
+        checks.push_back({files[i], [&, i] { check_writable(files[i]); }});
     }
-    bool has_none = refused > 0 && refused == files.size();
-    if (has_none) throw InputError(errors.substr(0, errors.size() - 1));
-    tell(errors);
+    std::vector<std::string> errors = errors_of(checks);
+    if (errors.size() == files.size()) throw_lines(errors);
+    for (const std::string& error : errors) tell(error + '\n');
 }
 
 std::string read_file(const std::string& path) {

@@ -63,9 +63,6 @@ void write_outputs(const std::vector<Output>& outputs);
 /// before hours of work whose result would have no place.
 void check_writable(const std::string& path);
 
-/// Whether both names are of the same file, through links too; it need not exist yet.
-bool same_file(const std::string& a, const std::string& b);
-
 /// Whether the file's name ends so, such as in ".pfm", be it in capitals.
 bool has_ending(const std::string& path, const std::string& ending);
 

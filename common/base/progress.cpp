@@ -3,11 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
-#include "common/base/position.h"
-#include "common/base/report.h"
+#include "common/base/text.h"
 
 Progress::Progress(double pause)
     : is_terminal_(isatty(STDERR_FILENO)), pause_(is_terminal_ ? std::min(pause, 0.1) : pause) {}

@@ -1,8 +1,14 @@
-// Text for people: UTF-8, what can be printed of it, and the word that a mistyped one was meant to
-// be.
+// Text for people and programs: UTF-8, what can be printed of it, and the word that a mistyped one
+// was meant to be; numbers from text, the same with every library, and as text; JSON.
 #pragma once
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstdio>
+#include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,19 +29,15 @@ inline size_t utf8_length(std::string_view bytes, size_t i) {
     return refused ? 0 : length;
 }
 
-/// Whether this well-formed character is a control character (U+0000 to U+001F, U+007F to U+009F),
-/// which a terminal may obey instead of printing it.
-inline bool utf8_is_control(std::string_view character) {
-    return character < " " || (character >= "\x7f" && character < "\xc2\xa0");
-}
-
-/// `text` made fit for one line of a terminal: what is no character to print becomes '?'.
+/// `text` made fit for one line of a terminal: what is no character to print becomes '?', and so do
+/// control characters (U+0000 to U+001F, U+007F to U+009F), which a terminal may obey.
 inline std::string printable(std::string_view text) {
     std::string line;
     for (size_t i = 0; i < text.size();) {
         size_t length = utf8_length(text, i);
         std::string_view character = text.substr(i, std::max(length, size_t{1}));
-        bool plain = length > 0 && !utf8_is_control(character);
+        bool is_control = character < " " || (character >= "\x7f" && character < "\xc2\xa0");
+        bool plain = length > 0 && !is_control;
         line += plain ? character : "?";
         i += character.size();
     }
@@ -88,3 +90,92 @@ inline std::string nearest_word(std::string_view word, const std::vector<std::st
     }
     return nearest;
 }
+
+/// Without the + that a number may begin with.
+inline std::string_view without_plus(std::string_view text) {
+    return text.starts_with('+') && !text.starts_with("+-") ? text.substr(1) : text;
+}
+
+/// The number that `text` writes, rounded to the nearest double; no inf, no nan, no hexadecimal;
+/// empty when it is none. Numbers too large for a double are infinite, those too small are 0.
+///
+/// tested by  "truth: numbers are rounded to the nearest double, halves to the even one"
+inline std::optional<double> to_number(std::string_view text) {
+    text = without_plus(text);
+    bool negative = text.starts_with('-');
+    std::string_view digits = text.substr(negative ? 1 : 0);
+    if (digits.empty() || !(digits[0] == '.' || (digits[0] >= '0' && digits[0] <= '9'))) return {};
+#ifdef __cpp_lib_to_chars  // several times as fast, but not every library has it for doubles
+    double value = 0;
+    auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (stop != text.data() + text.size() || error == std::errc::invalid_argument) return {};
+    if (error == std::errc()) return value;
+#endif
+    if (digits.find_first_not_of("0123456789.eE+-") != std::string_view::npos) return {};
+    std::string copy(text);
+    char* end = nullptr;
+    double rounded = std::strtod(copy.c_str(), &end);
+    if (end != copy.c_str() + copy.size()) return {};
+    return rounded;
+}
+
+/// The whole number that `text` writes, without point or exponent; empty if it does not fit an int.
+inline std::optional<int> to_integer(std::string_view text) {
+    text = without_plus(text);
+    int value = 0;
+    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size() || error != std::errc()) return {};
+    return value;
+}
+
+/// A share to three digits: 0.0123 is "1.23 %", 0.99999 is "100 %" and not "1e+02 %", 52 is "5200
+/// %".
+///
+/// tested by  "truth: large shares are written without an exponent"
+inline std::string percent(double share) {
+    char text[400];
+    double value = 100 * share;
+    std::snprintf(text, sizeof text, std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
+    return text;
+}
+
+/// A text in JSON's quotes, of what can be printed.
+inline std::string json_quoted(std::string_view text) {
+    std::string json = "\"";
+    for (char c : printable(text)) {
+        if (c == '"' || c == '\\') json += '\\';
+        json += c;
+    }
+    return json + '"';
+}
+
+/// A number with nine digits; null for what is not finite.
+inline std::string json_number(double value) {
+    if (!std::isfinite(value)) return "null";
+    char text[64];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
+}
+
+/// One level of names and values, a line for each.
+class JsonObject {
+public:
+    template <class Value>
+    void add(const char* name, const Value& value) {
+        lines_ += std::string(lines_.empty() ? "  \"" : ",\n  \"") + name + "\": " + json(value);
+    }
+    std::string text() const { return "{\n" + lines_ + "\n}\n"; }
+
+private:
+    static std::string json(bool value) { return value ? "true" : "false"; }
+    static std::string json(double value) { return json_number(value); }
+    static std::string json(std::integral auto value) { return std::to_string(value); }
+    static std::string json(const std::string& text) { return json_quoted(text); }
+    template <class Value>
+    static std::string json(const std::vector<Value>& values) {
+        std::string list;
+        for (const Value& value : values) list += (list.empty() ? "" : ", ") + json(value);
+        return "[" + list + "]";
+    }
+    std::string lines_;
+};

@@ -1,6 +1,6 @@
 // Builds the hierarchy of bounding boxes (chapter 06).
 #pragma once
-#include "common/base/report.h"
+#include "common/base/progress.h"
 #include "common/geometry/bvh.h"
 
 /// Builds the hierarchy over all primitives. It does not depend on the number of threads, to the

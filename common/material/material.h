@@ -5,7 +5,7 @@
 #include "common/base/vec.h"
 
 struct Glass;     // glass.h
-struct Position;  // base/position.h
+struct Position;  // base/error.h
 
 enum class MaterialType : uint8_t { diffuse, conductor, dielectric };
 

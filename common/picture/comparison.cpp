@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/position.h"
+#include "common/base/error.h"
 #include "common/base/stats.h"
 
 namespace {

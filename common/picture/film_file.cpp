@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "common/base/checksum.h"
+#include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/position.h"
 #include "common/base/system.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <tuple>
 
-#include "common/base/json.h"
-#include "common/base/position.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
 
 namespace {
 

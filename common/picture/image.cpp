@@ -10,8 +10,8 @@
 #include <memory>
 #include <sstream>
 
+#include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/position.h"
 
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
+#include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/numbers.h"
-#include "common/base/position.h"
+#include "common/base/text.h"
 #include "common/picture/film_file.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "common/base/position.h"
+#include "common/base/error.h"
 
 namespace {
 

@@ -9,9 +9,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
-#include "common/base/numbers.h"
-#include "common/base/position.h"
-#include "common/base/report.h"
+#include "common/base/progress.h"
 #include "common/base/system.h"
 #include "common/base/text.h"
 

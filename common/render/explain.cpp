@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/numbers.h"
-#include "common/base/position.h"
-#include "common/base/report.h"
+#include "common/base/progress.h"
+#include "common/base/text.h"
 #include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
 #include "common/recording/path_story.h"

@@ -1,5 +1,5 @@
 #include "common/base/error.h"
-#include "common/base/report.h"
+#include "common/base/progress.h"
 #include "common/render/film_keeping.h"
 
 void FilmClock::save(const Rendering& rendering) {

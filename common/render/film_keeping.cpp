@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "common/base/error.h"
-#include "common/base/position.h"
 #include "common/base/system.h"
 #include "common/scene/origin.h"
 

@@ -4,16 +4,14 @@
 #include <cstdio>
 #include <set>
 
-#include "common/base/position.h"
+#include "common/base/error.h"
 #include "common/base/progress.h"
-#include "common/base/report.h"
 #include "common/scene/coincident.h"
 #include "common/scene/mover.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
 #include "common/scene_file/reader.h"
-#include "common/scene_file/stand_ins.h"
 
 namespace {
 

@@ -6,7 +6,6 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/position.h"
 #include "common/base/system.h"
 #include "common/picture/film_file.h"
 #include "common/recording/class_filter.h"

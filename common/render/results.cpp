@@ -4,11 +4,9 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/json.h"
-#include "common/base/numbers.h"
-#include "common/base/position.h"
-#include "common/base/report.h"
+#include "common/base/progress.h"
 #include "common/base/system.h"
+#include "common/base/text.h"
 #include "common/picture/film_label.h"
 #include "common/picture/sheet.h"
 #include "common/render/film_keeping.h"

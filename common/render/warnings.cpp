@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/base/numbers.h"
-#include "common/base/position.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/light/light_table.h"
 #include "common/material/cosine.h"
 #include "common/material/metal.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "common/base/position.h"
+#include "common/base/error.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 

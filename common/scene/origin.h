@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/position.h"
+#include "common/base/error.h"
 
 /// Something in the scene that is not modelled, and what is rendered in its place.
 struct UsedStandIn {

@@ -1,6 +1,6 @@
 // What a scene needs before a ray is sent into it.
 #pragma once
-#include "common/base/report.h"
+#include "common/base/progress.h"
 #include "common/scene/scene.h"
 
 /// Makes a scene ready to trace: its hierarchy, its size, its normals, the shapes of its lights,

@@ -1,18 +1,18 @@
 #include "common/scene_file/lexer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "common/base/numbers.h"
 #include "common/base/text.h"
-#include "common/scene_file/messages.h"
+#include "common/scene_file/input.h"
 
 Lexer::Lexer(std::string file, std::string bytes, const Report& report)
     : file_(std::move(file)), bytes_(std::move(bytes)), report_(report) {
     for (size_t i = 0; i < bytes_.size();) {
         size_t length = utf8_length(bytes_, i);
         if (length == 0) {
-            while (position_ < i) advance();
+            advance_to(i);
             fail({file_, line_, column_}, "not UTF-8 text");
         }
         i += length;
@@ -32,44 +32,27 @@ bool Lexer::has_argument() const {
     return ahead_.text[0] < 'A' || ahead_.text[0] > 'Z';
 }
 
-// Steps over one byte and counts lines and characters. Of CR LF only the LF ends the line.
-void Lexer::advance() {
-    char c = bytes_[position_++];
-    if (c == '\n' || (c == '\r' && !stands_at("\n"))) {
-        line_++;
-        column_ = 1;
-    } else if ((c & 0xc0) != 0x80) {
-        column_++;
+// Steps to this byte, or to the end, and counts lines and characters. Of CR LF only the LF ends the
+// line.
+void Lexer::advance_to(size_t end) {
+    for (; position_ < std::min(end, bytes_.size()); position_++) {
+        char c = bytes_[position_];
+        if (c == '\n' || (c == '\r' && bytes_[position_ + 1] != '\n')) {
+            line_++;
+            column_ = 1;
+        } else if ((c & 0xc0) != 0x80) {
+            column_++;
+        }
     }
-}
-
-bool Lexer::stands_at(std::string_view any) const {
-    return position_ < bytes_.size() && any.find(bytes_[position_]) != any.npos;
-}
-
-void Lexer::skip_blanks_and_comments() {
-    while (stands_at(" \t\r\n#")) {
-        bool is_comment = stands_at("#");
-        do {
-            advance();
-        } while (is_comment && position_ < bytes_.size() && !stands_at("\r\n"));
-    }
-}
-
-void Lexer::read_string() {
-    Position start = {file_, line_, column_};
-    advance();
-    while (position_ < bytes_.size() && !stands_at("\"\r\n")) {
-        bool escape = stands_at("\\");
-        advance();
-        if (escape && stands_at("\\\"")) advance();
-    }
-    if (!stands_at("\"")) stop_reading(start, "the string does not end on its line");
-    advance();
 }
 
 Token Lexer::read() {
-    skip_blanks_and_comments();
+    auto stands_at = [&](std::string_view any) {
+        return position_ < bytes_.size() && any.find(bytes_[position_]) != any.npos;
+    };
+    while (stands_at(" \t\r\n#")) {
+        advance_to(stands_at("#") ? bytes_.find_first_of("\r\n", position_) : position_ + 1);
+    }
     if (position_ >= next_report_) {
         constexpr size_t step = size_t{1} << 20;
         next_report_ = position_ + step;
@@ -80,15 +63,23 @@ Token Lexer::read() {
     size_t start = position_;
     if (start == bytes_.size()) return token;
     if (stands_at("\"")) {
-        read_string();
+        // Look for what ends it, but behind the pairs \\ and \".
+        size_t end = bytes_.find_first_of("\\\"\r\n", start + 1);
+        while (end < bytes_.size() && bytes_[end] == '\\') {
+            bool is_pair = bytes_[end + 1] == '\\' || bytes_[end + 1] == '"';
+            end = bytes_.find_first_of("\\\"\r\n", end + (is_pair ? 2 : 1));
+        }
+        if (end >= bytes_.size() || bytes_[end] != '"') {
+            stop_reading(at(token), "the string does not end on its line");
+        }
         token.type = Token::string;
-        token.text = std::string_view(bytes_).substr(start + 1, position_ - start - 2);
+        token.text = std::string_view(bytes_).substr(start + 1, end - start - 1);
+        advance_to(end + 1);
         return token;
     }
     token.type = stands_at("[") ? Token::open : stands_at("]") ? Token::close : Token::word;
-    do {
-        advance();
-    } while (token.type == Token::word && position_ < bytes_.size() && !stands_at(" \t\r\n[]\""));
+    bool is_word = token.type == Token::word;
+    advance_to(is_word ? bytes_.find_first_of(" \t\r\n[]\"", start) : start + 1);
     token.text = std::string_view(bytes_).substr(start, position_ - start);
     return token;
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "common/base/position.h"
-#include "common/base/report.h"
+#include "common/base/error.h"
+#include "common/base/progress.h"
 
 struct Token {
     enum Type : uint8_t { word, string, open, close, end };
@@ -41,10 +41,7 @@ public:
     [[noreturn]] void fail_at(const Token& token, const std::string& text) const;
 
 private:
-    void advance();
-    bool stands_at(std::string_view any) const;
-    void skip_blanks_and_comments();
-    void read_string();
+    void advance_to(size_t end);
     Token read();
 
     std::string file_, bytes_;

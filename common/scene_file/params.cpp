@@ -4,25 +4,32 @@
 #include <array>
 #include <sstream>
 
-#include "common/base/numbers.h"
+#include "common/base/text.h"
 #include "common/scene_file/spectra.h"
-#include "common/scene_file/stand_ins.h"
 
 namespace {
 
 struct ParamType {
     std::string_view needs;  // what each of its values must be
     size_t group = 1;        // how many of them make one
+    double low = -double{infinity}, high = double{infinity};
 };
 constexpr std::string_view number = "a number", text = "a string in quotes",
                            whole = "a whole number", truth = "true or false",
                            spectrum = "a name or numbers";
-const std::map<std::string, ParamType> param_types = {
-    {"blackbody", {number}}, {"bool", {truth}},       {"float", {number}},
-    {"integer", {whole}},    {"normal", {number, 3}}, {"point3", {number, 3}},
-    {"point2", {number, 2}}, {"rgb", {number, 3}},    {"spectrum", {spectrum}},
-    {"string", {text}},      {"texture", {text}},     {"vector3", {number, 3}},
-    {"vector2", {number, 2}}};
+const std::map<std::string, ParamType> param_types = {{"blackbody", {number, 1, 500, 1e6}},
+                                                      {"bool", {truth}},
+                                                      {"float", {number}},
+                                                      {"integer", {whole}},
+                                                      {"normal", {number, 3}},
+                                                      {"point3", {number, 3}},
+                                                      {"point2", {number, 2}},
+                                                      {"rgb", {number, 3}},
+                                                      {"spectrum", {spectrum}},
+                                                      {"string", {text}},
+                                                      {"texture", {text}},
+                                                      {"vector3", {number, 3}},
+                                                      {"vector2", {number, 2}}};
 
 // One message about a scene of pbrt-v3 is enough: nearly every line of it has to change.
 void refuse_old(const Position& at, const std::string& word) {
@@ -97,9 +104,9 @@ Param read_param(Lexer& lexer) {
     return param;
 }
 
-Params::Params(Lexer& lexer, const Token& directive, Messages& messages,
+Params::Params(Lexer& lexer, const std::string& directive, const Position& at, Input& input,
                const std::vector<Param>& defaults)
-    : messages_(&messages), at_(lexer.at(directive)), directive_(directive.text) {
+    : input_(&input), at_(at), directive_(directive) {
     bool is_named = directive_ == "MakeNamedMaterial";  // of which the type is a parameter
     Position type_at = at_;
     if (!is_named) {
@@ -107,10 +114,16 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& messages,
         type_ = lexer.unescape(token);
         type_at = lexer.at(token);
     }
-    while (lexer.peek().type == Token::string) add(read_param(lexer));
-    for (auto param = defaults.rbegin(); param != defaults.rend(); ++param) {
-        if (!find(param->name)) params_.push_back(*param);
+    while (lexer.peek().type == Token::string) {
+        Param param = read_param(lexer);
+        check_limit(param.at, params_.size() + 1, 100, "parameters of one directive");
+        if (find(param.name)) {
+            input.note(param.at, quote(param.name) + " of " + owner() +
+                                     " is given twice: the last one counts");
+        }
+        params_[param.name] = std::move(param);
     }
+    for (size_t i = defaults.size(); i-- > 0;) params_.try_emplace(defaults[i].name, defaults[i]);
     // Say here what is wrong, not where a parameter behind it is missing.
     if (lexer.has_argument()) lexer.fail_at(lexer.peek(), "expected a directive");
     if (is_named) {
@@ -118,26 +131,15 @@ Params::Params(Lexer& lexer, const Token& directive, Messages& messages,
         if (type.type == "string") type_ = type.strings[0];
         type_at = type.at;
         directive_ = "Material";
-        std::erase_if(params_, [](const Param& param) { return param.name == "type"; });
+        params_.erase("type");
     }
     check_type(type_at);
-    std::erase_if(params_, [&](const Param& param) { return !is_usable(param); });
-}
-
-// Of two with one name the first is forgotten, whatever its type is.
-void Params::add(Param param) {
-    check_limit(param.at, params_.size() + 1, 100, "parameters of one directive");
-    auto same_name = [&](const Param& other) { return other.name == param.name; };
-    if (std::erase_if(params_, same_name) > 0) {
-        messages_->note(param.at, quote(param.name) + " of " + owner() +
-                                      " is given twice: the last one counts");
-    }
-    params_.push_back(std::move(param));
+    std::erase_if(params_, [&](const auto& named) { return !is_usable(named.second); });
 }
 
 void Params::check_type(const Position& at) {
     stands_in_ = !or_stand_in(owner()).empty();
-    if (stands_in_) messages_->stand_in(at, owner());
+    if (stands_in_) input_->stand_in(at, owner());
     const auto& types = known_params().at(directive_);
     auto found = types.find(type_);
     if (found == types.end()) {
@@ -154,52 +156,45 @@ void Params::check_type(const Position& at) {
 bool Params::is_usable(const Param& param) const {
     const std::string given = quote(param.type + ' ' + param.name) + " of " + owner();
     auto found = known_->find(param.name);
-    const ParamRow* row = found == known_->end() ? nullptr : found->second;
-    const std::vector<std::string> types = words_of(row ? row->types : "");
-    size_t count = param.numbers.size() + param.strings.size();
-    size_t group = param_types.at(param.type).group;
-    std::string wrong, stand_in;
-    if (!row && param.is_default) {
+    if (found == known_->end()) {
+        if (param.is_default || stands_in_) return false;
+        input_->error(param.at, unknown(owner() + " parameter", param.name, names_of(*known_)));
         return false;
-    } else if (!row) {
-        wrong = unknown(owner() + " parameter", param.name, names_of(*known_));
-    } else if (*row->stand_in) {
-        messages_->stand_in(param.at, row->stand_in, given + " is not supported");
+    }
+    const ParamRow& row = *found->second;
+    if (*row.stand_in) {
+        input_->stand_in(param.at, row.stand_in, given + " is not supported");
         return true;
-    } else if (std::find(types.begin(), types.end(), param.type) == types.end() ||
-               (param.type == "spectrum" && param.strings.empty())) {
+    }
+    const ParamType& type = param_types.at(param.type);
+    const std::vector<std::string> types = words_of(row.types);
+    size_t count = param.numbers.size() + param.strings.size();
+    size_t group = std::max(row.values, size_t{1}) * type.group;
+    double low = std::max(row.low, type.low), high = std::min(row.high, type.high);
+    auto is_outside = [&](double x) { return x < low || x > high; };
+    std::string wrong, stand_in;
+    if (std::find(types.begin(), types.end(), param.type) == types.end() ||
+        (param.type == "spectrum" && param.strings.empty())) {
+        wrong = given + " must be of type " + row.types;
         if (param.type == "texture") stand_in = "a texture that is no reflectance";
         if (param.type == "spectrum") stand_in = "a spectrum that is not known";
-        wrong = given + " must be of type " + row->types;
-    } else if (row->values > 0 ? count != row->values * group : count % group != 0) {
+    } else if (row.values > 0 ? count != group : count % group != 0) {
         wrong = given + " has " + std::to_string(count) + " values, not " +
-                (row->values > 0 ? "" : "a multiple of ") +
-                std::to_string(std::max(row->values, size_t{1}) * group);
-    } else {
-        for (double x : param.numbers) {
-            if (x >= row->low && x <= row->high) continue;
-            wrong = quote(param.name) + " must be from " + digits(row->low) + " to " +
-                    digits(row->high);
-        }
+                (row.values > 0 ? "" : "a multiple of ") + std::to_string(group);
+    } else if (std::any_of(param.numbers.begin(), param.numbers.end(), is_outside)) {
+        wrong = quote(param.name) + " must be from " + digits(low) + " to " + digits(high);
     }
     if (!stand_in.empty()) {
-        messages_->stand_in(param.at, stand_in, wrong);
+        input_->stand_in(param.at, stand_in, wrong);
     } else if (!wrong.empty() && !stands_in_) {
-        messages_->error(param.at, wrong);
+        input_->error(param.at, wrong);
     }
     return wrong.empty();
 }
 
-float Params::fallback(const std::string& name) const {
-    auto found = known_->find(name);
-    return found == known_->end() ? 0 : static_cast<float>(found->second->fallback);
-}
-
-const Param* Params::find(const std::string& name) const {
-    for (const Param& param : params_) {
-        if (param.name == name) return &param;
-    }
-    return nullptr;
+float Params::number(const std::string& name) const {
+    auto row = known_->find(name);
+    return number(name, row == known_->end() ? 0 : static_cast<float>(row->second->fallback));
 }
 
 const Param& Params::required(const std::string& name) const {
@@ -213,21 +208,20 @@ float Params::number(const std::string& name, float fallback) const {
     return param && !param->numbers.empty() ? static_cast<float>(param->numbers[0]) : fallback;
 }
 
-Vec3 Params::point(const std::string& name, Vec3 fallback) const {
+std::vector<Vec3> Params::points(const std::string& name) const {
+    std::vector<Vec3> all;
     const Param* param = find(name);
-    if (!param || param->numbers.size() < 3) return fallback;
-    return {static_cast<float>(param->numbers[0]), static_cast<float>(param->numbers[1]),
-            static_cast<float>(param->numbers[2])};
+    if (param) all.resize(param->numbers.size() / 3);
+    for (size_t i = 0; i < 3 * all.size(); i++) {
+        all[i / 3][static_cast<int>(i % 3)] = static_cast<float>(param->numbers[i]);
+    }
+    return all;
 }
 
 Rgb Params::color(const std::string& name) const {
     const Param* param = find(name);
-    if (param && param->type == "blackbody") {
-        double kelvin = param->numbers[0];
-        if (kelvin < 500 || kelvin > 1e6) fail(param->at, "blackbody needs 500 to 1e6 kelvin");
-        return blackbody_rgb(kelvin);
-    }
-    float each = fallback(name);
+    if (param && param->type == "blackbody") return blackbody_rgb(param->numbers[0]);
+    float each = number(name);
     Vec3 rgb = point(name, {each, each, each});
     return {rgb.x, rgb.y, rgb.z};
 }

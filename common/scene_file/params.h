@@ -1,8 +1,8 @@
 // The parameters that follow a directive of a pbrt-v4 scene file: `"float fov" 45`.
 #pragma once
 #include "common/base/vec.h"
+#include "common/scene_file/input.h"
 #include "common/scene_file/lexer.h"
-#include "common/scene_file/messages.h"
 
 struct Param {
     std::string type, name;
@@ -15,7 +15,7 @@ struct Param {
 /// Reads a declaration and its value or values, and checks that they fit the type.
 Param read_param(Lexer& lexer);
 
-/// A row of the table of parameters, see parameters.cpp. Words are separated by blanks.
+/// A row of the table of parameters, see supported.cpp. Words are separated by blanks.
 struct ParamRow {
     const char *directive, *kinds;                 // kinds: the types of the directive
     const char *types, *names;                     // types: such as "rgb or texture"
@@ -39,13 +39,13 @@ public:
     /// Reads what follows `directive`: its type, such as "perspective", and the parameters up to a
     /// token that is none; `defaults` count where it has none of their name. Throws for a type that
     /// is unknown.
-    Params(Lexer& lexer, const Token& directive, Messages& messages,
+    Params(Lexer& lexer, const std::string& directive, const Position& at, Input& input,
            const std::vector<Param>& defaults = {});
 
     const std::string& type() const { return type_; }
     /// Whether the type is not supported: what is read stands in for it.
     bool stands_in() const { return stands_in_; }
-    Messages& messages() const { return *messages_; }
+    Input& input() const { return *input_; }
 
     /// Where the directive stands, and where a parameter does (the directive if it is not given).
     const Position& at() const { return at_; }
@@ -55,13 +55,19 @@ public:
     }
     /// The directive and its type, for messages.
     std::string owner() const { return directive_ + ' ' + quote(type_); }
+    /// Says of the directive that it is not done as the file says, or is not modelled.
+    void note(const std::string& text) const { input_->note(at_, text); }
+    void stand_in(const std::string& what) const { input_->stand_in(at_, what); }
 
     /// The parameter of this name; null if not given.
-    const Param* find(const std::string& name) const;
+    const Param* find(const std::string& name) const {
+        auto found = params_.find(name);
+        return found == params_.end() ? nullptr : &found->second;
+    }
     /// The same; throws if not given.
     const Param& required(const std::string& name) const;
     /// The value of a parameter; where it is not given that of the table, or the one given here.
-    float number(const std::string& name) const { return number(name, fallback(name)); }
+    float number(const std::string& name) const;
     float number(const std::string& name, float fallback) const;
     int integer(const std::string& name) const { return static_cast<int>(number(name)); }
     bool boolean(const std::string& name) const { return number(name) != 0; }
@@ -69,20 +75,23 @@ public:
         const Param* param = find(name);
         return param ? param->strings[0] : fallback;
     }
-    Vec3 point(const std::string& name, Vec3 fallback) const;
+    /// All points, vectors or normals; none where the parameter is not given.
+    std::vector<Vec3> points(const std::string& name) const;
+    Vec3 point(const std::string& name, Vec3 fallback) const {
+        std::vector<Vec3> all = points(name);
+        return all.empty() ? fallback : all[0];
+    }
     /// An `rgb`, or the color of luminance 1 of a `blackbody`.
     Rgb color(const std::string& name) const;
 
 private:
-    void add(Param param);
     void check_type(const Position& at);
     bool is_usable(const Param& param) const;
-    float fallback(const std::string& name) const;
 
-    Messages* messages_;
+    Input* input_;
     Position at_;
     std::string directive_, type_;
     bool stands_in_ = false;
     const KnownParams* known_ = nullptr;
-    std::vector<Param> params_;
+    std::map<std::string, Param> params_;  // by their names
 };

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "common/base/numbers.h"
-#include "common/base/position.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
 
 namespace {
 
@@ -69,9 +69,6 @@ public:
 
 private:
     size_t left() const { return bytes_.size() - position_; }
-    bool stands_at(std::string_view any) const {
-        return left() > 0 && any.find(bytes_[position_]) != any.npos;
-    }
     // Where the last word read starts.
     Position at() const { return {file_, line_, column_}; }
     // Throws at the last word read, or at the byte that is reached.
@@ -82,18 +79,16 @@ private:
 
     // The next word of the line; empty at its end.
     std::string_view word() {
-        while (stands_at(" \t")) position_++;
-        size_t start = position_;
+        size_t start = std::min(bytes_.find_first_not_of(" \t", position_), bytes_.size());
+        position_ = std::min(bytes_.find_first_of(" \t\r\n", start), bytes_.size());
         column_ = static_cast<int>(start - line_start_) + 1;
-        while (left() > 0 && !stands_at(" \t\r\n")) position_++;
         return bytes_.substr(start, position_ - start);
     }
     // Reads over the rest of the line and its end: LF, CR LF or CR.
     void end_line() {
-        while (left() > 0 && !stands_at("\r\n")) position_++;
-        bool carriage_return = stands_at("\r");
-        if (left() > 0) position_++;
-        if (carriage_return && stands_at("\n")) position_++;
+        position_ = std::min(bytes_.find_first_of("\r\n", position_), bytes_.size());
+        size_t length = bytes_.substr(position_).starts_with("\r\n") ? 2 : 1;
+        position_ = std::min(position_ + length, bytes_.size());
         line_start_ = position_;
         line_++;
     }
@@ -200,24 +195,25 @@ private:
         if (found->count <= most) return *found;
         fail(found->at, "more than " + std::to_string(most) + ' ' + name + " elements");
     }
+    // Gives numbers of the element roles from `first` on, if it has all of them.
+    static bool give_roles(Element& element, size_t first, const std::vector<std::string>& names) {
+        for (const std::string& name : names) {
+            if (!element.find(name) || element.find(name)->count_type) return false;
+        }
+        for (const std::string& name : names) element.find(name)->role = first++;
+        return true;
+    }
     // Finds the coordinates of a vertex, its normal and its place in textures, and the faces.
     void find_roles(Element& vertex, Element& face) {
-        std::array<const char*, corners> names = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
-        for (auto [u, v] : {std::pair("s", "t"), std::pair("texture_u", "texture_v"),
-                            std::pair("texture_s", "texture_t")}) {
-            if (!vertex.find(names[6]) || !vertex.find(names[7])) names[6] = u, names[7] = v;
+        for (size_t i = 0; i < 3; i++) {
+            std::string name(1, "xyz"[i]);
+            if (give_roles(vertex, i, {name})) continue;
+            fail(vertex.at, "vertex has no number " + quote(name));
         }
-        std::array<bool, corners> has = {};
-        for (size_t i = 0; i < corners; i++) {
-            Property* property = vertex.find(names[i]);
-            has[i] = property && !property->count_type;
-            if (has[i]) property->role = i;
-            if (i < 3 && !has[i]) {
-                fail(vertex.at, "vertex has no number " + quote(names[i]));
-            }
-        }
-        has_normals_ = has[3] && has[4] && has[5];
-        has_uvs_ = has[6] && has[7];
+        has_normals_ = give_roles(vertex, 3, {"nx", "ny", "nz"});
+        has_uvs_ = give_roles(vertex, 6, {"u", "v"}) || give_roles(vertex, 6, {"s", "t"}) ||
+                   give_roles(vertex, 6, {"texture_u", "texture_v"}) ||
+                   give_roles(vertex, 6, {"texture_s", "texture_t"});
         Property* list = face.find("vertex_indices");
         if (!list) list = face.find("vertex_index");
         if (!list || !list->count_type || list->type->is_float) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/base/vec.h"
-#include "common/scene_file/limits.h"
+#include "common/scene_file/reader.h"
 
 /// A mesh in its own space.
 struct TriangleMesh {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/base/numbers.h"
+#include "common/base/text.h"
 #include "common/material/metal.h"
 #include "common/scene/mover.h"
 #include "common/scene_file/scene_parts.h"
-#include "common/scene_file/stand_ins.h"
 
 namespace {
 
@@ -17,62 +16,26 @@ constexpr const char* moving_light = "a light or camera that moves";
 /// what comes next. What is wrong with one directive does not keep it from reading the next.
 class Reader {
 public:
-    Reader(const std::string& path, const Limits& limits, const Report& report,
-           std::vector<std::string>& notes, bool stand_ins)
-        : main_file_(path),
-          limits_(limits),
-          report_(report),
-          messages_(notes, stand_ins),
-          files_(path, limits, report) {
+    explicit Reader(Input& input) : input_(input) {
         scene_.materials.emplace_back();  // of shapes that are given none
     }
 
     Scene read_scene(std::string text) {
         try {
-            files_.add_to_checksum(text);
-            read(main_file_, std::move(text));
+            input_.add_file(input_.main_file, text);
+            read(input_.main_file, std::move(text));
             // What is missing may be in what could not be used.
-            if (messages_.errors() == 0) finish();
+            if (input_.errors() == 0) finish();
         } catch (const InputError& error) {
-            messages_.add(error);
+            input_.add(error);
         } catch (const ReadingEnds& end) {
-            messages_.add(end);
+            input_.add(end);
         }
-        messages_.finish();
-        Origin origin = {main_file_, files_.files_read(), files_.checksum(), messages_.used()};
-        origin.files.insert(main_file_);
-        scene_.origin = std::make_shared<Origin>(std::move(origin));
+        scene_.origin = std::make_shared<Origin>(input_.finish());
         return std::move(scene_);
     }
 
 private:
-    // What AttributeBegin saves and AttributeEnd restores.
-    struct State {
-        std::string begin;  // what began the block, and where
-        Position at;
-        Transform start, end;  // the current transform when the shutter opens and when it closes
-        std::string unusable;  // why nothing can stand there, as a message
-        bool set_start = true, set_end = true;  // which of them a transform directive changes
-        uint32_t material = 0;                  // into Scene::materials
-        std::optional<AreaEmission> emission;
-        bool reverse_orientation = false;
-        std::map<std::string, std::vector<Param>> defaults = {
-            {"light", {}}, {"material", {}}, {"medium", {}}, {"shape", {}}, {"texture", {}}};
-    };
-    struct NamedMaterial {
-        uint32_t index = 0;  // into Scene::materials
-        bool defined = false;
-        Position first_use;  // which may be before it is defined
-    };
-    // A shape between ObjectBegin and ObjectEnd, which each ObjectInstance places.
-    struct ObjectShape {
-        Params params;
-        State state;
-    };
-    struct Instance {
-        std::string object;
-        State state;  // `at`: where the instance stands
-    };
     enum class Block { options, world, both };
     struct Directives {
         const char* names;
@@ -122,18 +85,18 @@ private:
 
     void read(const std::string& path, std::string text) {
         constexpr size_t most_errors = 20;
-        Lexer lexer(path, std::move(text), report_);
+        Lexer lexer(path, std::move(text), input_.report);
         Lexer* outer = std::exchange(lexer_, &lexer);
         open_files_.push_back(canonical(path));
         while (lexer.peek().type != Token::end) {
             try {
                 read_directive(lexer.next());
             } catch (const InputError& error) {
-                messages_.add(error);
+                input_.add(error);
                 skip_arguments();
             }
-            if (messages_.errors() < most_errors) continue;
-            stop_reading({main_file_}, "so much is wrong that the rest is not read");
+            if (input_.errors() < most_errors) continue;
+            stop_reading({input_.main_file}, "so much is wrong that the rest is not read");
         }
         open_files_.pop_back();
         lexer_ = outer;
@@ -145,28 +108,26 @@ private:
     }
 
     void read_directive(const Token& word) {
-        word_ = word;
         at_ = lexer_->at(word);
-        check_limit(at_, ++directives_read_, limits_.directives, "directives");
+        check_limit(at_, ++directives_read_, input_.limits.directives, "directives");
         if (word.type != Token::word || to_number(word.text)) {
             lexer_->fail_at(word, "expected a directive");
         }
         name_ = word.text;
         auto [names, block, read] = *look_up(known_directives(), name_, "directive", at_);
         if (name_ == "WorldBegin" && in_world_) fail(at_, "a second WorldBegin");
-        if (block == Block::options && in_world_) {
-            fail(at_, name_ + " must stand before WorldBegin");
+        if (block == (in_world_ ? Block::options : Block::world)) {
+            fail(at_, name_ + " must stand " + (in_world_ ? "before" : "after") + " WorldBegin");
         }
-        if (block == Block::world && !in_world_) fail(at_, name_ + " must stand after WorldBegin");
         if (block == Block::options && !options_read_.insert(name_).second) {
-            messages_.note(at_, "a second " + name_ + ": the last one counts");
+            input_.note(at_, "a second " + name_ + ": the last one counts");
         }
         (this->*read)();
     }
 
     // Those of the directive, and of Attribute for what it makes.
     Params params(const std::string& what = "medium") {
-        return Params(*lexer_, word_, messages_, state_.defaults[what]);
+        return Params(*lexer_, name_, at_, input_, state_.defaults[what]);
     }
     // The name in quotes behind the directive.
     std::string name() {
@@ -176,14 +137,14 @@ private:
     void include() {
         bool is_import = name_ == "Import";
         Position at = at_;
-        std::string path = files_.find(at, name()), file = canonical(path), text;
+        std::string path = input_.find(at, name()), file = canonical(path), text;
         if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
             fail(at, quote_file(path) + " includes itself");
         }
         check_limit(at, open_files_.size(), 100, "files include each other");
         check_limit(at, ++includes_, 10000, "files are included");
-        if (!messages_.try_to_read(at, "a scene file that cannot be read",
-                                   [&] { text = files_.read(path, at); })) {
+        if (!input_.try_to_read(at, "a scene file that cannot be read",
+                                [&] { text = input_.read(path, at); })) {
             return;
         }
         if (!is_import) return read(path, std::move(text));
@@ -196,7 +157,7 @@ private:
     }
 
     void move() {
-        Transform step = read_transform(*lexer_, word_);
+        Transform step = read_transform(*lexer_, name_);
         bool replaces = name_ == "Identity" || name_ == "Transform";
         if (replaces) state_.unusable.clear();
         for (auto [is_set, t] :
@@ -243,8 +204,8 @@ private:
 
     void unsupported() {
         skip_arguments();
-        if (or_stand_in(name_).empty()) return messages_.note(at_, name_ + " is ignored");
-        messages_.stand_in(at_, name_);
+        if (or_stand_in(name_).empty()) return input_.note(at_, name_ + " is ignored");
+        input_.stand_in(at_, name_);
     }
 
     void camera() {
@@ -290,10 +251,10 @@ private:
         // A sky of one color is the same wherever it stands.
         Transform place = is_sky && !is_picture ? Transform{} : still_transform(read);
         if (is_picture && has_sky_image_) {
-            messages_.stand_in(at_, "a second picture of the sky");
+            input_.stand_in(at_, "a second picture of the sky");
         } else if (is_picture) {
             has_sky_image_ = true;  // also when it cannot be read: then it is not read again
-            sky_image_ = read_sky_image(read, place, files_);
+            sky_image_ = read_sky_image(read, place);
             if (sky_image_) return;
         }
         Light light = read_light(read, place);
@@ -303,18 +264,17 @@ private:
     void make_named_material() {
         std::string own = name();
         Params read = params();
-        bool is_used = named_materials_.contains(own);
-        NamedMaterial& named = find_material(own);
-        if (named.defined) fail(at_, "a second material " + quote(own));
-        named.defined = true;
-        std::optional<Material> material = read_material(read, textures_);
-        if (material) {
-            scene_.materials[named.index] = *material;
-            return;
+        bool is_used = unmade_.erase(own) > 0;
+        if (!is_used && named_materials_.contains(own)) {
+            fail(at_, "a second material " + quote(own));
         }
-        absent_.insert(named.index);
-        if (is_used)
+        uint32_t number = number_of_material(own);
+        std::optional<Material> material = read_material(read, textures_);
+        if (material) scene_.materials[number] = *material;
+        if (!material) absent_.insert(number);
+        if (!material && is_used) {
             fail(at_, "a material of shapes that are left out must be made before its use");
+        }
     }
 
     void material() {
@@ -324,15 +284,17 @@ private:
         if (!material) absent_.insert(state_.material);
     }
 
-    void named_material() { state_.material = find_material(name()).index; }
+    void named_material() {
+        std::string own = name();
+        if (!named_materials_.contains(own)) unmade_[own] = at_;
+        state_.material = number_of_material(own);
+    }
 
-    NamedMaterial& find_material(const std::string& own) {
-        auto [place, is_new] = named_materials_.try_emplace(own);
-        if (is_new) {
-            place->second.first_use = at_;
-            place->second.index = static_cast<uint32_t>(scene_.materials.size());
-            scene_.materials.emplace_back();
-        }
+    // Of the material of this name, which may be made later.
+    uint32_t number_of_material(const std::string& own) {
+        uint32_t next = static_cast<uint32_t>(scene_.materials.size());
+        auto [place, is_new] = named_materials_.try_emplace(own, next);
+        if (is_new) scene_.materials.emplace_back();
         return place->second;
     }
 
@@ -356,13 +318,13 @@ private:
         std::string own = name();
         if (open_object_) fail(at_, "ObjectInstance inside an object");
         instances_.push_back({own, state_});
-        instances_.back().state.at = at_;
+        instances_.back().second.at = at_;
     }
 
     void place_instances() {
         for (const auto& [object, state] : instances_) {
             for (const auto& [shape, inside] : look_up(objects_, object, "object", state.at)) {
-                check_limit(state.at, ++placed_, limits_.directives,
+                check_limit(state.at, ++placed_, input_.limits.directives,
                             "shapes of objects are placed");
                 State where = inside;
                 where.start = state.start * inside.start;
@@ -378,9 +340,9 @@ private:
         if (!open_object_) return place(read, state_);
         // Keep it for the instances.
         open_object_->push_back({read, state_});
-        State& kept = open_object_->back().state;
+        State& kept = open_object_->back().second;
         kept.defaults.clear();
-        if (kept.emission) messages_.note(at_, "lights inside an object are left out, as in pbrt");
+        if (kept.emission) input_.note(at_, "lights inside an object are left out, as in pbrt");
         kept.emission = {};
     }
 
@@ -392,7 +354,7 @@ private:
         if (!where.unusable.empty()) throw InputError(where.unusable);
         bool moves = where.start != where.end;
         if (moves && where.emission) {
-            messages_.stand_in(params.at(), moving_light);
+            input_.stand_in(params.at(), moving_light);
             moves = false;
         }
         std::optional<Mover> mover;
@@ -403,23 +365,23 @@ private:
             std::swap(scene_.geometry, mover->geometry);
         }
         size_t primitives = scene_.geometry.size(), vertices = scene_.geometry.positions.size();
-        read_shape(params, {where.start, where.material, where.emission, where.reverse_orientation},
-                   files_, scene_);
+        read_shape(params, where, scene_);
         primitives_ += scene_.geometry.size() - primitives;
         vertices_ += scene_.geometry.positions.size() - vertices;
-        check_limit(params.at(), primitives_, limits_.primitives, "triangles, spheres and disks");
-        check_limit(params.at(), vertices_, limits_.vertices, "vertices");
+        check_limit(params.at(), primitives_, input_.limits.primitives,
+                    "triangles, spheres and disks");
+        check_limit(params.at(), vertices_, input_.limits.vertices, "vertices");
         if (!mover) return;
         std::swap(scene_.geometry, mover->geometry);
         if (mover->geometry.size() > 0) scene_.movers.push_back(std::move(*mover));
     }
 
-    void texture() { textures_.read(*lexer_, word_, state_.defaults["texture"]); }
+    void texture() { textures_.read(*lexer_, at_, input_, state_.defaults["texture"]); }
 
     // The current transform; not supported where it moves while the shutter is open.
     Transform still_transform(const Params& params) {
         if (!state_.unusable.empty()) throw InputError(state_.unusable);
-        if (state_.start != state_.end) messages_.stand_in(params.at(), moving_light);
+        if (state_.start != state_.end) input_.stand_in(params.at(), moving_light);
         return state_.start;
     }
 
@@ -430,7 +392,7 @@ private:
             Material plain = scene_.materials[shape.material];
             bool has_uv = !g.uvs.empty() && !std::isnan(g.uvs[t.v[0]].x);
             if (plain.texture == 0 || has_uv) continue;
-            messages_.stand_in(*shape.at, "a textured mesh without usable uv");
+            input_.stand_in(*shape.at, "a textured mesh without usable uv");
             plain.reflectance = textures_.mean(plain.texture - 1u);
             if (plain.type == MaterialType::conductor) {
                 plain.k = k_of_reflectance(plain.reflectance);
@@ -443,15 +405,11 @@ private:
 
     // pbrt renders what is missing without complaint, and we only with stand-ins.
     void check_complete() {
-        Position file = {main_file_};
+        Position file = {input_.main_file};
         if (!saved_.empty()) fail(state_.at, state_.begin + " is never closed");
-        std::vector<std::string> defined;
-        for (const auto& [name, material] : named_materials_) {
-            if (material.defined) defined.push_back(name);
-        }
-        for (const auto& [name, material] : named_materials_) {
-            if (material.defined) continue;
-            messages_.error(material.first_use, unknown("material", name, defined));
+        for (const auto& [name, at] : unmade_) named_materials_.erase(name);
+        for (const auto& [name, at] : unmade_) {
+            input_.error(at, unknown("material", name, names_of(named_materials_)));
         }
         place_instances();
         check_uvs(scene_.geometry);
@@ -459,10 +417,10 @@ private:
         if (!in_world_) fail(file, "no WorldBegin");
         if (!options_read_.contains("Camera")) fail(file, "no Camera");
         if (scene_.geometry.size() == 0 && scene_.movers.empty()) {
-            messages_.stand_in(file, "a scene without shapes");
+            input_.stand_in(file, "a scene without shapes");
         }
         if (scene_.lights.empty() && !sky_image_) {
-            messages_.stand_in(file, "a scene without light");
+            input_.stand_in(file, "a scene without light");
             Light sky;
             sky.type = LightType::infinite;
             sky.L = {0.5f, 0.5f, 0.5f};
@@ -470,29 +428,42 @@ private:
         }
     }
 
+    // Gives each area light its range of primitives.
+    void number_light_primitives() {
+        auto shape_of = [](const auto& primitive) { return primitive.shape; };
+        const Geometry& g = scene_.geometry;
+        for (uint32_t prim = 0; prim < g.size(); prim++) {
+            int index = scene_.shapes[visit(g, prim, shape_of, shape_of, shape_of)].light;
+            if (index < 0) continue;
+            Light& light = scene_.lights[static_cast<size_t>(index)];
+            if (light.prims++ == 0) light.first_prim = prim;
+        }
+    }
+
     void finish() {
-        Position file = {main_file_};
+        Position file = {input_.main_file};
         check_complete();
-        number_light_primitives(scene_);
+        number_light_primitives();
 
         // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.
         const Camera& camera = scene_.camera;
         float exposure = (camera.shutter_close - camera.shutter_open) * iso_ / 100;
         bool usable = true;
+        auto expose = [&](Rgb& L) {
+            L *= exposure;
+            usable &= !too_bright(L);
+        };
         for (Light& light : scene_.lights) {
-            light.L *= exposure;
-            usable &= !too_bright(light.L) && !is_black(light.L);
+            expose(light.L);
+            usable &= !is_black(light.L);
         }
         if (sky_image_) {
-            for (Rgb& L : sky_image_->pixels) {
-                L *= exposure;
-                usable &= !too_bright(L);
-            }
+            for (Rgb& L : sky_image_->pixels) expose(L);
             scene_.sky_image = std::make_shared<SkyImage>(std::move(*sky_image_));
         }
         if (!usable) fail(file, "shutter or iso leave no usable light");
         if (!options_read_.contains("PixelFilter")) {
-            messages_.note(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
+            input_.note(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
         }
         // Keep what textures need only if there are some.
         auto has_texture = [](const Material& m) { return m.texture != 0; };
@@ -503,20 +474,15 @@ private:
         }
     }
 
-    const std::string main_file_;
-    const Limits limits_;
-    const Report report_;
-    Messages messages_;
-    NamedFiles files_;
-    TextureReader textures_{limits_, files_, messages_};
+    Input& input_;
+    TextureReader textures_;
     Scene scene_;
     std::optional<SkyImage> sky_image_;
     float iso_ = 100;
     bool in_world_ = false, has_sky_image_ = false;
 
     Lexer* lexer_ = nullptr;               // of the innermost file
-    Token word_;                           // the directive that is read
-    std::string name_;                     // the same
+    std::string name_;                     // of the directive that is read
     Position at_;                          // where it stands
     std::vector<std::string> open_files_;  // by their canonical names
     std::set<std::string> options_read_;   // Camera and its like
@@ -524,12 +490,14 @@ private:
 
     State state_;
     std::vector<State> saved_;
-    std::map<std::string, NamedMaterial> named_materials_;
+    std::map<std::string, uint32_t> named_materials_;  // into Scene::materials
+    std::map<std::string, Position> unmade_;           // those that are only used yet, and where
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
-    std::map<std::string, std::vector<ObjectShape>> objects_;
-    std::vector<Instance> instances_;
-    std::vector<ObjectShape>* open_object_ = nullptr;  // the one that is being defined
+    using Shapes = std::vector<std::pair<Params, State>>;  // between ObjectBegin and ObjectEnd
+    std::map<std::string, Shapes> objects_;
+    std::vector<std::pair<std::string, State>> instances_;  // of which object; `at`: their places
+    Shapes* open_object_ = nullptr;                         // the one that is being defined
     uint64_t placed_ = 0, primitives_ = 0, vertices_ = 0;
 };
 
@@ -538,8 +506,8 @@ private:
 Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes,
                   const Report& report, const Limits& limits, bool stand_ins) {
     std::vector<std::string> unread;
-    Reader reader(path, limits, report, notes ? *notes : unread, stand_ins);
-    return reader.read_scene(std::move(text));
+    Input input(path, limits, report, notes ? *notes : unread, stand_ins);
+    return Reader(input).read_scene(std::move(text));
 }
 
 Scene load_scene(const std::string& path, std::vector<std::string>* notes, const Report& report,

@@ -1,24 +1,12 @@
 #include <algorithm>
+#include <array>
 
 #include "common/scene_file/scene_parts.h"
 
 namespace {
 
 void note(const Params& params, const std::string& text) {
-    params.messages().note(params.at(), params.owner() + ' ' + text);
-}
-
-void place_camera(const Params& params, const Transform& world_from_camera, Camera& camera) {
-    camera.o = to_vec3(world_from_camera.o);
-    camera.right = to_vec3(world_from_camera.x);
-    camera.up = to_vec3(world_from_camera.y);
-    camera.forward = to_vec3(world_from_camera.z);
-    for (Vec3 axis : {camera.right, camera.up, camera.forward}) {
-        bool usable = length(axis) > 1e-6f && length(axis) < 1e6f;
-        if (!usable || !(max_component(abs(camera.o)) <= 1e9f)) {
-            fail(params.at(), "the camera's transform is too large or too small");
-        }
-    }
+    params.note(params.owner() + ' ' + text);
 }
 
 // Reads what part of the plane in front of the camera is seen.
@@ -38,12 +26,41 @@ void read_screen(const Params& params, Camera& camera) {
     }
 }
 
+Vec3d read_three(Lexer& lexer, const std::string& name) {
+    Vec3d v;
+    for (double* x : {&v.x, &v.y, &v.z}) *x = lexer.number(name);
+    return v;
+}
+
+// Reads [ 16 numbers ], column by column.
+Transform read_matrix(Lexer& lexer, const std::string& name) {
+    lexer.expect(Token::open, name + " needs [ and 16 numbers");
+    std::array<double, 16> m;
+    for (double& x : m) x = lexer.number(name);
+    lexer.expect(Token::close, name + " needs ] after 16 numbers");
+
+    constexpr double tolerance = 1e-6;
+    double bottom = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
+    if (bottom > tolerance) m = {};
+    return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+}
+
 }  // namespace
 
 Camera read_camera(const Params& params, const Transform& camera_from_world) {
     Camera camera;
     camera.at = kept(params.at());
-    place_camera(params, inverse(camera_from_world), camera);
+    const Transform world_from_camera = inverse(camera_from_world);
+    camera.o = to_vec3(world_from_camera.o);
+    camera.right = to_vec3(world_from_camera.x);
+    camera.up = to_vec3(world_from_camera.y);
+    camera.forward = to_vec3(world_from_camera.z);
+    for (Vec3 axis : {camera.right, camera.up, camera.forward}) {
+        bool usable = length(axis) > 1e-6f && length(axis) < 1e6f;
+        if (!usable || !(max_component(abs(camera.o)) <= 1e9f)) {
+            fail(params.at(), "the camera's transform is too large or too small");
+        }
+    }
     read_screen(params, camera);
     camera.lens_radius = params.stands_in() ? 0 : params.number("lensradius");
     // Of a pinhole a focal distance means nothing.
@@ -97,4 +114,28 @@ void read_setting(const std::string& directive, const Params& params, Scene& sce
         scene.max_depth = params.integer("maxdepth");
         if (type != "path") note(params, "only sets the depth: the program is the integrator");
     }
+}
+
+bool is_usable(const Transform& t) {
+    constexpr double largest = 1e30;
+    for (Vec3d v : {t.x, t.y, t.z, t.o}) {
+        for (double x : {v.x, v.y, v.z}) {
+            if (!(std::abs(x) <= largest)) return false;
+        }
+    }
+    return std::abs(determinant(t)) > 1 / (largest * largest);
+}
+
+Transform read_transform(Lexer& lexer, const std::string& name) {
+    if (name == "Identity") return {};
+    if (name == "Transform" || name == "ConcatTransform") return read_matrix(lexer, name);
+    if (name == "Translate") return translation(read_three(lexer, name));
+    if (name == "Scale") return scaling(read_three(lexer, name));
+    if (name == "Rotate") {
+        double degrees = lexer.number(name);
+        return rotation(degrees, read_three(lexer, name));
+    }
+    Vec3d eye = read_three(lexer, name), look = read_three(lexer, name);
+    Vec3d up = read_three(lexer, name);
+    return inverse(look_at(eye, look, up));
 }

@@ -10,15 +10,6 @@ void check_extent(const Params& params, Vec3 p) {
     fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
 }
 
-std::vector<Vec3> group_by_three(const Param* param) {
-    if (!param) return {};
-    std::vector<Vec3> groups(param->numbers.size() / 3);
-    for (size_t i = 0; i < param->numbers.size(); i++) {
-        groups[i / 3][static_cast<int>(i % 3)] = static_cast<float>(param->numbers[i]);
-    }
-    return groups;
-}
-
 std::vector<uint32_t> read_indices(const Params& params, size_t vertices, size_t corners) {
     std::vector<double> numbers = {0, 1, 2, 3};
     numbers.resize(corners);
@@ -43,25 +34,26 @@ std::vector<uint32_t> read_indices(const Params& params, size_t vertices, size_t
 TriangleMesh read_mesh(const Params& params) {
     size_t corners = params.type() == "bilinearmesh" ? 4 : 3;
     TriangleMesh mesh;
-    mesh.positions = group_by_three(&params.required("P"));
-    for (auto [name, group] : {std::pair("N", 3), {"S", 3}, {"uv", 2}}) {
-        const Param* param = params.find(name);
-        size_t each = mesh.positions.size() * static_cast<size_t>(group);
-        if (!param || param->numbers.size() == each) continue;
-        fail(param->at, quote(name) + " is not given for each of the vertices");
-    }
-    mesh.normals = group_by_three(params.find("N"));
+    params.required("P");
+    mesh.positions = params.points("P");
+    mesh.normals = params.points("N");
     const Param* uv = params.find("uv");
     for (size_t i = 0; uv && i < uv->numbers.size(); i += 2) {
         mesh.uvs.push_back(
             {static_cast<float>(uv->numbers[i]), static_cast<float>(uv->numbers[i + 1])});
+    }
+    for (auto [name, count] : {std::pair("N", mesh.normals.size()),
+                               {"S", params.points("S").size()},
+                               {"uv", mesh.uvs.size()}}) {
+        if (!params.find(name) || count == mesh.positions.size()) continue;
+        fail(params.at(name), quote(name) + " is not given for each of the vertices");
     }
     if (!are_usable(mesh.uvs)) mesh.uvs.clear();
     mesh.indices = read_indices(params, mesh.positions.size(), corners);
     if (corners == 3) return mesh;
 
     // The corners of a patch are at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
-    params.messages().note(params.at(), "a bilinear patch is read as two triangles");
+    params.note("a bilinear patch is read as two triangles");
     std::vector<uint32_t> patches = std::move(mesh.indices);
     mesh.indices.clear();
     for (size_t i = 0; i < patches.size(); i += 4) {
@@ -75,11 +67,10 @@ TriangleMesh read_mesh(const Params& params) {
 }
 
 // Adds positions, uv, and normals in world space.
-void add_vertices(const Params& params, const TriangleMesh& mesh, const ShapeState& state,
-                  Geometry& g) {
+void add_vertices(const Params& params, const TriangleMesh& mesh, const State& state, Geometry& g) {
     size_t first = g.positions.size();
     for (Vec3 p : mesh.positions) {
-        Vec3 world = to_vec3(transform_point(state.world_from_object, {p.x, p.y, p.z}));
+        Vec3 world = to_vec3(transform_point(state.start, {p.x, p.y, p.z}));
         check_extent(params, world);
         g.positions.push_back(world);
     }
@@ -91,7 +82,7 @@ void add_vertices(const Params& params, const TriangleMesh& mesh, const ShapeSta
     if (mesh.normals.empty() && g.normals.empty()) return;
     g.normals.resize(first);
     for (Vec3 n : mesh.normals) {
-        Vec3d world = transform_normal(state.world_from_object, {n.x, n.y, n.z});
+        Vec3d world = transform_normal(state.start, {n.x, n.y, n.z});
         // Keep lengths, by which pbrt weighs them, but not those whose square leaves float.
         double size = length(world);
         if (size > 0 && !(size > 1e-6 && size < 1e6)) world = normalize(world);
@@ -101,11 +92,10 @@ void add_vertices(const Params& params, const TriangleMesh& mesh, const ShapeSta
 }
 
 // Adds the mesh, and turns each triangle so that its corners run counter-clockwise on its outside.
-void add_mesh(const Params& params, const TriangleMesh& mesh, const ShapeState& state,
-              Geometry& g) {
+void add_mesh(const Params& params, const TriangleMesh& mesh, const State& state, Geometry& g) {
     uint32_t first = static_cast<uint32_t>(g.positions.size());
     add_vertices(params, mesh, state, g);
-    bool mirrored = determinant(state.world_from_object) < 0;
+    bool mirrored = determinant(state.start) < 0;
     uint64_t left_out = mesh.faces_left_out;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
@@ -124,10 +114,8 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const ShapeState& 
         g.triangles.push_back({{a, b, c}, 0});
     }
     if (left_out > 0) {
-        params.messages().note(params.at(),
-                               "left out triangles without area, and faces that do "
-                               "not have 3 or 4 corners: " +
-                                   std::to_string(left_out));
+        params.note("left out triangles without area, and faces that do not have 3 or 4 corners: " +
+                    std::to_string(left_out));
     }
 }
 
@@ -140,8 +128,7 @@ double uniform_scale(const Params& params, const std::vector<Vec3d>& axes) {
         bool same = std::abs(length(next) - scale) <= tolerance * scale;
         bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
         if (same && right_angle) continue;
-        params.messages().stand_in(params.at(),
-                                   "a sphere or disk scaled differently along its axes");
+        params.stand_in("a sphere or disk scaled differently along its axes");
         double product = 1;
         for (Vec3d axis : axes) product *= length(axis);
         return std::pow(product, 1 / static_cast<double>(axes.size()));
@@ -162,7 +149,7 @@ float read_radius(const Params& params, Vec3 centre, const std::vector<Vec3d>& a
 // Parts are not supported. pbrt clamps an angle above 360 degrees.
 void require_whole(const Params& params, bool is_whole) {
     if (params.number("phimax") >= 360 && is_whole) return;
-    params.messages().stand_in(params.at(), "a part of a sphere or disk");
+    params.stand_in("a part of a sphere or disk");
 }
 
 // The number of the axes of a sphere or disk; -1 where they are the world's.
@@ -197,10 +184,16 @@ float area(const Geometry& g, const Triangle& tri) {
 float area(const Geometry&, const Sphere& sphere) { return 4 * pi * sphere.r * sphere.r; }
 float area(const Geometry&, const Disk& disk) { return pi * disk.r * disk.r; }
 
-// Adds a light of so many times the shape's L, and returns its number.
-int add_light(const Params& params, const AreaEmission& emission, float times, Scene& scene) {
+// Adds the light of a primitive of this area, and returns its number.
+int add_light(const Params& params, const AreaEmission& emission, float area, Scene& scene) {
     Light light;
-    light.L = times * emission.L;
+    light.L = emission.L;
+    if (emission.power > 0) {
+        float of_one = pi * area * (emission.two_sided ? 2 : 1);  // W, of L = 1
+        // Half of a patch's power for each of its triangles.
+        float power = params.type() == "bilinearmesh" ? emission.power / 2 : emission.power;
+        light.L *= power / of_one;
+    }
     check_brightness(params, light.L);
     light.two_sided = emission.two_sided;
     light.at = kept(params.at());
@@ -210,18 +203,14 @@ int add_light(const Params& params, const AreaEmission& emission, float times, S
 
 // Adds the Shape of the primitives from `first` on, and what light they send.
 template <class Primitive>
-void add_shape(const Params& params, const ShapeState& state, Shape shape,
+void add_shape(const Params& params, const State& state, Shape shape,
                std::vector<Primitive>& primitives, size_t first, Scene& scene) {
-    if (first == primitives.size()) return;
     bool shines = state.emission && !is_black(state.emission->L);
-    // With a power each primitive is a light of its own that sends all of it, as in pbrt.
-    bool has_power = shines && state.emission->power > 0;
     for (size_t i = first; i < primitives.size(); i++) {
-        if (i == first || has_power) {
-            float sides = state.emission && state.emission->two_sided ? 2 : 1;
-            float of_one = pi * area(scene.geometry, primitives[i]) * sides;  // W, of L = 1
-            float times = has_power ? state.emission->power / of_one : 1;
-            if (shines) shape.light = add_light(params, *state.emission, times, scene);
+        // With a power each primitive is a light of its own that sends all of it, as in pbrt.
+        if (i == first || (shines && state.emission->power > 0)) {
+            float its_area = area(scene.geometry, primitives[i]);
+            if (shines) shape.light = add_light(params, *state.emission, its_area, scene);
             scene.shapes.push_back(shape);
         }
         primitives[i].shape = static_cast<uint32_t>(scene.shapes.size() - 1);
@@ -230,47 +219,28 @@ void add_shape(const Params& params, const ShapeState& state, Shape shape,
 
 }  // namespace
 
-void read_shape(const Params& params, ShapeState state, NamedFiles& files, Scene& scene) {
+void read_shape(const Params& params, const State& state, Scene& scene) {
     Geometry& g = scene.geometry;
     size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
     Shape shape = {state.material, -1, false, -1, kept(params.at())};
-    const Transform& t = state.world_from_object;
     if (params.type() == "sphere" || params.type() == "disk") {
         bool is_sphere = params.type() == "sphere";
-        if (is_sphere) add_sphere(params, t, scene);
-        if (!is_sphere) add_disk(params, t, state.reverse_orientation, scene);
+        if (is_sphere) add_sphere(params, state.start, scene);
+        if (!is_sphere) add_disk(params, state.start, state.reverse_orientation, scene);
         shape.reverse = is_sphere && state.reverse_orientation;
-        shape.axes = add_axes(t, scene);
+        shape.axes = add_axes(state.start, scene);
     } else if (params.type() == "plymesh") {
         const Param& name = params.required("filename");
+        Input& input = params.input();
         const TriangleMesh* mesh = nullptr;
-        params.messages().try_to_read(params.at(), "a mesh that cannot be read", [&] {
-            mesh = &files.mesh(files.find(name.at, name.strings[0]), name.at);
+        input.try_to_read(params.at(), "a mesh that cannot be read", [&] {
+            mesh = &input.mesh(input.find(name.at, name.strings[0]), name.at);
         });
         if (mesh) add_mesh(params, *mesh, state, g);
     } else {
         add_mesh(params, read_mesh(params), state, g);
-        // Half of a patch's power for each of its triangles.
-        if (params.type() == "bilinearmesh" && state.emission) state.emission->power /= 2;
     }
     add_shape(params, state, shape, g.triangles, triangles, scene);
     add_shape(params, state, shape, g.spheres, spheres, scene);
     add_shape(params, state, shape, g.disks, disks, scene);
-}
-
-void number_light_primitives(Scene& scene) {
-    uint32_t prim = 0;
-    auto number = [&](const auto& primitives) {
-        for (const auto& primitive : primitives) {
-            int index = scene.shapes[primitive.shape].light;
-            if (index >= 0) {
-                Light& light = scene.lights[static_cast<size_t>(index)];
-                if (light.prims++ == 0) light.first_prim = prim;
-            }
-            prim++;
-        }
-    };
-    number(scene.geometry.triangles);
-    number(scene.geometry.spheres);
-    number(scene.geometry.disks);
 }

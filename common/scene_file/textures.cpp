@@ -1,10 +1,7 @@
-#include "common/scene_file/textures.h"
-
 #include <algorithm>
-#include <array>
 
-#include "common/base/numbers.h"
-#include "common/picture/image.h"
+#include "common/base/text.h"
+#include "common/scene_file/scene_parts.h"
 
 namespace {
 
@@ -22,7 +19,7 @@ bool read_mapping(const Params& params, Texture& texture) {
     texture.scale = {params.number("uscale"), params.number("vscale")};
     texture.shift = {params.number("udelta"), params.number("vdelta")};
     if (params.string("mapping", "uv") == "uv") return true;
-    params.messages().stand_in(params.at("mapping"), "a mapping other than \"uv\"");
+    params.input().stand_in(params.at("mapping"), "a mapping other than \"uv\"");
     return false;
 }
 
@@ -37,16 +34,32 @@ float read_encoding(const Params& params) {
     fail(params.at("encoding"), "encoding must be sRGB, linear, or gamma and 0.01 to 100");
 }
 
-Texture::Wrap read_wrap(const Params& params) {
-    const std::map<std::string, Texture::Wrap> known = {{"black", Texture::Wrap::black},
-                                                        {"clamp", Texture::Wrap::clamp},
-                                                        {"repeat", Texture::Wrap::repeat}};
-    return look_up(known, params.string("wrap", "repeat"), "wrap", params.at("wrap"));
-}
+const std::map<std::string, Texture::Wrap> wraps = {{"black", Texture::Wrap::black},
+                                                    {"clamp", Texture::Wrap::clamp},
+                                                    {"repeat", Texture::Wrap::repeat}};
 
 }  // namespace
 
-void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Param>& defaults) {
+std::optional<Image> read_picture(const Params& params, float gamma, float most) {
+    const Param& name = params.required("filename");
+    Input& input = params.input();
+    std::string path = input.find(name.at, name.strings[0]);
+    Image image;
+    bool is_read = input.try_to_read(params.at(), "a picture that cannot be read", [&] {
+        image = decode_image(path, input.read(path, name.at), gamma);
+        for (Rgb r : image.pixels) {
+            if (is_finite(r) && std::min({r.r, r.g, r.b}) >= 0 && max_component(r) <= most)
+                continue;
+            fail(name.at, quote_file(path) +
+                              " has a pixel that is negative, infinite, no number, or too bright");
+        }
+    });
+    if (!is_read) return {};
+    return image;
+}
+
+void TextureReader::read(Lexer& lexer, const Position& at, Input& input,
+                         const std::vector<Param>& defaults) {
     Token name_token = lexer.expect(Token::string, "Texture needs a name in quotes");
     Token type = lexer.expect(Token::string, "Texture needs \"float\" or \"spectrum\"");
     std::string name = lexer.unescape(name_token);
@@ -55,7 +68,7 @@ void TextureReader::read(Lexer& lexer, const Token& word, const std::vector<Para
         while (lexer.peek().type == Token::string) read_param(lexer);
         return;
     }
-    Params params(lexer, word, messages_, defaults);
+    Params params(lexer, "Texture", at, input, defaults);
     if (type.text != "spectrum") {
         fail_unknown(lexer.at(type), "type of texture", std::string(type.text),
                      {"float", "spectrum"});
@@ -73,7 +86,7 @@ std::optional<NamedTexture> TextureReader::find(const Params& params,
 
 NamedTexture TextureReader::read_texture(const Params& params) {
     if (params.stands_in()) return constant(params, {0.5f, 0.5f, 0.5f});
-    if (params.type() == "imagemap") return read_picture(params);
+    if (params.type() == "imagemap") return read_picture_texture(params);
     if (params.type() == "constant") return constant(params, params.color("value"));
     if (params.type() == "scale") return read_scaled(params);
     return read_checkerboard(params);
@@ -96,7 +109,7 @@ NamedTexture TextureReader::read_scaled(const Params& params) {
 NamedTexture TextureReader::read_checkerboard(const Params& params) {
     bool is_flat = params.integer("dimension") == 2;
     if (!is_flat) {
-        messages_.stand_in(params.at("dimension"), "a checkerboard of 3 dimensions");
+        params.input().stand_in(params.at("dimension"), "a checkerboard of 3 dimensions");
     }
     NamedTexture a = read_input(params, "tex1"), b = read_input(params, "tex2");
     Rgb mean = 0.5f * (a.mean + b.mean);
@@ -115,63 +128,56 @@ NamedTexture TextureReader::read_input(const Params& params, const std::string& 
     return texture ? *texture : constant(params, params.color(name));
 }
 
-NamedTexture TextureReader::read_picture(const Params& params) {
+NamedTexture TextureReader::read_picture_texture(const Params& params) {
     Texture texture;
     texture.kind = Texture::Kind::picture;
     bool is_uv = read_mapping(params, texture);
-    texture.wrap = read_wrap(params);
+    texture.wrap = look_up(wraps, params.string("wrap", "repeat"), "wrap", params.at("wrap"));
     texture.nearest = params.string("filter") == "point";
     texture.inverted = params.boolean("invert");
-    float scale = params.number("scale"), gamma = read_encoding(params);
+    float scale = params.number("scale");
     texture.value = {scale, scale, scale};
-    const Param& name = params.required("filename");
-    if (!messages_.try_to_read(params.at(), "a picture that cannot be read",
-                               [&] { texture.picture = picture(params, gamma); })) {
-        return constant(params, {0.5f, 0.5f, 0.5f});
-    }
+    std::optional<uint32_t> number = picture(params, read_encoding(params));
+    if (!number) return constant(params, {0.5f, 0.5f, 0.5f});
+    texture.picture = *number;
 
     NamedTexture result;
     result.needs_uv = true;
-    std::array<double, 3> sum = {};
-    const std::vector<Rgb>& texels = textures_.pictures[texture.picture].texels;
+    Rgbd sum;
+    auto at_most_1 = [](float x, float) { return std::min(x, 1.0f); };
+    const std::vector<Rgb>& texels = textures_.pictures[*number].texels;
     for (Rgb r : texels) {
         result.most = larger(result.most, r);
-        const std::array<float, 3> channels = {r.r, r.g, r.b};
-        for (size_t i = 0; i < 3; i++) sum[i] += double{std::min(1.0f, scale * channels[i])};
+        sum += each(at_most_1, scale * r);
     }
     result.most *= scale;
     if (max_component(result.most) > 1) {
-        messages_.note(name.at,
-                       "what is above 1 in " + quote_file(name.strings[0]) + " is read as 1");
+        params.input().note(
+            params.at("filename"),
+            "what is above 1 in " + quote_file(params.string("filename")) + " is read as 1");
     }
-    auto mean = [&](double of_all) {
-        return static_cast<float>(of_all / static_cast<double>(texels.size()));
-    };
-    result.mean = {mean(sum[0]), mean(sum[1]), mean(sum[2])};
+    result.mean = to_rgb(1 / static_cast<double>(texels.size()) * sum);
     if (texture.inverted) {
         result.most = {1, 1, 1};
         result.mean = Rgb{1, 1, 1} - result.mean;
     }
-    result.most = each([](float x, float) { return std::min(x, 1.0f); }, result.most);
+    result.most = each(at_most_1, result.most);
     return is_uv ? add(params, texture, result) : constant(params, result.mean);
 }
 
-// The number of the picture in the file that the parameters name, which is read once.
-uint32_t TextureReader::picture(const Params& params, float gamma) {
-    Position at = params.at("filename");
-    std::string path = files_.find(at, params.string("filename"));
-    auto known = pictures_.find({canonical(path), gamma});
+// The number of the picture in the file that the parameters name, which is read once; nothing where
+// it cannot be read.
+std::optional<uint32_t> TextureReader::picture(const Params& params, float gamma) {
+    const Param& name = params.required("filename");
+    const std::pair file(canonical(params.input().find(name.at, name.strings[0])), gamma);
+    auto known = pictures_.find(file);
     if (known != pictures_.end()) return known->second;
-    Image image = decode_image(path, files_.read(path, at), gamma);
-    for (Rgb r : image.pixels) {
-        if (is_finite(r) && std::min({r.r, r.g, r.b}) >= 0) continue;
-        fail(at, quote_file(path) + " has a pixel that is negative or not a number");
-    }
-    texels_ += image.pixels.size();
-    check_limit(at, texels_, limits_.texels, "pixels in all textures together");
-    textures_.pictures.push_back({image.width, image.height, std::move(image.pixels)});
-    uint32_t number = static_cast<uint32_t>(textures_.pictures.size() - 1);
-    return pictures_[{canonical(path), gamma}] = number;
+    std::optional<Image> image = read_picture(params, gamma, infinity);
+    if (!image) return {};
+    texels_ += image->pixels.size();
+    check_limit(name.at, texels_, params.input().limits.texels, "pixels in all textures together");
+    textures_.pictures.push_back({image->width, image->height, std::move(image->pixels)});
+    return pictures_[file] = static_cast<uint32_t>(textures_.pictures.size() - 1);
 }
 
 NamedTexture TextureReader::add(const Params& params, const Texture& texture, NamedTexture named) {

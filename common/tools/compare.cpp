@@ -3,7 +3,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/numbers.h"
+#include "common/base/text.h"
 #include "common/picture/verdict.h"
 #include "common/render/options.h"
 #include "common/render/table.h"

@@ -3,7 +3,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/json.h"
+#include "common/base/text.h"
 #include "common/picture/film_label.h"
 #include "common/render/command_line.h"
 #include "common/render/render.h"

@@ -1,6 +1,4 @@
 // Numbers from text: the nearest double, with every library.
-#include "common/base/numbers.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -12,6 +10,8 @@
 #include "common/base/position.h"
 #include "common/base/stats.h"
 #include "tests/support/gates.h"
+
+#include "common/base/text.h"
 
 TEST_SUITE("numbers") {
     TEST_CASE("truth: numbers are rounded to the nearest double, halves to the even one") {

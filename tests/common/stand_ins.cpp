@@ -1,6 +1,4 @@
 // Stand-ins: what is read with --stand-in, what is said of it, and where.
-#include "common/scene_file/stand_ins.h"
-
 #include <doctest/doctest.h>
 
 #include <sstream>
@@ -10,6 +8,7 @@
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 #include "common/scene/texture.h"
+#include "common/scene_file/reader.h"
 #include "common/scene_file/spectra.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"

@@ -8,7 +8,6 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/position.h"
 #include "common/path/sampler.h"
 #include "common/picture/image.h"
 #include "common/scene/mover.h"
