@@ -4,7 +4,7 @@
 #include <string>
 
 #include "chapters/01_monte_carlo_pi/estimator.h"
-#include "common/picture/plot.h"
+#include "common/picture/drawing.h"
 #include "common/render/table.h"
 
 namespace ch01 {

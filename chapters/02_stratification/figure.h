@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "chapters/02_stratification/estimator.h"
-#include "common/picture/plot.h"
+#include "common/picture/drawing.h"
 #include "common/render/table.h"
 
 namespace ch02 {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "chapters/03_point_sets/estimator.h"
-#include "common/picture/plot.h"
+#include "common/picture/drawing.h"
 #include "common/render/table.h"
 
 namespace ch03 {

@@ -8,7 +8,7 @@
 #include "chapters/04_importance/estimator.h"
 #include "common/base/stats.h"
 #include "common/path/sampler.h"
-#include "common/picture/plot.h"
+#include "common/picture/drawing.h"
 #include "common/render/table.h"
 
 namespace ch04 {

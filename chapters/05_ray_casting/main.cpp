@@ -7,8 +7,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "05_ray_casting", {"scenes/cornell-spheres.pbrt", 16});
         options.search = LightSearch::direct;
-        Scene scene = load(options);
-        refuse_glossy(scene);
+        Scene scene = load(options, features_of(5));
         scene.max_depth = std::min(scene.max_depth, 500);  // trace() calls itself at each mirror
         return render(scene, options, ch05::trace);
     });

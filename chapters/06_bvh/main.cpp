@@ -1,7 +1,5 @@
 // Chapter 06 as a program: measures its steps in a table, and draws the work of one as a heat map.
 #include "chapters/06_bvh/figure.h"
-#include "common/picture/film_label.h"
-#include "common/render/film_keeping.h"
 #include "common/render/render.h"
 
 int main(int argc, char** argv) {
@@ -10,9 +8,9 @@ int main(int argc, char** argv) {
         Option which =
             choice_option("step", "STEP", "drawn: linear, median, sah, ordered (default) or four",
                           ch06::step_names, step);
-        RenderOptions options = parse_render_options(argc, argv, "06_bvh", "scenes/knot.pbrt",
+        RenderOptions options = parse_render_options(argc, argv, "06_bvh", {"scenes/knot.pbrt", 0},
                                                      {which}, {"size", "threads", "out", "quiet"});
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(6));
         check_outputs(scene, options);
         Table table;
         if (!options.quiet) table = ch06::steps_table(scene);

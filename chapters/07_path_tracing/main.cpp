@@ -7,8 +7,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "07_path_tracing", {"scenes/cornell.pbrt", 32});
         options.search = LightSearch::random_hits;
-        Scene scene = load(options);
-        refuse_glossy(scene);
+        Scene scene = load(options, features_of(7));
         refuse_delta_lights(scene);
         return render(scene, options, method_of<ch07::trace>());
     });

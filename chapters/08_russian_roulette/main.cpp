@@ -7,8 +7,7 @@ int main(int argc, char** argv) {
         RenderOptions options =
             parse_render_options(argc, argv, "08_russian_roulette", {"scenes/cornell.pbrt", 64});
         options.search = LightSearch::random_hits;
-        Scene scene = load(options);
-        refuse_glossy(scene);
+        Scene scene = load(options, features_of(8));
         refuse_delta_lights(scene);
         return render(scene, options, method_of<ch08::trace>());
     });

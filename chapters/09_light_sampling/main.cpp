@@ -10,8 +10,7 @@ int main(int argc, char** argv) {
                           {"area", "solid-angle"}, measure);
         RenderOptions options = parse_render_options(argc, argv, "09_light_sampling",
                                                      {"scenes/cornell.pbrt", 16}, {light_by});
-        Scene scene = load(options);
-        refuse_glossy(scene);
+        Scene scene = load(options, features_of(9));
         return render(scene, options, method_of<ch09::trace>(measure));
     });
 }

@@ -6,8 +6,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         RenderOptions options = parse_render_options(argc, argv, "11_light_importance",
                                                      {"scenes/thousand-lights.pbrt", 16});
-        Scene scene = load(options);
-        refuse_glossy(scene);
+        Scene scene = load(options, features_of(11));
         return render(scene, options, method_of<ch11::trace>(ch11::prepare(scene)));
     });
 }

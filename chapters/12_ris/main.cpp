@@ -9,8 +9,7 @@ int main(int argc, char** argv) {
             whole_option("m", "M", "light candidates for each shadow ray", 1, 1024, M);
         RenderOptions options = parse_render_options(
             argc, argv, "12_ris", {"scenes/thousand-lights.pbrt", 16}, {candidates});
-        Scene scene = load(options);
-        refuse_glossy(scene);
+        Scene scene = load(options, features_of(12));
         return render(scene, options, method_of<ch12::trace>(ch12::prepare(scene, M)));
     });
 }

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
                                     {"bsdf", "light"}, strategy);
         RenderOptions options =
             parse_render_options(argc, argv, "13_glossy", {"scenes/veach-mis.pbrt", 16}, {ways});
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(13));
         if (strategy == ch13::Strategy::bsdf) {
             refuse_delta_lights(scene);
             options.search = LightSearch::random_hits;

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
                                     {"balance", "power"}, power);
         RenderOptions options =
             parse_render_options(argc, argv, "14_mis", {"scenes/veach-mis.pbrt", 16}, {kind});
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(14));
         auto lights = ch14::prepare(scene, power ? ch14::power_heuristic : ch14::balance_heuristic);
         return render(scene, options, method_of<ch14::trace>(lights));
     });

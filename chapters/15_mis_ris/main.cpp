@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
                                          ch15::Candidates::most, M);
         RenderOptions options = parse_render_options(
             argc, argv, "15_mis_ris", {"scenes/thousand-lights.pbrt", 16}, {candidates});
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(15));
         return render(scene, options, method_of<ch15::trace>(ch15::prepare(scene, M)));
     });
 }

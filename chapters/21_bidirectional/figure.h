@@ -1,7 +1,7 @@
 // The pyramid of strategies: a picture of each, without and with its MIS weight, as one sheet.
 #pragma once
 #include "chapters/21_bidirectional/estimator.h"
-#include "common/picture/sheet.h"
+#include "common/picture/drawing.h"
 #include "common/render/render.h"
 
 namespace ch21 {

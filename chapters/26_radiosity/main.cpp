@@ -19,12 +19,12 @@ int main(int argc, char** argv) {
                          1, 1 << 30, s.shots)};
         own.back().value = "enough";
         RenderOptions options =
-            parse_render_options(argc, argv, "26_radiosity", "scenes/cornell.pbrt", own,
+            parse_render_options(argc, argv, "26_radiosity", {"scenes/cornell.pbrt", 0}, own,
                                  {"spp", "time", "size", "seed", "threads", "sampler", "out",
                                   "stats", "stand-in", "quiet"});
         if (s.shots > 0 && s.solver != ch26::Solver::southwell)
             throw UsageError("error: --shots is of shots: it needs --solver southwell");
-        Scene scene = load(options);
+        Scene scene = load(options, features_of(26));
         if (options.spp == 0) scene.spp = std::min(scene.spp, 16);  // for edges alone
         refuse(scene);
         s.patches += tessellate(scene, options.threads);

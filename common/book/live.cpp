@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "common/render/film_keeping.h"
+#include "common/render/render.h"
 
 /// Hands the picture to the page: of each pixel r, g, b and its number of samples.
 EM_JS(void, show, (int width, int height, const float* pixels, double mean, double error), {
@@ -15,7 +15,8 @@ EM_JS(void, show, (int width, int height, const float* pixels, double mean, doub
     Module.show(width, height, HEAPF32.slice(at, at + 4 * width * height), mean, error);
 });
 
-void FilmClock::save(const Rendering& rendering) {
+double save_meanwhile(const Scene&, const RenderOptions&, const Rendering& rendering,
+                      double interval) {
     const Film& film = rendering.film;
     Image image = film.image();
     std::vector<float> pixels;
@@ -26,8 +27,7 @@ void FilmClock::save(const Rendering& rendering) {
     }
     show(film.width, film.height, pixels.data(), film.mean(), film.standard_error());
     // Soon after the start often; later more seldom, since drawing takes time from the workers.
-    interval_ = std::min(1.5 * interval_, Seconds(1));
-    last_ = Clock::now();
+    return std::min(1.5 * interval, 1.0);
 }
 
 int main(int argc, char** argv) {

@@ -6,7 +6,6 @@ book: $(made)
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
 	    common/book/make_book out/book $(wasm) $(made_here); else common/book/make_book out/book; fi
 
-# The module has a film_clock.cpp of its own, in live.cpp.
 wasm          := $(BUILD)/wasm
 # What the module makes itself, with the same bytes; it has another exp() than the skies were made with.
 made_here     := $(filter-out %.pfm,$(made))
@@ -14,7 +13,7 @@ makers        := $(made_here:scenes/%=make_%)
 wasm_programs := $(chapters) merge compare $(basename $(makers))
 wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp common/tools/compare.cpp \
     $(addprefix scenes/,$(addsuffix .cpp,$(basename $(makers)))) \
-    $(filter-out common/tools/% common/render/film_clock.cpp,$(wildcard common/*/*.cpp))
+    $(filter-out common/tools/%,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
 wasm_link     := -sMODULARIZE -sEXPORT_NAME=Live -sENVIRONMENT=worker,node -sINVOKE_RUN=0 \

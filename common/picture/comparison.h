@@ -1,9 +1,10 @@
-// The errors of one picture relative to another.
+// The errors of one picture relative to another, in numbers, colours and words.
 #pragma once
+#include <cmath>
 #include <string>
 #include <vector>
 
-#include "common/picture/image.h"
+#include "common/picture/film_file.h"
 
 /// One channel, or the brightness, which is the mean of the three; a: the picture, b: the
 /// reference.
@@ -50,3 +51,24 @@ double error_range(const Image& a, const Image& b);
 
 /// The colour of share x of the range, linear.
 Rgb false_colour(double x);
+
+/// A picture, and what is known of how it was made.
+struct Picture {
+    std::string file;
+    Image image = {};
+    Notes notes = {};             // empty: not known
+    double standard_error = NAN;  // of its mean; known of a film alone
+};
+
+/// Reads a film, or a picture with its notes. Throws InputError.
+Picture read_picture(const std::string& path);
+
+/// What speaks against comparing the two, one line each: other scenes, depths or classes of paths,
+/// samples in common, 8 bits. "note: ..." where it is not known what they show.
+std::vector<std::string> doubts(const Picture& a, const Picture& b);
+
+/// One sentence: do the means agree? They differ if they are more than five standard errors apart,
+/// in brightness or in a channel, which is then named. For different scenes it says only that they
+/// differ.
+/// tested by  "truth: verdicts", "truth: the verdict names the channels that differ"
+std::string verdict(const Comparison& c, const Picture& a, const Picture& b);

@@ -14,10 +14,9 @@ inline Ray pixel_ray(const Scene& scene, const CameraView& view, int i) {
 inline std::vector<Ray> pixel_rays(const Scene& scene, size_t stride) {
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     std::vector<Ray> rays;
-    int64_t pixels = int64_t{scene.width} * scene.height;
-    for (int64_t i = 0; i < pixels; i += static_cast<int64_t>(stride)) {
+    size_t pixels = static_cast<size_t>(scene.width) * static_cast<size_t>(scene.height);
+    for (size_t i = 0; i < pixels; i += stride)
         rays.push_back(pixel_ray(scene, view, static_cast<int>(i)));
-    }
     return rays;
 }
 

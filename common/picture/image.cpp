@@ -57,13 +57,15 @@ unsigned char to_srgb8(float linear) {
     return static_cast<unsigned char>(255 * code + 0.5f);
 }
 
-float from_srgb(float code) {
+float to_linear(float code, float gamma) {
+    if (gamma != 0) return power(code, gamma);
     return code <= 0.04045f ? code / 12.92f : power((code + 0.055f) / 1.055f, 2.4f);
 }
 
 namespace {
 
 constexpr size_t most_bytes = size_t{1} << 30;
+constexpr int most_pixels = 1 << 28;
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view comment_key = {"Comment\0", 8};
 

@@ -24,15 +24,8 @@ struct Image {
 
 /// One channel as an 8-bit sRGB code; values outside [0,1] (and NaN) are clamped.
 unsigned char to_srgb8(float linear);
-/// Back to linear, from a code in [0,1].
-float from_srgb(float code);
-/// Back to linear, as from an sRGB code, or to the power gamma where it is not 0.
-inline float to_linear(float code, float gamma) {
-    return gamma == 0 ? from_srgb(code) : static_cast<float>(std::pow(double{code}, double{gamma}));
-}
-
-/// The most pixels that a picture may have.
-inline constexpr int most_pixels = 1 << 28;
+/// Back to linear, from a code in [0,1]: an sRGB code, or to the power gamma where it is not 0.
+float to_linear(float code, float gamma = 0);
 
 /// Writes by extension: .ppm (P6, 8-bit sRGB), .pfm (linear float, little endian, bottom row
 /// first), .png (8-bit sRGB). The lines of `comment` are kept in a .ppm and a .png; a .pfm has no

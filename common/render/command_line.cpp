@@ -13,19 +13,8 @@
 #include "common/base/system.h"
 #include "common/base/text.h"
 
-namespace {
-
-[[noreturn]] void fail_unknown(const std::string& word, const std::vector<Option>& options) {
-    std::vector<std::string> names = {"--help"};
-    for (const Option& option : options) names.push_back("--" + option.name);
-    std::string nearest = nearest_word(word, names);
-    throw UsageError(
-        "error: unknown option '" + word + "'" +
-        (nearest.empty() ? "; --help lists them" : ", did you mean '" + nearest + "'?"));
-}
-
-[[noreturn]] void print_usage(const char* program, const std::string& positional,
-                              const std::string& about, const std::vector<Option>& options) {
+[[noreturn]] static void print_usage(const char* program, const std::string& positional,
+                                     const std::string& about, const std::vector<Option>& options) {
     std::printf("usage: %s%s%s [OPTION]...\n%s\n\n", program, positional.empty() ? "" : " ",
                 positional.c_str(), about.c_str());
     for (const Option& option : options) {
@@ -36,12 +25,9 @@ namespace {
         if (!tells_default) right += " (default " + option.value + ")";
         std::printf("  %-24s %s\n", left.c_str(), right.c_str());
     }
-    std::printf("  %-24s print this and stop\n", "--help");
     flush_stdout();
     std::exit(0);
 }
-
-}  // namespace
 
 void flush_stdout() {
     errno = 0;
@@ -53,6 +39,11 @@ void flush_stdout() {
 std::vector<Option> parse_options(int argc, char** argv, const std::string& positional,
                                   const std::string& about, std::vector<Option> options,
                                   const std::function<void(const std::string&)>& set_positional) {
+    options.push_back({"help", "", "print this and stop", [&](const std::string&) {
+                           print_usage(argv[0], positional, about, options);
+                       }});
+    std::vector<std::string> names;
+    for (const Option& option : options) names.push_back("--" + option.name);
     bool options_ended = false;
     for (int i = 1; i < argc; i++) {
         std::string word = argv[i];
@@ -62,24 +53,27 @@ std::vector<Option> parse_options(int argc, char** argv, const std::string& posi
         }
         options_ended = word == "--";
         if (options_ended) continue;
-        if (word == "--help") print_usage(argv[0], positional, about, options);
         size_t equals = word.find('=');
         std::string name = word.substr(0, equals), value;
-        auto known = [&](const Option& option) { return "--" + option.name == name; };
-        auto option = std::find_if(options.begin(), options.end(), known);
-        if (option == options.end()) fail_unknown(name, options);
+        auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end()) {
+            std::string nearest = nearest_word(name, names);
+            throw UsageError(
+                "error: unknown option '" + name + "'" +
+                (nearest.empty() ? "; --help lists them" : ", did you mean '" + nearest + "'?"));
+        }
+        Option& option = options[static_cast<size_t>(found - names.begin())];
 
         // Take the value from after the = or from the next word.
-        bool takes_value = !option->argument.empty(), has_value = equals != std::string::npos;
-        if (has_value) value = word.substr(equals + 1);
-        if (has_value && !takes_value)
-            throw UsageError("error: option '" + name + "' takes no value");
+        bool takes_value = !option.argument.empty(), has_value = equals != std::string::npos;
         bool follows = i + 1 < argc && !std::string_view(argv[i + 1]).starts_with("--");
+        if (has_value) value = word.substr(equals + 1);
         if (takes_value && !has_value && follows) value = argv[++i];
-        if (takes_value && value.empty())
-            throw UsageError("error: option '" + name + "' needs a value");
-        option->set(value);
-        if (!option->value.empty()) option->value = value;
+        if (takes_value ? value.empty() : has_value)
+            throw UsageError("error: option '" + name +
+                             (takes_value ? "' needs a value" : "' takes no value"));
+        option.set(value);
+        if (!option.value.empty()) option.value = value;
     }
     return options;
 }
@@ -149,24 +143,24 @@ std::string command_line(int argc, char** argv) {
 }
 
 int run_program(const std::function<int()>& program) {
-    auto report = [](const std::string& line, int code) {
-        tell(printable(line) + "\n");
-        return code;
-    };
+    std::string error;
+    bool is_usage = false;
     try {
         prepare_streams();
         int code = program();
         flush_stdout();
         return code;
     } catch (const UsageError& e) {
-        return report(e.what(), 2);
+        error = printable(e.what());  // one line
+        is_usage = true;
     } catch (const InputError& e) {
-        std::istringstream lines(e.what());
-        for (std::string line; std::getline(lines, line);) report(line, 1);
-        return 1;
+        error = e.what();
     } catch (const std::bad_alloc&) {
-        return report("error: out of memory", 1);
+        error = "error: out of memory";
     } catch (const std::exception& e) {
-        return report(std::string("error: ") + e.what(), 1);
+        error = "error: " + printable(e.what());
     }
+    std::istringstream lines(error);
+    for (std::string line; std::getline(lines, line);) tell(printable(line) + "\n");
+    return is_usage ? 2 : 1;
 }

@@ -1,33 +1,31 @@
-#include "common/render/film_keeping.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "common/base/error.h"
+#include "common/base/progress.h"
 #include "common/base/system.h"
+#include "common/render/render.h"
 #include "common/scene/origin.h"
 
 namespace {
 
 /// The options that decide the samples, except seeds and sample numbers.
-std::vector<std::pair<std::string, std::string>> film_options(const Scene& scene,
-                                                              const RenderOptions& o) {
+Notes film_options(const Scene& scene, const RenderOptions& o) {
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
     char checksum[17];
     std::snprintf(checksum, sizeof checksum, "%016llx",
                   static_cast<unsigned long long>(scene.origin->checksum));
     bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
-    std::vector<std::pair<std::string, std::string>> options = {
-        {"chapter", o.name},
-        {"code", code_hash(o.name)},
-        {"scene", printable(file_name(file_path(scene.origin->file).filename()))},
-        {"checksum", checksum},
-        {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
-        {"max-depth", std::to_string(scene.max_depth)},
-        {"sampler", samplers[static_cast<size_t>(o.sampler)]},
-        {"strata", has_strata ? std::to_string(scene.spp) : ""},
-        {"paths", o.paths}};
+    Notes options = {{"chapter", o.name},
+                     {"code", code_hash(o.name)},
+                     {"scene", printable(file_name(file_path(scene.origin->file).filename()))},
+                     {"checksum", checksum},
+                     {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
+                     {"max-depth", std::to_string(scene.max_depth)},
+                     {"sampler", samplers[static_cast<size_t>(o.sampler)]},
+                     {"strata", has_strata ? std::to_string(scene.spp) : ""},
+                     {"paths", o.paths}};
     options.insert(options.end(), o.own.begin(), o.own.end());
     // Without folders: the same on every machine.
     std::string stand_ins;
@@ -72,15 +70,13 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     if (found.label.samples.empty()) return;  // it was stopped before it had samples
     check_sums(options.film, found.film, rendering.film);
     SampleRange wanted = wanted_samples(scene, options);
-    for (const SampleRange& r : found.label.samples) {
-        bool goes_on = r.seed == wanted.seed && r.first == wanted.first && r.last <= wanted.last;
-        if (goes_on && found.label.samples.size() == 1) continue;
-        fail({options.film}, "it holds " + text_of(r) +
-                                 (found.label.samples.size() > 1 ? " and others" : "") +
+    SampleRange r = found.label.samples[0];
+    bool is_one = found.label.samples.size() == 1;
+    if (!is_one || r.seed != wanted.seed || r.first != wanted.first || r.last > wanted.last)
+        fail({options.film}, "it holds " + text_of(r) + (is_one ? "" : " and others") +
                                  ", which do not begin what is asked for: " + text_of(wanted));
-    }
     rendering.film = std::move(found.film);
-    for (const SampleRange& r : found.label.samples) rendering.begun = r.last - r.first;
+    rendering.begun = r.last - r.first;
     static_cast<SampleCounts&>(rendering.stats) = found.label.counts;
     rendering.stats.rays_before = rendering.stats.rays;
     rendering.stats.samples_before = rendering.film.samples();
@@ -108,3 +104,15 @@ void save_film(const Scene& scene, const RenderOptions& options, const Rendering
     if (options.film.empty()) return;
     write_film(options.film, label_of(scene, options, rendering), rendering.film);
 }
+
+#ifndef __EMSCRIPTEN__  // in the book, the page gets a picture instead: common/book/live.cpp
+double save_meanwhile(const Scene& scene, const RenderOptions& options, const Rendering& rendering,
+                      double interval) {
+    try {
+        save_film(scene, options, rendering);
+    } catch (const InputError& error) {
+        tell(error.what() + std::string("\n"));
+    }
+    return interval;
+}
+#endif

@@ -18,7 +18,7 @@ namespace {
 /// A place in the scene file that uses a feature which the chapter lacks.
 struct Use {
     const Position* at;
-    const char *error, *stand_in;
+    const char *error, *stand_in;  // or none
 };
 std::vector<Use> uses_not_in(Features features, const Scene& scene) {
     std::vector<Use> uses;
@@ -41,21 +41,23 @@ std::vector<Use> uses_not_in(Features features, const Scene& scene) {
     if (!features.sky_image && scene.sky_image)
         uses.push_back({scene.sky_image->at_file, "the sky has an image in chapters 17 to 25 only",
                         "a picture of the sky, in a chapter without one"});
+    for (size_t i : materials)
+        if (!features.rough && is_rough(scene.materials[i]))
+            uses.push_back({scene.materials[i].at,
+                            "rough conductors are not supported before chapter 13", nullptr});
     return uses;
 }
 
 /// The mean radiance from all directions.
 Rgb mean_of(const SkyImage& sky) {
-    Vec3d sum;
+    Rgbd sum;
     double weights = 0;
     for (size_t i = 0; i < sky.pixels.size(); i++) {
         double w = static_cast<double>(solid_angle_per_area(sky, sky.middle_of(i)));
-        Rgb L = sky.pixels[i];
-        sum = sum + w * Vec3d(double{L.r}, double{L.g}, double{L.b});
+        sum += w * Rgbd(sky.pixels[i]);
         weights += w;
     }
-    Vec3 mean = to_vec3(sum / weights);
-    return {mean.x, mean.y, mean.z};
+    return to_rgb({sum.r / weights, sum.g / weights, sum.b / weights});
 }
 
 }  // namespace
@@ -83,17 +85,15 @@ Scene load(const RenderOptions& options, Features features) {
     }
     tell_notes();
     if (options.stand_in) stand_in_for_features(scene, features);
-    if (!options.stand_in) refuse_features(scene, features);
+    refuse_features(scene, features, options.stand_in);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
     size_t prims = scene.geometry.size();
     // About, while it is built: 300 bytes for each.
     needing_memory("the hierarchy of " + std::to_string(prims) + " triangles, spheres and disks",
-                   300 * prims, [&] {
-                       prepare(scene, options.threads, report);
-                       if (!options.quiet) notes = notes_of_coincident(scene);
-                   });
+                   300 * prims, [&] { prepare(scene, options.threads, report); });
+    if (!options.quiet) notes = notes_of_coincident(scene);
     tell_notes();
     return scene;
 }
@@ -104,7 +104,7 @@ void stand_in_for_features(Scene& scene, Features features) {
     for (const auto& [what, instead] : all_stand_ins()) {
         UsedStandIn used{what, instead, 0, {}};
         for (const Use& use : uses) {
-            if (use.stand_in != what) continue;
+            if (!use.stand_in || use.stand_in != what) continue;
             if (used.places++ == 0) used.first = scene.place(use.at);
         }
         if (used.places > 0) origin.stand_ins.push_back(used);
@@ -124,9 +124,11 @@ void stand_in_for_features(Scene& scene, Features features) {
     }
 }
 
-void refuse_features(const Scene& scene, Features features) {
-    for (const Use& use : uses_not_in(features, scene))
-        fail(scene.place(use.at), use.error + or_stand_in(use.stand_in));
+void refuse_features(const Scene& scene, Features features, bool stand_ins) {
+    for (const Use& use : uses_not_in(features, scene)) {
+        if (stand_ins && use.stand_in) continue;
+        fail(scene.place(use.at), use.error + (use.stand_in ? or_stand_in(use.stand_in) : ""));
+    }
 }
 
 float radius_within(const Scene& scene, double radius) {
@@ -147,12 +149,4 @@ void refuse_delta_lights(const Scene& scene) {
             fail(scene.place(light.at),
                  "a point or distant light has no size, so no path can hit it; chapters "
                  "from 09 on sample it");
-}
-
-void refuse_glossy(const Scene& scene) {
-    for (const Shape& shape : scene.shapes) {
-        const Material& m = scene.materials[shape.material];
-        if (is_rough(m))
-            fail(scene.place(m.at), "rough conductors are not supported before chapter 13");
-    }
 }

@@ -7,7 +7,6 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/system.h"
-#include "common/picture/film_file.h"
 #include "common/recording/class_filter.h"
 
 namespace {
@@ -39,9 +38,8 @@ void parse_size(const std::string& text, RenderOptions& o) {
 void parse_explain(const std::string& text, RenderOptions& o) {
     std::vector<int> place = split_numbers(text, ',');
     if (place.size() != 2 && place.size() != 3) fail_value("explain", text, "X,Y or X,Y,SAMPLE");
-    o.explain = true;
-    o.explain_x = place[0], o.explain_y = place[1];
-    o.explain_sample = place.size() == 2 ? -1 : place[2];
+    place.push_back(0);
+    o.explain = {0, place[1], place[0], place[2]};
 }
 
 void parse_part(const std::string& text, RenderOptions& o) {
@@ -76,7 +74,8 @@ std::string parse_picture(const std::string& option, const std::string& text, bo
 }
 
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
-                                   const DefaultScene& scene, std::vector<Option> extra,
+                                   const std::pair<std::string, int>& scene,
+                                   std::vector<Option> extra,
                                    const std::vector<std::string>& takes) {
     RenderOptions o;
     o.name = name;
@@ -121,7 +120,7 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     options.insert(options.begin(), extra.begin(), extra.end());
     options = parse_options(
         argc, argv, "[SCENE]",
-        "Chapter " + name + " on a pbrt-v4 scene (default: the project's " + scene.file +
+        "Chapter " + name + " on a pbrt-v4 scene (default: the project's " + scene.first +
             ").\nWrites into the folder where it is started. Ctrl-C keeps the picture so far: exit "
             "code 3.",
         options, [&](const std::string& word) {
@@ -135,8 +134,8 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
     for (size_t i = 0; i < extra.size(); i++)
         if (!options[i].value.empty()) o.own.push_back({options[i].name, options[i].value});
     if (o.scene.empty()) {
-        o.scene = project_file(argv[0], scene.file);
-        if (o.spp == 0) o.spp = scene.spp;
+        o.scene = project_file(argv[0], scene.first);
+        if (o.spp == 0) o.spp = scene.second;
     }
     check(o);
     if (o.out.empty()) o.out = {"out/" + name + ".ppm"};

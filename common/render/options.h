@@ -2,11 +2,12 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/path/sampler.h"
-#include "common/picture/film.h"
+#include "common/picture/film_file.h"
 #include "common/render/command_line.h"
 
 /// How a chapter finds light, which decides what it can know about its error.
@@ -34,9 +35,8 @@ struct RenderOptions {
     SamplerType sampler = SamplerType::independent;
     std::vector<std::string> out;
     std::string stats;  // JSON file; empty: none
-    bool explain = false;
-    int explain_x = 0, explain_y = 0, explain_sample = -1;  // -1: none was named
-    std::string paths;                                      // regular expression; empty: all
+    std::optional<SampleAt> explain;
+    std::string paths;        // regular expression; empty: all
     std::string strategy;     // chapter 21: the `way` of the selected contributions; empty: all
     bool unweighted = false;  // they count without their MIS weight
     std::string split;        // folder; empty: none
@@ -45,24 +45,19 @@ struct RenderOptions {
     int part = 1, parts = 1;  // render part number `part` of `parts`, from 1
     LightSearch search = LightSearch::light_sampling;
     /// The chapter's own options, with their values.
-    std::vector<std::pair<std::string, std::string>> own = {};
+    Notes own = {};
     bool stand_in = false;  // for what is not modelled in the scene
     bool quiet = false;
     /// Pictures that the chapter writes of its film besides the rendered one: file, and picture.
     std::vector<std::pair<std::string, std::function<Image(const Film&)>>> pictures = {};
 };
 
-/// The scene that a chapter renders if none is named, and its samples per pixel (0: as it says).
-struct DefaultScene {
-    DefaultScene(const char* name, int samples = 0) : file(name), spp(samples) {}
-    std::string file;
-    int spp;
-};
-
-/// The options of a chapter that renders; `scene` is its default scene, `extra` its own options.
-/// `takes` names the general options that apply to it (empty: all); it refuses the others.
+/// The options of a chapter that renders. scene: the one that it renders if none is named, and its
+/// samples per pixel (0: as it says). extra: its own options. takes: names of the general options
+/// that apply to it (empty: all); it refuses the others.
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
-                                   const DefaultScene& scene, std::vector<Option> extra = {},
+                                   const std::pair<std::string, int>& scene,
+                                   std::vector<Option> extra = {},
                                    const std::vector<std::string>& takes = {});
 
 /// The file name of a picture (or of a table), or UsageError.
@@ -72,7 +67,7 @@ std::string parse_picture(const std::string& option, const std::string& text,
 /// The options of the chapters without a scene (01 to 04).
 struct TableOptions {
     std::string name;
-    std::string comment;  // for the picture; see picture/film_label.h
+    std::string comment;  // for the picture; see picture/film_file.h
     uint64_t n = 0;
     uint32_t seed = 0;
     std::vector<std::string> out;  // pictures, and .tsv for the table

@@ -2,8 +2,8 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <tuple>
 
 #include "common/base/files.h"
 #include "common/path/method.h"
@@ -17,23 +17,15 @@ struct RenderStats : SampleCounts {
     double first_radius = 0;                       // m, of photons; 0: there are none
     uint64_t samples_before = 0, rays_before = 0;  // of the film that it continued
     bool interrupted = false;                      // by a signal, before all samples were taken
-    int largest_x = 0, largest_y = 0, largest_sample = -1;  // of the largest here; -1: before
+    std::optional<SampleAt> largest_at;            // the largest sample, if this run took it
 
-    /// "X,Y,SAMPLE", as --explain takes them; empty if it is not a sample of this run.
-    std::string largest_at() const {
-        if (largest_sample < 0) return "";
-        return std::to_string(largest_x) + "," + std::to_string(largest_y) + "," +
-               std::to_string(largest_sample);
-    }
     /// Stores a sample if it is the largest so far; of equal samples, that of the first pixel.
-    void add_largest(double value, int x, int y, int sample) {
-        if (value < largest || value == 0) return;
-        bool first = value > largest ||
-                     std::tie(y, x, sample) < std::tie(largest_y, largest_x, largest_sample);
-        if (first) largest = value, largest_x = x, largest_y = y, largest_sample = sample;
+    void add_largest(double value, SampleAt at) {
+        bool first = value > largest || (value == largest && largest_at && at < *largest_at);
+        if (first) largest = value, largest_at = at;
     }
     void add(const RenderStats& other) {
-        add_largest(other.largest, other.largest_x, other.largest_y, other.largest_sample);
+        if (other.largest_at) add_largest(other.largest, *other.largest_at);
         SampleCounts::add(other);
     }
 };
@@ -58,6 +50,32 @@ struct Rendering {
 /// pilot, so that samples are distributed as in the whole render.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method);
 
+/// The samples of a pixel that the options ask for: all, or those of a part. Their number is not
+/// limited with --time but without --spp. Throws UsageError if there are more parts than samples.
+SampleRange wanted_samples(const Scene& scene, const RenderOptions& options);
+
+/// Continues from the film that the options name, or makes one without samples; it is this
+/// program's alone then. Throws InputError if another program writes it, its options differ, or it
+/// has other samples than the wanted ones.
+void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering);
+
+/// The label of a film with all samples; and (below) with the given ones.
+FilmLabel label_of(const Scene& scene, const RenderOptions& options);
+FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+
+/// A hash of the files in the chapter's folder and in common/: the same on all machines, and
+/// different after any change. Empty if there is no such chapter. tested by  "teeth: the hash of a
+/// chapter's code changes with any file of it, and of no other chapter"
+std::string code_hash(const std::string& chapter);
+
+/// Writes the film that the options name, if any. Throws InputError.
+void save_film(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+
+/// Does so during a render, for which no thread may add to the film; if it fails, prints a message.
+/// Returns how many seconds later to save it again; `interval`: what it returned the last time.
+double save_meanwhile(const Scene& scene, const RenderOptions& options, const Rendering& rendering,
+                      double interval);
+
 /// Prepares what the method shares in a pass. Returns whether there is time for the pass.
 bool prepare_pass(const Method& method, uint32_t pass, int threads, const Limit& limit);
 
@@ -79,7 +97,7 @@ std::string drawing_path(const RenderOptions& options);
 /// overwrite a file that the scene was read from. Makes the folder of --split.
 void check_outputs(const Scene& scene, const RenderOptions& options);
 
-/// Prints the path of sample options.explain_sample of one pixel and the sum of its contributions,
+/// Prints the path of the sample options.explain and the sum of its contributions,
 /// and draws it as an SVG beside the first picture. Returns the exit code.
 int explain(const Scene& scene, const RenderOptions& options, const Method& method);
 

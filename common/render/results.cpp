@@ -6,10 +6,7 @@
 #include "common/base/files.h"
 #include "common/base/progress.h"
 #include "common/base/system.h"
-#include "common/base/text.h"
-#include "common/picture/film_label.h"
-#include "common/picture/sheet.h"
-#include "common/render/film_keeping.h"
+#include "common/picture/drawing.h"
 #include "common/render/render.h"
 #include "common/render/warnings.h"
 #include "common/scene/origin.h"
@@ -31,15 +28,15 @@ Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering
 
 std::string stats_json(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
-    Rgb mean_rgb = r.film.mean_rgb();
+    Rgb mean = r.film.mean_rgb();
     double pixels = static_cast<double>(r.film.pixels().size());
+    std::vector<std::string> stand_ins;
+    for (const UsedStandIn& used : scene.origin->stand_ins)
+        stand_ins.push_back(printable(used.text()));
     JsonObject json;
     json.add("scene", scene.origin->file);
     json.add("spp", r.film.spp());
     json.add("notes", lines_of(notes_of(scene, options, r)));
-    std::vector<std::string> stand_ins;
-    for (const UsedStandIn& used : scene.origin->stand_ins)
-        stand_ins.push_back(printable(used.text()));
     if (!stand_ins.empty()) json.add("stand_ins", stand_ins);
     json.add("threads", options.threads);
     json.add("seconds", s.seconds);
@@ -47,13 +44,12 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     json.add("rays", s.rays);
     json.add("rays_per_second", per_second(s.rays, s.rays_before, s));
     json.add("mean", r.film.mean());
-    json.add("mean_rgb",
-             std::vector<double>{double{mean_rgb.r}, double{mean_rgb.g}, double{mean_rgb.b}});
+    json.add("mean_rgb", std::vector{double{mean.r}, double{mean.g}, double{mean.b}});
     json.add("standard_error", r.film.standard_error());
     json.add("samples_not_finite", s.not_finite);
     json.add("paths_cut_by_depth", s.paths_cut);
     json.add("largest_sample", s.largest);
-    json.add("largest_sample_at", s.largest_at());
+    json.add("largest_sample_at", s.largest_at ? s.largest_at->text() : "");
     json.add("effective_samples", r.film.effective_samples());
     json.add("empty_pixels_share", static_cast<double>(r.film.empty_pixels()) / pixels);
     json.add("warnings", warnings_of(scene, options, r));
@@ -158,18 +154,15 @@ std::string drawing_path(const RenderOptions& options) {
 void check_outputs(const Scene& scene, const RenderOptions& options) {
     std::vector<std::string> inputs(scene.origin->files.begin(), scene.origin->files.end());
     if (options.explain) return check_outputs({drawing_path(options)}, inputs);
-    std::vector<std::string> files = options.out;
-    for (const std::string& file : {options.film, options.stats})
-        if (!file.empty()) files.push_back(file);
-    for (const auto& [file, picture] : options.pictures) files.push_back(file);
     if (!options.film.empty()) {  // not to go on without it
         check_film_is_file(options.film);
         check_writable(options.film);
     }
-    if (!options.split.empty()) {
-        make_folder(options.split);
-        files.push_back(options.split + "/classes.png");
-    }
+    if (!options.split.empty()) make_folder(options.split);
+    std::vector<std::string> files;
+    std::string told;
+    for (const Output& output : outputs_of(scene, options, {Film(1, 1), {}, {}}, told))
+        files.push_back(output.first);
     check_outputs(files, inputs);
 }
 
@@ -178,9 +171,9 @@ std::string mean_and_error(const Film& film) {
     if (!std::isfinite(mean)) return "mean unknown: not all samples are finite";
     char text[800];
     std::snprintf(text, sizeof text, "mean %.6f +- %.6f", mean, error);
-    if (std::isnan(error))
-        std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", mean,
-                      film.spp() > 1 ? "" : " (1 sample)");
+    if (!std::isnan(error)) return text;
+    std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", mean,
+                  film.spp() > 1 ? "" : " (1 sample)");
     return text;
 }
 
@@ -199,8 +192,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
     if (r.stats.not_finite > 0) {
         errors += "error: " + std::to_string(r.stats.not_finite) +
                   " samples were not finite; to see one: " + options.command + " --explain " +
-                  std::to_string(r.stats.bad_x) + ',' + std::to_string(r.stats.bad_y) + ',' +
-                  std::to_string(r.stats.bad_sample) + '\n';
+                  r.stats.bad.text() + '\n';
     }
     tell(errors);
     if (!errors.empty()) return 1;

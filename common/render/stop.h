@@ -1,33 +1,26 @@
-// Stops work on Ctrl-C and similar signals, so that results so far are kept.
+// Ends work when its time is up, or on Ctrl-C and similar signals, so that results so far are kept.
 #pragma once
 #include <atomic>
 #include <chrono>
 
+/// When work has to end before all of it is done: after some seconds, or on a signal.
+///
 /// While it exists, the first SIGINT (Ctrl-C), SIGTERM or other signal that would end the program
 /// (stop_signals) asks for a stop. The same signal ends the program if it comes again at least half
 /// a second later (timeout and others send it twice at once). Signals that the program was started
-/// to ignore, as by nohup, stay ignored. If several objects exist, only the first has an effect.
-class StopOnSignal {
-public:
-    StopOnSignal();
-    ~StopOnSignal();
-    StopOnSignal(const StopOnSignal&) = delete;
-    StopOnSignal& operator=(const StopOnSignal&) = delete;
-
-    bool requested() const;
-    /// Whether a signal came; resets it, so that the signal ends one part of the work but not the
-    /// next.
-    bool take_request();
-};
-
-/// When the render has to end before it has all samples.
+/// to ignore, as by nohup, stay ignored. If several objects exist, a signal stops them all.
 class Limit {
 public:
-    explicit Limit(double seconds) : seconds_(seconds) {}
-    bool reached() const { return signal_.requested() || (seconds_ > 0 && elapsed() >= seconds_); }
-    bool interrupted() const { return signal_.requested(); }
-    /// Whether it was interrupted; resets it, since the next render has its own limit.
-    bool take_interruption() { return signal_.take_request(); }
+    explicit Limit(double seconds = 0);  // 0: signals alone
+    ~Limit();
+    Limit(const Limit&) = delete;
+    Limit& operator=(const Limit&) = delete;
+
+    bool reached() const { return interrupted() || (seconds_ > 0 && elapsed() >= seconds_); }
+    bool interrupted() const { return signal_came; }
+    /// Whether it was interrupted; resets it, so that the signal ends one part of the work but not
+    /// the next.
+    bool take_interruption() { return signal_came.exchange(false); }
     /// Whether overdue() has found the limit reached; at most a few rays late.
     bool seen() const { return reached_at_ != 0; }
     /// Whether it was reached some time ago. Until then, samples that have started are finished:
@@ -43,8 +36,10 @@ public:
     }
 
 private:
-    double seconds_;  // 0: no limit
-    StopOnSignal signal_;
+    friend void request_stop(int signal);
+    static inline std::atomic<bool> signal_came = false;
+
+    double seconds_;
     mutable std::atomic<double> reached_at_ = 0;  // s, when a thread first noticed it; 0: not yet
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

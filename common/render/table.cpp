@@ -14,36 +14,26 @@ std::string digits(double x, int significant) {
     return text;
 }
 
-std::string aligned(const Table& table) {
+/// A line for the names of the columns and for each row.
+static std::string lines_of(const Table& table, bool aligned) {
+    std::vector<std::vector<std::string>> lines = table.rows;
+    lines.insert(lines.begin(), table.columns);
     std::vector<size_t> widths(table.columns.size());
-    for (size_t c = 0; c < widths.size(); c++) {
-        widths[c] = table.columns[c].size();
-        for (const auto& row : table.rows) widths[c] = std::max(widths[c], row[c].size());
-    }
+    for (const auto& cells : lines)
+        for (size_t c = 0; c < cells.size(); c++) widths[c] = std::max(widths[c], cells[c].size());
     std::string text;
-    auto add_line = [&](const std::vector<std::string>& cells) {
+    for (const auto& cells : lines) {
         for (size_t c = 0; c < cells.size(); c++) {
-            std::string space(widths[c] - cells[c].size(), ' ');
-            text += c == 0 ? cells[c] + space : "  " + space + cells[c];
+            std::string space(aligned ? widths[c] - cells[c].size() : 0, ' ');
+            text += c == 0 ? cells[c] + space : (aligned ? "  " : "\t") + space + cells[c];
         }
         text.erase(text.find_last_not_of(' ') + 1);
         text += '\n';
-    };
-    add_line(table.columns);
-    for (const auto& row : table.rows) add_line(row);
+    }
     return text;
 }
-
-std::string tab_separated(const Table& table) {
-    std::string text;
-    auto add_line = [&](const std::vector<std::string>& cells) {
-        for (size_t c = 0; c < cells.size(); c++) text += (c ? "\t" : "") + cells[c];
-        text += '\n';
-    };
-    add_line(table.columns);
-    for (const auto& row : table.rows) add_line(row);
-    return text;
-}
+std::string aligned(const Table& table) { return lines_of(table, true); }
+std::string tab_separated(const Table& table) { return lines_of(table, false); }
 
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
     RunningStats u, v, uv, uu;

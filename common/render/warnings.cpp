@@ -11,7 +11,7 @@
 #include "common/material/metal.h"
 #include "common/path/light_paths.h"
 #include "common/path/sampler.h"
-#include "common/scene/camera.h"
+#include "common/picture/heat_map.h"
 #include "common/scene/intersect.h"
 
 namespace {
@@ -43,40 +43,45 @@ struct InView {
     double pixels = 0, hits = 0, backs = 0;   // numbers of rays; those that meet a back side
     double mirrors = 0, receivers = 0;        // mirrors and glass; see is_receiver()
     std::vector<std::pair<Ray, Hit>> points;  // about 1000 of the receivers
+
+    /// Whether is(hit, sampler) is true of one of the points, each with its own random numbers.
+    template <class Is>
+    bool any(const Is& is) const {
+        Sampler sampler(SamplerType::independent, 1, 1);
+        uint32_t i = 0;
+        return std::any_of(points.begin(), points.end(), [&](const auto& point) {
+            sampler.start(0, i++);
+            return is(point.second, sampler);
+        });
+    }
 };
 InView in_view(const Scene& scene) {
     InView seen;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    size_t width = static_cast<size_t>(scene.width), height = static_cast<size_t>(scene.height);
-    size_t every = 1 + width * height / 1000;
-    for (size_t i = 0; i < width * height; i++) {
-        Vec2 middle = {static_cast<float>(i % width) + 0.5f, static_cast<float>(i / width) + 0.5f};
-        Ray ray = camera_ray(view, middle);
+    int pixels = scene.width * scene.height, every = 1 + pixels / 1000, receivers = 0;
+    for (int i = 0; i < pixels; i++) {
+        Ray ray = pixel_ray(scene, view, i);
         std::optional<Hit> hit = intersect(scene, ray);
-        seen.pixels++;
         if (!hit) continue;
         seen.hits++, seen.backs += !hit->front;
         seen.mirrors += is_specular(*hit->material);
         if (!is_receiver(*hit->material)) continue;
-        if (static_cast<size_t>(seen.receivers++) % every == 0) seen.points.emplace_back(ray, *hit);
+        if (receivers++ % every == 0) seen.points.emplace_back(ray, *hit);
     }
+    seen.pixels = pixels, seen.receivers = receivers;
     return seen;
 }
 
 /// Whether no light and no surface in view face each other.
 bool all_face_away(const Scene& scene, const InView& seen) {
-    if (scene.sky_image) return false;
-    Sampler sampler(SamplerType::independent, 1, 1);
     size_t lights = std::min<size_t>(scene.lights.size(), 64);
-    for (uint32_t i = 0; i < seen.points.size(); i++) {
-        sampler.start(0, i);
+    return !scene.sky_image && !seen.any([&](const Hit& x, Sampler& sampler) {
         for (size_t l = 0; l < lights; l++) {
-            const Hit& x = seen.points[i].second;
             LightSample y = sample_one_light(scene, l, x, sampler.u2());
-            if (y.pdf_w > 0 && dot(y.wi, x.n) > 0) return false;
+            if (y.pdf_w > 0 && dot(y.wi, x.n) > 0) return true;
         }
-    }
-    return true;
+        return false;
+    });
 }
 
 /// m^2: a light's power falls evenly on so large an area around p, if nothing is in its way.
@@ -92,14 +97,10 @@ double spread_of(const Scene& scene, size_t i, Vec3 p) {
     return 4 * std::numbers::pi * double{d} * double{d};
 }
 
-/// A light, and its share of all light that comes to a point, if nothing is in its way.
-struct Share {
-    size_t light;
-    double light_here;
-};
-/// The lights that bring more than 1 % of the light at p.
-std::vector<Share> important_lights(const Scene& scene, Vec3 p) {
-    std::vector<Share> lights;
+/// The lights that bring more than 1 % of the light at p, if nothing is in its way; and their
+/// shares of it.
+std::vector<std::pair<size_t, double>> important_lights(const Scene& scene, Vec3 p) {
+    std::vector<std::pair<size_t, double>> lights;
     double all = 0;
     auto light_of = [&](size_t i) {
         return double{light_power(scene, i)} / spread_of(scene, i, p);
@@ -115,9 +116,9 @@ std::vector<Share> important_lights(const Scene& scene, Vec3 p) {
 /// of the walls is hit in proportion to its area, at most the area of the scene's bounding sphere.
 bool has_rare_light(const Scene& scene, double samples) {
     double R = double{scene.radius}, sphere = 4 * std::numbers::pi * R * R;
-    for (Share share : important_lights(scene, scene.camera.o)) {
-        bool is_area = scene.lights[share.light].type == LightType::area;
-        double area = double{scene.light_shapes[share.light].area};
+    for (auto [light, share] : important_lights(scene, scene.camera.o)) {
+        bool is_area = scene.lights[light].type == LightType::area;
+        double area = double{scene.light_shapes[light].area};
         if (is_area && samples * area / sphere < few_hits) return true;
     }
     return false;
@@ -171,40 +172,34 @@ double share_on_smooth_metal(const Scene& scene, double paths, bool hits_lights)
     if (scene.sky_image) return 1;  // it may hold a sun
     Vec3 to_camera = scene.camera.o - metal.middle;
     double in_view = 4 * std::numbers::pi * double{dot(to_camera, to_camera)}, sum = 0;
-    for (Share share : important_lights(scene, metal.middle)) {
-        double spread = spread_of(scene, share.light, metal.middle), size = 0;
-        if (scene.lights[share.light].type == LightType::infinite) continue;
-        if (hits_lights) size = double{scene.light_shapes[share.light].area} / spread;
+    for (auto [light, share] : important_lights(scene, metal.middle)) {
+        double spread = spread_of(scene, light, metal.middle), size = 0;
+        if (scene.lights[light].type == LightType::infinite) continue;
+        if (hits_lights) size = double{scene.light_shapes[light].area} / spread;
         if (paths * size < few_reflections)
-            sum += share.light_here * std::min(1.0, metal.area / std::min(spread, in_view));
+            sum += share * std::min(1.0, metal.area / std::min(spread, in_view));
     }
     return sum;
 }
 
 /// Whether a surface in view faces another one that reflects light.
 bool surfaces_face_each_other(const Scene& scene, const InView& seen) {
-    Sampler sampler(SamplerType::independent, 1, 1);
-    for (uint32_t i = 0; i < seen.points.size(); i++) {
-        const Hit& x = seen.points[i].second;
-        sampler.start(0, i);
+    return seen.any([&](const Hit& x, Sampler& sampler) {
         Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(sampler.u2()));
         std::optional<Hit> y = intersect(scene, spawn_ray(x, wi));
-        if (y && is_receiver(*y->material)) return true;
-    }
-    return false;
+        return y && is_receiver(*y->material);
+    });
 }
 
 /// Whether a flat lamp is so near to a surface in view that it is no point: within twice the radius
 /// of a disk of its area. Below a disk a point is 25 % too bright there, and more if nearer.
 bool lamps_are_near(const Scene& scene, const InView& seen) {
-    auto is_near = [&](const LightShape& lamp) {
-        float near = 2 * std::sqrt(lamp.area / pi);
-        auto within = [&](const auto& point) {
-            return length(lamp.centre - point.second.p) < near;
+    return seen.any([&](const Hit& x, Sampler&) {
+        auto is_near = [&](const LightShape& lamp) {
+            return lamp.flat && length(lamp.centre - x.p) < 2 * std::sqrt(lamp.area / pi);
         };
-        return lamp.flat && std::any_of(seen.points.begin(), seen.points.end(), within);
-    };
-    return std::any_of(scene.light_shapes.begin(), scene.light_shapes.end(), is_near);
+        return std::any_of(scene.light_shapes.begin(), scene.light_shapes.end(), is_near);
+    });
 }
 
 /// The part of the picture's mean that hardly any path from a light finds: the direct light of
@@ -272,10 +267,17 @@ double share_by_few_paths_to_mirrors(const Scene& scene, double paths) {
     return all > 0 ? few / all : 0;
 }
 
+/// The share of the picture that shows metal that is nearly a mirror.
+double share_of_smooth_metal(const InView& seen, double paths) {
+    double metal = 0, points = static_cast<double>(seen.points.size());
+    for (const auto& [ray, x] : seen.points) metal += is_nearly_mirror(*x.material, paths);
+    return points > 0 ? metal / points * seen.receivers / seen.pixels : 0;
+}
+
 /// Light that this chapter's search misses in the scene, or finds too rarely for its reported error
 /// to be true. It follows from sizes and distances of lights and materials, what rays through the
-/// pixels meet, and the number of samples.
-Lines missed_light(const Scene& scene, const RenderOptions& options, const Film& film) {
+/// pixels meet, and the number of samples. Photons find all light, but blur it.
+Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film) {
     auto any_material = [&](auto is) {
         return std::any_of(scene.shapes.begin(), scene.shapes.end(),
                            [&](const Shape& s) { return is(scene.materials[s.material]); });
@@ -284,101 +286,83 @@ Lines missed_light(const Scene& scene, const RenderOptions& options, const Film&
         return std::any_of(scene.lights.begin(), scene.lights.end(),
                            [&](const Light& light) { return (... || (light.type == types)); });
     };
-    Lines lines;
-    const double samples = static_cast<double>(film.samples()), error = film.standard_error();
+    auto is_metal = [](const Material& m) {
+        return is_receiver(m) && m.type != MaterialType::diffuse;
+    };
+    const double samples = static_cast<double>(film.samples()), mean = film.mean(),
+                 error = film.standard_error();
+    const int depth = scene.max_depth;
     const bool mirrors = any_material(is_specular), receivers = any_material(is_receiver),
-               casts = mirrors && receivers && scene.max_depth > 1,
+               casts = mirrors && receivers && depth > 1,
                has_delta = any_light(LightType::point, LightType::distant),
                has_area = any_light(LightType::area);
-    const std::string by_mirrors = "light that reaches a surface through mirrors or glass ",
+    const std::string larger = "the true error may be larger than the reported one",
+                      at_random = "found only by random hits: " + larger,
                       is_left_out =
-                          "from a point or distant light is left out: no path can hit "
-                          "such a light",
-                      at_random =
-                          "found only by random hits: the true error may be larger than the "
-                          "reported one",
-                      larger = "the true error may be larger than the reported one";
-    switch (options.search) {
-        case LightSearch::photons: break;  // they find all light, but blur it
-        case LightSearch::random_hits:
-            lines.warn(
-                has_rare_light(scene, samples),
-                "this chapter finds lights only by random hits, and one is so small that few "
-                "paths hit it: " +
-                    larger);
-            break;
-        case LightSearch::from_lights: {
-            InView seen = in_view(scene);
-            double metal = 0, share = seen.mirrors / seen.pixels;
-            for (const auto& [ray, x] : seen.points)
-                metal += is_nearly_mirror(*x.material, samples);
-            metal *= seen.receivers / seen.pixels /
-                     std::max<double>(1, static_cast<double>(seen.points.size()));
-            bool all = options.paths.empty();
-            lines.warn(all && metal * film.mean() > error,
-                       percent(metal) +
-                           " of the picture shows metal that is nearly a mirror: few paths from a "
-                           "light leave it towards the camera, so " +
-                           larger);
-            lines.warn(all && light_by_few_paths(scene, seen, samples) > 2 * error,
-                       "so few paths from a light reach a part of what the camera sees that its "
-                       "light may be missing: " +
-                           larger);
-            lines.warn(share > 0, percent(share) +
-                                      " of the picture shows a mirror or glass: this part is "
-                                      "black, because no vertex on it can be connected to the "
-                                      "camera");
-            break;
-        }
-        case LightSearch::light_sampling: {
-            // By default, chapter 13 samples lights only; later chapters also sample the metal's
-            // BSDF. What surfaces in view receive from metal may be ten times its share of all
-            // light.
-            bool lights_alone =
-                std::count(options.own.begin(), options.own.end(),
-                           std::pair<std::string, std::string>("strategy", "light")) > 0;
-            double hidden =
-                receivers ? 10 * share_on_smooth_metal(scene, samples, !lights_alone) * film.mean()
-                          : 0;
-            lines.warn(hidden > 0 && !(hidden <= error),
-                       "light that reaches a surface via nearly smooth metal is " + at_random);
-            lines.warn(casts && has_delta, by_mirrors + is_left_out);
-            lines.warn(casts && (has_area || scene.sky_image), by_mirrors + "is " + at_random);
-            break;
-        }
-        case LightSearch::direct: {
-            if (scene.max_depth == 0) break;
-            InView seen = in_view(scene);
-            lines.warn(scene.sky_light >= 0 && receivers,
-                       "light that surfaces receive from the sky is left out: the sky is seen only "
-                       "directly and in mirrors");
-            lines.warn(lamps_are_near(scene, seen),
-                       "a lamp near a surface lights it as if all came from the lamp's middle: the "
-                       "reported error does not include this");
-            lines.warn(scene.max_depth > 1 && !mirrors && surfaces_face_each_other(scene, seen),
-                       "light that one surface reflects to another is left out");
-            lines.warn(casts, by_mirrors +
-                                  "is left out, and so is light that one surface reflects "
-                                  "to another");
-            break;
-        }
-        case LightSearch::both_ends:
-        case LightSearch::merging: {
-            bool merges = options.search == LightSearch::merging;
-            auto is_metal = [](const Material& m) {
-                return is_receiver(m) && m.type != MaterialType::diffuse;
-            };
-            const std::string both =
-                "light that goes through mirrors or glass to a surface that the camera sees in "
-                "mirrors or glass ";
-            bool is_seen = casts && scene.max_depth > 2 && (!merges || any_material(is_metal));
-            lines.warn(receivers && share_by_few_paths_to_mirrors(scene, samples) > 0.01,
-                       "hardly any path from a point or distant light hits a mirror, glass or "
-                       "smooth metal: the light that these cast on surfaces may be missing");
-            lines.warn(is_seen && has_delta, both + is_left_out);
-            lines.warn(is_seen && !has_delta && has_area, both + "is " + at_random);
-            break;
-        }
+                          "from a point or distant light is left out: no path can hit such a light",
+                      by_mirrors = "light that reaches a surface through mirrors or glass ";
+    using enum LightSearch;
+    Lines lines;
+
+    lines.warn(o.search == random_hits && has_rare_light(scene, samples),
+               "this chapter finds lights only by random hits, and one is so small that few paths "
+               "hit it: " +
+                   larger);
+
+    if (o.search == from_lights) {
+        InView seen = in_view(scene);
+        double metal = share_of_smooth_metal(seen, samples), share = seen.mirrors / seen.pixels;
+        bool all = o.paths.empty();
+        lines.warn(all && metal * mean > error,
+                   percent(metal) +
+                       " of the picture shows metal that is nearly a mirror: few paths from a "
+                       "light leave it towards the camera, so " +
+                       larger);
+        lines.warn(all && light_by_few_paths(scene, seen, samples) > 2 * error,
+                   "so few paths from a light reach a part of what the camera sees that its light "
+                   "may be missing: " +
+                       larger);
+        lines.warn(share > 0, percent(share) +
+                                  " of the picture shows a mirror or glass: this part is black, "
+                                  "because no vertex on it can be connected to the camera");
+    }
+
+    if (o.search == light_sampling) {
+        // By default, chapter 13 samples lights only; later chapters also sample the metal's BSDF.
+        // What surfaces in view receive from metal may be ten times its share of all light.
+        Notes::value_type by_light = {"strategy", "light"};
+        bool alone = std::count(o.own.begin(), o.own.end(), by_light) > 0;
+        double hidden = receivers ? 10 * share_on_smooth_metal(scene, samples, !alone) * mean : 0;
+        lines.warn(hidden > 0 && !(hidden <= error),
+                   "light that reaches a surface via nearly smooth metal is " + at_random);
+        lines.warn(casts && has_delta, by_mirrors + is_left_out);
+        lines.warn(casts && (has_area || scene.sky_image), by_mirrors + "is " + at_random);
+    }
+
+    if (o.search == direct && depth > 0) {
+        InView seen = in_view(scene);
+        lines.warn(scene.sky_light >= 0 && receivers,
+                   "light that surfaces receive from the sky is left out: the sky is seen only "
+                   "directly and in mirrors");
+        lines.warn(lamps_are_near(scene, seen),
+                   "a lamp near a surface lights it as if all came from the lamp's middle: the "
+                   "reported error does not include this");
+        lines.warn(depth > 1 && !mirrors && surfaces_face_each_other(scene, seen),
+                   "light that one surface reflects to another is left out");
+        lines.warn(casts, by_mirrors +
+                              "is left out, and so is light that one surface reflects to another");
+    }
+
+    if (o.search == both_ends || o.search == merging) {
+        const std::string both =
+            "light that goes through mirrors or glass to a surface that the camera sees in mirrors "
+            "or glass ";
+        bool is_seen = casts && depth > 2 && (o.search == both_ends || any_material(is_metal));
+        lines.warn(receivers && share_by_few_paths_to_mirrors(scene, samples) > 0.01,
+                   "hardly any path from a point or distant light hits a mirror, glass or smooth "
+                   "metal: the light that these cast on surfaces may be missing");
+        lines.warn(is_seen && has_delta, both + is_left_out);
+        lines.warn(is_seen && !has_delta && has_area, both + "is " + at_random);
     }
     return lines;
 }
@@ -461,8 +445,8 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
 
 std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
                                      const Rendering& r) {
-    std::string at = r.stats.largest_at();
-    auto lines = warnings_of(r.film, r.stats, at.empty() ? "" : ": see --explain " + at);
+    const std::optional<SampleAt>& at = r.stats.largest_at;
+    auto lines = warnings_of(r.film, r.stats, at ? ": see --explain " + at->text() : "");
     if (r.film.samples() > 0 && r.film.mean() == 0) {
         for (const std::string& cause : causes_of_black(scene, options)) {
             lines.push_back("possible cause: " + cause);

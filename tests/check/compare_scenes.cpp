@@ -27,12 +27,12 @@ struct BadSample {
     void take(const KnownScene& known, const NamedMethod& method, const SampleCounts& counts) {
         if (counts.not_finite == 0 || !command.empty()) return;
         std::string file = folder + "/" + known.name + ".pbrt";
-        std::string pixel = std::to_string(counts.bad_x) + "," + std::to_string(counts.bad_y);
+        std::string pixel = std::to_string(counts.bad.x) + "," + std::to_string(counts.bad.y);
         write_file_atomically(file, known.text);
         says += ", first in pixel " + pixel;
         command = "make mine CH=" + method.name.substr(0, 2) + " ARGS='" + file +
-                  " --sampler independent --seed " + std::to_string(counts.bad_seed) +
-                  " --explain " + pixel + "," + std::to_string(counts.bad_sample) + "'";
+                  " --sampler independent --seed " + std::to_string(counts.bad.seed) +
+                  " --explain " + pixel + "," + std::to_string(counts.bad.sample) + "'";
     }
 };
 

@@ -215,7 +215,7 @@ TEST_SUITE("files") {
 
     TEST_CASE("truth: .png files of 16 bits, of grey, and with transparency are read") {
         auto sample = [](int code, int most) {
-            return from_srgb(static_cast<float>(code) / static_cast<float>(most));
+            return to_linear(static_cast<float>(code) / static_cast<float>(most));
         };
         auto read = [](int width, int depth, int kind, const std::string& row) {
             return decode_image("a.png", png_of(width, depth, kind, row)).pixels;

@@ -8,7 +8,6 @@
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
 #include "common/picture/film_file.h"
-#include "common/picture/verdict.h"
 #include "tests/measure/numbers.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"

@@ -6,12 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/json.h"
-#include "common/base/position.h"
+#include "common/base/error.h"
 #include "common/base/stats.h"
-#include "tests/support/gates.h"
-
 #include "common/base/text.h"
+#include "tests/support/gates.h"
 
 TEST_SUITE("numbers") {
     TEST_CASE("truth: numbers are rounded to the nearest double, halves to the even one") {

@@ -28,13 +28,10 @@ TEST_SUITE("options") {
         CHECK(o.split == "d");
         CHECK(o.quiet);
         o = parsed({"--explain", "3,4", "--spp", "2", "--spp", "3", "--", "--quiet"});
-        CHECK(o.explain);
-        CHECK(o.explain_x == 3);
-        CHECK(o.explain_y == 4);
-        CHECK(o.explain_sample == -1);
+        CHECK(o.explain == SampleAt{0, 4, 3, 0});
         CHECK(o.spp == 3);  // the last of two counts
         CHECK(o.scene == "--quiet");
-        CHECK(parsed({"--explain=3,4,17"}).explain_sample == 17);
+        CHECK(parsed({"--explain=3,4,17"}).explain->number == 17);
         // The command can be typed again.
         CHECK(parsed({"it's", "--paths", "LD(S|D)*E"}).command ==
               "build/07_x 'it'\\''s' --paths 'LD(S|D)*E'");

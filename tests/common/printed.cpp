@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "common/path/camera_sample.h"
-#include "common/picture/film_label.h"
-#include "common/render/film_keeping.h"
 #include "common/render/render.h"
 #include "common/scene/origin.h"
 #include "tests/support/process.h"
@@ -96,7 +94,7 @@ TEST_SUITE("printed") {
         RenderOptions options = options_of(folder.path());
         Rendering r = rendering_of();
         r.film.add(3, {inf, 1, 1});
-        r.stats.not_finite = 2, r.stats.bad_x = 3, r.stats.bad_y = 4, r.stats.bad_sample = 6;
+        r.stats.not_finite = 2, r.stats.bad = {5, 4, 3, 6};
         r.stats.interrupted = true;
         Finished end = written(small_scene(), options, r);
         CHECK(end.code == 1);
@@ -109,7 +107,7 @@ TEST_SUITE("printed") {
         Scene scene = world_of("LightSource \"point\" Shape \"sphere\"", 4);
         scene.spp = 8;
         RenderOptions options = options_of(folder.path());
-        options.explain_x = 1, options.explain_y = 2, options.explain_sample = 5;
+        options.explain = {0, 2, 1, 5};
         Rgb met = {0.5f, 0.25f, 0}, lost;
         float random = 0;
         Method method = [&](const Scene&, Ray, Sampler& sampler, Recorder& recorder) {
@@ -127,7 +125,7 @@ TEST_SUITE("printed") {
             lost = {0, 0, blue};
             CHECK((explained().out.find("warning: ") != std::string::npos) == (blue > 0.001f));
         }
-        method.allocation.pilot = 1, options.explain_sample = 7;  // halves share numbers
+        method.allocation.pilot = 1, options.explain->number = 7;  // halves share numbers
         explained();
         start_sample(sampler, 9, 1, 3);
         sampler.u2();
@@ -162,7 +160,6 @@ TEST_SUITE("printed") {
         RenderOptions options = options_of(folder.path());
         options.film = folder / "a.film";
         Rendering r = rendering_of();
-        r.stats.bad_seed = 0;
         save_film(scene, options, r);
         auto label = [&] { return read_film(options.film).label; };
         CHECK(label().samples == std::vector<SampleRange>{{5, 0, 4}});

@@ -209,8 +209,8 @@ TEST_SUITE("render loop") {
             CHECK(count > 10);
             CHECK(r.stats.not_finite == count);
             CHECK(std::isfinite(r.stats.largest));
-            Rgb named = sample_of(scene, options, sometimes_not_finite, r.stats.bad_x,
-                                  r.stats.bad_y, r.stats.bad_sample);
+            SampleAt bad = r.stats.bad;
+            Rgb named = sample_of(scene, options, sometimes_not_finite, bad.x, bad.y, bad.number);
             CHECK_FALSE(is_finite(named));
         }
     }

@@ -1,12 +1,13 @@
 // What surrounds a render: its films, and the pixels at the edges of lamps.
 #include <doctest/doctest.h>
 
-#include "common/render/film_keeping.h"
 #include "common/render/loading.h"
 #include "common/render/render.h"
 #include "common/scene/intersect.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
+
+namespace fs = std::filesystem;
 
 TEST_SUITE("surroundings") {
     TEST_CASE("truth: the pixels at edges of lamps are those that differ from a neighbour") {
@@ -69,27 +70,29 @@ TEST_SUITE("surroundings") {
         CHECK(parsed({"--size", "16384x16384"}).width == 16384);  // 2^28 pixels
     }
 
-    TEST_CASE("truth: a film is due after its time, if there is one to write") {
-        Scene scene = empty_scene(1, 1, 1);
-        RenderOptions options;
-        options.film_every = 0.02;
-        FilmClock none(scene, options);
-        ::usleep(30'000);
-        CHECK_FALSE(none.due());
+    TEST_CASE("truth: a film is written during the render, as often as it should be") {
         TemporaryFolder folder;
+        Scene scene = empty_scene(20, 10, 4);
+        RenderOptions options = stand_in_options(1);
         options.film = folder / "a.film";
-        FilmClock clock(scene, options);
-        CHECK_FALSE(clock.due());
-        ::usleep(30'000);
-        CHECK(clock.due());
-        Rendering r{Film(1, 1), {}, {}};
-        clock.save(r);
-        CHECK_FALSE(clock.due());
+        int calls = 0;
+        uint64_t written = 0;
+        Method method = [&](const Scene&, Ray, Sampler&, Recorder&) {
+            if (++calls == 300) ::usleep(30'000);
+            if (calls == 700) written = read_film(options.film).film.samples();
+            return Rgb{1, 1, 1};
+        };
+        for (double every : {60.0, 0.02}) {
+            options.film_every = every, calls = 0, options.seed++;
+            fs::remove(options.film);
+            CHECK(render_film(scene, options, method).film.samples() == 800);
+            CHECK((written >= 300) == (every < 1));
+        }
         CHECK(folder.names() == std::set<std::string>{"a.film"});
         // One that cannot be written is told, and the render goes on.
         options.film = "none/a.film";
-        FilmClock failing(scene, options);
-        CHECK(captured([&] { return failing.save(r), 0; }).err ==
-              "none/a.film: error: cannot write: No such file or directory\n");
+        CHECK(captured([&] {
+                  return save_meanwhile(scene, options, {Film(1, 1), {}, {}}, 1) == 1 ? 0 : 1;
+              }).err == "none/a.film: error: cannot write: No such file or directory\n");
     }
 }

@@ -20,7 +20,7 @@ TEST_SUITE("render loop") {
                            std::raise(signal);
                            return Rgb{};
                        };
-                       StopOnSignal until_the_end;
+                       Limit until_the_end;
                        Rendering r =
                            render_film(empty_scene(300, 300, 1), stand_in_options(1), raising);
                        // timeout sends each signal twice at once; a terminal that closes, others.
@@ -35,7 +35,7 @@ TEST_SUITE("render loop") {
             CHECK(code_of(signal, false) == 3);
             CHECK(code_of(signal, true) == 0);
             CHECK(Process([=] {
-                      StopOnSignal stop;
+                      Limit stop;
                       std::raise(signal);
                       ::usleep(600'000);
                       std::raise(signal);

@@ -1,6 +1,6 @@
 // Laws: what must not change a picture, and what a picture says of its own error.
 #include "chapters/05_ray_casting/estimator.h"
-#include "common/render/film_keeping.h"
+#include "common/render/render.h"
 #include "tests/laws/laws.h"
 #include "tests/support/folder.h"
 #include "tests/support/light_paths.h"

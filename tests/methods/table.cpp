@@ -49,7 +49,6 @@ Rendering render(const NamedMethod& method, const Scene& scene, RenderOptions op
 
 void refuse(const NamedMethod& method, const Scene& scene) {
     refuse_features(scene, features_of(method.number()));
-    if (method.number() < 13) refuse_glossy(scene);
     if (method.random_hits()) refuse_delta_lights(scene);
     if (method.search != LightSearch::from_lights) return;
     // What mirrors and glass show the camera is missing.

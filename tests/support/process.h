@@ -19,8 +19,8 @@
 #endif
 
 #include "common/base/files.h"
-#include "common/base/numbers.h"
 #include "common/base/system.h"
+#include "common/base/text.h"
 #include "tests/support/folder.h"
 
 /// The folder of the test binary, which main() sets: the programs are there too.

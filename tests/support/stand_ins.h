@@ -30,6 +30,6 @@ inline RenderOptions parsed(std::vector<std::string> words, const std::vector<Op
     words.insert(words.begin(), "build/07_x");
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
-    return parse_render_options(static_cast<int>(argv.size()), argv.data(), "07_x", "scenes/a.pbrt",
-                                extra, takes);
+    return parse_render_options(static_cast<int>(argv.size()), argv.data(), "07_x",
+                                {"scenes/a.pbrt", 0}, extra, takes);
 }

@@ -1,28 +1,23 @@
-#include "common/picture/sheet.h"
+#include "common/picture/drawing.h"
 
 #include <stb/stb_easy_font.h>
 
 #include <algorithm>
 #include <cstring>
 
-namespace {
-
 constexpr int letter_scale = 2, line_height = 22, gap = 10;  // pixels
 constexpr Rgb ink = {0, 0, 0}, paper = {0.6f, 0.6f, 0.6f};
 
-}  // namespace
-
 Image shrunk(const Image& image, int n) {
     Image small(image.width / n, image.height / n);
-    for (int y = 0; y < small.height * n; y++) {
-        for (int x = 0; x < small.width * n; x++) {
+    for (int y = 0; y < small.height * n; y++)
+        for (int x = 0; x < small.width * n; x++)
             small.at(x / n, y / n) += image.at(x, y) / static_cast<float>(n * n);
-        }
-    }
     return small;
 }
 
-int write_words(Image& image, int left, int top, std::string words) {
+/// Words of black ink, 20 pixels high; returns their width in pixels.
+static int write_words(Image& image, int left, int top, std::string words) {
     struct Corner {
         float x, y, z;
         unsigned char color[4];
@@ -35,9 +30,8 @@ int write_words(Image& image, int left, int top, std::string words) {
         auto to_pixels = [](float v) { return static_cast<int>(v) * letter_scale; };
         int x0 = left + to_pixels(a.x), x1 = std::min(left + to_pixels(b.x), image.width);
         int y0 = top + to_pixels(a.y), y1 = std::min(top + to_pixels(b.y), image.height);
-        for (int y = y0; y < y1; y++) {
+        for (int y = y0; y < y1; y++)
             for (int x = x0; x < x1; x++) image.at(x, y) = ink;
-        }
     }
     return letter_scale * stb_easy_font_width(words.data());
 }
@@ -49,9 +43,8 @@ Image sheet(const std::vector<Tile>& tiles, int columns) {
         width = std::max(width, tile.image.width);
         height = std::max(height, tile.image.height);
         lines = std::max(lines, static_cast<int>(tile.lines.size()));
-        for (const std::string& line : tile.lines) {
+        for (const std::string& line : tile.lines)
             width = std::max(width, write_words(nowhere, 0, 0, line));
-        }
     }
     int rows = (static_cast<int>(tiles.size()) + columns - 1) / columns;
     int step_x = width + gap, step_y = height + lines * line_height + gap;
@@ -60,11 +53,9 @@ Image sheet(const std::vector<Tile>& tiles, int columns) {
     for (int i = 0; i < static_cast<int>(tiles.size()); i++) {
         const Tile& tile = tiles[static_cast<size_t>(i)];
         int left = gap + i % columns * step_x, top = gap + i / columns * step_y;
-        for (int y = 0; y < tile.image.height; y++) {
-            for (int x = 0; x < tile.image.width; x++) {
+        for (int y = 0; y < tile.image.height; y++)
+            for (int x = 0; x < tile.image.width; x++)
                 all.at(left + x, top + y) = tile.image.at(x, y);
-            }
-        }
         top += height + 4;
         for (const std::string& line : tile.lines) {
             write_words(all, left, top, line);

@@ -1,6 +1,8 @@
-// Points and curves drawn into a part of a picture.
+// Points and curves drawn into a part of a picture; and sheets of many pictures with words.
 #pragma once
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "common/picture/image.h"
 
@@ -60,3 +62,15 @@ struct Panel {
         }
     }
 };
+
+/// One picture of a sheet; of size 0: its place stays empty.
+struct Tile {
+    Image image;
+    std::vector<std::string> lines;
+};
+
+/// The tiles, row by row from the top left, on grey. All have one size and as many lines.
+Image sheet(const std::vector<Tile>& tiles, int columns);
+
+/// The means of n x n pixels each; what is left over at the right and at the bottom is dropped.
+Image shrunk(const Image& image, int n);
