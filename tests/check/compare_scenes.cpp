@@ -32,7 +32,7 @@ struct BadSample {
         says += ", first in pixel " + pixel;
         command = "make mine CH=" + method.name.substr(0, 2) + " ARGS='" + file +
                   " --sampler independent --seed " + std::to_string(counts.bad.seed) +
-                  " --explain " + pixel + "," + std::to_string(counts.bad.sample) + "'";
+                  " --explain " + counts.bad.text() + "'";
     }
 };
 

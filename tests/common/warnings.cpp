@@ -157,7 +157,8 @@ TEST_SUITE("warnings") {
         double error = film.standard_error() / film.mean();
         for (double blur : {0.0, 0.05 * error, -0.05 * error, 0.15 * error, -0.15 * error, 0.5}) {
             CAPTURE(blur);
-            SampleCounts counts = {.photons = 2'000'000};
+            SampleCounts counts;
+            counts.photons = 2'000'000;
             counts.inner_photons = static_cast<uint64_t>(std::lround(1e6 * (1 + blur)));
             bool much = std::abs(blur) > 0.1 * error;
             CHECK(are(warnings_of(film, counts), much ? Lines{"photons blur light"} : Lines{}));
