@@ -79,6 +79,27 @@ TEST_SUITE("ch03 low discrepancy") {
                 mean += double{ch03::radical_inverse(3, i, seed)} / 4000;
             CHECK(std::abs(mean - 0.5) < 5 / std::sqrt(12 * 4000.0));
         }
+        // And one of the first 3^3 of them lies in each 27th.
+        for (uint32_t seed = 1; seed <= 20; seed++) {
+            std::set<int> taken;
+            for (uint32_t i = 0; i < 27; i++)
+                taken.insert(static_cast<int>(27 * ch03::radical_inverse(3, i, seed)));
+            CHECK(taken.size() == 27);
+        }
+    }
+
+    TEST_CASE("truth: pairs of dimensions do not depend on each other, however few the points") {
+        for (PointSet set :
+             {PointSet::uniform, PointSet::jittered, PointSet::halton, PointSet::sobol}) {
+            constexpr uint32_t runs = 20000;
+            double mean = 0;
+            for (uint32_t seed = 0; seed < runs; seed++)
+                mean += ch03::estimate_4d(ch03::make_points(set, 4, seed),
+                                          ch03::second_pair(set, 4, seed), xz) /
+                        runs;
+            // The standard deviation of xz is at most 7/12^2 of the root of its 4 points.
+            CHECK(std::abs(mean - 0.25) < 5 * std::sqrt(7.0) / 12 / std::sqrt(double{runs}));
+        }
     }
 
     TEST_CASE("failure: Halton in bases 17 and 19 starts on a line") {

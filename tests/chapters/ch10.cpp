@@ -19,6 +19,8 @@ TEST_SUITE("ch10 cosine sampling") {
         constexpr float below_one = 0x1.fffffep-1f;
         const Material diffuse{MaterialType::diffuse, 0, {0.5f, 0.25f, 0.75f}, {}, {}};
         Sampler random = random_numbers(1);
+        Scene under_sky;
+        under_sky.lights.emplace_back().type = LightType::infinite;
         for (int i = 0; i < 10000; i++) {
             Hit x{};
             x.n = x.ng = uniform_direction(random.u2());
@@ -34,6 +36,12 @@ TEST_SUITE("ch10 cosine sampling") {
             CHECK(weight.b == nearly(0.75, rounding));
             CHECK(ch10::pdf_bsdf(x, x.n, s.wi) == nearly(s.pdf_w, rounding));
             CHECK(ch10::eval_bsdf(x, x.n, s.wi).g == nearly(s.f.g));
+
+            // So are directions to a sky, around the shading normal.
+            x.ng = uniform_direction(random.u2());
+            auto y = ch10::sample_one_light(under_sky, 0, x, random.u2());
+            cos = dot(y.wi, x.n);
+            CHECK(cos / y.pdf_w == nearly(pi_exact, 1e-5 + 5e-7 / double{cos}));
         }
     }
 

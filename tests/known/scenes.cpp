@@ -247,11 +247,15 @@ void add_bent(std::vector<KnownScene>& p) {
     p.push_back({"lamp-aside", "a lamp whose normals lean away from the camera",
                  view("-3 -1 0  0 0 0  0 1 0", "\"float fov\" 3") +
                      group(shining(1) + paint(0) + scale(2) + square(false, leaning(80, false)))});
-    p.push_back({"below", "a floor whose normals lean, over a lamp below it",
-                 above + bent + lamp(turn(-110, z_axis) + at(0, 2, 0))});
+    // Below them is a lamp, and a floor that it lights; neither should be seen from above.
+    std::string under = lamp(turn(-110, z_axis) + at(0, 2, 0), 30, true) +
+                        group(at(0, -4, 0) + floor_of(paint(0.8), "", 19));
+    std::string above_two = from_above(1.2, 3);
+    p.push_back(
+        {"below", "a floor whose normals lean, over a lamp below it", above_two + bent + under});
     std::string bent_metal = floor_of(metal(1, rough), leaning(40));
     p.push_back({"below-metal", "rough metal whose normals lean, over a lamp below it",
-                 above + bent_metal + lamp(turn(-110, z_axis) + at(0, 2, 0)), 13});
+                 above_two + bent_metal + under, 13});
     p.push_back({"bent-mirror", "a mirror whose normals lean towards its horizon",
                  view("-3 1.73 0  0 0 0  0 1 0", "\"float fov\" 3", 4) + sky() +
                      floor_of(metal(1), leaning(20))});
