@@ -248,7 +248,7 @@ void add_bent(std::vector<KnownScene>& p) {
                  view("-3 -1 0  0 0 0  0 1 0", "\"float fov\" 3") +
                      group(shining(1) + paint(0) + scale(2) + square(false, leaning(80, false)))});
     // Below them is a lamp, and a floor that it lights; neither should be seen from above.
-    std::string under = lamp(turn(-110, z_axis) + at(0, 2, 0), 30, true) +
+    std::string under = lamp(turn(-110, z_axis) + at(0, 2, 0), 1000, true) +
                         group(at(0, -4, 0) + floor_of(paint(0.8), "", 19));
     std::string above_two = from_above(1.2, 3);
     p.push_back(
