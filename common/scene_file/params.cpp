@@ -63,6 +63,10 @@ void read_value(Lexer& lexer, const ParamType& type, Param& param) {
     }
 }
 
+auto named(const std::string& name) {
+    return [&](const Param& param) { return param.name == name; };
+}
+
 std::string digits(double x) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.10g", x);
@@ -117,13 +121,15 @@ Params::Params(Lexer& lexer, const std::string& directive, const Position& at, I
     while (lexer.peek().type == Token::string) {
         Param param = read_param(lexer);
         check_limit(param.at, params_.size() + 1, 100, "parameters of one directive");
-        if (find(param.name)) {
+        if (std::erase_if(params_, named(param.name)) > 0) {
             input.note(param.at, quote(param.name) + " of " + owner() +
                                      " is given twice: the last one counts");
         }
-        params_[param.name] = std::move(param);
+        params_.push_back(std::move(param));
     }
-    for (size_t i = defaults.size(); i-- > 0;) params_.try_emplace(defaults[i].name, defaults[i]);
+    for (size_t i = defaults.size(); i-- > 0;) {
+        if (!find(defaults[i].name)) params_.push_back(defaults[i]);
+    }
     // Say here what is wrong, not where a parameter behind it is missing.
     if (lexer.has_argument()) lexer.fail_at(lexer.peek(), "expected a directive");
     if (is_named) {
@@ -131,10 +137,10 @@ Params::Params(Lexer& lexer, const std::string& directive, const Position& at, I
         if (type.type == "string") type_ = type.strings[0];
         type_at = type.at;
         directive_ = "Material";
-        params_.erase("type");
+        std::erase_if(params_, named("type"));
     }
     check_type(type_at);
-    std::erase_if(params_, [&](const auto& named) { return !is_usable(named.second); });
+    std::erase_if(params_, [&](const Param& param) { return !is_usable(param); });
 }
 
 void Params::check_type(const Position& at) {
@@ -195,6 +201,11 @@ bool Params::is_usable(const Param& param) const {
 float Params::number(const std::string& name) const {
     auto row = known_->find(name);
     return number(name, row == known_->end() ? 0 : static_cast<float>(row->second->fallback));
+}
+
+const Param* Params::find(const std::string& name) const {
+    auto found = std::find_if(params_.begin(), params_.end(), named(name));
+    return found == params_.end() ? nullptr : &*found;
 }
 
 const Param& Params::required(const std::string& name) const {

@@ -60,10 +60,7 @@ public:
     void stand_in(const std::string& what) const { input_->stand_in(at_, what); }
 
     /// The parameter of this name; null if not given.
-    const Param* find(const std::string& name) const {
-        auto found = params_.find(name);
-        return found == params_.end() ? nullptr : &found->second;
-    }
+    const Param* find(const std::string& name) const;
     /// The same; throws if not given.
     const Param& required(const std::string& name) const;
     /// The value of a parameter; where it is not given that of the table, or the one given here.
@@ -93,5 +90,5 @@ private:
     std::string directive_, type_;
     bool stands_in_ = false;
     const KnownParams* known_ = nullptr;
-    std::map<std::string, Param> params_;  // by their names
+    std::vector<Param> params_;
 };
