@@ -2,7 +2,7 @@
 # What reads, prints and explains runs for less time than it takes to compile it by -O3.
 briefly       = $(if $(filter -O3,$(OPT)),-O1)
 brief_folders := picture render scene_file
-brief_common  := $(filter $(foreach f,$(brief_folders),$(BUILD)/obj/common/$f/%),$(filter-out %/film.o %/pixel_sum.o %/render/render.o,$(common)))
+brief_common  := $(filter $(foreach f,$(brief_folders),$(BUILD)/obj/common/$f/%),$(filter-out %/film.o %/render/render.o,$(common)))
 link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 
 # g++ collects garbage for a twentieth of its time, to need 30 MB less.
