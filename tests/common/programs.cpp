@@ -88,47 +88,6 @@ TEST_SUITE("programs") {
             }
     }
 
-    TEST_CASE("files: the heat map of chapter 06 has its own table, and refuses before any work") {
-        TemporaryFolder folder;
-        Finished end = run("06_bvh", {spheres, "--size", "33x17", "--out", folder / "a.ppm"});
-        CHECK(end.code == 0);
-        for (const char* word : {"linear", "median", "sah", "ordered", "four", "M rays/s"})
-            CHECK(end.out.find(word) != std::string::npos);
-        CHECK(read_image(folder / "a.ppm").width == 33);
-        for (const char* option : {"--step=sha", "--explain=1,1", "--spp=4", "--paths=LDE"})
-            CHECK(run("06_bvh", {spheres, option}).code == 2);
-        CHECK(run("06_bvh", {spheres, "--out", "none/a.ppm"}).code == 1);
-    }
-
-    TEST_CASE("truth: paths end at the depth limit in a white room, and in a black one at once") {
-        TemporaryFolder folder;
-        auto stats = [&](const std::string& program, const char* reflectance, const char* depth) {
-            write_file_atomically(
-                folder / "a.pbrt",
-                "LookAt 0 0 -0.5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin Material "
-                "\"diffuse\" \"rgb reflectance\" " +
-                    std::string(reflectance) +
-                    " Shape \"sphere\" \"float radius\" 2 AreaLightSource \"diffuse\" "
-                    "Translate 0 1 0 Shape \"sphere\" \"float radius\" 0.3");
-            Words words = {folder / "a.pbrt", "--size", "8x8",     "--spp",          "2",
-                           "--max-depth",     depth,    "--stats", folder / "s.json"};
-            CHECK(run(program, joined(words, few_photons(program))).code == 0);
-            return StatsFile{read_file(folder / "s.json")};
-        };
-        for (const std::string& program : programs(true)) {
-            if (program < "07") continue;  // no random paths
-            CAPTURE(program);
-            CHECK(stats(program, "[1 1 1]", "1").number("paths_cut_by_depth") == 128);
-            StatsFile black = stats(program, "[0 0 0]", "50");
-            CHECK(black.number("paths_cut_by_depth") == 0);
-            // Those of 21, 22 and 25 begin at both ends; two passes of 23 and 24 send 2000 photons.
-            std::string number = program.substr(0, 2);
-            bool both = number == "21" || number == "22" || number == "25";
-            bool photons = number == "23" || number == "24";
-            CHECK(black.number("rays") == (both ? 256 : photons ? 4128 : 128));
-        }
-    }
-
     TEST_CASE("identity: parts of a render, merged in any order, have the bytes of the whole") {
         for (auto [program, sampler] :
              {std::pair<std::string, std::string>("15_mis_ris", "stratified"),

@@ -74,34 +74,6 @@ TEST_SUITE("recorder") {
         }
     }
 
-    TEST_CASE("identity: what is found counts by the throughput that was reported last") {
-        Recorder recorder(true);
-        recorder.start();
-        recorder.emitted({1, 2, 3});
-        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, false, {0.5f, 0.5f, 0.25f});
-        recorder.roulette(0.5f, {1, 1, 0.5f});
-        recorder.emitted({1, 2, 4}, 0.25f);
-        recorder.scatter({0, 0, 1}, {1, 1, 1}, 1, true, {0.25f, 0, 0});
-        recorder.direct({4, 4, 4}, {0, 1, 0}, 0.5f, 0.25f, 0.8f);
-        recorder.step_back();
-        recorder.direct({4, 4, 4}, {0, 1, 0}, 0.5f, 0.25f, 0.8f);
-        recorder.emitted({0, 0, 0});
-        std::vector<Rgb> L;
-        Words classes;
-        for (const Contribution& part : recorder.contributions()) {
-            L.push_back(part.L);
-            classes.push_back(part.path_class);
-        }
-        Recorder keeps_nothing;
-        keeps_nothing.start();
-        keeps_nothing.emitted({1, 1, 1});
-        keeps_nothing.cut(), keeps_nothing.cut();
-        CHECK(keeps_nothing.contributions().empty());
-        CHECK(keeps_nothing.paths_cut() == 2);
-        CHECK(classes == Words{"LE", "LDE", "LDSDE", "LDDE"});
-        CHECK(L == std::vector<Rgb>{{1, 2, 3}, {0.25f, 0.5f, 0.5f}, {1, 0, 0}, {4, 4, 2}});
-    }
-
     TEST_CASE("truth: photons are kept by the class of their path, from the light to the eye") {
         Material metal, wall;
         metal.type = MaterialType::conductor;

@@ -216,15 +216,6 @@ TEST_SUITE("warnings") {
         }
     }
 
-    TEST_CASE("truth: mirrors and glass that light paths cannot show are told") {
-        for (const char* share : {"100", "50"}) {
-            std::string right = share[0] == '5' ? "Translate 2 0 0 " : "";
-            Scene scene = seen(in(mirror, right + floor_2) + high_lamp, from_above);
-            CHECK(are(told(scene, LightSearch::from_lights),
-                      {share + std::string(" % of the picture shows a mirror or glass")}));
-        }
-    }
-
     TEST_CASE("truth: metal that is nearly a mirror is told, beside a small lamp or in view") {
         // A plate over a floor, near a lamp: what it sends to the floor, and shows the camera.
         auto is_told = [](const std::string& alpha, const std::string& radius, int spp,

@@ -174,13 +174,6 @@ TEST_SUITE("law: agreement") {
 }
 
 TEST_SUITE("law: agreement slow") {
-    TEST_CASE("agreement: all methods, by length and class of path, once more with more paths") {
-        for (const auto& [name, scene] : scenes_of_all_kinds(12)) {
-            CAPTURE(name);
-            CHECK(check_classes_agree(scene, 100000, 2) > 60);
-        }
-    }
-
     TEST_CASE("agreement: smoothed normals") {
         // Paths from lights against paths from the eye, over paint: few and large triangles, so
         // that normals lean far. At rest, and while the ball turns and is stretched.
