@@ -333,12 +333,14 @@ void add_cameras(std::vector<KnownScene>& p) {
                      group(shining(1) + paint(0) + at(4, 4, 4) + turn(-90, x_axis) + scale(0.12) +
                            square(true)),
                  16, 19});
-    p.push_back({"moving", "a floor in the shadow of a board that moves, through a lens",
+    std::string moving = floor_here + lamp(at(0, 2, 0)) +
+                         group(paint(0) + at(-1.4, 1.6, 0) + "ActiveTransform EndTime " +
+                               at(1.6, 0, 0) + "ActiveTransform All " + scale(0.5) + square(false));
+    p.push_back({"moving", "a floor in the shadow of a board that moves", above + moving, 16});
+    p.push_back({"moving-lens", "the same floor, through a lens",
                  view("0 1.2 0  0 0 0  0 0 1",
                       "\"float fov\" 40 \"float lensradius\" 0.1 \"float focaldistance\" 1.2") +
-                     floor_here + lamp(at(0, 2, 0)) +
-                     group(paint(0) + at(-1.4, 1.6, 0) + "ActiveTransform EndTime " +
-                           at(1.6, 0, 0) + "ActiveTransform All " + scale(0.5) + square(false)),
+                     moving,
                  16, 19});
 }
 
@@ -407,10 +409,11 @@ void add_combinations(std::vector<KnownScene>& p) {
                  from_above(1, 5) + small_floor + pane + sky()});
     std::string picture = group(
         turn(-90, x_axis) + "LightSource \"infinite\" \"string filename\" \"scenes/sky.pfm\"\n");
-    p.push_back({"picture-lamps", "a floor under two bright lamps and the picture of a sky",
+    p.push_back({"picture-lamps", "a floor under lamps, a point light and the picture of a sky",
                  from_above(0.5) + picture + small_floor +
                      lamp(at(-0.4, 0.8, 0) + scale(0.3), 300) +
-                     lamp(at(0.4, 2.5, 0.2) + scale(0.3), 100),
+                     lamp(at(0.4, 2.5, 0.2) + scale(0.3), 100) +
+                     "LightSource \"point\" \"rgb I\" [40 40 40] \"point3 from\" [0 0.8 -0.3]\n",
                  17});
     p.push_back({"pane-picture", "a floor under a pane of glass and the picture of a sky",
                  under_pane + picture, 21, 21, 128});
