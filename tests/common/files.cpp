@@ -124,6 +124,7 @@ TEST_SUITE("files") {
         CHECK(error_of([&] { check_outputs({folder / "c", folder / "./c"}); }) != "");
         CHECK(error_of([&] { check_outputs({folder / "b"}, {folder / "a"}); }) != "");
         CHECK(error_of([&] { check_outputs({folder / "c"}, {folder / "a"}); }) == "");
+        CHECK(error_of([&] { check_outputs({folder.path()}); }) != "");  // none can be written
     }
 
     TEST_CASE("files: what cannot be read is an error") {
