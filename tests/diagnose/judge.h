@@ -1,6 +1,5 @@
-// From pictures of small scenes that any renderer made, to what is wrong with it: the scenes
-// (quads, spheres, and one material each), their pictures as numbers (the means of their tiles),
-// and what mistakes make of these.
+// Small scenes (quads, spheres, one material each), their pictures as numbers (the means of their
+// tiles), what mistakes make of these, and what is wrong with pictures that any renderer made.
 #pragma once
 #include "common/picture/image.h"
 #include "tests/known/scenes.h"
