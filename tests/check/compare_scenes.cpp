@@ -159,7 +159,7 @@ std::string worst_of(const Findings& found) {
     if (!std::isfinite(o.ratio.mean)) return what + found.bad.says;
     return what + short_number(o.ratio.mean) +
            (factor.empty() || factor == short_number(o.ratio.mean) ? "" : " (" + factor + ")") +
-           " of what it should be";
+           (o.ratio.mean > 1.5 ? " times what it should be" : " of what it should be");
 }
 
 /// folder    where the scene of a path that is not a number is written
