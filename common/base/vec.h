@@ -88,8 +88,8 @@ inline Vec3 from_cylindrical(float r, float u, float z) {
     float s =
         x * (1 + q * (-1.0f / 6 + q * (1.0f / 120 + q * (-1.0f / 5040 + q * (1.0f / 362880)))));
     float c = 1 + q * (-1.0f / 2 + q * (1.0f / 24 + q * (-1.0f / 720 + q * (1.0f / 40320))));
-    static constexpr float sines[] = {0, 1, 0, -1, 0, 1};
-    float sine = sines[quarter], cosine = sines[quarter + 1];
+    static constexpr float sines[] = {0, 1, 0, -1, 0};
+    float sine = sines[quarter & 3], cosine = sines[(quarter & 3) + 1];
     return {r * (cosine * c - sine * s), r * (sine * c + cosine * s), z};
 }
 

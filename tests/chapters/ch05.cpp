@@ -5,6 +5,7 @@
 #include "common/geometry/shapes.h"
 #include "common/recording/class_filter.h"
 #include "tests/known/scenes.h"
+#include "tests/known/worlds.h"
 #include "tests/support/estimators.h"
 
 namespace {
@@ -38,6 +39,30 @@ bool is_close(double value, double truth) { return std::abs(value - truth) < 2e-
 
 }  // namespace
 
+TEST_SUITE("ch05 made by chance") {
+    TEST_CASE("brute: in scenes made by chance a ray hits what the hierarchy says") {
+        Sampler random = random_numbers(1);
+        int met = 0;
+        for (uint32_t number = 0; number < 100; number++) {
+            Scene scene = parse_scene("world.pbrt", random_world(9, number), nullptr);
+            prepare(scene, 1);
+            auto view = ch05::camera_view(scene.camera, scene.width, scene.height);
+            for (int i = 0; i < 200; i++) {
+                Ray ray = ch05::camera_ray(view, random.u2());
+                PrimHit found = ch05::linear_scan(scene.geometry, ray);
+                std::optional<Hit> hit = intersect(scene, ray);
+                CAPTURE(number);
+                REQUIRE((found.prim != PrimHit::none) == hit.has_value());
+                if (!hit) continue;
+                met++;
+                float t = length(hit->p - ray.o);
+                CHECK(std::abs(found.t - t) < 1e-3f * t);
+            }
+        }
+        CHECK(met > 10000);
+    }
+}
+
 TEST_SUITE("ch05 lamps") {
     TEST_CASE("truth: a point light gives I cos / r^2") {
         Scene scene = floor_under("LightSource \"point\" \"point3 from\" [0 2 0]");
@@ -51,10 +76,12 @@ TEST_SUITE("ch05 lamps") {
         Scene scene = floor_under(
             "LightSource \"distant\" \"point3 from\" [3 4 0] \"point3 to\" [0 0 0] \"rgb L\" [5 5 "
             "5]\n"
-            "Translate 3 4 0 Shape \"sphere\" \"float radius\" 0.5");
+            "Translate 3 4 0 Shape \"sphere\" \"float radius\" 0.5 "
+            "Translate 2937 3996 0 Shape \"sphere\" \"float radius\" 0.5");
         CHECK(is_close(irradiance(scene, 2), 4));
         CHECK(is_close(irradiance(scene, -30), 4));
         CHECK(irradiance(scene, 0.3f) == 0);
+        CHECK(irradiance(scene, -60) == 0);  // from five kilometres away
     }
 
     TEST_CASE("truth: a square is two lamps, each in the middle of its triangle") {

@@ -1,5 +1,7 @@
 // compare_scenes NN [SCENE]: renders the known scenes by chapter NN, or one of them, and says what
-// is not as it should be; "first: ..." as soon as something is off.
+// is not as it should be; "first: ..." as soon as something is off. Then, with --worlds FILE,
+// scenes made by chance, beside what the chapter's own file rendered of them.
+// compare_scenes NN write: renders these, and writes FILE.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +13,7 @@
 #include "common/scene_file/reader.h"
 #include "tests/check/findings.h"
 #include "tests/check/watch.h"
+#include "tests/check/worlds.h"
 #include "tests/measure/measure.h"
 #include "tests/support/seal.h"
 
@@ -96,7 +99,7 @@ bool is_seen(const NamedMethod& method, const std::string& name) {
 
 /// A class of path that is off, or a picture that is ("all"), though none of its classes is.
 struct Off {
-    const KnownScene* scene;
+    std::string scene, what;  // its name, and what it shows
     std::string name;
     Quantity ratio;      // measured over expected
     bool leaks = false;  // it should bring nothing
@@ -125,7 +128,7 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
         if (!is_seen(method, name) || !is_off(is, should, least)) return;
         bool leaks = !(should.mean > 0);
         Quantity ratio = leaks ? is : ratio_of(is, should);
-        off.push_back({&scene, name, ratio, leaks});
+        off.push_back({scene.name, scene.what, name, ratio, leaks});
         is_sure |= !(std::abs(ratio.mean - 1) < 20 * ratio.se) && is.mean != 0 && !leaks;
     };
     for (const auto& [name, should] : expected) {
@@ -145,16 +148,20 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
     findings.off.insert(findings.off.end(), off.begin(), off.end());
 }
 
-/// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
-std::string worst_of(const Findings& found) {
+/// Whether a is off more surely than b.
+bool is_surer(const Off& a, const Off& b) {
     auto distance = [](const Off& o) {
         double z = std::abs(o.ratio.mean - 1) / std::max(o.ratio.se, 1e-3);
         return o.leaks ? 0 : std::isfinite(z) ? z : 1e9;
     };
-    auto less_sure = [&](const Off& a, const Off& b) { return distance(a) < distance(b); };
-    const Off& o = *std::max_element(found.off.begin(), found.off.end(), less_sure);
-    std::string factor = name_factor(o.ratio.mean);
-    std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.scene->what + " is ";
+    return distance(a) > distance(b);
+}
+
+/// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
+std::string worst_of(const Findings& found) {
+    const Off& o = *std::min_element(found.off.begin(), found.off.end(), is_surer);
+    std::string factor = name_factor(o.ratio);
+    std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.what + " is ";
     if (o.leaks) return what + "there, and should not be";
     if (!std::isfinite(o.ratio.mean)) return what + found.bad.says;
     return what + short_number(o.ratio.mean) +
@@ -180,17 +187,12 @@ Findings findings_of(const NamedMethod& method, const MeasureOptions& o, const s
     return findings;
 }
 
-/// What is off, by one way in which the chapter finds light. Returns whether anything is.
-bool print_off(const Findings& found, const std::string& way) {
-    if (found.off.empty()) return false;
-    auto of_paths = std::count_if(found.off.begin(), found.off.end(),
-                                  [](const Off& o) { return is_class(o.name); });
-    std::printf("%d of %d classes of path are off%s. Most surely: %s.\n",
-                static_cast<int>(of_paths), found.classes, way.c_str(), worst_of(found).c_str());
+void print_rows(Findings found) {
+    std::stable_sort(found.off.begin(), found.off.end(), is_surer);
     constexpr size_t most = 12;
     for (size_t i = 0; i < std::min(found.off.size(), most); i++) {
         const Off& o = found.off[i];
-        std::printf("    %-18s %-10s ", o.scene->name.c_str(), o.name.c_str());
+        std::printf("    %-18s %-10s ", o.scene.c_str(), o.name.c_str());
         if (o.leaks)
             std::printf("light where there should be none\n");
         else if (!std::isfinite(o.ratio.mean))
@@ -202,10 +204,67 @@ bool print_off(const Findings& found, const std::string& way) {
         std::printf("    ... and %d more\n", static_cast<int>(found.off.size() - most));
     if (!found.bad.command.empty())
         std::printf("To see that path: %s\n", found.bad.command.c_str());
+}
+
+/// What is off, by one way in which the chapter finds light. Returns whether anything is.
+bool print_off(const Findings& found, const std::string& way) {
+    if (found.off.empty()) return false;
+    auto of_paths = std::count_if(found.off.begin(), found.off.end(),
+                                  [](const Off& o) { return is_class(o.name); });
+    std::printf("%d of %d classes of path are off%s. Most surely: %s.\n",
+                static_cast<int>(of_paths), found.classes, way.c_str(), worst_of(found).c_str());
+    print_rows(found);
     return true;
 }
 
-int check(const std::string& chapter, const MeasureOptions& o, const std::string& folder) {
+/// Renders the worlds that the chapter has rendered, until a few are off. Returns whether any is.
+bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const std::string& file,
+                    const std::string& folder, Watch& watch) {
+    const WorldValues right = worlds::read(file);
+    constexpr size_t enough = 12;
+    Findings found{{folder}};
+    std::set<int> rendered;
+    for (const NamedMethod& method : methods_named({chapter + "+"})) {
+        NamedMethod watched = watch.watched(method);
+        for (const auto& [at, unused] : right) {
+            auto [name, number, first] = at;
+            if (name != method.name || first != "noise" || found.off.size() >= enough) continue;
+            std::string world = "world-" + std::to_string(number);
+            watch.renders(world);
+            rendered.insert(number);
+            WorldValues mine;
+            worlds::measure(watched, o, number, mine);
+            for (auto from = right.lower_bound({name, number, ""});
+                 from != right.end() && std::get<1>(from->first) == number; ++from)
+                mine.insert({from->first, {}});  // what the reader's file does not bring
+            for (const auto& [key, values] : mine) {
+                auto theirs = right.find(key);
+                const std::string& what = std::get<2>(key);
+                Quantity ratio = worlds::ratio_of(
+                    values, theirs == right.end() ? std::vector<double>{} : theirs->second);
+                if (worlds::is_off(what, ratio))
+                    found.off.push_back({world, world, what, ratio, std::isinf(ratio.mean)});
+            }
+        }
+    }
+    if (found.off.empty()) {
+        std::printf("In %zu scenes made by chance the light is the chapter's.\n", rendered.size());
+        return false;
+    }
+    const std::string& worst = found.off[0].scene;
+    std::string path = folder + "/" + worst + ".pbrt";
+    auto number = static_cast<uint32_t>(std::stoi(worst.substr(6)));
+    write_file_atomically(path, random_world(std::stoi(chapter), number));
+    std::printf("first: %s.\n", worst_of(found).c_str());
+    std::printf("Scenes made by chance are off, beside the chapter's own file. Most surely: %s.\n",
+                worst_of(found).c_str());
+    print_rows(found);
+    std::printf("To see the first: make mine CH=%s ARGS='%s'\n", chapter.c_str(), path.c_str());
+    return true;
+}
+
+int check(const std::string& chapter, const MeasureOptions& o, const std::string& worlds,
+          const std::string& folder) {
     Watch watch(o.seconds);
     const std::map<std::string, std::string> as = {{"23", "23-few"}, {"24", "24-few"}};
     Findings found = findings_of(
@@ -221,19 +280,27 @@ int check(const std::string& chapter, const MeasureOptions& o, const std::string
             off |= print_off(findings_of(m, o, folder, watch),
                              by_area ? ", by area" : ", by the BSDF alone");
     }
-    if (!off) std::printf("Light comes by every class of path as it should.\n");
-    return off ? 1 : 0;
+    if (off) return 1;
+    std::printf("Light comes by every class of path as it should.\n");
+    return !worlds.empty() && compare_worlds(chapter, o, worlds, folder, watch) ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     return seal(run_program([&] {
+        std::string file;
         MeasureOptions o = parse_measure_options(
-            argc, argv, "CHAPTER [SCENE]",
+            argc, argv, "CHAPTER [SCENE|write]",
             "Renders the known scenes by a chapter, and says what is not as it should be.",
-            {.seconds = 10});
+            {.seconds = 10},
+            {{"worlds", "FILE", "also scenes made by chance, beside this file's",
+              [&](const std::string& text) { file = text; }}});
         if (o.words.empty()) throw UsageError("error: one chapter is needed, such as 09");
-        return check(o.words[0], o, std::filesystem::path(argv[0]).parent_path().string());
+        if (o.words.size() == 2 && o.words[1] == "write") {
+            worlds::write(worlds::measure_all(o.words[0], o), file);
+            return 0;
+        }
+        return check(o.words[0], o, file, std::filesystem::path(argv[0]).parent_path().string());
     }));
 }

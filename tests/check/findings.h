@@ -24,7 +24,9 @@ inline bool is_off(Quantity measured, Quantity expected, double least = 0.008) {
 }
 
 /// "1/pi" for 0.318: the nearest factor that mistakes are known to make, or "".
-inline std::string name_factor(double ratio) {
+inline std::string name_factor(Quantity q) {
+    double ratio = q.mean;
+    if (q.se > 0.01 * std::abs(ratio)) return "";
     constexpr double pi_exact = std::numbers::pi;
     static const std::pair<double, std::string> factors[] = {
         {pi_exact, "pi"}, {2 * pi_exact, "2 pi"}, {4 * pi_exact, "4 pi"}, {2, "2"}, {3, "3"},

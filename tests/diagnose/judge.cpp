@@ -80,7 +80,7 @@ std::string place(size_t tile) {
     return format("(row %zu, column %zu%s)", tile / 4 % 4 + 1, tile % 4 + 1, channels[tile / 16]);
 }
 std::string times(double ratio) {
-    std::string factor = name_factor(ratio);
+    std::string factor = name_factor({ratio});
     return format("%.3g", ratio) + (factor.empty() ? "" : " (" + factor + ")");
 }
 /// Whether the tiles of a scene, over what they should be, are off by z standard errors.

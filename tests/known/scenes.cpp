@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "tests/known/words.h"
 
 namespace {
-
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-    char text[600];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
-}
 
 std::string view(const std::string& look_at, const std::string& camera = "\"float fov\" 40",
                  int max_depth = 1, int width = 16) {
@@ -29,47 +22,6 @@ std::string view(const std::string& look_at, const std::string& camera = "\"floa
 std::string from_above(double height, int max_depth = 1) {
     return view(format("0 %g 0  0 0 0  0 0 1", height), "\"float fov\" 40", max_depth);
 }
-std::string group(const std::string& inside) {
-    return "AttributeBegin " + inside + "AttributeEnd\n";
-}
-std::string at(double x, double y, double z) { return format("Translate %g %g %g ", x, y, z); }
-std::string scale(double s) { return format("Scale %g %g %g ", s, s, s); }
-std::string turn(double degrees, const char* axis) {
-    return format("Rotate %g %s ", degrees, axis);
-}
-constexpr const char *x_axis = "1 0 0", *z_axis = "0 0 1";
-
-std::string paint(double albedo) {
-    return format("Material \"diffuse\" \"rgb reflectance\" [%g %g %g]\n", albedo, albedo, albedo);
-}
-const std::string glass = "Material \"dielectric\"\n";
-/// Metal that reflects this share in every direction.
-std::string metal(double share, const std::string& more = "") {
-    return format("Material \"conductor\" \"rgb reflectance\" [%g %g %g] ", share, share, share) +
-           more + "\n";
-}
-const std::string rough = "\"float roughness\" 0.5 \"bool remaproughness\" false";
-const std::string smoother = "\"float roughness\" 0.2 \"bool remaproughness\" false";
-std::string shining(double L, bool two_sided = false) {
-    return format("AreaLightSource \"diffuse\" \"rgb L\" [%g %g %g] \"bool twosided\" %s ", L, L, L,
-                  two_sided ? "true" : "false");
-}
-
-/// A square of side 2 around the origin that faces up or down, and the same with normals that are
-/// other ones.
-std::string square(bool up, const std::string& normals = "") {
-    return std::string("Shape \"trianglemesh\" \"integer indices\" ") +
-           (up ? "[0 1 2 0 2 3]" : "[0 2 1 0 3 2]") +
-           " \"point3 P\" [-1 0 -1  -1 0 1  1 0 1  1 0 -1]" +
-           (normals.empty() ? "" : " \"normal N\" [" + normals + "]") + "\n";
-}
-/// Normals that all lean by this angle from up, or from down, towards +x.
-std::string leaning(double degrees, bool up = true) {
-    double a = degrees * 3.14159265358979 / 180, y = up ? std::cos(a) : -std::cos(a);
-    std::string one = format("%g %g 0 ", std::sin(a), y);
-    return one + one + one + one;
-}
-
 std::string floor_of(const std::string& material, const std::string& normals = "",
                      double half_side = 20) {
     return group(material + scale(half_side) + square(true, normals));
@@ -81,7 +33,6 @@ std::string lamp(const std::string& place, double L = 1, bool two_sided = false,
 std::string sky(double L = 1) {
     return format("LightSource \"infinite\" \"rgb L\" [%g %g %g]\n", L, L, L);
 }
-std::string ball(double radius) { return format("Shape \"sphere\" \"float radius\" %g\n", radius); }
 
 const std::string floor_here = floor_of(paint(0.5));
 const std::string above = from_above(1.2);

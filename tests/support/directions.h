@@ -66,8 +66,8 @@ double chance_of_directions(const DirectionCells& cells, const Sample& sample,
             c.push_back(counts[i]), e.push_back(expected);
         }
     }
-    INFO("the density integrates to ", chance, " over these directions, where ", drawn / samples,
-         " of the samples fall");
+    INFO("the density integrates to ", chance, " over these directions, where ",
+         100 * drawn / samples, " % of the samples fall");
     CHECK(std::abs(drawn - samples * chance) < 5 * std::sqrt(samples * 0.25));
     if (e[0] < 10) c[0] = e[0] = 1;  // too few to say anything
     return chi_square_tail(chi_square(c, e), static_cast<int>(c.size()) - 1);
