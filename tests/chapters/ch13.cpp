@@ -46,7 +46,7 @@ double chance_of_normals(float alpha, Vec3 wo, Vec3 drawn_from) {
 
 TEST_SUITE("ch13 rough metal") {
     TEST_CASE("density: GGX normals") {
-        for (float alpha : {0.02f, 0.2f, 1.0f})
+        for (float alpha : {0.001f, 0.02f, 0.2f, 1.0f})
             for (double degrees : {0.0, 30.0, 85.0}) {
                 CAPTURE(alpha);
                 CAPTURE(degrees);

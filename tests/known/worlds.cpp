@@ -42,7 +42,7 @@ struct World {
     std::string roughness() {
         if (chapter < 13 || dice.chance(0.3)) return "";
         return format(" \"float roughness\" %.3g \"bool remaproughness\" false",
-                      dice.power(0.01, 0.9));
+                      dice.power(0.001, 0.9));
     }
     std::string material() {
         switch (dice.below(8)) {
