@@ -25,7 +25,7 @@ $(standard): own_flags += $(call precompiled,common/base/standard.h)
 $(standard): $(BUILD)/obj/common/base/standard.h.gch
 $(BUILD)/obj/common/base/standard.h.gch: own_flags =
 # One of its own, since what is precompiled by -O3 makes g++ compile the rest by -O3, too.
-brief_standard := $(brief_common) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/diagnose/*.cpp tests/diagnose/*/*.cpp))
+brief_standard := $(brief_common) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/known/*.cpp tests/diagnose/*.cpp tests/diagnose/*/*.cpp))
 $(brief_standard): own_flags += $(call precompiled,brief/common/base/standard.h)
 $(brief_standard): $(BUILD)/obj/brief/common/base/standard.h.gch
 $(BUILD)/obj/brief/common/base/standard.h.gch: own_flags = $(briefly)

@@ -19,7 +19,7 @@ $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
 # What the chapter's own file renders of scenes made by chance.
 $(BUILD)/check/worlds_%: $(BUILD)/obj/tests/methods/%.o $(comparing) $(common)
-	@mkdir -p $(@D); $(CXX) $(CXXFLAGS) $(filter %.o,$^) -o $@.program $(LIBS); echo "render scenes made by chance"
+	@mkdir -p $(@D); $(CXX) $(CXXFLAGS) $(filter %.o,$^) -o $@.program $(LIBS) && echo "render scenes made by chance"
 	@$(RUN) $@.program $* write --worlds $@
 #: teaching: make check CH=09      is it right? what is off, and where (NAME=1: in which function; MINE=FILE, LIMIT=30)
 check: checkers $(made) $(patsubst tests/methods/%.cpp,$(BUILD)/check/worlds_%,$(wildcard tests/methods/$(CH).cpp)) \

@@ -30,14 +30,14 @@ private:
 struct World {
     Dice& dice;
     const int chapter;
-    const double bright = dice.chance(0.3) ? dice.power(1e-3, 1e3) : 1;
+    const double bright = dice.chance(0.5) ? dice.power(1e-3, 1e3) : 1;
     bool has_picture = false;
     const double size = dice.chance(0.3) ? dice.power(0.01, 100) : 1;  // of all
 
     bool moves() { return chapter >= 16 && chapter <= 22 && dice.chance(0.3); }
 
-    std::string diffuse() {
-        return "Material \"diffuse\" \"rgb reflectance\" " + dice.rgb(0, 0.9) + "\n";
+    std::string diffuse(double least = 0) {
+        return "Material \"diffuse\" \"rgb reflectance\" " + dice.rgb(least, 0.9) + "\n";
     }
     std::string roughness() {
         if (chapter < 13 || dice.chance(0.3)) return "";
@@ -120,7 +120,7 @@ struct World {
         std::string text = format(
             "Film \"rgb\" \"integer xresolution\" %d \"integer yresolution\" %d\n"
             "PixelFilter \"box\" Integrator \"path\" \"integer maxdepth\" %d\n",
-            width, height, 1 + dice.below(7));
+            width, height, dice.chance(0.2) ? 20 : 1 + dice.below(7));
         double distance = dice.chance(0.1) ? dice.power(5, 500) : dice.power(0.6, 5),
                angle = dice.from(0, 6.283), up = dice.from(0.1, 0.9);
         if (dice.chance(0.2)) text += scale(dice.power(0.3, 3)) + "\n";
@@ -147,9 +147,9 @@ std::string random_world(int chapter, uint32_t number) {
     World world{dice, chapter};
     std::string text = world.camera();
     text += group(world.diffuse() + scale(dice.power(1, 100)) + square(true));
-    if (dice.chance(0.25)) {
-        text +=
-            group(world.material() + at(0, 2, 0) + scale(6) + "Scale -1 1 1 Shape \"sphere\"\n");
+    if (dice.chance(0.3)) {  // in a room
+        std::string walls = dice.chance(0.5) ? world.diffuse(0.7) : world.material();
+        text += group(walls + at(0, 2, 0) + scale(dice.chance(0.5) ? 3 : 6) + "Shape \"sphere\"\n");
     }
     for (int n = 1 + dice.below(4); n > 0; n--)
         text += group(world.material() + world.place(0.1, 1.5) + world.motion() +
