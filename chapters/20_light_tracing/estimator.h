@@ -9,7 +9,7 @@
 #include "common/path/splats.h"
 #include "common/recording/recorder.h"
 #include "common/scene/camera.h"
-#include "common/scene/smooth_normal.h"
+#include "common/scene/intersect.h"
 
 namespace ch20 {
 

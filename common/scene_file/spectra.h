@@ -4,8 +4,7 @@
 #include <string>
 
 #include "common/base/vec.h"
-#include "common/material/glass.h"
-#include "common/material/observer.h"
+#include "common/material/spectrum.h"
 
 /// The color of a black body of 500 to 1e6 K, as linear sRGB with luminance 1: the spectrum
 ///

@@ -3,7 +3,7 @@
 
 #include "chapters/15_mis_ris/estimator.h"
 #include "chapters/26_radiosity/run.h"
-#include "common/scene/diffuse_meshes.h"
+#include "common/path/radiosity.h"
 #include "tests/support/estimators.h"
 #include "tests/support/process.h"
 

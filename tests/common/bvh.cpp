@@ -1,12 +1,13 @@
 // The hierarchy of common/ against the linear scan: the same hits, on awkward rays and awkward
 // meshes.
+#include "common/geometry/bvh.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstring>
 #include <set>
 
-#include "common/geometry/bvh_build.h"
 #include "common/geometry/shapes.h"
 #include "tests/support/meshes.h"
 

@@ -1,10 +1,13 @@
-#include "common/scene/diffuse_meshes.h"
+#include "common/path/radiosity.h"
 
-#include <array>
 #include <cstdio>
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/material/basic_bsdf.h"
+#include "common/path/sampler.h"
+#include "common/scene/intersect.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 
@@ -87,6 +90,30 @@ void check_area(const Scene& scene, uint32_t first, double wanted, uint32_t shap
     fail(at, text);
 }
 
+/// The sides that rays from this side meet: 2 i is the front of triangle i, 2 i + 1 its back;
+/// no_side when one meets nothing.
+std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
+    constexpr uint32_t rays = 256;
+    auto [a, b, c] = corners(scene, side / 2);
+    Vec3 n = scene.geometry.facet_normals[side / 2];
+    if (side % 2 == 1) n = -n;
+    Frame frame(n);
+    Sampler sampler(SamplerType::sobol, 0, rays);
+    std::vector<uint32_t> seen;
+    for (uint32_t i = 0; i < rays; i++) {
+        sampler.start(side, i);
+        Vec2 u = sampler.u2();
+        float s = std::sqrt(u.x);
+        Vec3 x = (1 - s) * a + s * (1 - u.y) * b + s * u.y * c;
+        x += rounding_error(max_component(abs(x))) * n;
+        auto y = intersect(scene, {x, frame.to_world(sample_cosine_hemisphere(sampler.u2()))});
+        seen.push_back(y ? 2 * y->prim + (y->front ? 0 : 1) : no_side);
+    }
+    std::sort(seen.begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+    return seen;
+}
+
 }  // namespace
 
 size_t tessellate(Scene& scene, int threads) {
@@ -155,4 +182,36 @@ void refuse(const Scene& scene) {
     fail({scene.origin->file},
          "radiosity needs a surface that absorbs: in a closed room whose surfaces reflect all "
          "light, it grows with each bounce");
+}
+
+std::vector<char> find_lit_sides(const Scene& scene, bool& closed, int threads) {
+    size_t count = 2 * scene.geometry.triangles.size();
+    std::vector<std::vector<uint32_t>> seen(count);
+    parallel_for(static_cast<int>(count), threads, [&](int side) {
+        seen[static_cast<size_t>(side)] = sides_seen(scene, static_cast<uint32_t>(side));
+    });
+    std::vector<char> lit(count), sends(count);  // sends: what reaches it goes on from there
+    for (uint32_t side = 0; side < count; side++) {
+        lit[side] = !is_black(emitted(scene, side / 2, side % 2 == 0));
+        sends[side] = lit[side] || !is_black(reflectance(scene, side / 2));
+    }
+    closed = true;
+    for (bool changed = true; changed;) {
+        changed = false;
+        auto reach = [&](size_t from, size_t to) {
+            if (!lit[from] || !sends[from] || lit[to]) return;
+            lit[to] = changed = true;
+        };
+        for (size_t a = 0; a < count; a++) {
+            for (uint32_t b : seen[a]) {
+                if (b == no_side) {
+                    if (lit[a] && sends[a]) closed = false;
+                } else {
+                    reach(a, b);
+                    reach(b, a);  // rays from b may miss a small side
+                }
+            }
+        }
+    }
+    return lit;
 }
