@@ -115,7 +115,7 @@ Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
 }
 
 /// Replaces x by what the ray meets first among the movers, where that is nearer, at its time.
-void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
+[[gnu::noinline]] void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
     Ray rest = ray;
     if (x) rest.t_max = x->t;
     for (const Mover& mover : scene.movers) {
@@ -135,7 +135,7 @@ void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x)
     }
 }
 
-bool occluded_by_movers(const Scene& scene, const Ray& ray) {
+[[gnu::noinline]] bool occluded_by_movers(const Scene& scene, const Ray& ray) {
     for (const Mover& mover : scene.movers) {
         if (!meets(ray, mover.box.low, mover.box.high)) continue;
         Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
@@ -167,7 +167,7 @@ void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) 
         look_up_texture(scene, scene.geometry, found, x);
 }
 
-std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
+[[gnu::flatten]] std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
     rays_traced++;
     std::optional<Hit> x = nearest(scene, ray);
     if (rays_kept) [[unlikely]]
