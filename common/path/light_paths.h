@@ -3,7 +3,7 @@
 #pragma once
 #include "common/path/image_light.h"
 #include "common/path/lens.h"
-#include "common/path/splats.h"
+#include "common/recording/recorder.h"
 #include "common/scene/camera.h"
 #include "common/scene/intersect.h"
 

@@ -8,7 +8,6 @@
 
 #include "common/base/parallel.h"
 #include "common/path/sampler.h"
-#include "common/path/splats.h"
 #include "common/recording/recorder.h"
 #include "common/scene/scene.h"
 

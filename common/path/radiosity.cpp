@@ -67,27 +67,15 @@ void add_disk(Geometry& g, const Disk& disk) {
         add_triangle(g, disk.c, rim(i), rim((i + 1) % sides), disk.shape);
 }
 
-/// Throws InputError when the area of the triangles from `first` on is off by more than 1 %, which
-/// the rounding of their corners to floats does to a small shape.
-void check_area(const Scene& scene, uint32_t first, double wanted, uint32_t shape) {
-    double area = 0;
-    for (uint32_t prim = first; prim < scene.geometry.triangles.size(); prim++) {
-        const Triangle& t = scene.geometry.triangles[prim];
-        Vec3 a = scene.geometry.positions[t.v[0]];
-        area += double{length(cross(scene.geometry.positions[t.v[1]] - a,
-                                    scene.geometry.positions[t.v[2]] - a))} /
-                2;
-    }
-    if (std::abs(area / wanted - 1) < 0.01) return;
-    int light = scene.shapes[shape].light;
-    Position at = light >= 0 ? scene.place(scene.lights[static_cast<size_t>(light)].at)
-                             : scene.place(scene.materials[scene.shapes[shape].material].at);
+/// Throws InputError for a shape so small that rounding its corners to floats changes its area.
+void check_size(const Scene& scene, Vec3 centre, float r, uint32_t shape) {
+    if (rounding_error(max_component(abs(centre)) + r) <= r / 20) return;
     char text[150];
     std::snprintf(text, sizeof text,
-                  "a sphere or disk of %.3g m^2 is too small to be cut into triangles; chapters "
-                  "from 09 on render it",
-                  wanted);
-    fail(at, text);
+                  "a sphere or disk of radius %.3g m is too small to be cut into triangles; "
+                  "chapters from 09 on render it",
+                  double{r});
+    fail(scene.place(scene.shapes[shape].at), text);
 }
 
 /// The sides that rays from this side meet: 2 i is the front of triangle i, 2 i + 1 its back;
@@ -121,18 +109,16 @@ size_t tessellate(Scene& scene, int threads) {
     uint32_t before = static_cast<uint32_t>(g.triangles.size());
     if (before == g.size()) return 0;
     std::vector<uint32_t> first = {before};  // of each sphere and disk, and one more: its triangles
-    auto added = [&](uint32_t shape, float r, double area_of_1) {
-        check_area(scene, first.back(), area_of_1 * double{r} * double{r}, shape);
-        first.push_back(static_cast<uint32_t>(g.triangles.size()));
-    };
     for (const Sphere& s : g.spheres) {
+        check_size(scene, s.c, s.r, s.shape);
         add_sphere(g, s, scene.shapes[s.shape].reverse);
-        added(s.shape, s.r, 4 * std::numbers::pi);
+        first.push_back(static_cast<uint32_t>(g.triangles.size()));
         scene.shapes[s.shape].reverse = false;
     }
     for (const Disk& d : g.disks) {
+        check_size(scene, d.c, d.r, d.shape);
         add_disk(g, d);
-        added(d.shape, d.r, std::numbers::pi);
+        first.push_back(static_cast<uint32_t>(g.triangles.size()));
     }
     for (Light& light : scene.lights) {
         if (light.type != LightType::area || light.first_prim < before) continue;

@@ -8,7 +8,6 @@
 #include "chapters/07_path_tracing/estimator.h"
 #include "common/material/metal.h"
 #include "common/material/spectrum.h"
-#include "common/scene_file/spectra.h"
 #include "tests/support/directions.h"
 #include "tests/support/estimators.h"
 #include "tests/support/gates.h"
