@@ -280,6 +280,11 @@ TEST_SUITE("ch06 bvh build") {
         for (const Geometry& g : {ball, thin_diagonals(20000), mixed(20000), copies}) {
             Bvh one = build_bvh(g, 1);
             CHECK(levels_of(one, one.root) <= 17);
+            // A tenth more, where long slanted triangles are cut.
+            std::ptrdiff_t parts = 0, whole = g.size();
+            for (const BvhBlock& block : one.blocks)
+                parts += lanes - std::count(block.prim, block.prim + lanes, PrimHit::none);
+            CHECK((parts > whole + whole / 20) == (whole == 20000));
             for (int threads : {1, 2, 2, 7, 7}) {
                 Bvh other = build_bvh(g, threads);
                 CHECK(other.root == one.root);
