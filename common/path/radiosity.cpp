@@ -133,32 +133,19 @@ size_t tessellate(Scene& scene, int threads) {
 void refuse(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type == LightType::area) continue;
-        const char* name = light.type == LightType::point     ? "a point light"
-                           : light.type == LightType::distant ? "a distant light"
-                                                              : "a sky";
-        fail(scene.place(light.at), std::string("radiosity knows lamps with a surface alone: ") +
-                                        name + " has no patches; chapters from 09 on render it");
+        fail(scene.place(light.at),
+             "radiosity knows lamps with a surface alone; chapters from 09 on render other lights");
     }
-    auto refuse_material = [&](uint32_t shape) {
-        const Material& m = scene.materials[scene.shapes[shape].material];
-        if (m.texture != 0) {
-            fail(
-                scene.place(m.at),
-                "radiosity gives a patch one reflectance, and a texture has many; chapters from 05 "
-                "to 25 render it");
-        }
-        if (m.type == MaterialType::diffuse) return;
-        fail(scene.place(m.at), std::string("radiosity knows diffuse surfaces alone (LD*E): ") +
-                                    (m.type == MaterialType::dielectric ? "glass"
-                                     : m.alpha > 0                      ? "rough metal"
-                                                                        : "a mirror") +
-                                    " sends light on by direction");
-    };
     const Geometry& g = scene.geometry;
     Rgb least = {1, 1, 1};
     auto check = [&](uint32_t shape) {
-        refuse_material(shape);
-        Rgb rho = scene.materials[scene.shapes[shape].material].reflectance;
+        const Material& m = scene.materials[scene.shapes[shape].material];
+        if (m.texture != 0 || m.type != MaterialType::diffuse) {
+            fail(scene.place(m.at),
+                 "radiosity knows diffuse surfaces of one reflectance alone (LD*E); chapters "
+                 "13 to 25 render others");
+        }
+        Rgb rho = m.reflectance;
         least = {std::min(least.r, rho.r), std::min(least.g, rho.g), std::min(least.b, rho.b)};
     };
     for (const Triangle& t : g.triangles) check(t.shape);
