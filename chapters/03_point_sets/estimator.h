@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/path/points.h"
+#include "common/path/sampler.h"
 
 namespace ch03 {
 

@@ -35,25 +35,14 @@ struct Kind {
     std::array<const char*, 6> theory;  // slopes of the errors; "": not known
     uint32_t runs, largest;             // number of sets, and N, limited by run time
 };
+inline constexpr const char *half = "-0.50", *most = "-0.75", *one = "-1.00", *best = "-1.50";
 inline constexpr Kind kinds[] = {
-    {PointSet::uniform,
-     "uniform",
-     {"-0.50", "-0.50", "-0.50", "-0.50", "-0.50", "-0.50"},
-     256,
-     1 << 16},
-    {PointSet::jittered,
-     "jittered",
-     {"-0.75", "-1.00", "-0.75", "-1.00", "-0.50", "-0.50"},
-     256,
-     1 << 16},
-    {PointSet::poisson, "Poisson disc", {"", "", "", "", "-0.50", "-0.50"}, 32, 1024},
-    {PointSet::repelled, "repelled", {"", "", "", "", "-0.50", "-0.50"}, 32, 256},
-    {PointSet::halton, "Halton, shifted", {"-1.00", "-1.00", "", "", "", ""}, 256, 1 << 16},
-    {PointSet::sobol,
-     "Sobol, scrambled",
-     {"-1.00", "-1.50", "-0.75", "-1.50", "-0.50", "-0.50"},
-     256,
-     1 << 16},
+    {PointSet::uniform, "uniform", {half, half, half, half, half, half}, 256, 1 << 16},
+    {PointSet::jittered, "jittered", {most, one, most, one, half, half}, 256, 1 << 16},
+    {PointSet::poisson, "Poisson disc", {"", "", "", "", half, half}, 32, 1024},
+    {PointSet::repelled, "repelled", {"", "", "", "", half, half}, 32, 256},
+    {PointSet::halton, "Halton, shifted", {one, one, "", "", "", ""}, 256, 1 << 16},
+    {PointSet::sobol, "Sobol, scrambled", {one, best, most, best, half, half}, 256, 1 << 16},
 };
 
 struct Measurement {

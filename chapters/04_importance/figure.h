@@ -61,34 +61,29 @@ inline std::vector<Experiment> integrals() {
         list.push_back({what, density.name, truth, mean, variance,
                         [=](double u) { return estimate_integral(f, density, u); }});
     };
-    auto x2 = [](double x) { return x * x; };
     constexpr double third = 1.0 / 3, e = std::numbers::e, p = 1 / std::numbers::pi;
+    auto x2 = [](double x) { return x * x; };
+    auto not_divided = [](double x) { return x * x * 2 * x; };
+    auto exp = [](double x) { return std::exp(x); };
+    auto root = [](double x) { return 1 / std::sqrt(x); };
+    auto fourth_root = [](double x) { return std::pow(x, -0.25); };
+    auto edge = [=](double x) { return x < p ? 1 : 0; };
+    auto line = [](double x) { return x - 0.25; };
     add("x^2", x2, third, uniform, 4.0 / 45, third);
     add("x^2", x2, third, linear, 1.0 / 72, third);
     add("x^2", x2, third, quadratic, 0, third);
     add("x^2", x2, third, inverse_root, 25.0 / 99, third);
     add("x^2", x2, third, falling, INFINITY, third);
     add("x^2", x2, third, left_half, 1.0 / 320 - 1.0 / 576, 1.0 / 24);
-    add(
-        "x^2, not divided", [](double x) { return x * x * 2 * x; }, third, linear, 1.0 / 12, 0.5);
-    add(
-        "e^x", [](double x) { return std::exp(x); }, e - 1, uniform,
-        (e * e - 1) / 2 - (e - 1) * (e - 1), e - 1);
-    add(
-        "e^x", [](double x) { return std::exp(x); }, e - 1, rising, 0.0269084281835, e - 1);
-    add(
-        "x^-1/2", [](double x) { return 1 / std::sqrt(x); }, 2, uniform, INFINITY, 2);
-    add(
-        "x^-1/2", [](double x) { return 1 / std::sqrt(x); }, 2, inverse_root, 0, 2);
-    add(
-        "x^-1/4", [](double x) { return std::pow(x, -0.25); }, 4 * third, uniform, 2.0 / 9,
-        4 * third);
-    add(
-        "[x < 1/pi]", [=](double x) { return x < p ? 1 : 0; }, p, uniform, p * (1 - p), p);
-    add(
-        "x - 1/4", [](double x) { return x - 0.25; }, 0.25, uniform, 1.0 / 12, 0.25);
-    add(
-        "x - 1/4", [](double x) { return x - 0.25; }, 0.25, distance, 0.03515625, 0.25);
+    add("x^2, not divided", not_divided, third, linear, 1.0 / 12, 0.5);
+    add("e^x", exp, e - 1, uniform, (e * e - 1) / 2 - (e - 1) * (e - 1), e - 1);
+    add("e^x", exp, e - 1, rising, 0.0269084281835, e - 1);
+    add("x^-1/2", root, 2, uniform, INFINITY, 2);
+    add("x^-1/2", root, 2, inverse_root, 0, 2);
+    add("x^-1/4", fourth_root, 4 * third, uniform, 2.0 / 9, 4 * third);
+    add("[x < 1/pi]", edge, p, uniform, p * (1 - p), p);
+    add("x - 1/4", line, 0.25, uniform, 1.0 / 12, 0.25);
+    add("x - 1/4", line, 0.25, distance, 0.03515625, 0.25);
     return list;
 }
 

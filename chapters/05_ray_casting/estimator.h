@@ -5,6 +5,7 @@
 #pragma once
 #include <optional>
 
+#include "common/base/ray_count.h"
 #include "common/material/metal.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"

@@ -8,6 +8,7 @@
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
+#include "common/scene/intersect.h"
 
 namespace ch11 {
 

@@ -3,12 +3,13 @@
 //
 //   L = mis_l f Le V cos / pdf_l + mis_b f Le cos / pdf_b,    mis_l + mis_b = 1 for each direction
 #pragma once
+#include "common/light/light_shapes.h"
 #include "common/light/light_table.h"
-#include "common/light/pdf_one_light.h"
 #include "common/material/ggx.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
+#include "common/scene/intersect.h"
 
 namespace ch14 {
 

@@ -4,14 +4,15 @@
 #pragma once
 #include <numeric>
 
+#include "common/light/light_shapes.h"
 #include "common/light/light_table.h"
-#include "common/light/pdf_one_light.h"
 #include "common/light/resampling.h"
 #include "common/material/ggx.h"
 #include "common/path/mis.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
+#include "common/scene/intersect.h"
 
 namespace ch15 {
 

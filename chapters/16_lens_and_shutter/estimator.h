@@ -6,6 +6,7 @@
 #include "common/path/many_lights.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/scene/intersect.h"
 
 namespace ch16 {
 

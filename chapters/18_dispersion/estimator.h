@@ -3,13 +3,13 @@
 //
 //   E[weight] = integral of the colours of all wavelengths = white
 #pragma once
-#include "common/material/glass.h"
-#include "common/material/observer.h"
+#include "common/material/spectrum.h"
 #include "common/path/image_light.h"
 #include "common/path/lens.h"
 #include "common/path/many_lights.h"
 #include "common/path/roulette.h"
 #include "common/path/sampler.h"
+#include "common/scene/intersect.h"
 
 namespace ch18 {
 

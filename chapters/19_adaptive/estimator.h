@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "common/base/parallel.h"
-#include "common/path/allocation.h"
 #include "common/path/dispersion.h"
+#include "common/path/method.h"
 
 namespace ch19 {
 

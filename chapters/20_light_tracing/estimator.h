@@ -6,10 +6,9 @@
 #include "common/path/image_light.h"
 #include "common/path/lens.h"
 #include "common/path/roulette.h"
-#include "common/path/splats.h"
 #include "common/recording/recorder.h"
 #include "common/scene/camera.h"
-#include "common/scene/smooth_normal.h"
+#include "common/scene/intersect.h"
 
 namespace ch20 {
 

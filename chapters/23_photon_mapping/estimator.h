@@ -8,7 +8,7 @@
 
 #include "chapters/23_photon_mapping/first_radius.h"
 #include "common/base/parallel.h"
-#include "common/light/pdf_one_light.h"
+#include "common/light/light_shapes.h"
 #include "common/path/camera_sample.h"
 #include "common/path/lens.h"
 #include "common/path/light_paths.h"

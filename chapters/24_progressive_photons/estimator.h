@@ -5,7 +5,7 @@
 #pragma once
 #include <memory>
 
-#include "common/light/pdf_one_light.h"
+#include "common/light/light_shapes.h"
 #include "common/path/lens.h"
 #include "common/path/method.h"
 #include "common/path/mis.h"

@@ -1,6 +1,9 @@
 // The patches of radiosity: small triangles, each with one radiosity.
 #pragma once
-#include "common/path/lit_sides.h"
+#include "common/base/parallel.h"
+#include "common/path/radiosity.h"
+#include "common/path/sampler.h"
+#include "common/scene/intersect.h"
 
 namespace ch26 {
 
@@ -54,7 +57,7 @@ inline size_t choose_k(const std::vector<char>& lit, float h, std::vector<Divisi
 }
 
 /// At least `wanted` patches, all about alike in size, where light can reach.
-/// The scene consists of triangles alone (see tessellate.h).
+/// The scene consists of triangles alone (see tessellate()).
 /// tested by  "identity: patches cover what has light, and each point finds its patch"
 inline Patches make_patches(const Scene& scene, size_t wanted, int threads) {
     Patches patches;

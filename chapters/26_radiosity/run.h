@@ -1,18 +1,20 @@
-// What surrounds the lesson: the order of the work, and the report.
+// What surrounds the lesson: the order of the work, the report, and what is shown.
 #pragma once
 #include <cstdio>
 
-#include "chapters/26_radiosity/show.h"
+#include "chapters/26_radiosity/estimator.h"
 #include "common/base/error.h"
 #include "common/base/progress.h"
 #include "common/base/text.h"
 #include "common/path/method.h"
+#include "common/picture/smooth_corners.h"
 #include "common/render/render.h"
 #include "common/scene/origin.h"
 
 namespace ch26 {
 
 enum class Solver : uint8_t { southwell, gauss_seidel, jacobi };
+enum class Show : uint8_t { constant, smooth };
 
 /// What the user asks for beside what all programs know.
 struct Settings {
@@ -136,6 +138,41 @@ inline double share_on_wide_patches(const std::vector<Patch>& patch, const Matri
         }
     }
     return all > 0 ? wide / all : 0;
+}
+
+/// Whether one surface goes on from p to q: alike, about in one plane, and no wall in between.
+inline bool goes_on(const Scene& scene, const Patch& p, const Patch& q) {
+    if (!(p.rho == q.rho && p.E == q.E) || dot(p.n, q.n) < 0.9f) return false;
+    return sees(scene, p.centre + 0.1f * std::sqrt(p.area) * p.n,
+                q.centre + 0.1f * std::sqrt(q.area) * q.n);
+}
+
+/// Shows one radiosity for each patch, W m^-2: the same at all of its corners, or smooth.
+inline Shown make_shown(const Scene& scene, const std::shared_ptr<const Patches>& patches,
+                        const std::vector<Rgb>& B, Show how, int threads) {
+    Shown shown{patches, {}};
+    const std::vector<Patch>& patch = patches->patch;
+    if (how == Show::constant) {
+        for (Rgb b : B) shown.B.push_back({b, b, b});
+    } else {
+        Triangles triangles;
+        for (const Patch& p : patch) triangles.push_back(p.p);
+        shown.B = smooth_corners(
+            triangles, B, 4e-5f * scene.radius,
+            [&](uint32_t i, uint32_t j) { return goes_on(scene, patch[i], patch[j]); }, threads);
+    }
+    return shown;
+}
+
+/// What is shown of a solution: B of each patch, with an estimate of the light still to come.
+inline Shown show(const Scene& scene, const std::shared_ptr<const Patches>& patches,
+                  const Solution& s, Show how, int threads) {
+    const std::vector<Patch>& patch = patches->patch;
+    Radiosity more = ambient(patch, s);
+    std::vector<Rgb> B;
+    for (size_t i = 0; i < patch.size(); i++)
+        B.push_back(to_rgb(radiosity_of(patch[i], s.H[i] + more)));
+    return make_shown(scene, patches, B, how, threads);
 }
 
 /// One run of the program: patches, solution, picture. Time and signals end the solution, and then

@@ -178,15 +178,6 @@ bool test_others(const BvhBlock& block, const Geometry& g, Ray ray, PrimHit& bes
     return found;
 }
 
-/// Asks for a child's memory before it is needed.
-void prefetch(const Bvh& bvh, uint32_t child) {
-    const void* p = child & BvhNode::leaf
-                        ? static_cast<const void*>(&bvh.blocks[child & BvhNode::index])
-                        : static_cast<const void*>(&bvh.nodes[child]);
-    for (int line = 0; line < 9; line++)
-        __builtin_prefetch(static_cast<const char*>(p) + 64 * line);
-}
-
 /// Updates `best` by the hits of the ray with the block. Returns whether `any` is set and a hit was
 /// found.
 template <bool any>
@@ -266,8 +257,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
             } else if ((hits & (hits - 1)) == 0) {
                 current = node.child[std::countr_zero(hits)];
             } else if (any) {
-                // Any hit will do: no order but that of the lanes, in which the builder puts last
-                // what is likeliest to stop a ray.
+                // Any hit will do: no order but that of the lanes.
                 store(compress(load(node.child), hits), stack + size);
                 size += std::popcount(hits) - 1;
                 current = node.child[31 - std::countl_zero(hits)];
@@ -282,7 +272,6 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
                 // The nearest, without a wait for what was just stored.
                 int last = 31 - std::countl_zero(hits);
                 current = node.child[node.far_first[octant] >> (4 * last) & (lanes - 1)];
-                prefetch(bvh, stack[size - 1]);
             }
         }
         if (current == BvhNode::nothing) break;

@@ -1,11 +1,10 @@
 // Builds the hierarchy of bounding boxes (chapter 06): a tree of two children per node where the
 // surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
-#include "common/geometry/bvh_build.h"
-
 #include <bit>
 #include <queue>
 
 #include "common/base/parallel.h"
+#include "common/geometry/bvh.h"
 
 namespace {
 
@@ -14,7 +13,6 @@ constexpr uint32_t small = lanes / 2;      // references of a block that is not 
 constexpr float worth_parting = 0.67f;     // of a block's surface, that its parts have together
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
-constexpr uint32_t worth_halving = 32768;  // references that two threads sort and part
 constexpr uint32_t reported = 16384;       // references of a subtree whose end is reported
 constexpr float worth_cutting = 1e-2f;     // of all surface, that one box wastes
 constexpr uint32_t whole_for_a_part = 10;  // so many references for one more by cutting
@@ -40,25 +38,15 @@ struct NegatedBox {
     Float4 center() const { return hi - neg_lo; }
 };
 
-/// Cuts a box in the middle of its longest side.
-void cut_in_halves(const NegatedBox& box, NegatedBox (&halves)[2]) {
-    Float4 size = box.neg_lo + box.hi;
-    int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-    float middle = box.center()[axis] / 2;
-    halves[0] = halves[1] = box;
-    halves[0].hi[axis] = middle;
-    halves[1].neg_lo[axis] = -middle;
-}
-
-/// The box of a primitive, with its number in the place of neg_lo[3].
+/// The box of a primitive or of a part of one, with its number in the place of neg_lo[3].
 struct Ref {
     NegatedBox box;
 
+    Ref() = default;
+    Ref(Vec3 lo, Vec3 hi, float pad, uint32_t prim)
+        : box{{pad - lo.x, pad - lo.y, pad - lo.z, std::bit_cast<float>(prim)},
+              {pad + hi.x, pad + hi.y, pad + hi.z}} {}
     uint32_t prim() const { return std::bit_cast<uint32_t>(box.neg_lo[3]); }
-    void set_box(NegatedBox other) {
-        other.neg_lo[3] = box.neg_lo[3];
-        box = other;
-    }
 };
 using Refs = std::vector<Ref, PageAllocator<Ref>>;
 
@@ -114,67 +102,8 @@ Ref make_ref(const Geometry& g, Vec3 centre, uint32_t prim) {
             hi = disk.c - centre + r;
         });
     if (!is_finite(lo) || !is_finite(hi)) prim = PrimHit::none;
-    float pad = pad_of(lo, hi);
-    Ref ref;
-    ref.box.neg_lo = Float4{pad - lo.x, pad - lo.y, pad - lo.z, std::bit_cast<float>(prim)};
-    ref.box.hi = Float4{pad + hi.x, pad + hi.y, pad + hi.z};
-    return ref;
+    return {lo, hi, pad_of(lo, hi), prim};
 }
-
-/// The part of a triangle that lies in a box, relative to `centre`.
-struct Part {
-    std::array<Vec3, 12> corner;  // at most one more for each of the six planes, but for rounding
-    size_t corners = 3;           // 0: not known
-    float pad;                    // of the whole
-
-    Part(const Geometry& g, Vec3 centre, uint32_t prim, const NegatedBox& box) {
-        for (size_t k = 0; k < 3; k++) corner[k] = g.positions[g.triangles[prim].v[k]] - centre;
-        pad = pad_of(min(min(corner[0], corner[1]), corner[2]),
-                     max(max(corner[0], corner[1]), corner[2]));
-        for (int axis = 0; axis < 3; axis++) {
-            keep(axis, [=](float x) { return x + box.neg_lo[axis]; });
-            keep(axis, [=](float x) { return box.hi[axis] - x; });
-        }
-    }
-
-    /// Keeps what is inside of a plane: where inside(coordinate) is not negative.
-    template <typename Inside>
-    void keep(int axis, const Inside& inside) {
-        Part whole = *this;
-        corners = 0;
-        for (size_t k = 0; k < whole.corners; k++) {
-            Vec3 a = whole.corner[k], b = whole.corner[(k + 1) % whole.corners];
-            float in_a = inside(a[axis]), in_b = inside(b[axis]);
-            if (corners + 2 > corner.size()) {
-                corners = 0;
-                return;
-            }
-            if (in_a >= 0) corner[corners++] = a;
-            if ((in_a >= 0) != (in_b >= 0)) corner[corners++] = a + in_a / (in_a - in_b) * (b - a);
-        }
-    }
-
-    /// The box around it, padded.
-    NegatedBox box() const {
-        NegatedBox box;
-        for (size_t k = 0; k < corners; k++) {
-            Vec3 p = corner[k];
-            box.grow(NegatedBox{Float4{pad - p.x, pad - p.y, pad - p.z},
-                                Float4{pad + p.x, pad + p.y, pad + p.z}});
-        }
-        return box;
-    }
-
-    /// The least surface, halved, that boxes around small pieces of it have: how large it is along
-    /// each axis.
-    float least_area() const {
-        Vec3 n;
-        for (size_t k = 2; k < corners; k++)
-            n += 0.5f * cross(corner[k - 1] - corner[0], corner[k] - corner[0]);
-        n = abs(n);
-        return n.x + n.y + n.z;
-    }
-};
 
 /// Cuts the box around the centres into slices, on each axis.
 struct Binning {
@@ -208,14 +137,6 @@ struct Bins {
             for (int axis = 0; axis < 3; axis++) {
                 box[axis][bin[axis]].grow(refs[i].box);
                 count[axis][bin[axis]]++;
-            }
-        }
-    }
-    void add(const Bins& other) {
-        for (int axis = 0; axis < 3; axis++) {
-            for (int bin = 0; bin < bins; bin++) {
-                box[axis][bin].grow(other.box[axis][bin]);
-                count[axis][bin] += other.count[axis][bin];
             }
         }
     }
@@ -397,41 +318,48 @@ private:
     }
 
     /// Long slanted triangles fill little of their boxes, and every ray through such a box tests
-    /// them. So they are cut into parts, each a reference with a box of its own: first those whose
-    /// boxes waste the most surface.
-    /// source  Ernst, Greiner 2007, "Early Split Clipping"; by waste: Karras, Aila 2013
+    /// them. So they are cut in the middle of their longest edges into parts, each a reference with
+    /// a box of its own: first those whose boxes waste the most surface.
+    /// source  Dammertz, Keller 2008, "The Edge Volume Heuristic"; by waste: Karras, Aila 2013
     void cut_slanted(Range& all) {
-        struct Waste {
-            float area;
+        struct Part {
+            float waste, pad;  // half of the surface; that of the whole
             uint32_t ref;
+            std::array<Vec3, 3> p;  // relative to the centre
 
-            bool operator<(const Waste& other) const {
-                return area < other.area || (area == other.area && ref > other.ref);
+            bool operator<(const Part& other) const {
+                return waste < other.waste || (waste == other.waste && ref > other.ref);
             }
         };
-        std::priority_queue<Waste> worst;
-        const float least = worth_cutting * all.box.area();
-        auto add = [&](uint32_t ref, const Part& part) {
-            float waste = refs_[ref].box.area() - 2 * part.least_area();
-            if (waste > least) worst.push({waste, ref});
+        std::priority_queue<Part> worst;
+        auto add = [&](Part part) {
+            Vec3 n = abs(cross(part.p[1] - part.p[0], part.p[2] - part.p[0]));
+            part.waste = refs_[part.ref].box.area() - (n.x + n.y + n.z);
+            if (part.waste > worth_cutting * all.box.area()) worst.push(part);
         };
         for (uint32_t i = 0; i < all.size(); i++) {
-            const Ref& ref = refs_[i];
-            if (!is_triangle(ref) || ref.box.area() <= least) continue;
-            add(i, Part(g_, bvh_.centre, ref.prim(), ref.box));
+            if (!is_triangle(refs_[i])) continue;
+            Part whole{0, 0, i, {}};
+            for (size_t k = 0; k < 3; k++)
+                whole.p[k] = g_.positions[g_.triangles[refs_[i].prim()].v[k]] - bvh_.centre;
+            auto [a, b, c] = whole.p;
+            whole.pad = pad_of(min(min(a, b), c), max(max(a, b), c));
+            add(whole);
         }
         for (uint32_t left = all.size() / whole_for_a_part; left > 0 && !worst.empty(); left--) {
-            uint32_t i = worst.top().ref;
+            Part part = worst.top();
             worst.pop();
-            refs_.push_back(refs_[i]);
-            NegatedBox halves[2];
-            cut_in_halves(refs_[i].box, halves);
-            for (uint32_t at : {i, all.end++}) {
-                const NegatedBox& half = halves[at == i ? 0 : 1];
-                Part part(g_, bvh_.centre, refs_[at].prim(), half);
-                refs_[at].set_box(part.corners > 0 ? part.box() : half);
-                all.grow(refs_[at].box);
-                add(at, part);
+            auto edge = [&](size_t k) { return length_squared(part.p[(k + 1) % 3] - part.p[k]); };
+            size_t k = edge(0) >= edge(1) && edge(0) >= edge(2) ? 0 : edge(1) >= edge(2) ? 1 : 2;
+            Vec3 a = part.p[k], b = part.p[(k + 1) % 3], c = part.p[(k + 2) % 3], m = (a + b) / 2;
+            refs_.push_back(refs_[part.ref]);
+            for (Part half : {Part{0, part.pad, part.ref, {a, m, c}},
+                              Part{0, part.pad, all.end++, {m, b, c}}}) {
+                auto [p, q, r] = half.p;
+                refs_[half.ref] = {min(min(p, q), r), max(max(p, q), r), half.pad,
+                                   refs_[half.ref].prim()};
+                all.grow(refs_[half.ref].box);
+                add(half);
             }
         }
     }
@@ -489,42 +417,20 @@ private:
 
     /// Parts a range in two, by cost or else by number, and returns the axis.
     uint8_t split(const Range& range, bool by_cost, Range& left, Range& right) {
-        uint32_t half = range.size() / 2, middle = range.begin + half;
-        bool halve = range.size() >= worth_halving;
+        uint32_t middle = range.begin + range.size() / 2;
         Binning bin_of(range.centers);
         Split best;
         if (by_cost) {
             Bins binned;
-            if (halve) {
-                Bins others;
-                both(
-                    half, [&] { binned.add(refs_, range.begin, middle, bin_of); },
-                    [&] { others.add(refs_, middle, range.end, bin_of); });
-                binned.add(others);
-            } else {
-                binned.add(refs_, range.begin, range.end, bin_of);
-            }
+            binned.add(refs_, range.begin, range.end, bin_of);
             best = find_split(binned, range.size());
         }
-        auto goes_left = [=](const Ref& ref, uint32_t i) {
-            return best.cost < infinity ? bin_of(ref.box)[best.axis] < best.bin : i < middle;
-        };
-        if (halve) {
-            Range more_left, more_right;
-            both(
-                half, [&] { partition(range.begin, middle, goes_left, left, right); },
-                [&] { partition(middle, range.end, goes_left, more_left, more_right); });
-            // left right more_left more_right: the inner two change places.
-            uint32_t n = std::min(right.size(), more_left.size());
-            Ref* inner = &refs_[right.begin];
-            std::swap_ranges(inner, inner + n, refs_.data() + more_left.end - n);
-            left.grow(more_left);
-            right.grow(more_right);
-            right.begin = left.end;
-            right.end = range.end;
-        } else {
-            partition(range.begin, range.end, goes_left, left, right);
-        }
+        partition(
+            range.begin, range.end,
+            [=](const Ref& ref, uint32_t i) {
+                return best.cost < infinity ? bin_of(ref.box)[best.axis] < best.bin : i < middle;
+            },
+            left, right);
         return static_cast<uint8_t>(best.axis);
     }
 
@@ -547,26 +453,14 @@ private:
         right = {front, end, box[0], centers[0]};
     }
 
-    /// The children of a wide node, those last that are likeliest to stop a ray, and soonest: what
-    /// is large and holds little, such as walls.
-    static Gathered by_worth(Node& root) {
-        Gathered children;
-        children.add(root, lanes, 7);
-        auto worth = [](const Node* node) {
-            return node->box.area() / std::sqrt(static_cast<float>(node->end - node->begin));
-        };
-        std::stable_sort(children.node.begin(), children.node.begin() + children.size,
-                         [&](const Node* a, const Node* b) { return worth(a) < worth(b); });
-        return children;
-    }
-
     /// Numbers the wide nodes and the leaves below a node, depth first: all that one thread has to
     /// do alone before many can write them. Returns the BvhNode::child of the node.
     uint32_t number(Node& root) {
         if (root.fits_a_block()) return add_leaf({root.begin, root.end});
         auto index = static_cast<uint32_t>(wide_.size());
         wide_.push_back(&root);
-        Gathered children = by_worth(root);
+        Gathered children;
+        children.add(root, lanes, 7);
         for (uint32_t i = 0; i < children.size; i++) {
             children.node[i]->lane = static_cast<uint8_t>(i);
             children.node[i]->number = number(*children.node[i]);
@@ -576,7 +470,8 @@ private:
 
     /// Writes the boxes of the children, their numbers, and for each octant their order.
     void fill_node(Node& root, BvhNode& node) {
-        Gathered children = by_worth(root);
+        Gathered children;
+        children.add(root, lanes, 7);
         for (uint32_t i = 0; i < lanes; i++) {
             const Node* child = i < children.size ? children.node[i] : nullptr;
             NegatedBox box = child ? child->box : NegatedBox{};

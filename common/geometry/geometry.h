@@ -66,7 +66,17 @@ struct Box {
 };
 
 /// The box around all vertices, spheres and disks (with all of the sphere around a disk).
-Box bounds_of(const Geometry& g);
+inline Box bounds_of(const Geometry& g) {
+    Box box;
+    auto add_ball = [&](Vec3 c, float r) {
+        box.add(c - Vec3{r, r, r});
+        box.add(c + Vec3{r, r, r});
+    };
+    for (Vec3 p : g.positions) box.add(p);
+    for (const Sphere& s : g.spheres) add_ball(s.c, s.r);
+    for (const Disk& d : g.disks) add_ball(d.c, d.r);
+    return box;
+}
 
 /// Calls the one of the three functions that fits primitive number `prim`, with that primitive;
 /// they return the same type.

@@ -1,6 +1,7 @@
 #include "common/light/light_shapes.h"
 
 #include "common/light/solid_angle.h"
+#include "common/scene/prepare.h"
 
 using light_shape_details::is_near;
 

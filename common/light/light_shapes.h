@@ -1,8 +1,6 @@
 // Points on the surface of a light, sampled by area or by the solid angle seen from x.
 #pragma once
 #include "common/scene/intersect.h"
-#include "common/scene/light_shape.h"
-#include "common/scene/scene.h"
 
 /// A point of a light.
 struct LightPoint {
@@ -30,6 +28,13 @@ inline LightPoint sample_solid_angle(const Scene& scene, size_t light, Vec3 x, V
 
 /// The density of sample_solid_angle, in sr^-1, for the point y that a ray from x hit.
 float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y);
+
+/// The density of sample_one_light (chapter 10), in sr^-1, for the direction in which a ray from x
+/// hit point y of the light; and for direction wi, in which a ray from x hit the sky.
+inline float pdf_one_light(const Scene& scene, size_t light, const Hit& x, const Hit& y) {
+    return pdf_solid_angle(scene, light, x.p, y);
+}
+inline float pdf_sky(const Hit& x, Vec3 wi) { return std::max(0.0f, dot(wi, x.n)) / pi; }
 
 /// The largest density, in sr^-1: solid angles below 1e-36 sr count as 1e-36 sr.
 inline constexpr float densest = 1e36f;

@@ -2,7 +2,7 @@
 // Sampling one light.
 #pragma once
 #include "common/light/light_shapes.h"
-#include "common/material/cosine.h"
+#include "common/material/basic_bsdf.h"
 
 /// A sampled point or direction of a light, seen from x. pdf_w == 0: no sample, no contribution.
 struct LightSample {

@@ -1,8 +1,7 @@
 // taught by chapter 18
 // The path tracer of many lights, with lens, shutter, image of the sky, and wavelengths.
 #pragma once
-#include "common/material/glass.h"
-#include "common/material/observer.h"
+#include "common/material/spectrum.h"
 #include "common/path/image_light.h"
 #include "common/path/lens.h"
 #include "common/path/many_lights.h"

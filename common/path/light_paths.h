@@ -3,9 +3,9 @@
 #pragma once
 #include "common/path/image_light.h"
 #include "common/path/lens.h"
-#include "common/path/splats.h"
+#include "common/recording/recorder.h"
 #include "common/scene/camera.h"
-#include "common/scene/smooth_normal.h"
+#include "common/scene/intersect.h"
 
 using glossy_bsdf::eval_bsdf, glossy_bsdf::sample_bsdf;
 using sky_light::pdf_image, sky_light::sample_image;

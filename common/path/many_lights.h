@@ -3,7 +3,7 @@
 #pragma once
 #include <numeric>
 
-#include "common/light/pdf_one_light.h"
+#include "common/light/light_shapes.h"
 #include "common/light/resampling.h"
 #include "common/material/ggx.h"
 #include "common/path/mis.h"

@@ -2,7 +2,6 @@
 // MIS weights of directions that two strategies can sample.
 #pragma once
 #include "common/light/lights.h"
-#include "common/light/pdf_one_light.h"
 
 /// The MIS weight of a direction that was sampled with density a; b: the other strategy's density.
 ///

@@ -14,6 +14,21 @@ inline Vec2 random_pair(uint32_t seed, uint32_t i) {
     return sampler.u2();
 }
 
+/// A point of stratum i of n, at position u in it. Strata have equal area 1/n, for any n.
+///
+///   the square is cut into about sqrt(n) columns, each as wide as its share of the n cells;
+///   n = k^2 gives the k x k grid
+inline Vec2 jitter_in_stratum(uint32_t i, uint32_t n, Vec2 u) {
+    uint32_t columns = static_cast<uint32_t>(std::rint(std::sqrt(static_cast<double>(n))));
+    uint64_t c = (uint64_t{i + 1} * columns - 1) / n;
+    uint32_t first = static_cast<uint32_t>(c * n / columns);
+    uint32_t last = static_cast<uint32_t>((c + 1) * n / columns);
+    float rows = static_cast<float>(last - first), count = static_cast<float>(n);
+    float x = (static_cast<float>(first) + rows * u.x) / count;
+    float y = (static_cast<float>(i - first) + u.y) / rows;
+    return {std::min(x, 0x1.fffffep-1f), std::min(y, 0x1.fffffep-1f)};
+}
+
 /// x, or the largest float below 1 where rounding made it 1: keeps coordinates in [0,1).
 inline float below_1(float x) { return std::min(x, 0x1.fffffep-1f); }
 

@@ -11,6 +11,13 @@
 
 struct PathStory;
 
+/// The contribution of a path from a light to the pixel in which the camera sees it.
+struct Splat {
+    size_t pixel;
+    Rgb L;
+};
+using Splats = std::vector<Splat>;
+
 /// Part of a sample: the class of its path in Heckbert's notation, from light to eye, and how much.
 /// S: a vertex with one possible direction (mirror, glass); D: any other.
 struct Contribution {

@@ -6,7 +6,6 @@
 
 #include "common/base/error.h"
 #include "common/base/progress.h"
-#include "common/scene/coincident.h"
 #include "common/scene/mover.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"

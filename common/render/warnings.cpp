@@ -7,12 +7,13 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/light/light_table.h"
-#include "common/material/cosine.h"
+#include "common/material/basic_bsdf.h"
 #include "common/material/metal.h"
 #include "common/path/light_paths.h"
 #include "common/path/sampler.h"
 #include "common/picture/heat_map.h"
 #include "common/scene/intersect.h"
+#include "common/scene/prepare.h"
 
 namespace {
 

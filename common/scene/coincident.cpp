@@ -1,13 +1,12 @@
-#include "common/scene/coincident.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "common/base/checksum.h"
-#include "common/material/cosine.h"
+#include "common/material/basic_bsdf.h"
 #include "common/scene/mover.h"
 #include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 
 namespace {
 

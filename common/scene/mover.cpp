@@ -2,74 +2,78 @@
 
 #include <algorithm>
 
-#include "common/geometry/bvh.h"
-#include "common/scene/smooth_normal.h"
-
 namespace {
 
-/// Whether the ray comes through the box before t_max.
-bool meets(const Ray& ray, Vec3 low, Vec3 high) {
-    float near = 0, far = ray.t_max;
-    for (int axis = 0; axis < 3; axis++) {
-        float inv = 1 / ray.d[axis];
-        float a = (low[axis] - ray.o[axis]) * inv, b = (high[axis] - ray.o[axis]) * inv;
-        near = std::max(near, std::min(a, b));  // NaN, on a face: leaves near and far alone
-        far = std::min(far, std::max(a, b));
+/// The 3 x 3 part of a + s b.
+Transform add(const Transform& a, double s, const Transform& b) {
+    return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+/// The inverse of the transpose, without the origin: normals go by it.
+Transform inverse_transpose(const Transform& t) {
+    double det = determinant(t);
+    return {1 / det * cross(t.y, t.z), 1 / det * cross(t.z, t.x), 1 / det * cross(t.x, t.y)};
+}
+
+/// The rotation in M = R S, R S symmetric: the mean of M and its inverse transpose, until it stays.
+Transform rotation_of(Transform m) {
+    m.o = {0, 0, 0};
+    if (determinant(m) < 0) m = {-1 * m.x, -1 * m.y, -1 * m.z};  // the mirroring is left to S
+    for (int i = 0; i < 100; i++) {
+        Transform next = add(m, 1, inverse_transpose(m));
+        next = {0.5 * next.x, 0.5 * next.y, 0.5 * next.z};
+        Transform step = add(next, -1, m);
+        m = next;
+        if (length(step.x) + length(step.y) + length(step.z) < 1e-14) break;
     }
-    return near <= far;
+    return m;
 }
 
-/// The ray as the mover sees it, whose primitives stay where they are at time 0.
-Ray carried_back(const Mover& mover, const Ray& ray, const Transform& world_from_start) {
-    Transform back = inverse(world_from_start);
-    return {to_vec3(transform_point(back, Vec3d(ray.o))),
-            to_vec3(transform_vector(back, Vec3d(ray.d))), ray.t_max, ray.time,
-            ray.from - mover.first_prim};
-}
-
-/// What was met, carried to where it is at the ray's time.
-void carry_on(const Transform& t, Hit& x) {
-    float before = max_component(abs(x.p));
-    x.p = to_vec3(transform_point(t, Vec3d(x.p)));
-    x.n = to_vec3(normalize(transform_normal(t, Vec3d(x.n))));
-    x.ng = to_vec3(normalize(transform_normal(t, Vec3d(x.ng))));
-    double stretch = std::max({length(t.x), length(t.y), length(t.z)});
-    x.eps = static_cast<float>(stretch) * (x.eps + rounding_error(before)) +
-            rounding_error(max_component(abs(x.p)));
-}
-
-Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
-    if (g.normals.empty() || prim >= g.triangles.size()) return {};
-    const auto& v = g.triangles[prim].v;
-    Vec3 p0 = g.positions[v[0]], e1 = g.positions[v[1]] - p0, e2 = g.positions[v[2]] - p0;
-    Vec3 area = cross(e1, e2);
-    float b1 = dot(cross(p - p0, e2), area) / dot(area, area);
-    float b2 = dot(cross(e1, p - p0), area) / dot(area, area);
-    return (1 - b1 - b2) * g.normals[v[0]] + b1 * g.normals[v[1]] + b2 * g.normals[v[2]];
-}
-
-/// Replaces x by what the ray meets first among the movers, where that is nearer, at its time.
-void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
-    Ray rest = ray;
-    if (x) rest.t_max = x->t;
-    for (const Mover& mover : scene.movers) {
-        if (!meets(rest, mover.box.low, mover.box.high)) continue;
-        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        Ray back = carried_back(mover, rest, world_from_start);
-        PrimHit found = closest_hit(*mover.bvh, mover.geometry, back);
-        if (found.prim == PrimHit::none) continue;
-        x.emplace();
-        const Shape& shape = place_hit(scene, mover.geometry, back, found, *x);
-        x->material = &scene.materials[shape.material];
-        if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
-        carry_on(world_from_start, *x);
-        rest.t_max = found.t;
-        found.prim += mover.first_prim;
-        finish_hit(scene, shape, rest, found, *x);
-    }
+/// An axis of a rotation, of any length, seen against which it turns counter-clockwise.
+///
+///   R = cos I + (1 - cos) a a^T + sin [a],    [a] v = a x v
+///
+/// Where it turns by more than a quarter, the sine may be next to 0: then from R + R^T.
+Vec3d axis_of(const Transform& r, double cos) {
+    Vec3d sine = {r.y[2] - r.z[1], r.z[0] - r.x[2], r.x[1] - r.y[0]};
+    if (cos > 0) return sine;
+    Transform both = add(r, 1, inverse(r));
+    Vec3d columns[] = {both.x - Vec3d{2 * cos, 0, 0}, both.y - Vec3d{0, 2 * cos, 0},
+                       both.z - Vec3d{0, 0, 2 * cos}};
+    Vec3d a = *std::max_element(columns, columns + 3,
+                                [](Vec3d u, Vec3d v) { return length(u) < length(v); });
+    return dot(a, sine) < 0 ? -1 * a : a;
 }
 
 }  // namespace
+
+Motion::Motion(const Transform& start, const Transform& end) {
+    Transform turned[2];
+    for (int i = 0; i < 2; i++) {
+        const Transform& m = i == 0 ? start : end;
+        turned[i] = rotation_of(m);
+        moved_[i] = m.o;
+        stretched_[i] = inverse(turned[i]) * m;
+        stretched_[i].o = {0, 0, 0};
+    }
+    turned_ = turned[0];
+    Transform turn = turned[1] * inverse(turned_);
+    double cos = std::clamp((turn.x[0] + turn.y[1] + turn.z[2] - 1) / 2, -1.0, 1.0);
+    if (cos > 1 - 4e-12) return;  // by rounding
+    axis_ = axis_of(turn, cos);
+    degrees_ = 180 / std::numbers::pi * std::acos(cos);
+}
+
+Transform Motion::at(double time) const {
+    double t = std::clamp(time, 0.0, 1.0);
+    auto mix = [&](Vec3d a, Vec3d b) { return (1 - t) * a + t * b; };
+    Transform stretch = {mix(stretched_[0].x, stretched_[1].x),
+                         mix(stretched_[0].y, stretched_[1].y),
+                         mix(stretched_[0].z, stretched_[1].z)};
+    Transform m = rotation(t * degrees_, axis_) * turned_ * stretch;
+    m.o = mix(moved_[0], moved_[1]);
+    return m;
+}
 
 Box box_over_time(const Mover& mover) {
     // Where the corners of its box come to: along straight lines, or somewhere on a sphere, since
@@ -101,34 +105,3 @@ Box box_over_time(const Mover& mover) {
     }
     return box;
 }
-
-Vec3 interpolated_normal(const Scene& scene, uint32_t prim, Vec3 p, float time) {
-    if (prim < scene.geometry.size()) return interpolated_normal(scene.geometry, prim, p);
-    auto behind = std::upper_bound(
-        scene.movers.begin(), scene.movers.end(), prim,
-        [](uint32_t number, const Mover& mover) { return number < mover.first_prim; });
-    const Mover& mover = behind[-1];
-    Transform world_from_start = mover.world_from_start(static_cast<double>(time));
-    Vec3 back = to_vec3(transform_point(inverse(world_from_start), Vec3d(p)));
-    Vec3 n = interpolated_normal(mover.geometry, prim - mover.first_prim, back);
-    return to_vec3(transform_normal(world_from_start, Vec3d(n)));
-}
-
-namespace hit_details {
-
-void vary_or_move(const Scene& scene, const Ray& ray, const PrimHit& found, std::optional<Hit>& x) {
-    if (x && x->material->texture != 0) look_up_texture(scene, scene.geometry, found, *x);
-    intersect_movers(scene, ray, x);
-}
-
-bool occluded_by_movers(const Scene& scene, const Ray& ray) {
-    for (const Mover& mover : scene.movers) {
-        if (!meets(ray, mover.box.low, mover.box.high)) continue;
-        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        if (any_hit(*mover.bvh, mover.geometry, carried_back(mover, ray, world_from_start)))
-            return true;
-    }
-    return false;
-}
-
-}  // namespace hit_details

@@ -1,7 +1,6 @@
 #include "common/scene/prepare.h"
 
-#include "common/geometry/bvh_build.h"
-#include "common/scene/light_shape.h"
+#include "common/geometry/bvh.h"
 #include "common/scene/mover.h"
 #include "common/scene/origin.h"
 #include "common/scene/sky_image.h"
@@ -22,7 +21,84 @@ std::vector<Vec3> facet_normals(const Geometry& g) {
     return normals;
 }
 
+void find_parallelogram(const Geometry& g, const Light& light, LightShape& shape) {
+    const auto& v0 = g.triangles[light.first_prim].v;
+    const auto& v1 = g.triangles[light.first_prim + 1].v;
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t j = 0; j < 3; j++) {
+            Vec3 r = g.positions[v0[i]], p = g.positions[v0[(i + 1) % 3]];
+            Vec3 q = g.positions[v0[(i + 2) % 3]], s = g.positions[v1[j]];
+            bool shared = g.positions[v1[(j + 1) % 3]] == q && g.positions[v1[(j + 2) % 3]] == p;
+            if (!shared || length((p + q) - (r + s)) > 1e-5f * length(p - q)) continue;
+            shape.parallelogram = true;
+            shape.corners[0] = r, shape.corners[1] = p, shape.corners[2] = s, shape.corners[3] = q;
+            shape.e1 = p - r, shape.e2 = q - r;
+        }
+    }
+}
+
 }  // namespace
+
+Emitter emitter_of(const Scene& scene, uint32_t prim) {
+    const Geometry& g = scene.geometry;
+    Emitter e;
+    visit(
+        g, prim,
+        [&](const Triangle& t) {
+            e.p0 = g.positions[t.v[0]], e.p1 = g.positions[t.v[1]], e.p2 = g.positions[t.v[2]];
+            e.n = normalize(cross(e.p1 - e.p0, e.p2 - e.p0));
+        },
+        [&](const Sphere& s) {
+            e.kind = Emitter::sphere, e.p0 = s.c, e.r = s.r;
+            e.inward = scene.shapes[s.shape].reverse;
+        },
+        [&](const Disk& d) { e.kind = Emitter::disk, e.p0 = d.c, e.n = d.n, e.r = d.r; });
+    Vec3 size = max(max(abs(e.p0), abs(e.p1)), abs(e.p2));  // of the numbers that make up a point
+    for (int k = 0; k < 3; k++) size[k] += e.r * std::sqrt(std::max(0.0f, 1 - e.n[k] * e.n[k]));
+    e.eps = rounding_error(max_component(size));
+    e.off_plane = rounding_error(dot(abs(e.n), size));
+    return e;
+}
+
+float area_of(const Emitter& e) {
+    switch (e.kind) {
+        case Emitter::triangle: return length(cross(e.p1 - e.p0, e.p2 - e.p0)) / 2;
+        case Emitter::sphere: return 4 * pi * e.r * e.r;
+        case Emitter::disk: return pi * e.r * e.r;
+    }
+    return 0;
+}
+
+std::vector<LightShape> light_shapes_of(const Scene& scene) {
+    std::vector<LightShape> shapes(scene.lights.size());
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        const Light& light = scene.lights[i];
+        if (light.type != LightType::area) continue;
+        LightShape& shape = shapes[i];
+        shape.first = emitter_of(scene, light.first_prim);
+        Vec3 low = {infinity, infinity, infinity}, high = -low;
+        double area = 0;
+        for (uint32_t k = 0; k < light.prims; k++) {
+            Emitter e = emitter_of(scene, light.first_prim + k);
+            area += static_cast<double>(area_of(e));
+            if (light.prims > 1) shape.area_up_to.push_back(static_cast<float>(area));
+            Vec3 r = {e.r, e.r, e.r};
+            bool round = e.kind != Emitter::triangle;
+            for (Vec3 p : {e.p0, round ? e.p0 : e.p1, round ? e.p0 : e.p2}) {
+                low = min(low, p - r), high = max(high, p + r);
+            }
+        }
+        shape.area = static_cast<float>(area);
+        shape.centre = 0.5f * (low + high);
+        shape.radius = length(high - low) / 2;
+        bool triangles = light.first_prim + light.prims <= scene.geometry.triangles.size();
+        if (light.prims == 2 && triangles && shape.area > 0)
+            find_parallelogram(scene.geometry, light, shape);
+        bool one = light.prims == 1 && shape.first.kind != Emitter::sphere;
+        shape.flat = one || shape.parallelogram;
+    }
+    return shapes;
+}
 
 Scene::Scene() : origin(std::make_shared<Origin>()) {}
 Scene::Scene(const Scene&) = default;
@@ -54,7 +130,6 @@ void prepare(Scene& scene, int threads, const Report& report) {
 
     if (report) report("preparing lights and surfaces", 0);
     scene.moves = !scene.movers.empty();
-    scene.moves_or_varies = scene.moves || scene.textures;
     scene.has_normals = !scene.geometry.normals.empty();
     Box box = bounds_of(scene.geometry);
     uint32_t prims = scene.geometry.size();

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "common/geometry/geometry.h"
-#include "common/material/material.h"
+#include "common/material/hit.h"
 
 // What few look into: each is defined in a header of its own.
 struct Bvh;
-struct LightShape;
 struct Mover;
 struct Origin;
 struct SkyImage;
@@ -30,6 +29,29 @@ struct Light {
     Vec3 p;                              // point: where it is; distant: unit, towards the light
     uint32_t first_prim = 0, prims = 0;  // area: its primitives, one after the other
     const Position* at = nullptr;        // where a scene file makes it, for messages
+};
+
+/// A primitive of a light, taken apart: a triangle p0 p1 p2, or a sphere or disk of radius r at p0.
+struct Emitter {
+    enum Kind : uint8_t { triangle, sphere, disk } kind = triangle;
+    bool inward = false;  // a sphere that shines inwards
+    Vec3 p0, p1, p2;
+    Vec3 n;  // unit
+    float r = 0;
+    float eps = 0;        // m: how far a point of it may be off
+    float off_plane = 0;  // m: how far off its plane, for one that is flat
+};
+
+/// What sampling an area light needs to know of it beforehand.
+struct LightShape {
+    Emitter first;   // of its primitives
+    float area = 0;  // m^2, of all of them
+    Vec3 centre;     // of a sphere around it, m
+    float radius = 0;
+    bool flat = false;              // one triangle or disk, or a parallelogram
+    bool parallelogram = false;     // two triangles that make corners[0] + s e1 + t e2
+    Vec3 corners[4], e1, e2;        // one corner after the other; the edges from the first
+    std::vector<float> area_up_to;  // running sum over its primitives, where they are more than one
 };
 
 /// What one Shape directive gives all its primitives.
@@ -76,8 +98,7 @@ struct Scene {
     Rgb sky;                                    // what infinite lights send, if none has an image
     std::shared_ptr<const SkyImage> sky_image;  // else the sum of all infinite lights
     std::vector<Mover> movers;                  // shapes that move; they do not shine
-    bool moves = false;                         // has movers; prepare() finds out, as the next two
-    bool moves_or_varies = false;               // has movers or textures
+    bool moves = false;                         // has movers; prepare() finds out, as the next one
     bool has_normals = false;                   // of a mesh's corners
     Camera camera;
     int width = 1280, height = 720;  // pixels

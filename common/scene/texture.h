@@ -6,6 +6,11 @@
 
 #include "common/base/vec.h"
 
+struct Geometry;
+struct Hit;
+struct PrimHit;
+struct Scene;
+
 /// One texture. Its coordinates on the surface are (s, t) = scale * (u, v) + shift.
 ///
 ///   constant      value
@@ -44,3 +49,6 @@ struct Textures {
 /// Each number of (u, v), scale and shift is at most 1e9.
 /// source  pbrt-v4      tested by  "truth: textures as computed in double precision"
 Rgb value_at(const Textures& textures, uint32_t texture, Vec2 uv);
+
+/// Gives x, a point of the primitive that was found, the reflectance that its texture has there.
+void look_up_texture(const Scene& scene, const Geometry& g, const PrimHit& found, Hit& x);

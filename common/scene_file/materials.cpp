@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "common/material/metal.h"
+#include "common/material/spectrum.h"
 #include "common/scene_file/scene_parts.h"
-#include "common/scene_file/spectra.h"
 
 namespace {
 

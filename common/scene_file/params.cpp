@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "common/base/text.h"
-#include "common/scene_file/spectra.h"
+#include "common/material/spectrum.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include "chapters/18_dispersion/estimator.h"
 #include "common/base/error.h"
+#include "common/material/spectrum.h"
 #include "common/render/loading.h"
-#include "common/scene_file/spectra.h"
 #include "tests/support/estimators.h"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include "chapters/15_mis_ris/estimator.h"
 #include "chapters/26_radiosity/run.h"
-#include "common/scene/diffuse_meshes.h"
+#include "common/path/radiosity.h"
 #include "tests/support/estimators.h"
 #include "tests/support/process.h"
 
@@ -203,7 +203,8 @@ TEST_SUITE("ch26 patches") {
     }
 
     TEST_CASE("input: what has no radiosity is refused, with its place in the file") {
-        std::string lamp = emitting(1, 0.5, square(0, true)) + '\n';
+        std::string lamp = "Texture \"t\" \"spectrum\" \"checkerboard\" " +
+                           emitting(1, 0.5, square(0, true)) + '\n';
         auto refusal = [](const std::string& world) {
             return error_of([&] { refuse(world_of(world)); });
         };
@@ -212,8 +213,9 @@ TEST_SUITE("ch26 patches") {
         CHECK(refusal(cube(1, 1)).starts_with("test.pbrt: error: radiosity needs a surface that"));
         for (const char* directive :
              {"Material \"dielectric\"", "Material \"conductor\" \"float roughness\" 0.3",
-              "LightSource \"point\"", "LightSource \"infinite\""}) {
-            std::string text = refusal(lamp + directive + "\n" + square(9, false));
+              "Material \"diffuse\" \"texture reflectance\" \"t\"", "LightSource \"point\"",
+              "LightSource \"infinite\""}) {
+            std::string text = refusal(lamp + directive + "\nShape \"sphere\"");
             CHECK(text.starts_with("test.pbrt:9:1: error: radiosity knows "));
         }
         // Shapes too small to be cut into triangles.

@@ -1,12 +1,13 @@
 // The hierarchy of common/ against the linear scan: the same hits, on awkward rays and awkward
 // meshes.
+#include "common/geometry/bvh.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstring>
 #include <set>
 
-#include "common/geometry/bvh_build.h"
 #include "common/geometry/shapes.h"
 #include "tests/support/meshes.h"
 
@@ -279,6 +280,10 @@ TEST_SUITE("ch06 bvh build") {
         for (const Geometry& g : {ball, thin_diagonals(20000), mixed(20000), copies}) {
             Bvh one = build_bvh(g, 1);
             CHECK(levels_of(one, one.root) <= 17);
+            uint32_t parts = 0;  // a tenth more, where long slanted triangles are cut
+            for (const BvhBlock& block : one.blocks)
+                for (uint32_t prim : block.prim) parts += prim != PrimHit::none;
+            CHECK((parts > 1.05 * g.size()) == (g.size() == 20000));
             for (int threads : {1, 2, 2, 7, 7}) {
                 Bvh other = build_bvh(g, threads);
                 CHECK(other.root == one.root);

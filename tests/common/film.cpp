@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "common/path/splats.h"
+#include "common/recording/recorder.h"
 #include "tests/support/gates.h"
 
 namespace {

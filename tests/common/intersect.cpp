@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "chapters/07_path_tracing/estimator.h"
-#include "common/geometry/bvh_build.h"
+#include "common/geometry/bvh.h"
 #include "common/geometry/shapes.h"
-#include "common/scene/smooth_normal.h"
+#include "common/scene/intersect.h"
 #include "tests/support/gates.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"

@@ -1,10 +1,8 @@
 // Laws that hold for any motion of any shape.
-#include "common/geometry/motion.h"
-
 #include <doctest/doctest.h>
 
+#include "common/scene/intersect.h"
 #include "common/scene/mover.h"
-#include "common/scene/smooth_normal.h"
 #include "tests/support/estimators.h"
 
 namespace {

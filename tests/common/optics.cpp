@@ -7,8 +7,7 @@
 
 #include "chapters/07_path_tracing/estimator.h"
 #include "common/material/metal.h"
-#include "common/material/observer.h"
-#include "common/scene_file/spectra.h"
+#include "common/material/spectrum.h"
 #include "tests/support/directions.h"
 #include "tests/support/estimators.h"
 #include "tests/support/gates.h"

@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 #include "common/base/files.h"
+#include "common/material/spectrum.h"
 #include "common/scene/origin.h"
-#include "common/scene_file/spectra.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "chapters/03_point_sets/estimator.h"
 #include "tests/support/gates.h"
 
 namespace {
@@ -41,7 +42,7 @@ bool fills_all_dyadic_boxes(const std::vector<Vec2>& points, int m) {
 std::vector<Vec2> plain_sobol(uint32_t first, uint32_t n) {
     std::vector<Vec2> points;
     for (uint32_t i = first; i < first + n; i++)
-        points.push_back({to_unit_float(reverse_bits(i)), to_unit_float(sobol_second(i))});
+        points.push_back({to_unit_float(reverse_bits(i)), to_unit_float(ch03::sobol_second(i))});
     return points;
 }
 
@@ -97,7 +98,7 @@ TEST_SUITE("sampler") {
 
     TEST_CASE("identity: Sobol's second coordinate from either end") {
         for (uint32_t k = 0; k < 32; k++)  // linear: what holds for each bit holds for all
-            CHECK(sobol_second_reversed(1u << k) == reverse_bits(sobol_second(1u << k)));
+            CHECK(sobol_second_reversed(1u << k) == reverse_bits(ch03::sobol_second(1u << k)));
     }
 
     TEST_CASE("identity: hash64 runs backwards, so that no two inputs share a key") {

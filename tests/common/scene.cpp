@@ -2,10 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "common/light/light_table.h"
-#include "common/scene/coincident.h"
-#include "common/scene/diffuse_meshes.h"
-#include "common/scene/light_shape.h"
+#include "common/path/radiosity.h"
 #include "common/scene/mover.h"
+#include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
@@ -157,7 +156,7 @@ TEST_SUITE("scene") {
             Scene scene = scene_of(start + still + (moves ? move + ball() : ""));
             CHECK(length(scene.centre - Vec3{moves ? 3.f : 1.f, 3, 4}) < 1e-4f);
             CHECK(std::abs(scene.radius - std::sqrt(moves ? 24.f : 12.f)) < 2e-4f);
-            CHECK(scene.moves_or_varies == moves);
+            CHECK(scene.moves == moves);
             CHECK_FALSE(scene.has_normals);
             if (moves) CHECK(scene.movers[0].first_prim == 1);
         }

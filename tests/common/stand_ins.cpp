@@ -4,12 +4,12 @@
 #include <sstream>
 
 #include "common/base/files.h"
+#include "common/material/spectrum.h"
 #include "common/picture/image.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 #include "common/scene/texture.h"
 #include "common/scene_file/reader.h"
-#include "common/scene_file/spectra.h"
 #include "tests/support/described.h"
 #include "tests/support/folder.h"
 #include "tests/support/scenes.h"

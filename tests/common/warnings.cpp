@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "common/scene/light_shape.h"
+#include "common/scene/prepare.h"
 #include "tests/support/estimators.h"
 
 namespace {

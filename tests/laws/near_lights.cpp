@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "common/geometry/transform.h"
-#include "common/scene/light_shape.h"
+#include "common/scene/prepare.h"
 #include "tests/laws/laws.h"
 
 namespace {

@@ -4,11 +4,11 @@
 #include <functional>
 
 #include "common/base/error.h"
-#include "common/geometry/bvh_build.h"
-#include "common/material/cosine.h"
+#include "common/geometry/bvh.h"
+#include "common/material/basic_bsdf.h"
 #include "common/path/sampler.h"
 #include "common/scene/camera.h"
-#include "common/scene/light_shape.h"
+#include "common/scene/prepare.h"
 #include "tests/measure/measure.h"
 
 #if __has_include(<embree3/rtcore.h>)

@@ -1,9 +1,10 @@
 // Error against time of radiosity with ever more patches, beside path tracing with ever more paths.
+#include "common/path/radiosity.h"
+
 #include <cstdio>
 
 #include "chapters/26_radiosity/run.h"
 #include "common/picture/comparison.h"
-#include "common/scene/diffuse_meshes.h"
 #include "tests/measure/measure.h"
 
 namespace {

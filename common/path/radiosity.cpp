@@ -1,10 +1,13 @@
-#include "common/scene/diffuse_meshes.h"
+#include "common/path/radiosity.h"
 
-#include <array>
 #include <cstdio>
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/material/basic_bsdf.h"
+#include "common/path/sampler.h"
+#include "common/scene/intersect.h"
 #include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 
@@ -64,27 +67,39 @@ void add_disk(Geometry& g, const Disk& disk) {
         add_triangle(g, disk.c, rim(i), rim((i + 1) % sides), disk.shape);
 }
 
-/// Throws InputError when the area of the triangles from `first` on is off by more than 1 %, which
-/// the rounding of their corners to floats does to a small shape.
-void check_area(const Scene& scene, uint32_t first, double wanted, uint32_t shape) {
-    double area = 0;
-    for (uint32_t prim = first; prim < scene.geometry.triangles.size(); prim++) {
-        const Triangle& t = scene.geometry.triangles[prim];
-        Vec3 a = scene.geometry.positions[t.v[0]];
-        area += double{length(cross(scene.geometry.positions[t.v[1]] - a,
-                                    scene.geometry.positions[t.v[2]] - a))} /
-                2;
-    }
-    if (std::abs(area / wanted - 1) < 0.01) return;
-    int light = scene.shapes[shape].light;
-    Position at = light >= 0 ? scene.place(scene.lights[static_cast<size_t>(light)].at)
-                             : scene.place(scene.materials[scene.shapes[shape].material].at);
+/// Throws InputError for a shape so small that rounding its corners to floats changes its area.
+void check_size(const Scene& scene, Vec3 centre, float r, uint32_t shape) {
+    if (rounding_error(max_component(abs(centre)) + r) <= r / 20) return;
     char text[150];
     std::snprintf(text, sizeof text,
-                  "a sphere or disk of %.3g m^2 is too small to be cut into triangles; chapters "
-                  "from 09 on render it",
-                  wanted);
-    fail(at, text);
+                  "a sphere or disk of radius %.3g m is too small to be cut into triangles; "
+                  "chapters from 09 on render it",
+                  double{r});
+    fail(scene.place(scene.shapes[shape].at), text);
+}
+
+/// The sides that rays from this side meet: 2 i is the front of triangle i, 2 i + 1 its back;
+/// no_side when one meets nothing.
+std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
+    constexpr uint32_t rays = 256;
+    auto [a, b, c] = corners(scene, side / 2);
+    Vec3 n = scene.geometry.facet_normals[side / 2];
+    if (side % 2 == 1) n = -n;
+    Frame frame(n);
+    Sampler sampler(SamplerType::sobol, 0, rays);
+    std::vector<uint32_t> seen;
+    for (uint32_t i = 0; i < rays; i++) {
+        sampler.start(side, i);
+        Vec2 u = sampler.u2();
+        float s = std::sqrt(u.x);
+        Vec3 x = (1 - s) * a + s * (1 - u.y) * b + s * u.y * c;
+        x += rounding_error(max_component(abs(x))) * n;
+        auto y = intersect(scene, {x, frame.to_world(sample_cosine_hemisphere(sampler.u2()))});
+        seen.push_back(y ? 2 * y->prim + (y->front ? 0 : 1) : no_side);
+    }
+    std::sort(seen.begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+    return seen;
 }
 
 }  // namespace
@@ -94,18 +109,16 @@ size_t tessellate(Scene& scene, int threads) {
     uint32_t before = static_cast<uint32_t>(g.triangles.size());
     if (before == g.size()) return 0;
     std::vector<uint32_t> first = {before};  // of each sphere and disk, and one more: its triangles
-    auto added = [&](uint32_t shape, float r, double area_of_1) {
-        check_area(scene, first.back(), area_of_1 * double{r} * double{r}, shape);
-        first.push_back(static_cast<uint32_t>(g.triangles.size()));
-    };
     for (const Sphere& s : g.spheres) {
+        check_size(scene, s.c, s.r, s.shape);
         add_sphere(g, s, scene.shapes[s.shape].reverse);
-        added(s.shape, s.r, 4 * std::numbers::pi);
+        first.push_back(static_cast<uint32_t>(g.triangles.size()));
         scene.shapes[s.shape].reverse = false;
     }
     for (const Disk& d : g.disks) {
+        check_size(scene, d.c, d.r, d.shape);
         add_disk(g, d);
-        added(d.shape, d.r, std::numbers::pi);
+        first.push_back(static_cast<uint32_t>(g.triangles.size()));
     }
     for (Light& light : scene.lights) {
         if (light.type != LightType::area || light.first_prim < before) continue;
@@ -120,32 +133,19 @@ size_t tessellate(Scene& scene, int threads) {
 void refuse(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type == LightType::area) continue;
-        const char* name = light.type == LightType::point     ? "a point light"
-                           : light.type == LightType::distant ? "a distant light"
-                                                              : "a sky";
-        fail(scene.place(light.at), std::string("radiosity knows lamps with a surface alone: ") +
-                                        name + " has no patches; chapters from 09 on render it");
+        fail(scene.place(light.at),
+             "radiosity knows lamps with a surface alone; chapters from 09 on render other lights");
     }
-    auto refuse_material = [&](uint32_t shape) {
-        const Material& m = scene.materials[scene.shapes[shape].material];
-        if (m.texture != 0) {
-            fail(
-                scene.place(m.at),
-                "radiosity gives a patch one reflectance, and a texture has many; chapters from 05 "
-                "to 25 render it");
-        }
-        if (m.type == MaterialType::diffuse) return;
-        fail(scene.place(m.at), std::string("radiosity knows diffuse surfaces alone (LD*E): ") +
-                                    (m.type == MaterialType::dielectric ? "glass"
-                                     : m.alpha > 0                      ? "rough metal"
-                                                                        : "a mirror") +
-                                    " sends light on by direction");
-    };
     const Geometry& g = scene.geometry;
     Rgb least = {1, 1, 1};
     auto check = [&](uint32_t shape) {
-        refuse_material(shape);
-        Rgb rho = scene.materials[scene.shapes[shape].material].reflectance;
+        const Material& m = scene.materials[scene.shapes[shape].material];
+        if (m.texture != 0 || m.type != MaterialType::diffuse) {
+            fail(scene.place(m.at),
+                 "radiosity knows diffuse surfaces of one reflectance alone (LD*E); chapters "
+                 "13 to 25 render others");
+        }
+        Rgb rho = m.reflectance;
         least = {std::min(least.r, rho.r), std::min(least.g, rho.g), std::min(least.b, rho.b)};
     };
     for (const Triangle& t : g.triangles) check(t.shape);
@@ -155,4 +155,36 @@ void refuse(const Scene& scene) {
     fail({scene.origin->file},
          "radiosity needs a surface that absorbs: in a closed room whose surfaces reflect all "
          "light, it grows with each bounce");
+}
+
+std::vector<char> find_lit_sides(const Scene& scene, bool& closed, int threads) {
+    size_t count = 2 * scene.geometry.triangles.size();
+    std::vector<std::vector<uint32_t>> seen(count);
+    parallel_for(static_cast<int>(count), threads, [&](int side) {
+        seen[static_cast<size_t>(side)] = sides_seen(scene, static_cast<uint32_t>(side));
+    });
+    std::vector<char> lit(count), sends(count);  // sends: what reaches it goes on from there
+    for (uint32_t side = 0; side < count; side++) {
+        lit[side] = !is_black(emitted(scene, side / 2, side % 2 == 0));
+        sends[side] = lit[side] || !is_black(reflectance(scene, side / 2));
+    }
+    closed = true;
+    for (bool changed = true; changed;) {
+        changed = false;
+        auto reach = [&](size_t from, size_t to) {
+            if (!lit[from] || !sends[from] || lit[to]) return;
+            lit[to] = changed = true;
+        };
+        for (size_t a = 0; a < count; a++) {
+            for (uint32_t b : seen[a]) {
+                if (b == no_side) {
+                    if (lit[a] && sends[a]) closed = false;
+                } else {
+                    reach(a, b);
+                    reach(b, a);  // rays from b may miss a small side
+                }
+            }
+        }
+    }
+    return lit;
 }

@@ -1,9 +1,20 @@
-// A triangle cut into k x k small ones, row by row: rows of 2 (k - j) - 1, for j = 0 .. k - 1.
+// What radiosity (chapter 26) needs of a scene: diffuse surfaces alone, triangles alone, cut into
+// small ones, and which of their sides light can reach.
 #pragma once
 #include <array>
-#include <cstdint>
 
-#include "common/base/vec.h"
+#include "common/scene/scene.h"
+
+/// Throws InputError for all that has no radiosity: paths are LD*E, lamps have a surface, and some
+/// surface absorbs.
+/// tested by  "input: what has no radiosity is refused, with its place in the file"
+void refuse(const Scene& scene);
+
+/// Puts meshes in place of all spheres and disks, and makes the scene ready again: 512 triangles
+/// with the area of the sphere, 32 with that of the disk. Returns how many triangles that makes.
+/// Throws InputError for a shape so small that the rounding of corners changes its area.
+/// tested by  "identity: spheres and disks made meshes keep area, power and the side that shines"
+size_t tessellate(Scene& scene, int threads);
 
 using Corners = std::array<Vec3, 3>;
 
@@ -55,3 +66,27 @@ inline std::array<Corners, 4> quarters(const Corners& t) {
     Vec3 a = (t[1] + t[2]) / 2, b = (t[2] + t[0]) / 2, c = (t[0] + t[1]) / 2;
     return {{{t[0], c, b}, {c, t[1], a}, {b, a, t[2]}, {a, b, c}}};
 }
+
+inline constexpr uint32_t no_side = ~0u;
+
+/// The corners of triangle number `prim`.
+inline Corners corners(const Scene& scene, uint32_t prim) {
+    const Geometry& g = scene.geometry;
+    const Triangle& t = g.triangles[prim];
+    return {g.positions[t.v[0]], g.positions[t.v[1]], g.positions[t.v[2]]};
+}
+
+/// What a side of triangle number `prim` emits, W m^-2, and reflects.
+inline Rgb emitted(const Scene& scene, uint32_t prim, bool front) {
+    const Shape& shape = scene.shapes[scene.geometry.triangles[prim].shape];
+    if (shape.light < 0) return {};
+    const Light& light = scene.lights[static_cast<size_t>(shape.light)];
+    return front || light.two_sided ? pi * light.L : Rgb{};
+}
+inline Rgb reflectance(const Scene& scene, uint32_t prim) {
+    return scene.materials[scene.shapes[scene.geometry.triangles[prim].shape].material].reflectance;
+}
+
+/// Which sides light can reach: spreads from the lamps to what they see, and on from all that
+/// reflects. Finds also whether the room is closed.
+std::vector<char> find_lit_sides(const Scene& scene, bool& closed, int threads);
