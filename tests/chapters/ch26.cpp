@@ -270,8 +270,8 @@ TEST_SUITE("ch26 solvers") {
     TEST_CASE("identity: all that lamps emit is absorbed, escapes, or is unshot") {
         for (bool closed : {true, false}) {
             CAPTURE(closed);
-            Scene scene =
-                closed ? world_of(cube(0.5, 1)) : scene_from("scenes/cornell.pbrt", 32, 5);
+            Scene scene = closed ? world_of("Scale 1e-3 1e-3 1e-3 " + cube(0.5, 1))
+                                 : scene_from("scenes/cornell.pbrt", 32, 5);
             Room room(scene, 150), raw(scene, 150, false);
             REQUIRE(room.patches->closed == closed);
             const std::vector<Patch>& patch = room.patches->patch;

@@ -122,7 +122,8 @@ struct World {
             "PixelFilter \"box\" Integrator \"path\" \"integer maxdepth\" %d\n",
             width, height, dice.chance(0.2) ? 20 : 1 + dice.below(7));
         double distance = dice.chance(0.1) ? dice.power(5, 500) : dice.power(0.6, 5),
-               angle = dice.from(0, 6.283), up = dice.from(0.1, 0.9);
+               angle = dice.from(0, 6.283),
+               up = dice.chance(0.15) ? -0.5 : dice.from(0.1, 0.9);  // or from below the floor
         if (dice.chance(0.2)) text += scale(dice.power(0.3, 3)) + "\n";
         text += format("LookAt %.4g %.4g %.4g  %.3g %.3g %.3g  0 1 0\n",
                        size * distance * std::cos(angle), size * distance * up,
