@@ -88,55 +88,6 @@ TEST_SUITE("programs") {
             }
     }
 
-    TEST_CASE("identity: parts of a render, merged in any order, have the bytes of the whole") {
-        for (auto [program, sampler] :
-             {std::pair<std::string, std::string>("15_mis_ris", "stratified"),
-              {light_tracer, "sobol"}}) {
-            TemporaryFolder folder;
-            for (const auto& [name, part] : {std::pair("whole", "1/1"), std::pair("1", "1/3"),
-                                             std::pair("2", "2/3"), std::pair("3", "3/3")}) {
-                Words words = {spheres, "--size", "33x17", "--spp", "10", "--sampler", sampler};
-                append(words, {"--quiet", "--part", part, "--film", folder / name + ".film"});
-                for (const char* kind : {".pfm", ".ppm", ".png"})
-                    append(words, {"--out", folder / name + kind});
-                REQUIRE(run(program, words).code == 0);
-            }
-            for (const char* kind : {".film", ".pfm", ".ppm", ".png"}) {
-                Words words = {folder / "out" + kind};
-                for (const char* part : {"3.film", "1.film", "2.film"})
-                    words.push_back(folder / part);
-                REQUIRE(run("merge", words).code == 0);
-                CHECK(read_file(folder / "out" + kind) == read_file(folder / "whole" + kind));
-            }
-            std::string before = read_file(folder / "out.film");
-            Finished end =
-                run("merge", {folder / "out.film", folder / "1.film", folder / "1.film"});
-            CHECK(end.code == 1);
-            CHECK(end.err.starts_with(folder / "1.film" + ": error: "));
-            CHECK(read_file(folder / "out.film") == before);
-        }
-    }
-
-    TEST_CASE("input: a film of something else is refused with one line, and stays as it is") {
-        TemporaryFolder folder;
-        Words first = {spheres,  "--size",          "33x17", "--spp",         "4",
-                       "--film", folder / "a.film", "--out", folder / "a.ppm"};
-        REQUIRE(run("12_ris", first).code == 0);
-        std::string before = read_file(folder / "a.film");
-        for (const Words& other : {Words{"12_ris", "--size", "33x18"},
-                                   {"12_ris", "--m", "3"},
-                                   {"12_ris", "--max-depth", "3"},
-                                   {"12_ris", "--paths", "LDE"},
-                                   {"12_ris", "--seed", "7"},
-                                   {"11_light_importance"}}) {
-            Finished end = run(other[0], joined(first, {other.begin() + 1, other.end()}));
-            CHECK(end.code == 1);
-            CHECK(end.err.starts_with(folder / "a.film" + ": error: it"));
-            CHECK(is_one_line(end.err));
-            CHECK(read_file(folder / "a.film") == before);
-        }
-    }
-
     TEST_CASE("identity: what Ctrl-C stops is a whole picture, and goes on to the same bytes" *
               doctest::skip()) {
         for (auto [program, sampler, signal] :
