@@ -102,6 +102,20 @@ TEST_SUITE("comparison") {
         CHECK(decode_comment("c.pfm", read_file(folder / "c.pfm")).empty());
     }
 
+    TEST_CASE("identity: a film tells compare what its picture shows, and its error") {
+        TemporaryFolder folder;
+        FilmLabel label;
+        label.options = {{"checksum", "1"}, {"code", "2"}, {"paths", ""}};
+        label.samples = {{7, 0, 2}};
+        Film film(3, 1);
+        for (size_t i = 0; i < 6; i++) film.add(i / 2, grey(static_cast<double>(i * i)));
+        write_film(folder / "a.film", label, film);
+        Picture picture = read_picture(folder / "a.film");
+        CHECK(picture.image.pixels == film.image().pixels);
+        CHECK(picture.standard_error == film.standard_error());
+        CHECK(picture.notes == Notes{{"checksum", "1"}, {"spp", "2"}, {"seed", "7"}});
+    }
+
     TEST_CASE("input: pictures that cannot be compared") {
         Image bad = grey(4, 4, 1);
         bad.at(1, 2).g = NAN;
