@@ -49,41 +49,6 @@ TEST_SUITE("optics") {
         CHECK(reflected(40, 1) == 0);
     }
 
-    TEST_CASE("furnace: paths through a glass ball are worth 1, and what a depth limit cuts, 0") {
-        Scene scene = world_of(
-            "LightSource \"infinite\" Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\"");
-        auto disc = [&](int inside) {  // parallel rays, spread evenly over the ball's disc
-            scene.max_depth = inside + 2;
-            RunningStats stats;
-            Recorder recorder;
-            Sampler random = random_numbers(1);
-            float largest = 0;
-            for (int i = 0; i < 200000; i++) {
-                float s = std::sqrt(random.u1());
-                Ray ray = {{s, 0, -4}, {0, 0, 1}};
-                float L = ch07::trace(scene, ray, random, recorder).g;
-                largest = std::max(largest, std::min(std::abs(L), std::abs(L - 1)));
-                stats.add(static_cast<double>(L));
-            }
-            CHECK(largest < 2e-5f);  // 0 or 1, to rounding
-            return stats;
-        };
-        for (auto [inside, L] : {std::pair{0, 0.9273223594859},
-                                 {1, 0.9885055761808},
-                                 {2, 0.9964989532408},
-                                 {4, 0.9991900811265}}) {
-            check_mean(disc(inside), L, L * (1 - L), 0.005);
-        }
-        for (auto [inside, L] : {std::pair{0, 0.9616}, {1, 0.998464}}) {
-            scene.max_depth = inside + 2;
-            check_mean(repeat(scene, {{0, 0, -4}, {0, 0, 1}}, ch07::trace, 100000), L, L * (1 - L),
-                       0.005);
-        }
-        scene.max_depth = 1000;
-        CHECK(repeat(scene, {{0.7f, 0, -4}, {0, 0, 1}}, ch07::trace, 10000).mean() ==
-              nearly(1, 1e-5));
-    }
-
     TEST_CASE("truth: inside glass, the sky is n^2 times as bright") {
         Scene scene = world_of(
             "LightSource \"infinite\" Material \"dielectric\" \"float eta\" 1.5 Shape \"sphere\"");

@@ -32,6 +32,18 @@ TEST_SUITE("options") {
         CHECK(o.spp == 3);  // the last of two counts
         CHECK(o.scene == "--quiet");
         CHECK(parsed({"--explain=3,4,17"}).explain->number == 17);
+        CHECK(parsed({"--threads", "1024"}).threads == 1024);
+        CHECK(parsed({"--size", "16384x16384"}).width == 16384);  // 2^28 pixels
+        // A chapter's own options are kept, but for those without a value.
+        auto ignore = [](const std::string&) {};
+        o = parsed({"--m", "4", "--film", "a.film", "--part", "3/3", "--film-every", "0.5"},
+                   {{"way", "KIND", "a way", ignore, "short"},
+                    {"other", "KIND", "no value", ignore},
+                    {"m", "N", "m", ignore, "3"}});
+        CHECK(o.own ==
+              std::vector<std::pair<std::string, std::string>>{{"way", "short"}, {"m", "4"}});
+        CHECK(o.part == 3);
+        CHECK(o.film_every == 0.5);
         // The command can be typed again.
         CHECK(parsed({"it's", "--paths", "LD(S|D)*E"}).command ==
               "build/07_x 'it'\\''s' --paths 'LD(S|D)*E'");

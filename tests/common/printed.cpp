@@ -1,8 +1,6 @@
-// What programs print and write beside pictures: statistics, tables, explained paths,
-// and the reasons why a film does not fit.
+// What programs print beside pictures: statistics, explained paths, and the reasons why a film does
+// not fit.
 #include <doctest/doctest.h>
-
-#include <cmath>
 
 #include "common/path/camera_sample.h"
 #include "common/render/render.h"
@@ -31,11 +29,10 @@ RenderOptions options_of(const std::string& folder) {
     return options;
 }
 
-/// 4 samples in each pixel, but for the last `empty` ones: 1 +- 0.1 in red, twice that in green,
-/// nothing in blue.
-Rendering rendering_of(size_t empty = 0) {
+/// 4 samples in each pixel: 1 +- 0.1 in red, twice that in green, nothing in blue.
+Rendering rendering_of() {
     Rendering r{Film(10, 10), {}, {}};
-    for (size_t i = 0; i + empty < 100; i++) {
+    for (size_t i = 0; i < 100; i++) {
         for (int s = 0; s < 4; s++) {
             float L = s % 2 == 0 ? 0.9f : 1.1f;
             r.film.add(i, {L, 2 * L, 0});
@@ -47,46 +44,22 @@ Rendering rendering_of(size_t empty = 0) {
     return r;
 }
 
-Finished written(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    return captured([&] { return write_results(scene, options, r); });
-}
-
 }  // namespace
 
 TEST_SUITE("printed") {
-    TEST_CASE("truth: each figure of --stats is that of the film") {
+    TEST_CASE("truth: --stats counts the samples and rays of this run, and empty pixels") {
         TemporaryFolder folder;
-        Scene scene = small_scene();
         RenderOptions options = options_of(folder.path());
         options.quiet = true;
         options.stats = folder / "s.json";
-        Rendering r = rendering_of(25);
-        r.stats.paths_cut = 12;
-        r.warnings = {"its own"};
-        CHECK(written(scene, options, r).code == 0);
+        Rendering r = rendering_of();
+        r.film.pixels()[3] = {};
+        write_results(small_scene(), options, r);
         StatsFile stats{read_file(options.stats)};
-        const std::pair<const char*, double> figures[] = {
-            {"spp", 3},
-            {"threads", 3},
-            {"seconds", 2},
-            {"samples_per_second", 50},
-            {"rays", 9e6},
-            {"rays_per_second", 4e6},
-            {"mean", 1},
-            {"standard_error", 0.006667},
-            {"samples_not_finite", 0},
-            {"paths_cut_by_depth", 12},
-            {"largest_sample", 1.1},
-            {"effective_samples", 297.03},
-            {"empty_pixels_share", 0.25},
-        };
-        for (const auto& [name, value] : figures) {
-            CAPTURE(name);
-            CHECK(std::abs(stats.number(name).value() - value) <= 1e-4 * value);
-        }
-        for (const char* list : {"\"mean_rgb\": [1, 2, 0]", "\"notes\": [\"chapter 07_x\", \"scene",
-                                 "black\", \"its own\"]"})
-            CHECK(stats.json.find(list) != std::string::npos);
+        CHECK(stats.number("seconds") == 2);
+        CHECK(stats.number("samples_per_second") == 98);
+        CHECK(stats.number("rays_per_second") == 4e6);
+        CHECK(stats.number("empty_pixels_share") == 0.01);
     }
 
     TEST_CASE("truth: the command to see a sample that is not finite is told") {
@@ -96,7 +69,7 @@ TEST_SUITE("printed") {
         r.film.add(3, {inf, 1, 1});
         r.stats.not_finite = 2, r.stats.bad = {5, 4, 3, 6};
         r.stats.interrupted = true;
-        Finished end = written(small_scene(), options, r);
+        Finished end = captured([&] { return write_results(small_scene(), options, r); });
         CHECK(end.code == 1);
         CHECK(end.out.find("\nmean unknown: not all samples are finite\n") != std::string::npos);
         CHECK(end.err.ends_with(": build/07_x --spp 4 --explain 3,4,6\n"));
@@ -182,6 +155,9 @@ TEST_SUITE("printed") {
         CHECK(goes_on(9, 1, 1));
         CHECK_FALSE(goes_on(9, 2, 2));
         CHECK_FALSE(goes_on(3, 1, 1));
+        options.seed = 6;
+        CHECK_FALSE(goes_on(9, 1, 1));
+        options.seed = 5;
         // What is to come is in the film's goals; with --time alone nothing is.
         scene.spp = 9;
         save_film(scene, options, r);

@@ -88,55 +88,6 @@ TEST_SUITE("programs") {
             }
     }
 
-    TEST_CASE("identity: parts of a render, merged in any order, have the bytes of the whole") {
-        for (auto [program, sampler] :
-             {std::pair<std::string, std::string>("15_mis_ris", "stratified"),
-              {light_tracer, "sobol"}}) {
-            TemporaryFolder folder;
-            for (const auto& [name, part] : {std::pair("whole", "1/1"), std::pair("1", "1/3"),
-                                             std::pair("2", "2/3"), std::pair("3", "3/3")}) {
-                Words words = {spheres, "--size", "33x17", "--spp", "10", "--sampler", sampler};
-                append(words, {"--quiet", "--part", part, "--film", folder / name + ".film"});
-                for (const char* kind : {".pfm", ".ppm", ".png"})
-                    append(words, {"--out", folder / name + kind});
-                REQUIRE(run(program, words).code == 0);
-            }
-            for (const char* kind : {".film", ".pfm", ".ppm", ".png"}) {
-                Words words = {folder / "out" + kind};
-                for (const char* part : {"3.film", "1.film", "2.film"})
-                    words.push_back(folder / part);
-                REQUIRE(run("merge", words).code == 0);
-                CHECK(read_file(folder / "out" + kind) == read_file(folder / "whole" + kind));
-            }
-            std::string before = read_file(folder / "out.film");
-            Finished end =
-                run("merge", {folder / "out.film", folder / "1.film", folder / "1.film"});
-            CHECK(end.code == 1);
-            CHECK(end.err.starts_with(folder / "1.film" + ": error: "));
-            CHECK(read_file(folder / "out.film") == before);
-        }
-    }
-
-    TEST_CASE("input: a film of something else is refused with one line, and stays as it is") {
-        TemporaryFolder folder;
-        Words first = {spheres,  "--size",          "33x17", "--spp",         "4",
-                       "--film", folder / "a.film", "--out", folder / "a.ppm"};
-        REQUIRE(run("12_ris", first).code == 0);
-        std::string before = read_file(folder / "a.film");
-        for (const Words& other : {Words{"12_ris", "--size", "33x18"},
-                                   {"12_ris", "--m", "3"},
-                                   {"12_ris", "--max-depth", "3"},
-                                   {"12_ris", "--paths", "LDE"},
-                                   {"12_ris", "--seed", "7"},
-                                   {"11_light_importance"}}) {
-            Finished end = run(other[0], joined(first, {other.begin() + 1, other.end()}));
-            CHECK(end.code == 1);
-            CHECK(end.err.starts_with(folder / "a.film" + ": error: it"));
-            CHECK(is_one_line(end.err));
-            CHECK(read_file(folder / "a.film") == before);
-        }
-    }
-
     TEST_CASE("identity: what Ctrl-C stops is a whole picture, and goes on to the same bytes" *
               doctest::skip()) {
         for (auto [program, sampler, signal] :
@@ -165,5 +116,53 @@ TEST_SUITE("programs") {
             CHECK(read_file(folder / "b.film") == read_file(folder / "a.film"));
             CHECK(read_file(folder / "b.pfm") == read_file(folder / "a.pfm"));
         }
+    }
+}
+
+TEST_SUITE("outputs") {
+    TEST_CASE("files: no output overwrites a file that was read, under a name in any language") {
+        TemporaryFolder folder;
+        const std::string strange = "Größe 日本 🎨";
+        const std::string scene = folder / strange + ".pbrt", mesh = folder / strange + ".ply";
+        write_file_atomically(scene,
+                              "Camera \"perspective\"\nWorldBegin\nInclude \"part.txt\"\n"
+                              "LightSource \"infinite\" \"string filename\" \"sky.pfm\"\n");
+        write_file_atomically(folder / "part.txt",
+                              "Shape \"plymesh\" \"string filename\" \"" + strange + ".ply\"\n");
+        write_file_atomically(mesh,
+                              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n"
+                              "0 0 3\n1 0 3\n0 1 3\n3 0 1 2\n");
+        Image sky(4, 4);
+        for (Rgb& p : sky.pixels) p = {1, 1, 1};
+        write_image(folder / "sky.pfm", sky, "");
+        fs::copy_file(file_path(scene), folder / "a.svg");
+        fs::create_directory(folder / "d");
+        if (!make_link("../sky.pfm", folder / "d/classes.png"))
+            fs::create_hard_link(folder / "sky.pfm", folder / "d/classes.png");
+        std::string out = folder / strange + ".pfm";
+        auto refuses = [&](const std::string& path, const Words& words) {
+            CAPTURE(words[0] + " " + words[1]);
+            Finished end = run("17_sky_image", brief(path, words));
+            CHECK(end.code == 2);
+            CHECK(end.out == "");
+            CHECK(end.err.ends_with(", and would be overwritten\n"));
+        };
+        std::set<std::string> before = folder.names();
+        refuses(scene, {"--out", folder / "d/../sky.pfm"});
+        for (const std::string& input : {mesh, folder / "part.txt", scene})
+            refuses(scene, {"--stats", input, "--out", out});
+        refuses(scene, {"--split", folder / "d", "--out", out});
+        refuses(folder / "a.svg", {"--explain", "1,1", "--out", folder / "a.ppm"});
+        CHECK(folder.names() == before);
+        CHECK(read_image(folder / "sky.pfm").at(1, 1) == Rgb{1, 1, 1});
+        Words words = brief(scene, {"--out", out, "--film", folder / strange + ".film"});
+        for (int times = 0; times < 2; times++) {
+            Finished end = run("17_sky_image", words);
+            CHECK(end.code == 0);
+            CHECK(end.err == "");
+        }
+        CHECK(read_image(out).width == 16);
     }
 }

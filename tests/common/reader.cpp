@@ -394,20 +394,6 @@ TEST_SUITE("reader") {
                           doctest::Contains("more than 4 triangles"));
     }
 
-    TEST_CASE("input: scenes as other programs write them load unchanged") {
-        std::vector<std::string> notes;
-        Scene box = load_scene("tests/pictures/real-scenes/cornell-box/scene-v4.pbrt", &notes);
-        CHECK(box.geometry.triangles.size() == 36);
-        CHECK(box.geometry.normals.size() == box.geometry.positions.size());
-        CHECK(box.max_depth == 4);
-        CHECK(notes.size() == 3);
-        REQUIRE(box.lights.size() == 1);
-        CHECK(box.lights[0].L == Rgb{17, 12, 4});
-        CHECK(box.lights[0].prims == 2);
-        // The lamp's normals point down into the room.
-        CHECK(normal_of(box.geometry, box.geometry.triangles[box.lights[0].first_prim]).y < 0);
-    }
-
     TEST_CASE("teeth: bytes that move to the next file of a scene make it another scene") {
         TemporaryFolder folder;
         auto checksum_of = [&](const std::string& a, const std::string& b) {

@@ -89,25 +89,6 @@ constexpr SamplerType samplers[] = {SamplerType::independent, SamplerType::strat
 }  // namespace
 
 TEST_SUITE("render loop") {
-    TEST_CASE("identity: each sample is the function of seed, pixel and number that it should be") {
-        Scene scene = empty_scene(21, 18, 3);
-        for (SamplerType type : samplers) {
-            for (uint32_t seed : {0u, 5u}) {
-                RenderOptions options = stand_in_options();
-                options.sampler = type;
-                options.seed = seed;
-                Image image = render_film(scene, options, noise).film.image();
-                for (auto [x, y] : {std::pair(0, 0), std::pair(20, 0), std::pair(17, 16)}) {
-                    double r = 0;
-                    for (int s = 0; s < 3; s++) {
-                        r += static_cast<double>(sample_of(scene, options, noise, x, y, s).r);
-                    }
-                    CHECK(image.at(x, y).r == static_cast<float>(r / 3));
-                }
-            }
-        }
-    }
-
     TEST_CASE("truth: the time ends it, or the samples do") {
         Scene scene = empty_scene(600, 600, 1 << 20);
         RenderOptions options = stand_in_options();

@@ -49,27 +49,6 @@ TEST_SUITE("surroundings") {
         CHECK(marked > 10);
     }
 
-    TEST_CASE("input: films, parts and a chapter's own options") {
-        std::string way, other;
-        std::vector<Option> extra = {
-            {"way", "KIND", "a way", [&](const std::string& text) { way = text; }, "short"},
-            {"other", "KIND", "no value", [&](const std::string& text) { other = text; }},
-            {"m", "N", "m", [](const std::string&) {}, "3"}};
-        RenderOptions o = parsed({"--film", "a.film", "--part", "2/3", "--film-every", "0.5", "--m",
-                                  "4", "--other", "x", "s.pbrt"},
-                                 extra);
-        CHECK(o.film == "a.film");
-        CHECK(o.part == 2);
-        CHECK(o.parts == 3);
-        CHECK(o.film_every == 0.5);
-        CHECK(other == "x");
-        CHECK(o.own ==
-              std::vector<std::pair<std::string, std::string>>{{"way", "short"}, {"m", "4"}});
-        CHECK(parsed({"--film", "a.film", "--part", "3/3"}).part == 3);
-        CHECK(parsed({"--threads", "1024"}).threads == 1024);
-        CHECK(parsed({"--size", "16384x16384"}).width == 16384);  // 2^28 pixels
-    }
-
     TEST_CASE("truth: a film is written during the render, as often as it should be") {
         TemporaryFolder folder;
         Scene scene = empty_scene(20, 10, 4);
