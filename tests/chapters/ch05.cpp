@@ -158,6 +158,22 @@ TEST_SUITE("ch05 camera") {
 }
 
 TEST_SUITE("ch05 shapes") {
+    TEST_CASE("agreement: rays of any camera are those of common/scene/camera.h") {
+        Sampler random = random_numbers(1);
+        auto vector = [&] { return Vec3{random.u1(), random.u1(), random.u1()}; };
+        for (int i = 0; i < 1000; i++) {
+            Camera camera{vector(), vector(), vector(), vector(), 20 + 90 * random.u1()};
+            if (random.u1() < 0.5f) camera.frame_aspect = 0.5f + random.u1();
+            if (random.u1() < 0.5f)
+                camera.screen_window = {-random.u1(), random.u1(), -random.u1(), random.u1()};
+            int width = 1 + i % 50, height = 1 + i % 37;
+            Vec2 film = {50 * random.u1(), 50 * random.u1()};
+            Ray ray = ch05::camera_ray(ch05::camera_view(camera, width, height), film);
+            Ray same = camera_ray(camera_view(camera, width, height), film);
+            CHECK(length(ray.o - same.o) + length(ray.d - same.d) < 1e-5f);
+        }
+    }
+
     TEST_CASE("agreement: the plain formulas find what common/geometry/shapes.h finds") {
         Sampler random = random_numbers(1);
         auto point = [&] { return Vec3{random.u1(), random.u1(), random.u1()}; };

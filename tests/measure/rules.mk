@@ -44,7 +44,7 @@ bench: $(BUILD)/bench $(made)
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
 # What a test program consists of beside the test itself.
-harness := $(common) $(support) $(BUILD)/obj/tests/known/scenes.o $(BUILD)/obj/tests/laws/laws.o $(filter $(BUILD)/obj/tests/methods/%,$(tests))
+harness := $(common) $(support) $(filter $(BUILD)/obj/tests/known/%,$(tests)) $(BUILD)/obj/tests/laws/laws.o $(filter $(BUILD)/obj/tests/methods/%,$(tests))
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's) (15 minutes)
 teeth: $(harness) $(made)
