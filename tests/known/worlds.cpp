@@ -39,6 +39,15 @@ struct World {
     std::string diffuse(double least = 0) {
         return "Material \"diffuse\" \"rgb reflectance\" " + dice.rgb(least, 0.9) + "\n";
     }
+    /// A checkered ball or disk.
+    std::string checkered(int number) {
+        return format("Texture \"%d\" \"spectrum\" \"checkerboard\" ", number) +
+               "\"float uscale\" 6 \"float vscale\" 4 \"rgb tex1\" " + dice.rgb(0, 0.9) +
+               " \"rgb tex2\" " + dice.rgb(0, 0.9) +
+               format(" Material \"diffuse\" \"texture reflectance\" \"%d\" ", number) +
+               place(0.1, 1.5) + scale(dice.power(0.1, 1)) +
+               (dice.chance(0.5) ? ball(1) : "Shape \"disk\"\n");
+    }
     std::string roughness() {
         if (chapter < 13 || dice.chance(0.3)) return "";
         return format(" \"float roughness\" %.3g \"bool remaproughness\" false",
@@ -155,6 +164,7 @@ std::string random_world(int chapter, uint32_t number) {
     for (int n = 1 + dice.below(4); n > 0; n--)
         text += group(world.material() + world.place(0.1, 1.5) + world.motion() +
                       scale(dice.power(0.05, 0.7)) + world.shape());
+    for (int n = dice.below(3); n > 0; n--) text += group(world.checkered(n));
     int lights = dice.chance(0.1) ? 70 : 1 + dice.below(4);
     for (int n = lights; n > 0; n--) text += world.light();
     return text;
