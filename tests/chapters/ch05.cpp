@@ -162,7 +162,9 @@ TEST_SUITE("ch05 shapes") {
         Sampler random = random_numbers(1);
         auto vector = [&] { return Vec3{random.u1(), random.u1(), random.u1()}; };
         for (int i = 0; i < 1000; i++) {
-            Camera camera{vector(), vector(), vector(), vector(), 20 + 90 * random.u1()};
+            Camera camera;
+            camera.o = vector(), camera.right = vector(), camera.up = vector();
+            camera.forward = vector(), camera.fov = 20 + 90 * random.u1();
             if (random.u1() < 0.5f) camera.frame_aspect = 0.5f + random.u1();
             if (random.u1() < 0.5f)
                 camera.screen_window = {-random.u1(), random.u1(), -random.u1(), random.u1()};
