@@ -64,7 +64,7 @@ class Viewer {
         this.pick = null;  // called with the pixel that is clicked, or chosen by keys and Enter
         this.choices = make('span', {class: 'choices', role: 'group', 'aria-label': 'picture'});
         this.readout = make('output', {class: 'readout'},
-            'point at a pixel to read its values, or move by the arrow keys');
+            'point at a pixel, or tap it, to read its values, or move by the arrow keys');
         this.range = make('input', {
             type: 'range', min: 0, max: 1, step: 0.005, value: 0.5, oninput: () => this.draw(),
             'aria-label': 'slider between two pictures'
@@ -75,7 +75,7 @@ class Viewer {
             make('div', {class: 'sheet'}, this.canvas, this.overlay, this.mark), this.range, this.choices,
             make('span', {class: 'buttons'}, button('darker', () => { this.exposure -= 0.5; }),
                 button('brighter', () => { this.exposure += 0.5; }), this.errorButton), this.readout);
-        this.canvas.onpointermove = event => this.read(this.pixelAt(event));
+        this.canvas.onpointermove = this.canvas.onpointerdown = event => this.read(this.pixelAt(event));
         this.canvas.onclick = event => this.pick?.(this.pixelAt(event));
         this.canvas.onkeydown = event => this.press(event);
         this.canvas.onblur = () => { this.mark.hidden = true; };
