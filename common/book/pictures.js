@@ -143,6 +143,7 @@ class Viewer {
             button.setAttribute('aria-pressed', i === this.left || i === this.right);
         });
         this.errorButton.setAttribute('aria-pressed', this.error);
+        this.range.disabled = this.error;
     }
     /// |a - b| / (b + 0.1) of the pixel, in grey.
     errorAt(a, b, i) {
