@@ -83,9 +83,6 @@ Method noise_with_signal(int signal, int at) {
 
 Rgb throwing(const Scene&, Ray, Sampler&, Recorder&) { throw std::bad_alloc(); }
 
-constexpr SamplerType samplers[] = {SamplerType::independent, SamplerType::stratified,
-                                    SamplerType::sobol};
-
 }  // namespace
 
 TEST_SUITE("render loop") {
