@@ -39,8 +39,8 @@ bool is_close(double value, double truth) { return std::abs(value - truth) < 2e-
 
 }  // namespace
 
-TEST_SUITE("ch05 made by chance") {
-    TEST_CASE("brute: in scenes made by chance a ray hits what the hierarchy says") {
+TEST_SUITE("ch05 random scenes") {
+    TEST_CASE("brute: in random scenes a ray hits what the hierarchy says") {
         Sampler random = random_numbers(1);
         int met = 0;
         for (uint32_t number = 0; number < 100; number++) {

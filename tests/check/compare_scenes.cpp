@@ -1,6 +1,6 @@
 // compare_scenes NN [SCENE]: renders the known scenes by chapter NN, or one of them, and says what
 // is not as it should be; "first: ..." as soon as something is off. Then, with --worlds FILE,
-// scenes made by chance, beside what the chapter's own file rendered of them.
+// random scenes, beside what the chapter's own file rendered of them.
 // compare_scenes NN write: renders these, and writes FILE.
 #include <algorithm>
 #include <cstdio>
@@ -260,7 +260,7 @@ bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const s
         }
     }
     if (found.off.empty()) {
-        std::printf("In %zu scenes made by chance the light is the chapter's.\n", rendered.size());
+        std::printf("In %zu random scenes the light is the chapter's.\n", rendered.size());
         return false;
     }
     const std::string& worst = found.off[0].scene;
@@ -268,7 +268,7 @@ bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const s
     auto number = static_cast<uint32_t>(std::stoi(worst.substr(6)));
     write_file_atomically(path, random_world(std::stoi(chapter), number));
     std::printf("first: %s.\n", worst_of(found).c_str());
-    std::printf("Scenes made by chance are off, beside the chapter's own file. Most surely: %s.\n",
+    std::printf("Random scenes are off, beside the chapter's own file. Most surely: %s.\n",
                 worst_of(found).c_str());
     print_rows(found);
     std::printf("To see the first: make mine CH=%s ARGS='%s'\n", chapter.c_str(), path.c_str());
@@ -306,7 +306,7 @@ int main(int argc, char** argv) {
             argc, argv, "CHAPTER [SCENE|write]",
             "Renders the known scenes by a chapter, and says what is not as it should be.",
             {.seconds = 10},
-            {{"worlds", "FILE", "also scenes made by chance, beside this file's",
+            {{"worlds", "FILE", "also random scenes, beside this file's",
               [&](const std::string& text) { file = text; }}});
         if (o.words.empty()) throw UsageError("error: one chapter is needed, such as 09");
         if (o.words.size() == 2 && o.words[1] == "write") {

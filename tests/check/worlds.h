@@ -1,4 +1,4 @@
-// Scenes made by chance, rendered by the reader's file and by the chapter's with the same random
+// Random scenes, rendered by the reader's file and by the chapter's with the same random
 // numbers: what both do alike cancels, so that few samples show what they do not.
 #pragma once
 #include <cmath>

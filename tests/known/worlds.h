@@ -1,4 +1,4 @@
-// Small scenes made by chance: of several lights, shapes and materials at once, as no list of
+// Small random scenes: of several lights, shapes and materials at once, as no list of
 // scenes has them.
 #pragma once
 #include <cstdint>
