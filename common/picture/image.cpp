@@ -80,43 +80,14 @@ std::string big_endian(size_t value) {
     return bytes;
 }
 
-/// The byte at a place; 0 behind the end.
-size_t byte_at(std::string_view bytes, size_t at) {
-    return at < bytes.size() ? static_cast<uint8_t>(bytes[at]) : 0;
-}
-size_t big_endian_at(std::string_view bytes, size_t at, size_t count = 4) {
+/// The number in some bytes, the highest first; 0 for those behind the end.
+size_t big_endian_at(std::string_view bytes, size_t at, size_t count) {
     size_t value = 0;
-    for (size_t i = 0; i < count; i++) value = value << 8 | byte_at(bytes, at + i);
+    for (size_t i = at; i < at + count; i++)
+        value = value << 8 | (i < bytes.size() ? static_cast<uint8_t>(bytes[i]) : 0u);
     return value;
 }
-size_t little_endian_at(std::string_view bytes, size_t at, size_t count = 4) {
-    size_t value = 0;
-    for (size_t i = count; i-- > 0;) value = value << 8 | byte_at(bytes, at + i);
-    return value;
-}
-
-/// The bytes that stb reads. It makes up what a file lacks; this sees that it does.
-struct Source {
-    std::string_view left;
-    bool is_cut = false;
-    stbi__context context = {};
-
-    static int read(void* self, char* to, int size) {
-        Source& source = *static_cast<Source*>(self);
-        size_t wanted = static_cast<size_t>(size), n = std::min(wanted, source.left.size());
-        // stb fills its buffer with what there is, and needs one byte of it.
-        bool is_buffer = to == reinterpret_cast<char*>(source.context.buffer_start);
-        source.is_cut |= n < (is_buffer ? 1 : wanted);
-        source.left.copy(to, n);
-        source.left.remove_prefix(n);
-        return static_cast<int>(n);
-    }
-    static void skip(void* self, int size) {
-        Source& source = *static_cast<Source*>(self);
-        source.left.remove_prefix(std::min(static_cast<size_t>(size), source.left.size()));
-    }
-    static int is_at_end(void* self) { return static_cast<Source*>(self)->left.empty(); }
-};
+size_t byte_at(std::string_view bytes, size_t at) { return big_endian_at(bytes, at, 1); }
 
 /// Whether a .jpg file has a Huffman table of more than 256 codes: stb has no room for more.
 bool has_large_table(std::string_view file) {
@@ -141,7 +112,7 @@ bool has_large_table(std::string_view file) {
 /// and a checksum. All bytes where these are not packed by gzip.
 size_t size_of_gzip_header(std::string_view bytes) {
     size_t flags = byte_at(bytes, 3), size = 10;
-    if (flags & 4) size += 2 + little_endian_at(bytes, size, 2);
+    if (flags & 4) size += 2 + byte_at(bytes, size) + 256 * byte_at(bytes, size + 1);
     for (size_t flag : {8u, 16u})
         if (flags & flag) size = std::min(bytes.find('\0', size), bytes.size()) + 1;
     if (flags & 2) size += 2;
@@ -156,12 +127,12 @@ std::string png_comment(const std::string& path, std::string_view bytes) {
     std::string comment;
     std::string_view kind;
     for (size_t at = signature.size(); kind != "IEND";) {
-        size_t length = big_endian_at(bytes, at);
+        size_t length = big_endian_at(bytes, at, 4);
         if (bytes.size() - at < 12 || length > bytes.size() - at - 12)
             fail({path}, "the picture is cut short, or damaged");
         kind = bytes.substr(at + 4, 4);
         std::string_view data = bytes.substr(at + 8, length);
-        if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length))
+        if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length, 4))
             fail({path}, "a damaged .png picture: a checksum is wrong");
         if (comment.empty() && kind == "tEXt" && data.starts_with(comment_key))
             comment = data.substr(comment_key.size());
@@ -187,14 +158,18 @@ Image decode_by_stb(const std::string& path, const std::string& bytes, float gam
         fail({path}, "a damaged picture, of a kind that is not read, or of more than 2^28 pixels");
     size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
     most_memory += 2 * bytes.size() + 32 * pixels;
-    Source source{bytes};
-    stbi_io_callbacks callbacks = {Source::read, Source::skip, Source::is_at_end};
-    stbi__start_callbacks(&source.context, &callbacks, &source);
+    // stb makes up what a file lacks. Behind this one there is more than it takes at once (a row of
+    // 65535 pixels), so that it is seen to go on there.
+    const std::string padded = bytes + std::string(1 << 18, '\0');
+    auto* start = reinterpret_cast<const unsigned char*>(padded.data());
+    stbi__context context = {};
+    stbi__start_mem(&context, start, static_cast<int>(padded.size()));
     // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
     std::unique_ptr<uint16_t, void (*)(void*)> codes(
-        stbi__load_and_postprocess_16bit(&source.context, &width, &height, &channels, STBI_rgb),
+        stbi__load_and_postprocess_16bit(&context, &width, &height, &channels, STBI_rgb),
         std::free);
-    if (!codes || source.is_cut) fail({path}, "the picture is cut short, or damaged");
+    if (!codes || context.img_buffer > start + bytes.size())
+        fail({path}, "the picture is cut short, or damaged");
     std::vector<float> linear(65536);
     for (size_t i = 0; i < linear.size(); i++) {
         linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
@@ -315,7 +290,7 @@ std::string png_chunk(const std::string& kind_and_data) {
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 std::string unpack_gzip(const std::string& path, const std::string& bytes) {
-    constexpr size_t most = 1032, behind = 8;  // times larger; a checksum and the length
+    constexpr size_t most = 1032;  // times larger
     // stb looks at a few bytes behind the data, and so is given the rest of the file too.
     auto* start = reinterpret_cast<stbi_uc*>(const_cast<char*>(bytes.data()));
     stbi__zbuf state = {};
@@ -328,8 +303,9 @@ std::string unpack_gzip(const std::string& path, const std::string& bytes) {
     std::unique_ptr<char, void (*)(void*)> unpacked(state.zout_start, std::free);
     size_t size = static_cast<size_t>(state.zout - state.zout_start);
     size_t tail = static_cast<size_t>(state.zbuffer - start - state.num_bits / 8);
-    if (!is_whole || tail + behind != bytes.size() || size != little_endian_at(bytes, tail + 4) ||
-        crc32({unpacked.get(), size}) != little_endian_at(bytes, tail))
+    std::string sums = big_endian(size) + big_endian(crc32({unpacked.get(), size}));
+    std::reverse(sums.begin(), sums.end());  // the lowest byte comes first
+    if (!is_whole || bytes.substr(tail) != sums)
         fail({path}, "damaged, cut short, or larger than 1 GB: packed by gzip");
     return {unpacked.get(), size};
 }
