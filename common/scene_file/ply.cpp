@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
 
 namespace {
 
-constexpr size_t corners = 8, unused = 9;  // after the eight numbers of a vertex
+/// What the numbers of a vertex are: its position, its normal, its place in textures.
+const std::map<std::string, size_t> roles = {
+    {"x", 0},         {"y", 1}, {"z", 2},         {"nx", 3},       {"ny", 4},
+    {"nz", 5},        {"u", 6}, {"s", 6},         {"v", 7},        {"texture_u", 6},
+    {"texture_s", 6}, {"t", 7}, {"texture_v", 7}, {"texture_t", 7}};
+constexpr size_t corners = 8, unused = 9;
 
 struct Property {
     std::string name;
@@ -23,13 +29,6 @@ struct Element {
     uint64_t count = 0;
     Position at;
     std::vector<Property> properties;
-
-    Property* find(const std::string& property) {
-        for (Property& p : properties) {
-            if (p.name == property) return &p;
-        }
-        return nullptr;
-    }
 };
 
 /// Reads the bytes of the file in words, or in binary values.
@@ -54,7 +53,8 @@ public:
                     if (role == corners) add_face(vertex.count, mesh);
                     if (role >= corners) continue;
                     v[role] = static_cast<float>(values_[0]);
-                    if (role < 6 && !std::isfinite(v[role])) fail_here("a vertex is not finite");
+                    bool counts = role < 3 || (role < 6 && has_normals_);
+                    if (counts && !std::isfinite(v[role])) fail_here("a vertex is not finite");
                 }
                 if (&element != &vertex) continue;
                 mesh.positions.push_back({v[0], v[1], v[2]});
@@ -195,28 +195,25 @@ private:
         if (found->count <= most) return *found;
         fail(found->at, "more than " + std::to_string(most) + ' ' + name + " elements");
     }
-    // Gives numbers of the element roles from `first` on, if it has all of them.
-    static bool give_roles(Element& element, size_t first, const std::vector<std::string>& names) {
-        for (const std::string& name : names) {
-            if (!element.find(name) || element.find(name)->count_type) return false;
-        }
-        for (const std::string& name : names) element.find(name)->role = first++;
-        return true;
-    }
     // Finds the coordinates of a vertex, its normal and its place in textures, and the faces.
     void find_roles(Element& vertex, Element& face) {
-        for (size_t i = 0; i < 3; i++) {
-            std::string name(1, "xyz"[i]);
-            if (give_roles(vertex, i, {name})) continue;
-            fail(vertex.at, "vertex has no number " + quote(name));
+        std::array<bool, corners> has = {};
+        for (Property& p : vertex.properties) {
+            auto role = roles.find(p.name);
+            if (p.count_type || role == roles.end() || has[role->second]) continue;
+            p.role = role->second;
+            has[p.role] = true;
         }
-        has_normals_ = give_roles(vertex, 3, {"nx", "ny", "nz"});
-        has_uvs_ = give_roles(vertex, 6, {"u", "v"}) || give_roles(vertex, 6, {"s", "t"}) ||
-                   give_roles(vertex, 6, {"texture_u", "texture_v"}) ||
-                   give_roles(vertex, 6, {"texture_s", "texture_t"});
-        Property* list = face.find("vertex_indices");
-        if (!list) list = face.find("vertex_index");
-        if (!list || !list->count_type || list->type->is_float) {
+        for (size_t i = 0; i < 3; i++) {
+            if (!has[i]) fail(vertex.at, "vertex has no number " + quote(std::string(1, "xyz"[i])));
+        }
+        has_normals_ = has[3] && has[4] && has[5];
+        has_uvs_ = has[6] && has[7];
+        auto is_list = [](const Property& p) {
+            return p.name == "vertex_indices" || p.name == "vertex_index";
+        };
+        auto list = std::find_if(face.properties.begin(), face.properties.end(), is_list);
+        if (list == face.properties.end() || !list->count_type || list->type->is_float) {
             fail(face.at, "face has no list of whole numbers \"vertex_indices\"");
         }
         list->role = corners;
@@ -235,9 +232,8 @@ private:
                           " of a face does not exist: there are " + std::to_string(vertices));
             }
             v[i] = static_cast<uint32_t>(index);
+            if (i >= 2) mesh.indices.insert(mesh.indices.end(), {v[0], v[i - 1], v[i]});
         }
-        mesh.indices.insert(mesh.indices.end(), {v[0], v[1], v[2]});
-        if (values_.size() == 4) mesh.indices.insert(mesh.indices.end(), {v[0], v[2], v[3]});
     }
 
     const std::string file_;
