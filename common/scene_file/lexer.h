@@ -1,14 +1,16 @@
 // Splits a pbrt-v4 scene file into tokens that know where they stand.
 #pragma once
-#include <optional>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
-#include "common/base/error.h"
-#include "common/base/progress.h"
+#include "common/base/text.h"
+#include "common/scene_file/input.h"
 
 struct Token {
-    enum Type : uint8_t { word, string, open, close, end };
+    enum Type : uint8_t { word, string, opens, closes, end };  // opens, closes: brackets
     Type type = end;
     std::string_view text;  // as written; of a string, what stands between the quotes
     int line = 1, column = 1;
@@ -21,28 +23,129 @@ struct Token {
 /// ReadingEnds for a string without its end.
 class Lexer {
 public:
-    Lexer(std::string file, std::string bytes, const Report& report = {});
+    Lexer(std::string file, std::string bytes, const Report& report = {})
+        : file_(std::move(file)), bytes_(std::move(bytes)), report_(report) {
+        for (size_t i = 0; i < bytes_.size();) {
+            size_t length = utf8_length(bytes_, i);
+            if (length == 0) {
+                advance_to(i);
+                fail({file_, line_, column_}, "not UTF-8 text");
+            }
+            i += length;
+        }
+        if (bytes_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
+        ahead_ = read();
+    }
     Lexer(const Lexer&) = delete;  // tokens point into bytes_
     Lexer& operator=(const Lexer&) = delete;
 
     const Token& peek() const { return ahead_; }
-    Token next();
+    Token next() {
+        Token token = ahead_;
+        if (token.type != Token::end) ahead_ = read();
+        return token;
+    }
     /// Whether the next token looks like none that begins a directive.
-    bool has_argument() const;
+    bool has_argument() const {
+        if (ahead_.type != Token::word) return ahead_.type != Token::end;
+        return ahead_.text[0] < 'A' || ahead_.text[0] > 'Z';
+    }
     Position at(const Token& token) const { return {file_, token.line, token.column}; }
 
     /// The next token, which must be of this type; throws `NEEDS, not ...` where it is another.
-    Token expect(Token::Type type, const std::string& needs);
+    Token expect(Token::Type type, const std::string& needs) {
+        Token token = next();
+        if (token.type != type) fail_at(token, needs);
+        return token;
+    }
     /// The next number; throws `WHAT needs a number, not ...` where there is none.
-    double number(const std::string& what);
+    double number(const std::string& what) {
+        Token token = next();
+        std::optional<double> value;
+        if (token.type == Token::word) value = to_number(token.text);
+        if (!value) fail_at(token, what + " needs a number");
+        if (std::abs(*value) > std::numeric_limits<float>::max()) {
+            fail(at(token), "number too large: " + quote(token.text));
+        }
+        return *value;
+    }
     /// What the quoted string means: its escapes \b \f \n \r \t \\ \' \" resolved.
-    std::string unescape(const Token& token) const;
+    std::string unescape(const Token& token) const {
+        constexpr std::string_view letters = "bfnrt\\'\"", meanings = "\b\f\n\r\t\\'\"";
+        std::string text;
+        for (size_t i = 0; i < token.text.size(); i++) {
+            if (token.text[i] != '\\') {
+                text += token.text[i];
+                continue;
+            }
+            size_t letter = letters.find(token.text[++i]);
+            if (letter == letters.npos) {
+                fail(at(token), "unknown escape " + quote(token.text.substr(i - 1, 2)) +
+                                    ": write / between folders, and \\\\ for a \\ in a string");
+            }
+            text += meanings[letter];
+        }
+        return text;
+    }
     /// Throws `TEXT, not TOKEN`.
-    [[noreturn]] void fail_at(const Token& token, const std::string& text) const;
+    [[noreturn]] void fail_at(const Token& token, const std::string& text) const {
+        std::string what = token.type == Token::end      ? "the end of the file"
+                           : token.type == Token::string ? "the string " + quote(token.text)
+                                                         : quote(token.text);
+        fail(at(token), text + ", not " + what);
+    }
 
 private:
-    void advance_to(size_t end);
-    Token read();
+    // Steps to this byte, or to the end, and counts lines and characters. Of CR LF only the LF ends
+    // the line.
+    void advance_to(size_t end) {
+        for (; position_ < std::min(end, bytes_.size()); position_++) {
+            char c = bytes_[position_];
+            if (c == '\n' || (c == '\r' && bytes_[position_ + 1] != '\n')) {
+                line_++;
+                column_ = 1;
+            } else if ((c & 0xc0) != 0x80) {
+                column_++;
+            }
+        }
+    }
+    Token read() {
+        auto stands_at = [&](std::string_view any) {
+            return position_ < bytes_.size() && any.find(bytes_[position_]) != any.npos;
+        };
+        while (stands_at(" \t\r\n#")) {
+            advance_to(stands_at("#") ? bytes_.find_first_of("\r\n", position_) : position_ + 1);
+        }
+        if (position_ >= next_report_) {
+            constexpr size_t step = size_t{1} << 20;
+            next_report_ = position_ + step;
+            double share = static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
+            if (report_) report_("reading " + file_, share);
+        }
+        Token token = {Token::end, {}, line_, column_};
+        size_t start = position_;
+        if (start == bytes_.size()) return token;
+        if (stands_at("\"")) {
+            // Look for what ends it, but behind the pairs \\ and \".
+            size_t end = bytes_.find_first_of("\\\"\r\n", start + 1);
+            while (end < bytes_.size() && bytes_[end] == '\\') {
+                bool is_pair = bytes_[end + 1] == '\\' || bytes_[end + 1] == '"';
+                end = bytes_.find_first_of("\\\"\r\n", end + (is_pair ? 2 : 1));
+            }
+            if (end >= bytes_.size() || bytes_[end] != '"') {
+                stop_reading(at(token), "the string does not end on its line");
+            }
+            token.type = Token::string;
+            token.text = std::string_view(bytes_).substr(start + 1, end - start - 1);
+            advance_to(end + 1);
+            return token;
+        }
+        token.type = stands_at("[") ? Token::opens : stands_at("]") ? Token::closes : Token::word;
+        bool is_word = token.type == Token::word;
+        advance_to(is_word ? bytes_.find_first_of(" \t\r\n[]\"", start) : start + 1);
+        token.text = std::string_view(bytes_).substr(start, position_ - start);
+        return token;
+    }
 
     std::string file_, bytes_;
     Report report_;

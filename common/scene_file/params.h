@@ -1,6 +1,11 @@
 // The parameters that follow a directive of a pbrt-v4 scene file: `"float fov" 45`.
 #pragma once
+#include <algorithm>
+#include <sstream>
+
+#include "common/base/text.h"
 #include "common/base/vec.h"
+#include "common/material/spectrum.h"
 #include "common/scene_file/input.h"
 #include "common/scene_file/lexer.h"
 
@@ -12,8 +17,97 @@ struct Param {
     bool is_default = false;  // given by Attribute, also to directives that do not know it
 };
 
+/// The words between blanks.
+inline std::vector<std::string> words_of(const std::string& line) {
+    std::vector<std::string> words;
+    std::istringstream in(line);
+    for (std::string word; in >> word;) words.push_back(word);
+    return words;
+}
+
+/// A type of parameters.
+struct ParamType {
+    static constexpr std::string_view number = "a number", text = "a string in quotes",
+                                      whole = "a whole number", truth = "true or false",
+                                      spectrum = "a name or numbers";
+
+    std::string_view needs;  // what each of its values must be
+    size_t group = 1;        // how many of them make one
+    double low = -double{infinity}, high = double{infinity};
+};
+inline const std::map<std::string, ParamType> param_types = {
+    {"blackbody", {ParamType::number, 1, 500, 1e6}},
+    {"bool", {ParamType::truth}},
+    {"float", {ParamType::number}},
+    {"integer", {ParamType::whole}},
+    {"normal", {ParamType::number, 3}},
+    {"point3", {ParamType::number, 3}},
+    {"point2", {ParamType::number, 2}},
+    {"rgb", {ParamType::number, 3}},
+    {"spectrum", {ParamType::spectrum}},
+    {"string", {ParamType::text}},
+    {"texture", {ParamType::text}},
+    {"vector3", {ParamType::number, 3}},
+    {"vector2", {ParamType::number, 2}}};
+
+// One message about a scene of pbrt-v3 is enough: nearly every line of it has to change.
+inline void refuse_old(const Position& at, const std::string& word) {
+    for (const char* old :
+         {"area", "glass", "image", "matte", "metal", "mirror", "plastic", "substrate", "uber"}) {
+        if (word != old) continue;
+        stop_reading(at, quote(word) + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
+                             "pbrt --upgrade old.pbrt > new.pbrt");
+    }
+}
+
+// Adds one value to the parameter.
+inline void read_value(Lexer& lexer, const ParamType& type, Param& param) {
+    std::string name = quote(param.type + ' ' + param.name);
+    Token token = lexer.peek();
+    bool is_text = type.needs == type.text, is_either = type.needs == type.spectrum;
+    if (token.type == Token::string && (is_text || is_either)) {
+        param.strings.push_back(lexer.unescape(lexer.next()));
+    } else if (type.needs == type.number || is_either) {
+        param.numbers.push_back(lexer.number(name));
+    } else {
+        lexer.next();
+        std::optional<double> value;
+        if (type.needs == type.whole) value = to_integer(token.text);
+        if (type.needs == type.truth && token.text == "true") value = 1;
+        if (type.needs == type.truth && token.text == "false") value = 0;
+        if (!value || token.type != Token::word) {
+            lexer.fail_at(token, name + " needs " + std::string(type.needs));
+        }
+        param.numbers.push_back(*value);
+    }
+}
+
 /// Reads a declaration and its value or values, and checks that they fit the type.
-Param read_param(Lexer& lexer);
+inline Param read_param(Lexer& lexer) {
+    Token declaration = lexer.next();
+    Param param;
+    param.at = lexer.at(declaration);
+    const std::string declared = lexer.unescape(declaration);
+    std::vector<std::string> words = words_of(declared);
+    if (words.size() != 2) fail(param.at, "expected \"type name\", not " + quote(declared));
+    param.type = words[0];
+    param.name = words[1];
+    refuse_old(param.at, param.type);
+    const ParamType& type = look_up(param_types, param.type, "parameter type", param.at);
+    if (lexer.peek().type != Token::opens) {
+        read_value(lexer, type, param);
+    } else {
+        Token open = lexer.next();
+        while (lexer.peek().type != Token::closes) {
+            if (lexer.peek().type == Token::end) fail(lexer.at(open), "the file ends before ]");
+            read_value(lexer, type, param);
+        }
+        lexer.next();
+    }
+    if (param.numbers.empty() && param.strings.empty())
+        fail(param.at, quote(declared) + " is empty");
+    return param;
+}
 
 /// A row of the table of parameters, see supported.cpp. Words are separated by blanks.
 struct ParamRow {
@@ -29,8 +123,15 @@ using KnownParams = std::map<std::string, const ParamRow*>;
 /// Those of each directive, by its type, such as those of Shape and "disk".
 const std::map<std::string, std::map<std::string, KnownParams>>& known_params();
 
-/// The words between blanks.
-std::vector<std::string> words_of(const std::string& text);
+inline auto named(const std::string& name) {
+    return [&](const Param& param) { return param.name == name; };
+}
+
+inline std::string digits(double x) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.10g", x);
+    return buffer;
+}
 
 /// The parameters of one directive, of which all that is wrong is told. Those that cannot be used
 /// are left out; of two with one name the last one counts.
@@ -40,7 +141,39 @@ public:
     /// token that is none; `defaults` count where it has none of their name. Throws for a type that
     /// is unknown.
     Params(Lexer& lexer, const std::string& directive, const Position& at, Input& input,
-           const std::vector<Param>& defaults = {});
+           const std::vector<Param>& defaults = {})
+        : input_(&input), at_(at), directive_(directive) {
+        bool is_named = directive_ == "MakeNamedMaterial";  // of which the type is a parameter
+        Position type_at = at_;
+        if (!is_named) {
+            Token token = lexer.expect(Token::string, directive_ + " needs a type in quotes");
+            type_ = lexer.unescape(token);
+            type_at = lexer.at(token);
+        }
+        while (lexer.peek().type == Token::string) {
+            Param param = read_param(lexer);
+            check_limit(param.at, params_.size() + 1, 100, "parameters of one directive");
+            if (std::erase_if(params_, named(param.name)) > 0) {
+                input.note(param.at, quote(param.name) + " of " + owner() +
+                                         " is given twice: the last one counts");
+            }
+            params_.push_back(std::move(param));
+        }
+        for (size_t i = defaults.size(); i-- > 0;) {
+            if (!find(defaults[i].name)) params_.push_back(defaults[i]);
+        }
+        // Say here what is wrong, not where a parameter behind it is missing.
+        if (lexer.has_argument()) lexer.fail_at(lexer.peek(), "expected a directive");
+        if (is_named) {
+            const Param& type = required("type");
+            if (type.type == "string") type_ = type.strings[0];
+            type_at = type.at;
+            directive_ = "Material";
+            std::erase_if(params_, named("type"));
+        }
+        check_type(type_at);
+        std::erase_if(params_, [&](const Param& param) { return !is_usable(param); });
+    }
 
     const std::string& type() const { return type_; }
     /// Whether the type is not supported: what is read stands in for it.
@@ -60,12 +193,25 @@ public:
     void stand_in(const std::string& what) const { input_->stand_in(at_, what); }
 
     /// The parameter of this name; null if not given.
-    const Param* find(const std::string& name) const;
+    const Param* find(const std::string& name) const {
+        auto found = std::find_if(params_.begin(), params_.end(), named(name));
+        return found == params_.end() ? nullptr : &*found;
+    }
     /// The same; throws if not given.
-    const Param& required(const std::string& name) const;
+    const Param& required(const std::string& name) const {
+        const Param* param = find(name);
+        if (!param) fail(at_, owner() + " needs a parameter " + quote(name));
+        return *param;
+    }
     /// The value of a parameter; where it is not given that of the table, or the one given here.
-    float number(const std::string& name) const;
-    float number(const std::string& name, float fallback) const;
+    float number(const std::string& name) const {
+        auto row = known_->find(name);
+        return number(name, row == known_->end() ? 0 : static_cast<float>(row->second->fallback));
+    }
+    float number(const std::string& name, float fallback) const {
+        const Param* param = find(name);
+        return param && !param->numbers.empty() ? static_cast<float>(param->numbers[0]) : fallback;
+    }
     int integer(const std::string& name) const { return static_cast<int>(number(name)); }
     bool boolean(const std::string& name) const { return number(name) != 0; }
     std::string string(const std::string& name, const std::string& fallback = "") const {
@@ -73,17 +219,82 @@ public:
         return param ? param->strings[0] : fallback;
     }
     /// All points, vectors or normals; none where the parameter is not given.
-    std::vector<Vec3> points(const std::string& name) const;
+    std::vector<Vec3> points(const std::string& name) const {
+        std::vector<Vec3> all;
+        const Param* param = find(name);
+        if (param) all.resize(param->numbers.size() / 3);
+        for (size_t i = 0; i < 3 * all.size(); i++) {
+            all[i / 3][static_cast<int>(i % 3)] = static_cast<float>(param->numbers[i]);
+        }
+        return all;
+    }
     Vec3 point(const std::string& name, Vec3 fallback) const {
         std::vector<Vec3> all = points(name);
         return all.empty() ? fallback : all[0];
     }
     /// An `rgb`, or the color of luminance 1 of a `blackbody`.
-    Rgb color(const std::string& name) const;
+    Rgb color(const std::string& name) const {
+        const Param* param = find(name);
+        if (param && param->type == "blackbody") return blackbody_rgb(param->numbers[0]);
+        float each = number(name);
+        Vec3 rgb = point(name, {each, each, each});
+        return {rgb.x, rgb.y, rgb.z};
+    }
 
 private:
-    void check_type(const Position& at);
-    bool is_usable(const Param& param) const;
+    void check_type(const Position& at) {
+        stands_in_ = !or_stand_in(owner()).empty();
+        if (stands_in_) input_->stand_in(at, owner());
+        const auto& types = known_params().at(directive_);
+        auto found = types.find(type_);
+        if (found == types.end()) {
+            refuse_old(at, type_);
+            std::vector<std::string> known = names_of(types);
+            std::erase_if(known, [&](const std::string& type) {
+                return !or_stand_in(directive_ + ' ' + quote(type)).empty();
+            });
+            fail_unknown(at, directive_, type_, known);
+        }
+        known_ = &found->second;
+    }
+    bool is_usable(const Param& param) const {
+        const std::string given = quote(param.type + ' ' + param.name) + " of " + owner();
+        auto found = known_->find(param.name);
+        if (found == known_->end()) {
+            if (param.is_default || stands_in_) return false;
+            input_->error(param.at, unknown(owner() + " parameter", param.name, names_of(*known_)));
+            return false;
+        }
+        const ParamRow& row = *found->second;
+        if (*row.stand_in) {
+            input_->stand_in(param.at, row.stand_in, given + " is not supported");
+            return true;
+        }
+        const ParamType& type = param_types.at(param.type);
+        const std::vector<std::string> types = words_of(row.types);
+        size_t count = param.numbers.size() + param.strings.size();
+        size_t group = std::max(row.values, size_t{1}) * type.group;
+        double low = std::max(row.low, type.low), high = std::min(row.high, type.high);
+        auto is_outside = [&](double x) { return x < low || x > high; };
+        std::string wrong, stand_in;
+        if (std::find(types.begin(), types.end(), param.type) == types.end() ||
+            (param.type == "spectrum" && param.strings.empty())) {
+            wrong = given + " must be of type " + row.types;
+            if (param.type == "texture") stand_in = "a texture that is no reflectance";
+            if (param.type == "spectrum") stand_in = "a spectrum that is not known";
+        } else if (row.values > 0 ? count != group : count % group != 0) {
+            wrong = given + " has " + std::to_string(count) + " values, not " +
+                    (row.values > 0 ? "" : "a multiple of ") + std::to_string(group);
+        } else if (std::any_of(param.numbers.begin(), param.numbers.end(), is_outside)) {
+            wrong = quote(param.name) + " must be from " + digits(low) + " to " + digits(high);
+        }
+        if (!stand_in.empty()) {
+            input_->stand_in(param.at, stand_in, wrong);
+        } else if (!wrong.empty() && !stands_in_) {
+            input_->error(param.at, wrong);
+        }
+        return wrong.empty();
+    }
 
     Input* input_;
     Position at_;

@@ -6,7 +6,8 @@
 #include "common/base/text.h"
 #include "common/material/metal.h"
 #include "common/scene/mover.h"
-#include "common/scene_file/scene_parts.h"
+#include "common/scene_file/settings.h"
+#include "common/scene_file/shapes.h"
 
 namespace {
 

@@ -1,15 +1,19 @@
+// Materials and lights of a pbrt-v4 scene file.
+#pragma once
 #include <algorithm>
 
+#include "common/geometry/transform.h"
 #include "common/material/metal.h"
 #include "common/material/spectrum.h"
-#include "common/scene_file/scene_parts.h"
+#include "common/scene/scene.h"
+#include "common/scene/sky_image.h"
+#include "common/scene_file/textures.h"
 
-namespace {
-
-constexpr float smooth_below = 1e-3f;  // the alpha under which pbrt takes a surface for smooth
+inline constexpr float smooth_below =
+    1e-3f;  // the alpha under which pbrt takes a surface for smooth
 
 /// The roughness as GGX's alpha; sqrt(roughness) unless remaproughness is false.
-float read_alpha(const Params& params, const std::string& prefix = "") {
+inline float read_alpha(const Params& params, const std::string& prefix = "") {
     float roughness = params.number(prefix + "roughness");
     float u = params.number(prefix + "uroughness", roughness);
     float v = params.number(prefix + "vroughness", roughness);
@@ -36,7 +40,7 @@ const Value* find_spectrum(const Params& params, const std::string& parameter,
 }
 
 // "eta" or "k" of a metal, by default copper's: an rgb, or the name of a spectrum.
-Rgb read_metal(const Params& params, const std::string& prefix, const std::string& name) {
+inline Rgb read_metal(const Params& params, const std::string& prefix, const std::string& name) {
     const Param* param = params.find(prefix + name);
     if (param && param->type == "rgb") return params.color(prefix + name);
     const Rgb* known = find_spectrum(params, prefix + name, metals());
@@ -45,19 +49,21 @@ Rgb read_metal(const Params& params, const std::string& prefix, const std::strin
 
 // What L is multiplied by for "power" or "illuminance", if L = 1 makes `of_one`. As in pbrt, values
 // of 0 or less have no effect.
-float read_total(const Params& params, const std::string& name, float of_one) {
+inline float read_total(const Params& params, const std::string& name, float of_one) {
     float total = params.number(name);
     return total > 0 ? total / of_one : 1;
 }
 
-}  // namespace
-
-void check_brightness(const Params& params, Rgb L) {
+/// From all sides, and 1e9 m away: 1e35 W. Powers and sums of brighter lights may be no floats.
+inline constexpr float brightest = 1e15f;
+inline bool too_bright(Rgb L) { return !(is_finite(L) && max_component(L) <= brightest); }
+inline void check_brightness(const Params& params, Rgb L) {
     if (!too_bright(L)) return;
     fail(params.at(), params.owner() + " shines brighter than 1e15: choose a larger unit");
 }
 
-std::optional<Material> read_material(const Params& params, const TextureReader& textures) {
+/// Nothing for a material that is as if the surface were not there: it only bounds media.
+inline std::optional<Material> read_material(const Params& params, const TextureReader& textures) {
     const std::string& type = params.type();
     for (const char* absent : {"", "interface", "none", "thindielectric"}) {
         if (type == absent) return {};
@@ -96,7 +102,13 @@ std::optional<Material> read_material(const Params& params, const TextureReader&
     return material;
 }
 
-AreaEmission read_area_light(const Params& params) {
+/// What AreaLightSource says about the shapes after it.
+struct AreaEmission {
+    Rgb L;
+    float power = 0;  // W of each primitive, by which L is multiplied; 0: L is the radiance
+    bool two_sided = false;
+};
+inline AreaEmission read_area_light(const Params& params) {
     AreaEmission emission;
     emission.L = params.color("L") * params.number("scale");
     emission.two_sided = params.boolean("twosided");
@@ -105,7 +117,10 @@ AreaEmission read_area_light(const Params& params) {
     return emission;
 }
 
-std::optional<SkyImage> read_sky_image(const Params& params, const Transform& world_from_light) {
+/// The picture that an infinite light names: square or twice as wide as high, see SkyImage. Nothing
+/// where its stand-in is to be taken, a sky that is grey.
+inline std::optional<SkyImage> read_sky_image(const Params& params,
+                                              const Transform& world_from_light) {
     SkyImage sky;
     sky.at_file = kept(params.at());
     sky.x = to_vec3(normalize(world_from_light.x));
@@ -138,7 +153,7 @@ std::optional<SkyImage> read_sky_image(const Params& params, const Transform& wo
     return sky;
 }
 
-Light read_light(const Params& params, const Transform& world_from_light) {
+inline Light read_light(const Params& params, const Transform& world_from_light) {
     Light light;
     light.at = kept(params.at());
     Vec3d from(params.point("from", {0, 0, 0})), to(params.point("to", {0, 0, 1}));

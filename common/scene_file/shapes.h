@@ -1,16 +1,31 @@
+// Shapes of a pbrt-v4 scene file.
+#pragma once
 #include <limits>
 
-#include "common/scene_file/scene_parts.h"
+#include "common/scene/prepare.h"
+#include "common/scene_file/materials.h"
 
-namespace {
+/// What AttributeBegin saves and AttributeEnd restores.
+struct State {
+    std::string begin;  // what began the block, and where
+    Position at;
+    Transform start, end;  // the current transform when the shutter opens and when it closes
+    std::string unusable;  // why nothing can stand there, as a message
+    bool set_start = true, set_end = true;  // which of them a transform directive changes
+    uint32_t material = 0;                  // into Scene::materials
+    std::optional<AreaEmission> emission;
+    bool reverse_orientation = false;
+    std::map<std::string, std::vector<Param>> defaults = {
+        {"light", {}}, {"material", {}}, {"medium", {}}, {"shape", {}}, {"texture", {}}};
+};
 
 // Throws for a point so far out that squares of areas would overflow a float.
-void check_extent(const Params& params, Vec3 p) {
+inline void check_extent(const Params& params, Vec3 p) {
     if (is_finite(p) && max_component(abs(p)) <= 1e9f) return;
     fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
 }
 
-std::vector<uint32_t> read_indices(const Params& params, size_t vertices, size_t corners) {
+inline std::vector<uint32_t> read_indices(const Params& params, size_t vertices, size_t corners) {
     std::vector<double> numbers = {0, 1, 2, 3};
     numbers.resize(corners);
     if (vertices != corners || params.find("indices")) numbers = params.required("indices").numbers;
@@ -31,7 +46,7 @@ std::vector<uint32_t> read_indices(const Params& params, size_t vertices, size_t
 }
 
 // The mesh in its own space. Of "bilinearmesh" each patch becomes two triangles.
-TriangleMesh read_mesh(const Params& params) {
+inline TriangleMesh read_mesh(const Params& params) {
     size_t corners = params.type() == "bilinearmesh" ? 4 : 3;
     TriangleMesh mesh;
     params.required("P");
@@ -67,7 +82,8 @@ TriangleMesh read_mesh(const Params& params) {
 }
 
 // Adds positions, uv, and normals in world space.
-void add_vertices(const Params& params, const TriangleMesh& mesh, const State& state, Geometry& g) {
+inline void add_vertices(const Params& params, const TriangleMesh& mesh, const State& state,
+                         Geometry& g) {
     size_t first = g.positions.size();
     for (Vec3 p : mesh.positions) {
         Vec3 world = to_vec3(transform_point(state.start, {p.x, p.y, p.z}));
@@ -91,9 +107,17 @@ void add_vertices(const Params& params, const TriangleMesh& mesh, const State& s
     g.normals.resize(g.positions.size());
 }
 
+// The number of the Shape that is read.
+inline uint32_t next_shape(const Scene& scene) {
+    return static_cast<uint32_t>(scene.shapes.size());
+}
+
 // Adds the mesh, and turns each triangle so that its corners run counter-clockwise on its outside.
-void add_mesh(const Params& params, const TriangleMesh& mesh, const State& state, Geometry& g) {
-    uint32_t first = static_cast<uint32_t>(g.positions.size());
+// each: whether each triangle has a Shape of its own.
+inline void add_mesh(const Params& params, const TriangleMesh& mesh, const State& state, bool each,
+                     Scene& scene) {
+    Geometry& g = scene.geometry;
+    uint32_t first = static_cast<uint32_t>(g.positions.size()), shape = next_shape(scene);
     add_vertices(params, mesh, state, g);
     bool mirrored = determinant(state.start) < 0;
     uint64_t left_out = mesh.faces_left_out;
@@ -111,7 +135,8 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const State& state
             if (side != 0) turn = side < 0;
         }
         if (turn) std::swap(b, c);
-        g.triangles.push_back({{a, b, c}, 0});
+        g.triangles.push_back({{a, b, c}, shape});
+        if (each) shape++;
     }
     if (left_out > 0) {
         params.note("left out triangles without area, and faces that do not have 3 or 4 corners: " +
@@ -120,7 +145,7 @@ void add_mesh(const Params& params, const TriangleMesh& mesh, const State& state
 }
 
 // The one factor by which the transform scales these axes; not supported where there is none.
-double uniform_scale(const Params& params, const std::vector<Vec3d>& axes) {
+inline double uniform_scale(const Params& params, const std::vector<Vec3d>& axes) {
     constexpr double tolerance = 1e-3;  // for numbers written with few digits
     double scale = length(axes[0]);
     for (size_t i = 0; i < axes.size(); i++) {
@@ -137,7 +162,7 @@ double uniform_scale(const Params& params, const std::vector<Vec3d>& axes) {
 }
 
 // The radius in the world.
-float read_radius(const Params& params, Vec3 centre, const std::vector<Vec3d>& axes) {
+inline float read_radius(const Params& params, Vec3 centre, const std::vector<Vec3d>& axes) {
     float r = static_cast<float>(params.number("radius") * uniform_scale(params, axes));
     if (!(r * r >= std::numeric_limits<float>::min())) {
         fail(params.at("radius"), params.owner() + " is smaller than 1e-18: choose a smaller unit");
@@ -147,13 +172,13 @@ float read_radius(const Params& params, Vec3 centre, const std::vector<Vec3d>& a
 }
 
 // Parts are not supported. pbrt clamps an angle above 360 degrees.
-void require_whole(const Params& params, bool is_whole) {
+inline void require_whole(const Params& params, bool is_whole) {
     if (params.number("phimax") >= 360 && is_whole) return;
     params.stand_in("a part of a sphere or disk");
 }
 
 // The number of the axes of a sphere or disk; -1 where they are the world's.
-int add_axes(const Transform& t, Scene& scene) {
+inline int add_axes(const Transform& t, Scene& scene) {
     auto unit = [](Vec3d v) { return to_vec3(normalize(v)); };
     Axes axes = {unit(t.x), unit(t.y), unit(t.z)};
     if (axes == Axes{}) return -1;
@@ -161,31 +186,26 @@ int add_axes(const Transform& t, Scene& scene) {
     return static_cast<int>(scene.axes.size()) - 1;
 }
 
-void add_sphere(const Params& params, const Transform& t, Scene& scene) {
+inline void add_sphere(const Params& params, const Transform& t, Scene& scene) {
     float radius = params.number("radius");
     // In either order, and clamped to the sphere, as in pbrt.
     float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
     require_whole(params, std::min(z0, z1) <= -radius && std::max(z0, z1) >= radius);
     Vec3 centre = to_vec3(t.o);
-    scene.geometry.spheres.push_back({centre, read_radius(params, centre, {t.x, t.y, t.z}), 0});
+    scene.geometry.spheres.push_back(
+        {centre, read_radius(params, centre, {t.x, t.y, t.z}), next_shape(scene)});
 }
 
-void add_disk(const Params& params, const Transform& t, bool reverse, Scene& scene) {
+inline void add_disk(const Params& params, const Transform& t, bool reverse, Scene& scene) {
     require_whole(params, params.number("innerradius") == 0);
     Vec3 centre = to_vec3(transform_point(t, {0, 0, params.number("height")}));
     Vec3 normal = to_vec3(normalize(transform_normal(t, {0, 0, reverse ? -1.0 : 1.0})));
-    scene.geometry.disks.push_back({centre, normal, read_radius(params, centre, {t.x, t.y}), 0});
+    scene.geometry.disks.push_back(
+        {centre, normal, read_radius(params, centre, {t.x, t.y}), next_shape(scene)});
 }
-
-float area(const Geometry& g, const Triangle& tri) {
-    Vec3 p0 = g.positions[tri.v[0]];
-    return length(cross(g.positions[tri.v[1]] - p0, g.positions[tri.v[2]] - p0)) / 2;
-}
-float area(const Geometry&, const Sphere& sphere) { return 4 * pi * sphere.r * sphere.r; }
-float area(const Geometry&, const Disk& disk) { return pi * disk.r * disk.r; }
 
 // Adds the light of a primitive of this area, and returns its number.
-int add_light(const Params& params, const AreaEmission& emission, float area, Scene& scene) {
+inline int add_light(const Params& params, const AreaEmission& emission, float area, Scene& scene) {
     Light light;
     light.L = emission.L;
     if (emission.power > 0) {
@@ -201,33 +221,29 @@ int add_light(const Params& params, const AreaEmission& emission, float area, Sc
     return static_cast<int>(scene.lights.size()) - 1;
 }
 
-// Adds the Shape of the primitives from `first` on, and what light they send.
-template <class Primitive>
-void add_shape(const Params& params, const State& state, Shape shape,
-               std::vector<Primitive>& primitives, size_t first, Scene& scene) {
-    bool shines = state.emission && !is_black(state.emission->L);
-    for (size_t i = first; i < primitives.size(); i++) {
-        // With a power each primitive is a light of its own that sends all of it, as in pbrt.
-        if (i == first || (shines && state.emission->power > 0)) {
-            float its_area = area(scene.geometry, primitives[i]);
-            if (shines) shape.light = add_light(params, *state.emission, its_area, scene);
-            scene.shapes.push_back(shape);
-        }
-        primitives[i].shape = static_cast<uint32_t>(scene.shapes.size() - 1);
-    }
-}
-
-}  // namespace
-
-void read_shape(const Params& params, const State& state, Scene& scene) {
+/// Adds the primitives of one Shape directive, where they are at the start, and their lights, to
+/// the scene; of a mesh those triangles that have an area.
+///
+/// The side of a surface, which decides where it shines:
+///   triangle  (p1-p0) x (p2-p0), whatever the transform mirrors; where there are vertex normals,
+///             theirs; the order of the corners in the scene says the same
+///   sphere    outwards;   disk  object space's +z, carried along as a normal
+/// and ReverseOrientation turns each to the other side.
+inline void read_shape(const Params& params, const State& state, Scene& scene) {
     Geometry& g = scene.geometry;
-    size_t triangles = g.triangles.size(), spheres = g.spheres.size(), disks = g.disks.size();
+    bool shines = state.emission && !is_black(state.emission->L);
+    // With a power each primitive is a light of its own that sends all of it, as in pbrt.
+    bool each = shines && state.emission->power > 0;
+    size_t first = g.triangles.size(), before = g.size();
     Shape shape = {state.material, -1, false, -1, kept(params.at())};
-    if (params.type() == "sphere" || params.type() == "disk") {
-        bool is_sphere = params.type() == "sphere";
-        if (is_sphere) add_sphere(params, state.start, scene);
-        if (!is_sphere) add_disk(params, state.start, state.reverse_orientation, scene);
-        shape.reverse = is_sphere && state.reverse_orientation;
+    if (params.type() == "sphere") {
+        add_sphere(params, state.start, scene);
+        first += g.spheres.size() - 1;
+        shape.reverse = state.reverse_orientation;
+        shape.axes = add_axes(state.start, scene);
+    } else if (params.type() == "disk") {
+        add_disk(params, state.start, state.reverse_orientation, scene);
+        first = before;
         shape.axes = add_axes(state.start, scene);
     } else if (params.type() == "plymesh") {
         const Param& name = params.required("filename");
@@ -236,11 +252,15 @@ void read_shape(const Params& params, const State& state, Scene& scene) {
         input.try_to_read(params.at(), "a mesh that cannot be read", [&] {
             mesh = &input.mesh(input.find(name.at, name.strings[0]), name.at);
         });
-        if (mesh) add_mesh(params, *mesh, state, g);
+        if (mesh) add_mesh(params, *mesh, state, each, scene);
     } else {
-        add_mesh(params, read_mesh(params), state, g);
+        add_mesh(params, read_mesh(params), state, each, scene);
     }
-    add_shape(params, state, shape, g.triangles, triangles, scene);
-    add_shape(params, state, shape, g.spheres, spheres, scene);
-    add_shape(params, state, shape, g.disks, disks, scene);
+    size_t added = g.size() - before;
+    for (size_t i = first; i < first + (each ? added : std::min(added, size_t{1})); i++) {
+        scene.shapes.push_back(shape);
+        if (!shines) continue;
+        float area = area_of(emitter_of(scene, static_cast<uint32_t>(i)));
+        scene.shapes.back().light = add_light(params, *state.emission, area, scene);
+    }
 }

@@ -1,16 +1,19 @@
+// What the directives before the world of a pbrt-v4 scene file say: transforms, the camera, how
+// pbrt renders.
+#pragma once
 #include <algorithm>
 #include <array>
 
-#include "common/scene_file/scene_parts.h"
+#include "common/geometry/transform.h"
+#include "common/scene/scene.h"
+#include "common/scene_file/params.h"
 
-namespace {
-
-void note(const Params& params, const std::string& text) {
+inline void note(const Params& params, const std::string& text) {
     params.note(params.owner() + ' ' + text);
 }
 
 // Reads what part of the plane in front of the camera is seen.
-void read_screen(const Params& params, Camera& camera) {
+inline void read_screen(const Params& params, Camera& camera) {
     camera.fov = params.number("fov");
     if (params.find("frameaspectratio")) camera.frame_aspect = params.number("frameaspectratio");
     const Param* window = params.find("screenwindow");
@@ -26,18 +29,18 @@ void read_screen(const Params& params, Camera& camera) {
     }
 }
 
-Vec3d read_three(Lexer& lexer, const std::string& name) {
+inline Vec3d read_three(Lexer& lexer, const std::string& name) {
     Vec3d v;
     for (double* x : {&v.x, &v.y, &v.z}) *x = lexer.number(name);
     return v;
 }
 
 // Reads [ 16 numbers ], column by column.
-Transform read_matrix(Lexer& lexer, const std::string& name) {
-    lexer.expect(Token::open, name + " needs [ and 16 numbers");
+inline Transform read_matrix(Lexer& lexer, const std::string& name) {
+    lexer.expect(Token::opens, name + " needs [ and 16 numbers");
     std::array<double, 16> m;
     for (double& x : m) x = lexer.number(name);
-    lexer.expect(Token::close, name + " needs ] after 16 numbers");
+    lexer.expect(Token::closes, name + " needs ] after 16 numbers");
 
     constexpr double tolerance = 1e-6;
     double bottom = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
@@ -45,9 +48,7 @@ Transform read_matrix(Lexer& lexer, const std::string& name) {
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
-}  // namespace
-
-Camera read_camera(const Params& params, const Transform& camera_from_world) {
+inline Camera read_camera(const Params& params, const Transform& camera_from_world) {
     Camera camera;
     camera.at = kept(params.at());
     const Transform world_from_camera = inverse(camera_from_world);
@@ -91,7 +92,10 @@ Camera read_camera(const Params& params, const Transform& camera_from_world) {
     return camera;
 }
 
-void read_setting(const std::string& directive, const Params& params, Scene& scene, float& iso) {
+/// Film, PixelFilter, Sampler and Integrator: how pbrt renders, of which little counts here. iso:
+/// the film's speed, which scales the picture.
+inline void read_setting(const std::string& directive, const Params& params, Scene& scene,
+                         float& iso) {
     const std::string& type = params.type();
     if (directive == "Film") {
         scene.width = params.integer("xresolution");
@@ -116,7 +120,8 @@ void read_setting(const std::string& directive, const Params& params, Scene& sce
     }
 }
 
-bool is_usable(const Transform& t) {
+/// Whether it has an inverse, of numbers that are not too large.
+inline bool is_usable(const Transform& t) {
     constexpr double largest = 1e30;
     for (Vec3d v : {t.x, t.y, t.z, t.o}) {
         for (double x : {v.x, v.y, v.z}) {
@@ -126,7 +131,10 @@ bool is_usable(const Transform& t) {
     return std::abs(determinant(t)) > 1 / (largest * largest);
 }
 
-Transform read_transform(Lexer& lexer, const std::string& name) {
+/// Reads the numbers after Identity, Translate, Scale, Rotate, LookAt, Transform or
+/// ConcatTransform: what the current transform is multiplied by from the right, or replaced by. A
+/// matrix that projects becomes one that is not usable.
+inline Transform read_transform(Lexer& lexer, const std::string& name) {
     if (name == "Identity") return {};
     if (name == "Transform" || name == "ConcatTransform") return read_matrix(lexer, name);
     if (name == "Translate") return translation(read_three(lexer, name));
