@@ -15,27 +15,6 @@
 
 namespace ch06 {
 
-/// The box around a ball of radius r around c.
-inline Box box_of_ball(Vec3 c, float r) {
-    Box box;
-    box.add(c - Vec3{r, r, r});
-    box.add(c + Vec3{r, r, r});
-    return box;
-}
-
-/// The box around one primitive.
-inline Box box_of(const Geometry& g, uint32_t prim) {
-    return visit(
-        g, prim,
-        [&](const Triangle& triangle) {
-            Box box;
-            for (uint32_t v : triangle.v) box.add(g.positions[v]);
-            return box;
-        },
-        [](const Sphere& sphere) { return box_of_ball(sphere.c, sphere.r); },
-        [](const Disk& disk) { return box_of_ball(disk.c, disk.r); });
-}
-
 /// Where the ray enters the box, or infinity where it misses it.
 ///
 ///   in each axis the ray is between two planes for t in [near, far]; inside the box for all three

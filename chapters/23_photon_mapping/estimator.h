@@ -6,10 +6,11 @@
 #pragma once
 #include <memory>
 
-#include "chapters/23_photon_mapping/first_radius.h"
+#include "chapters/23_photon_mapping/photon_maps.h"
 #include "common/base/parallel.h"
 #include "common/light/light_shapes.h"
 #include "common/path/camera_sample.h"
+#include "common/path/first_radius.h"
 #include "common/path/lens.h"
 #include "common/path/light_paths.h"
 #include "common/path/method.h"
@@ -123,7 +124,7 @@ inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, in
         float q = dot(v, v) / (r * r);
         Rgb flux = kernel(q) * photon.flux_at(x);
         sum += flux;
-        recorder.photon(flux, q, maps, photon);
+        recorder.photon(flux, q, maps.vertices, photon);
     });
     Rgb scale = x.material->reflectance / (pi * pi * r * r);
     recorder.gathered(scale);

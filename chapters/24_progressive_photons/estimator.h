@@ -15,9 +15,6 @@ namespace ch24 {
 
 using glossy_bsdf::pdf_bsdf, sky_light::image_emission, sky_light::image_light;
 
-/// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.
-inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
-
 /// Estimates the light that x reflects, from the photons of a map that are near to x.
 ///
 ///   Lo = rho / pi  sum over photons nearer than r of  K(d / r) flux / (pi r^2)
@@ -38,7 +35,7 @@ inline Rgb gather(const PhotonMaps& maps, const PhotonMap& map, const Hit& x, in
         float q = dot(v, v) / (r * r);
         Rgb flux = kernel(q) * photon.flux_at(x);
         sum += flux;
-        recorder.photon(flux, q, maps, photon);
+        recorder.photon(flux, q, maps.vertices, photon);
     });
     Rgb scale = x.material->reflectance / (pi * pi * r * r);
     recorder.gathered(scale);

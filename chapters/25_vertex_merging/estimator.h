@@ -114,7 +114,7 @@ inline Rgb merge(const Scene& scene, const Merging& merging, const Subpath& eye,
         float q = dot(v, v) / (r * r);
         Rgb flux = mis * 2 * (1 - q) * photon.flux_at(z.x);
         sum += flux;
-        recorder.photon(flux, q, merging.paths, photon);
+        recorder.photon(flux, q, merging.paths.vertices, photon);
     });
     Rgb scale = z.x.material->reflectance / (pi * pi * r * r);
     recorder.gathered(scale);

@@ -30,11 +30,6 @@ struct LightPaths {
         }
         vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
     }
-    /// The light path of a photon, from the first vertex behind the light to the photon itself.
-    std::span<const LightVertex> path_of(const Photon& photon) const {
-        size_t events = static_cast<size_t>(photon.depth), end = photon.vertex + size_t{1};
-        return {vertices.data() + (end - events), events};
-    }
 };
 
 /// Whether paths may merge at v, which light reaches from vertex `before`: at a diffuse point

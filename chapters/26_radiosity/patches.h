@@ -82,12 +82,9 @@ inline Patches make_patches(const Scene& scene, size_t wanted, int threads) {
     return patches;
 }
 
-/// Where a point lies: its patch (no_side: on a side without light), and its weights there.
-struct Place {
-    uint32_t patch = no_side;
-    std::array<float, 3> b = {1, 0, 0};
-};
-inline Place place_of(const Patches& patches, const Hit& x) {
+/// Where a point lies: the number of its patch (no_side: on a side without light), and its weights
+/// there.
+inline PlaceInGrid place_of(const Patches& patches, const Hit& x) {
     size_t back = x.front ? 0 : 1;
     const Division& d = patches.division[x.prim];
     if (d.first[back] == no_side) return {};

@@ -87,10 +87,10 @@ struct Shown {
 /// B at a point of a surface, W m^-2: linear between the corners of its patch; black where there is
 /// no patch.
 inline Rgb radiosity_at(const Shown& shown, const Hit& x) {
-    Place at = place_of(*shown.patches, x);
-    if (at.patch == no_side) return {};
-    const auto& b = shown.B[at.patch];
-    return at.b[0] * b[0] + at.b[1] * b[1] + at.b[2] * b[2];
+    auto [patch, b] = place_of(*shown.patches, x);
+    if (patch == no_side) return {};
+    const auto& B = shown.B[patch];
+    return b[0] * B[0] + b[1] * B[1] + b[2] * B[2];
 }
 
 /// Where the power of the lamps went, W: emitted = absorbed + escaped + unshot.

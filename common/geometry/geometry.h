@@ -65,19 +65,6 @@ struct Box {
     }
 };
 
-/// The box around all vertices, spheres and disks (with all of the sphere around a disk).
-inline Box bounds_of(const Geometry& g) {
-    Box box;
-    auto add_ball = [&](Vec3 c, float r) {
-        box.add(c - Vec3{r, r, r});
-        box.add(c + Vec3{r, r, r});
-    };
-    for (Vec3 p : g.positions) box.add(p);
-    for (const Sphere& s : g.spheres) add_ball(s.c, s.r);
-    for (const Disk& d : g.disks) add_ball(d.c, d.r);
-    return box;
-}
-
 /// Calls the one of the three functions that fits primitive number `prim`, with that primitive;
 /// they return the same type.
 template <class OnTriangle, class OnSphere, class OnDisk>
@@ -88,6 +75,31 @@ auto visit(const Geometry& g, uint32_t prim, const OnTriangle& on_triangle,
     i -= g.triangles.size();
     if (i < g.spheres.size()) return on_sphere(g.spheres[i]);
     return on_disk(g.disks[i - g.spheres.size()]);
+}
+
+/// The box around a ball of radius r around c.
+inline Box box_of_ball(Vec3 c, float r) { return {c - Vec3{r, r, r}, c + Vec3{r, r, r}}; }
+
+/// The box around one primitive; of a disk, with all of the sphere around it.
+inline Box box_of(const Geometry& g, uint32_t prim) {
+    return visit(
+        g, prim,
+        [&](const Triangle& triangle) {
+            Box box;
+            for (uint32_t v : triangle.v) box.add(g.positions[v]);
+            return box;
+        },
+        [](const Sphere& sphere) { return box_of_ball(sphere.c, sphere.r); },
+        [](const Disk& disk) { return box_of_ball(disk.c, disk.r); });
+}
+
+/// The box around all vertices, spheres and disks.
+inline Box bounds_of(const Geometry& g) {
+    Box box;
+    for (Vec3 p : g.positions) box.add(p);
+    for (const Sphere& s : g.spheres) box.add(box_of_ball(s.c, s.r));
+    for (const Disk& d : g.disks) box.add(box_of_ball(d.c, d.r));
+    return box;
 }
 
 /// The nearest primitive a ray meets. b1, b2: weights of a triangle's second and third vertex.

@@ -56,28 +56,22 @@ void put_square_around(const Emitter& e, Vec3d c, Vec3d (&p)[4]) {
     p[0] = c - s - t, p[1] = c + s - t, p[2] = c + s + t, p[3] = c - s + t;
 }
 
-/// How to sample the light by solid angle from x; `area`: by area, if not possible or not needed.
-enum class Way : uint8_t { area, triangle, parallelogram, disk };
-
 /// A triangle, or a quadrangle of two triangles, to sample directions from.
 struct Plan {
-    Way way = Way::area;
     Emitter e;             // the primitive, or the first of two
     Vec3d p[4], w[4];      // corners relative to x, in order; w: unit
     double omega[2] = {};  // sr: of the triangles of corners 0 1 2 and 0 3 2
-    float pdf = 0;         // sr^-1
+    float pdf = 0;         // sr^-1; 0: by area, where directions are not possible or not needed
 };
 
 /// Computes solid angles and density; `share`: the probability of sampling this piece.
-void look(Plan& plan, Way way, float share) {
+void look(Plan& plan, size_t corners, float share) {
     auto& w = plan.w;
-    for (size_t i = 0; i < (way == Way::triangle ? 3 : 4); i++) w[i] = unit(plan.p[i]);
+    for (size_t i = 0; i < corners; i++) w[i] = unit(plan.p[i]);
     plan.omega[0] = triangle_solid_angle(w[0], w[1], w[2]);
-    if (way != Way::triangle) plan.omega[1] = triangle_solid_angle(w[0], w[3], w[2]);
+    if (corners == 4) plan.omega[1] = triangle_solid_angle(w[0], w[3], w[2]);
     double omega = plan.omega[0] + plan.omega[1];
-    if (!(omega > 0)) return;
-    plan.way = way;
-    plan.pdf = std::min(static_cast<float>(double{share} / omega), densest);
+    if (omega > 0) plan.pdf = std::min(static_cast<float>(double{share} / omega), densest);
 }
 
 /// The point, relative to x, in a direction sampled from a plan's triangles.
@@ -107,13 +101,13 @@ Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
     auto from_x = [&](Vec3 p) { return Vec3d(p) - Vec3d(x); };
     if (shape.parallelogram) {
         for (size_t i = 0; i < 4; i++) plan.p[i] = from_x(shape.corners[i]);
-        look(plan, Way::parallelogram, 1);
+        look(plan, 4, 1);
     } else if (e.kind == Emitter::disk && scene.lights[light].prims == 1) {
         put_square_around(e, from_x(e.p0), plan.p);
-        look(plan, Way::disk, 1);
+        look(plan, 4, 1);
     } else if (e.kind == Emitter::triangle) {
         plan.p[0] = from_x(e.p0), plan.p[1] = from_x(e.p1), plan.p[2] = from_x(e.p2);
-        look(plan, Way::triangle, area_of(e) / shape.area);
+        look(plan, 3, area_of(e) / shape.area);
     }
     return plan;
 }
@@ -149,9 +143,10 @@ LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Ve
     Vec2 v = u;
     uint32_t index = shape.parallelogram ? 0 : choose_by_area(shape, v.x);
     Plan way = plan(scene, light, x, index);
-    if (way.way == Way::area) return sample_far(scene, light, x, u);
+    if (way.pdf == 0) return sample_far(scene, light, x, u);
     Vec3 y = x + to_vec3(sample_seen(way, v));
-    if (way.way == Way::disk && length_squared(y - way.e.p0) > way.e.r * way.e.r) return {};
+    bool beside = length_squared(y - way.e.p0) > way.e.r * way.e.r;
+    if (way.e.kind == Emitter::disk && beside) return {};
     return {y, way.e.n, way.e.eps, way.pdf};
 }
 
@@ -160,6 +155,6 @@ float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y) {
     if (float sin2 = light_shape_details::sin2_of_cone(shape, x); sin2 < 1) return pdf_cone(sin2);
     uint32_t index = shape.parallelogram ? 0 : y.prim - scene.lights[light].first_prim;
     Plan way = plan(scene, light, x, index);
-    if (way.way == Way::area) return area_to_solid_angle(1 / shape.area, x, y.p, y.ng);
+    if (way.pdf == 0) return area_to_solid_angle(1 / shape.area, x, y.p, y.ng);
     return way.pdf;
 }

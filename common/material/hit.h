@@ -26,6 +26,8 @@ inline bool is_specular(const Material& m) {
            (m.type == MaterialType::conductor && m.alpha == 0);
 }
 
+inline bool is_diffuse(const Material& m) { return m.type == MaterialType::diffuse; }
+
 /// Whether it is rough metal.
 inline bool is_rough(const Material& m) { return m.type == MaterialType::conductor && m.alpha > 0; }
 

@@ -1,4 +1,3 @@
-// taught by chapter 23
 // The photons of a pass, and a hash grid that finds those near to a point.
 #pragma once
 #include <algorithm>
@@ -87,45 +86,3 @@ private:
 
 /// The Epanechnikov kernel, the weight of a photon at distance d. Its average over the disk is 1.
 inline float kernel(float d2_over_r2) { return 2 * (1 - d2_over_r2); }
-
-inline bool is_diffuse(const Material& m) { return m.type == MaterialType::diffuse; }
-
-/// A vertex of a path from a light. Where the surface is diffuse it is a photon.
-struct LightVertex {
-    Vec3 p, ng;     // m; unit, on the side where the light arrived
-    Rgb flux;       // W, of a photon
-    float cosines;  // as in Photon
-    int depth;      // scattering events on the path, this one included
-    const Material* material;
-};
-
-/// The photons of one pass, and how they are gathered.
-struct PhotonMaps {
-    bool final_gathering;               // gather at the second diffuse vertex, not at the first
-    std::vector<LightVertex> vertices;  // of all light paths, one path after the other
-    PhotonMap global, caustic;          // all photons; only those of paths LS+D
-
-    /// The light path of a photon, from the first vertex behind the light to the photon itself.
-    std::span<const LightVertex> path_of(const Photon& photon) const {
-        size_t events = static_cast<size_t>(photon.depth), end = photon.vertex + size_t{1};
-        return {vertices.data() + (end - events), events};
-    }
-};
-
-/// Sorts the photons among these vertices into the two maps.
-inline PhotonMaps build_maps(std::vector<LightVertex> vertices, float radius,
-                             bool final_gathering) {
-    std::vector<Photon> global, caustic;
-    bool only_specular = true;  // so far, on this path
-    for (uint32_t i = 0; i < vertices.size(); i++) {
-        const LightVertex& v = vertices[i];
-        if (v.depth == 1) only_specular = true;
-        if (is_diffuse(*v.material)) {
-            global.push_back({v.p, v.ng, v.flux, v.depth, i, v.cosines});
-            if (only_specular && v.depth > 1) caustic.push_back(global.back());
-        }
-        only_specular = only_specular && is_specular(*v.material);
-    }
-    return {final_gathering, std::move(vertices), PhotonMap(global, radius),
-            PhotonMap(caustic, radius)};
-}

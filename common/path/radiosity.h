@@ -40,10 +40,12 @@ void for_each_in_grid(const Corners& t, uint32_t k, const Use& use) {
     }
 }
 
+inline constexpr uint32_t no_side = ~0u;
+
 /// Where a point of the triangle lies: the number of its small triangle, and its weights there.
 struct PlaceInGrid {
-    uint32_t number;
-    std::array<float, 3> b;
+    uint32_t number = no_side;
+    std::array<float, 3> b = {1, 0, 0};
 };
 inline PlaceInGrid place_in_grid(const Corners& t, uint32_t cells, Vec3 x) {
     // The weights of the triangle's second and third corner.
@@ -66,8 +68,6 @@ inline std::array<Corners, 4> quarters(const Corners& t) {
     Vec3 a = (t[1] + t[2]) / 2, b = (t[2] + t[0]) / 2, c = (t[0] + t[1]) / 2;
     return {{{t[0], c, b}, {c, t[1], a}, {b, a, t[2]}, {a, b, c}}};
 }
-
-inline constexpr uint32_t no_side = ~0u;
 
 /// The corners of triangle number `prim`.
 inline Corners corners(const Scene& scene, uint32_t prim) {

@@ -125,14 +125,16 @@ public:
         connected(L, static_cast<int>(vertices_.size()), 1, 1, pixel);
     }
     /// A photon near the last vertex contributes this flux. q: the square of its distance, divided
-    /// by that of the radius. paths.path_of(photon): its path from the light to its position.
-    template <class Paths, class Photon>
-    void photon(Rgb flux, float q, const Paths& paths, const Photon& photon) {
+    /// by that of the radius. Its path from the light is the last photon.depth vertices up to
+    /// number photon.vertex.
+    template <class Vertices, class Photon>
+    void photon(Rgb flux, float q, const Vertices& vertices, const Photon& photon) {
         gathered_++;
         inner_ += q < 0.5f;
         if (!listening_) return;
         std::string events;
-        for (const auto& x : paths.path_of(photon)) events += is_specular(*x.material) ? 'S' : 'D';
+        for (size_t i = static_cast<size_t>(photon.depth); i-- > 0;)
+            events += is_specular(*vertices[photon.vertex - i].material) ? 'S' : 'D';
         photons_[events] += flux;
     }
     /// beta scale times the flux of those photons was added.

@@ -69,19 +69,6 @@ bool overlap(const Polygon& a, const Polygon& b, double rounding) {
            length(area_of(both)) > 1e-3 * std::min(length(area), length(area_of(a)));
 }
 
-Box box_of(const Geometry& g, uint32_t prim) {
-    auto ball = [](const auto& s) {
-        Vec3 r = {s.r, s.r, s.r};
-        return Box{s.c - r, s.c + r};
-    };
-    auto triangle = [&](const Triangle& t) {
-        Box box;
-        for (uint32_t v : t.v) box.add(g.positions[v]);
-        return box;
-    };
-    return visit(g, prim, triangle, ball, ball);
-}
-
 /// How far two surfaces in this box may be apart by rounding alone.
 float rounding_of(const Box& box) {
     return 2 * rounding_error(max_component(max(abs(box.low), abs(box.high))));
@@ -151,15 +138,16 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
 
     std::vector<std::string> notes;
     for (auto [one, other] : pairs) {
-        auto name = [&](uint32_t i) { return scene.shapes[i].light >= 0 ? "lamp" : "Shape"; };
+        auto name = [&](uint32_t i) {
+            return std::string(scene.shapes[i].light >= 0 ? "lamp" : "Shape");
+        };
         Position at = scene.place(scene.shapes[one].at);
         std::string there = place_text(scene.place(scene.shapes[other].at));
-        std::string both = std::string("this ") + name(one) + " and the " + name(other) + " at ";
-        bool is_one = there == place_text(at);
-        std::string note =
-            message_at(at, "note",
-                       (is_one ? std::string("faces of this ") + name(one) : both + there) +
-                           " lie in one place, where rounding decides which of them a ray meets");
+        std::string faces = "this " + name(one) + " and the " + name(other) + " at " + there;
+        if (there == place_text(at)) faces = "faces of this " + name(one);
+        std::string note = message_at(
+            at, "note",
+            faces + " lie in one place, where rounding decides which of them a ray meets");
         if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
         if (notes.size() == 20) break;
     }

@@ -145,20 +145,6 @@ Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
     return false;
 }
 
-std::optional<Hit> nearest(const Scene& scene, const Ray& ray) {
-    PrimHit found = closest_hit(*scene.bvh, scene.geometry, ray);
-    std::optional<Hit> x;
-    if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
-    if (scene.moves) [[unlikely]]
-        intersect_movers(scene, ray, x);
-    return x;
-}
-
-bool any(const Scene& scene, const Ray& ray) {
-    if (any_hit(*scene.bvh, scene.geometry, ray)) return true;
-    return scene.moves && occluded_by_movers(scene, ray);
-}
-
 }  // namespace
 
 void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) {
@@ -169,7 +155,11 @@ void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) 
 
 [[gnu::flatten]] std::optional<Hit> intersect(const Scene& scene, const Ray& ray) {
     rays_traced++;
-    std::optional<Hit> x = nearest(scene, ray);
+    PrimHit found = closest_hit(*scene.bvh, scene.geometry, ray);
+    std::optional<Hit> x;
+    if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
+    if (scene.moves) [[unlikely]]
+        intersect_movers(scene, ray, x);
     if (rays_kept) [[unlikely]]
         rays_kept->push_back({ray, false, x.has_value(), x ? x->t : infinity});
     return x;
@@ -177,7 +167,8 @@ void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) 
 
 bool occluded(const Scene& scene, const Ray& ray) {
     rays_traced++;
-    bool met = any(scene, ray);
+    bool met =
+        any_hit(*scene.bvh, scene.geometry, ray) || (scene.moves && occluded_by_movers(scene, ray));
     if (rays_kept) [[unlikely]]
         rays_kept->push_back({ray, true, met, NAN});
     return met;

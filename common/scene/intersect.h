@@ -37,11 +37,9 @@ inline Rgb emission(const Scene& scene, const Hit& x) {
     const Light& light = scene.lights[static_cast<size_t>(x.light)];
     return x.front || light.two_sided ? light.L : Rgb{};
 }
+
 /// The radiance of the sky in direction wi.
-Rgb image_towards(const SkyImage& sky, Vec3 wi);
-inline Rgb sky_towards(const Scene& scene, Vec3 wi) {
-    return scene.sky_image ? image_towards(*scene.sky_image, wi) : scene.sky;
-}
+Rgb sky_towards(const Scene& scene, Vec3 wi);
 
 /// The normal of the mesh at p, a point of primitive number `prim` at this time: that of the
 /// triangle's corners, each by its weight, of any length. 0 where there is none.

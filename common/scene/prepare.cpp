@@ -14,9 +14,7 @@ std::vector<Vec3> facet_normals(const Geometry& g) {
     for (const Triangle& t : g.triangles) {
         Vec3d p0(g.positions[t.v[0]]), p1(g.positions[t.v[1]]), p2(g.positions[t.v[2]]);
         Vec3d n = cross(p1 - p0, p2 - p0);
-        double inverse = 1 / std::sqrt(dot(n, n));
-        auto along = [&](double x) { return static_cast<float>(x * inverse); };
-        normals.push_back({along(n.x), along(n.y), along(n.z)});
+        normals.push_back(to_vec3(1 / std::sqrt(dot(n, n)) * n));
     }
     return normals;
 }
@@ -35,6 +33,35 @@ void find_parallelogram(const Geometry& g, const Light& light, LightShape& shape
             shape.e1 = p - r, shape.e2 = q - r;
         }
     }
+}
+
+/// The areas and centres of all lights of the scene, and whether two triangles make one
+/// parallelogram; empty for lights without area.
+std::vector<LightShape> light_shapes_of(const Scene& scene) {
+    std::vector<LightShape> shapes(scene.lights.size());
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        const Light& light = scene.lights[i];
+        if (light.type != LightType::area) continue;
+        LightShape& shape = shapes[i];
+        shape.first = emitter_of(scene, light.first_prim);
+        Box box;
+        double area = 0;
+        for (uint32_t k = 0; k < light.prims; k++) {
+            uint32_t prim = light.first_prim + k;
+            area += static_cast<double>(area_of(emitter_of(scene, prim)));
+            if (light.prims > 1) shape.area_up_to.push_back(static_cast<float>(area));
+            box.add(box_of(scene.geometry, prim));
+        }
+        shape.area = static_cast<float>(area);
+        shape.centre = 0.5f * (box.low + box.high);
+        shape.radius = length(box.high - box.low) / 2;
+        bool triangles = light.first_prim + light.prims <= scene.geometry.triangles.size();
+        if (light.prims == 2 && triangles && shape.area > 0)
+            find_parallelogram(scene.geometry, light, shape);
+        bool one = light.prims == 1 && shape.first.kind != Emitter::sphere;
+        shape.flat = one || shape.parallelogram;
+    }
+    return shapes;
 }
 
 }  // namespace
@@ -67,37 +94,6 @@ float area_of(const Emitter& e) {
         case Emitter::disk: return pi * e.r * e.r;
     }
     return 0;
-}
-
-std::vector<LightShape> light_shapes_of(const Scene& scene) {
-    std::vector<LightShape> shapes(scene.lights.size());
-    for (size_t i = 0; i < scene.lights.size(); i++) {
-        const Light& light = scene.lights[i];
-        if (light.type != LightType::area) continue;
-        LightShape& shape = shapes[i];
-        shape.first = emitter_of(scene, light.first_prim);
-        Vec3 low = {infinity, infinity, infinity}, high = -low;
-        double area = 0;
-        for (uint32_t k = 0; k < light.prims; k++) {
-            Emitter e = emitter_of(scene, light.first_prim + k);
-            area += static_cast<double>(area_of(e));
-            if (light.prims > 1) shape.area_up_to.push_back(static_cast<float>(area));
-            Vec3 r = {e.r, e.r, e.r};
-            bool round = e.kind != Emitter::triangle;
-            for (Vec3 p : {e.p0, round ? e.p0 : e.p1, round ? e.p0 : e.p2}) {
-                low = min(low, p - r), high = max(high, p + r);
-            }
-        }
-        shape.area = static_cast<float>(area);
-        shape.centre = 0.5f * (low + high);
-        shape.radius = length(high - low) / 2;
-        bool triangles = light.first_prim + light.prims <= scene.geometry.triangles.size();
-        if (light.prims == 2 && triangles && shape.area > 0)
-            find_parallelogram(scene.geometry, light, shape);
-        bool one = light.prims == 1 && shape.first.kind != Emitter::sphere;
-        shape.flat = one || shape.parallelogram;
-    }
-    return shapes;
 }
 
 Scene::Scene() : origin(std::make_shared<Origin>()) {}
@@ -140,7 +136,7 @@ void prepare(Scene& scene, int threads, const Report& report) {
         mover.geometry.facet_normals = facet_normals(mover.geometry);
         mover.bvh = std::make_shared<Bvh>(build_bvh(mover.geometry, threads));
         mover.box = box_over_time(mover);
-        box.low = min(box.low, mover.box.low), box.high = max(box.high, mover.box.high);
+        box.add(mover.box);
     }
     bool empty = scene.geometry.size() == 0 && scene.movers.empty();
     // Without shapes a sphere around the camera, so that skies and suns have a power.

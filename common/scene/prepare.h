@@ -13,10 +13,6 @@ Emitter emitter_of(const Scene& scene, uint32_t prim);
 /// m^2
 float area_of(const Emitter& e);
 
-/// The areas and centres of all lights of the scene, and whether two triangles make one
-/// parallelogram; empty for lights without area.
-std::vector<LightShape> light_shapes_of(const Scene& scene);
-
 /// A note for each two Shape directives of which one shines and overlaps the other in one plane, or
 /// of which faces are the same: rounding and their order then decide what a ray meets there.
 ///

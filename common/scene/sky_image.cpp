@@ -1,5 +1,7 @@
 #include "common/scene/sky_image.h"
 
+#include "common/scene/intersect.h"
+
 namespace {
 
 // Computed in double: in float the last bit differs between libraries.
@@ -49,7 +51,9 @@ Vec2 point_of(const SkyImage& sky, Vec3 wi) {
     return {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi), angle_of(sine, w.z) / pi};
 }
 
-Rgb image_towards(const SkyImage& sky, Vec3 wi) { return sky.at(point_of(sky, wi)); }
+Rgb sky_towards(const Scene& scene, Vec3 wi) {
+    return scene.sky_image ? scene.sky_image->at(point_of(*scene.sky_image, wi)) : scene.sky;
+}
 
 float solid_angle_per_area(const SkyImage& sky, Vec2 uv) {
     if (sky.map == SkyImage::Map::square) return 4 * pi;

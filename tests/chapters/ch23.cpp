@@ -10,7 +10,7 @@
 
 namespace {
 
-using ch23::Photon, ch23::PhotonMap, ch23::PhotonSettings;
+using ch23::PhotonSettings;
 
 /// Points on the sides of a unit cube: as photons lie, on surfaces.
 std::vector<Photon> on_a_cube(size_t n, Sampler& random) {
@@ -200,9 +200,9 @@ TEST_SUITE("ch23 photon mapping") {
 
 TEST_SUITE("ch23 first radius") {
     /// Photons around each of 20,000 points, `n` within the radius 1: their flux is 1 + c d^2.
-    std::vector<ch23::Photon> around_points(int n, float c, std::vector<ch23::SeenPoint>& points) {
+    std::vector<Photon> around_points(int n, float c, std::vector<SeenPoint>& points) {
         Sampler random(SamplerType::independent, 1, 1);
-        std::vector<ch23::Photon> photons;
+        std::vector<Photon> photons;
         for (int i = 0; i < 20000; i++) {
             Vec3 p = 10 * Vec3{static_cast<float>(i % 100), 0, static_cast<float>(i / 100)};
             points.push_back({p, {0, 1, 0}, 1 / pi, 1 / 6.0f});
@@ -227,26 +227,26 @@ TEST_SUITE("ch23 first radius") {
     TEST_CASE("truth: blur and variance of light that grows with the distance") {
         for (float c : {0.0f, 1.0f, 4.0f}) {
             for (int n : {3, 10}) {
-                std::vector<ch23::SeenPoint> points;
+                std::vector<SeenPoint> points;
                 auto photons = around_points(n, c, points);
-                double ratio = ch23::blur_to_noise(points, ch23::PhotonMap(photons, 1));
+                double ratio = blur_to_noise(points, PhotonMap(photons, 1));
                 CHECK(std::abs(ratio - expected_ratio(n, double{c}, 1)) < 0.1);
             }
         }
         // A point with the radiance L counts 1 / (L^2 + 0.01).
-        std::vector<ch23::SeenPoint> points;
+        std::vector<SeenPoint> points;
         auto photons = around_points(10, 4, points);
-        double even = ch23::blur_to_noise(points, ch23::PhotonMap(photons, 1));
+        double even = blur_to_noise(points, PhotonMap(photons, 1));
         for (size_t i = 0; i < photons.size() / 2; i++)
             photons[i].flux = 3.0f * photons[i].flux, points[i / 10].L = std::sqrt(0.08);
-        CHECK(ch23::blur_to_noise(points, ch23::PhotonMap(photons, 1)) == nearly(even, 1e-3));
-        CHECK(ch23::blur_to_noise({}, {}) == 0);
+        CHECK(blur_to_noise(points, PhotonMap(photons, 1)) == nearly(even, 1e-3));
+        CHECK(blur_to_noise({}, {}) == 0);
     }
 
     TEST_CASE("truth: the first radius is where light of a known profile blurs that much") {
         // Even light does not blur: six pixels. With c = 4 the ratio is above 1 at first.
         for (float c : {0.0f, 1.5f, 4.0f}) {
-            std::vector<ch23::SeenPoint> points;
+            std::vector<SeenPoint> points;
             auto photons = around_points(20, c, points);
             for (double share : {1.0, 0.5}) {
                 double r = 1, ratio = expected_ratio(20, double{c}, r) / share;
@@ -255,7 +255,7 @@ TEST_SUITE("ch23 first radius") {
                     ratio = expected_ratio(20, double{c}, r) / share;
                 }
                 r *= std::pow(0.04 / std::max(ratio, 0.04), 0.25);
-                CHECK(double{ch23::first_radius(points, {}, photons, share)} == nearly(r, 0.05));
+                CHECK(double{first_radius(points, {}, photons, share)} == nearly(r, 0.05));
             }
         }
     }
@@ -266,7 +266,7 @@ TEST_SUITE("ch23 first radius") {
         auto width_of = [](int pixels) {
             Scene scene = bulb_over_a_floor();
             scene.width = scene.height = pixels;
-            return double{ch23::pixel_width(ch23::seen_points(scene))};
+            return double{pixel_width(seen_points(scene))};
         };
         double width = 1.1 * 2 * std::tan(pi_exact / 6) / 128;
         CHECK(width_of(128) == nearly(width, 0.03));

@@ -27,7 +27,7 @@ inline numbers::Functions functions() {
     auto items_of = [](const Geometry& g) {
         std::vector<self::Item> items;
         for (uint32_t prim = 0; prim < g.size(); prim++) {
-            Box b = self::box_of(g, prim);
+            Box b = box_of(g, prim);
             items.push_back({b, b.centre(), prim});
         }
         return items;
@@ -68,11 +68,6 @@ inline numbers::Functions functions() {
                       {"prims", double(work.prims)}};
     };
     Functions all = {
-        exact("box_of",
-              [=](Draw& d) {
-                  Geometry g = clutter(d, 5);
-                  return box_values(self::box_of(g, d.below(g.size())));
-              }),
         exact("enter",
               [=](Draw& d) -> Values {
                   Box b = box(d);

@@ -1,10 +1,8 @@
-// Chapter 23: the radius in which photons count: as small as blur asks, as large as noise allows.
+// The radius in which photons count: as small as blur asks, as large as noise allows.
 #pragma once
-#include "chapters/23_photon_mapping/photon_map.h"
 #include "common/path/camera_sample.h"
 #include "common/path/light_paths.h"
-
-namespace ch23 {
+#include "common/path/photon_map.h"
 
 /// A diffuse surface that the camera sees, straight or behind mirrors and glass.
 struct SeenPoint {
@@ -117,5 +115,3 @@ inline float first_radius(std::vector<SeenPoint> points, const PhotonMap& all,
     }
     return r * static_cast<float>(std::pow(0.04 / std::max(ratio, 0.04), 0.25));
 }
-
-}  // namespace ch23
