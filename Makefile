@@ -27,7 +27,7 @@ common    := $(call objects,common,common/tools/% common/book/%)
 tests     := $(call objects,tests,tests/measure/% \
              tests/damage/fuzz_reader.cpp tests/check/compare_scenes.cpp)
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
-# Programs that tests start: see tests/*/rules.mk.
+# Programs that tests start: see tests/rules.mk.
 started    =
 made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt)
 
@@ -82,7 +82,7 @@ $(BUILD)/obj/%.o: %.cpp $(BUILD)/flags | $(BUILD)/packages
 	@$(CXX) $(CXXFLAGS) $(own_flags) $(if $(WERROR),-Werror) -MMD -MP -c $< -o $@
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
 
-include $(wildcard common/*/rules.mk tests/*/rules.mk)
+include common/rules.mk common/tools/rules.mk tests/rules.mk
 
 #: starting: make clean        remove all that was built and rendered
 clean:

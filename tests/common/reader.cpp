@@ -412,7 +412,21 @@ TEST_SUITE("reader") {
     TEST_CASE("files: an included file continues where its Include stands") {
         // From the included file, and named beside it; then its transform is still in force. The
         // mesh is named beside the main file.
-        CHECK(in_words(load_scene("tests/support/includes/main.pbrt", nullptr)) ==
+        TemporaryFolder folder;
+        std::filesystem::create_directory(folder / "parts");
+        auto write = [&](const std::string& name, const std::string& text) {
+            write_file_atomically(folder / name, unquoted(text));
+        };
+        write("main.pbrt",
+              "Camera 'perspective' WorldBegin LightSource 'infinite' Include 'parts/first.pbrt' "
+              "Translate 0 5 0 Shape 'sphere'");
+        write("parts/first.pbrt",
+              "Translate 1 0 0 Material 'diffuse' 'rgb reflectance' [.2 .3 .4] Shape 'sphere' "
+              "Include 'second.pbrt'");
+        write("parts/second.pbrt",
+              "Translate 2 0 0 Shape 'sphere' Shape 'plymesh' 'string filename' 'triangle.ply'");
+        write("triangle.ply", read_file("tests/support/triangle.ply"));
+        CHECK(in_words(load_scene(folder / "main.pbrt", nullptr)) ==
               "triangle 3 0 0 4 0 0 3 1 0 0.2 0.3 0.4\n"
               "sphere 1 0 0, 1 0.2 0.3 0.4\nsphere 3 0 0, 1 0.2 0.3 0.4\n"
               "sphere 3 5 0, 1 0.2 0.3 0.4\ninfinite 1 1 1\n");

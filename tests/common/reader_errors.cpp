@@ -296,7 +296,7 @@ TEST_SUITE("reader: malformed input") {
         CHECK(refuse(world + repeated(include, 4), limits, beside)
                   .starts_with(place + ":5:1: error: more than 3000 bytes"));
 
-        const std::string mesh = read_file("tests/support/includes/triangle.ply");
+        const std::string mesh = read_file("tests/support/triangle.ply");
         write(folder, "a.ply", mesh);
         limits.file_bytes = mesh.size();
         limits.primitives = 100;

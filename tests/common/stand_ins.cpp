@@ -28,7 +28,7 @@ struct Files {
         write_image(folder / "a.pfm", image, "");
         write("a.exr", "\x76\x2f\x31\x01...");
         write("a.pbrt", "Shape 'sphere' Translate 1 0 0");
-        write("a.ply", read_file("tests/support/includes/triangle.ply"));
+        write("a.ply", read_file("tests/support/triangle.ply"));
     }
     void write(const std::string& name, const std::string& text) const {
         write_file_atomically(folder / name, unquoted(text));

@@ -1,0 +1,154 @@
+# Assertions that compile a third faster; an exception in one of them ends its test.
+$(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+$(BUILD)/obj/tests/known/%.o: own_flags = $(briefly)
+# Most tests run for less time than it takes to compile them by -O3, or with all that trace() calls in one function.
+brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
+$(brief): own_flags += $(briefly) -Dflatten=
+
+# Most tests include the same headers: see common/rules.mk.
+ifdef precompiled
+advance := $(filter-out %/main.o,$(brief))
+$(advance): own_flags += $(call precompiled,tests/support/included.h)
+$(advance): $(BUILD)/obj/tests/support/included.h.gch
+$(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly) -Dflatten=
+endif
+
+# The book, tried out in headless browsers.
+.PHONY: test-book
+#: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
+test-book: book programs
+	tests/book/run out/book $(BUILD)
+
+# The reader's own version of a chapter, in my/: to begin with, and to be checked.
+.PHONY: exercise check checkers mine
+
+#: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you (ALL=1: also those that change)
+exercise:
+	@common/tools/exercise '$(CH)'
+comparing := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp tests/known/*.cpp) \
+             tests/methods/table.cpp tests/measure/measure.cpp)
+checkers  := $(comparing) $(support)
+# Chapters without paths of light: their check renders the chapter's own picture.
+draw_alone := 01 02 03 04 05 06 26
+$(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
+	@mkdir -p $(@D); printf '#include "$<"\n' >$@
+# Compiled in advance, with the flags that tests/check/check compiles with. g++ takes a header for the one in here only if its
+# time is the same: not that of another folder, from ccache.
+$(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
+	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -Dflatten= -MMD -MP -MF $(BUILD)/obj/check_support.d \
+	    -x c++-header $< -o $@
+checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
+# What the chapter's own file renders of random scenes.
+$(BUILD)/check/worlds_%: $(BUILD)/obj/tests/methods/%.o $(comparing) $(common)
+	@mkdir -p $(@D); $(CXX) $(CXXFLAGS) $(filter %.o,$^) -o $@.program $(LIBS) && echo "render random scenes"
+	@$(RUN) $@.program $* write --worlds $@
+#: teaching: make check CH=09      is it right? what is off, and where (NAME=1: in which function; MINE=FILE, LIMIT=30)
+check: checkers $(made) $(patsubst tests/methods/%.cpp,$(BUILD)/check/worlds_%,$(wildcard tests/methods/$(CH).cpp)) \
+       $(if $(filter $(CH),$(draw_alone)),$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
+       $(BUILD)/compare
+	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
+#: teaching: make mine CH=09       run your own file as a program: out/mine/09_light_sampling.ppm (ARGS='--spp 64')
+mine: $(common) $(made)
+	@ARGS='$(ARGS)' tests/check/mine $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS)) -- $(common) $(LIBS)
+
+#: maintaining: make SAN=1 fuzz   100,000 (or COUNT=) damaged scenes, under the sanitizers
+# The sanitizer keeps little of what was freed: the limit of 1 GB is for what the reader itself takes.
+fuzz: export ASAN_OPTIONS := quarantine_size_mb=16
+fuzz: $(BUILD)/fuzz_reader
+	$< $(COUNT)
+$(BUILD)/fuzz_reader: $(BUILD)/obj/tests/damage/fuzz_reader.o $(common)
+	$(link)
+
+.PHONY: fuzz
+
+# Pictures of small scenes by any renderer: what is wrong with them?
+diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge known/scenes)
+# They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
+$(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
+
+.PHONY: probes diagnose
+#: teaching: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes
+probes: $(BUILD)/diagnose
+	@$< --write $(BUILD)/probes
+$(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
+	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
+
+# Students' files, graded.
+.PHONY: grade boxes
+boxes: | $(BUILD)/packages
+	@command -v bwrap >/dev/null || common/tools/install bubblewrap
+#: teaching: make grade DIR=submissions   check a folder of students' files, each in a box, into out/grade/ (CH=09, WEIGHTS=FILE)
+grade: boxes checkers programs
+	@tests/grade/grade $(BUILD) '$(DIR)' $(CH:%=--chapter %) $(if $(WEIGHTS),--weights '$(WEIGHTS)') \
+	    -- $(CXX) $(filter-out -I.,$(CXXFLAGS))
+
+# The programs that measure: all methods against each other, in error, time and stability.
+measuring := $(basename $(notdir $(shell grep -l '^int main' tests/measure/*.cpp)))
+methods   := $(filter-out $(measuring:%=tests/measure/%.cpp),$(wildcard tests/measure/*.cpp)) $(wildcard tests/methods/*.cpp)
+comma     := ,
+chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
+quick      = $(if $(QUICK),$(1))
+of_reader  = $(filter mine/%,$(A) $(B))
+
+.PHONY: chart front stability agree efficiency compare radiosity references bench teeth break
+
+$(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
+	$(link)
+$(BUILD)/bench: LIBS += $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
+$(BUILD)/gnuplot:
+	@command -v gnuplot >/dev/null || common/tools/install gnuplot-nox; mkdir -p $(@D); touch $@
+
+#: measuring: make chart        error against time of all chapters (11 minutes; QUICK=1: 2; SCENE=cornell)
+chart: $(BUILD)/chart $(BUILD)/gnuplot $(made)
+	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
+#: maintaining: make front        the chart of the front page, anew
+front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
+	$(BUILD)/chart cornell --methods all --seconds 60
+	cp out/chart-cornell.svg tests/measure/front.svg
+#: measuring: make stability    do methods fail where theory says, as it says, and nowhere else? (3 minutes)
+stability: $(BUILD)/stability $(made)
+	$<
+#: measuring: make agree        z values of every chapter against the others, on every scene (8 minutes)
+agree: $(BUILD)/agree $(made)
+	$< $(SCENE)
+#: measuring: make efficiency CH=14   a chapter's error, time and efficiency beside the one before (3 minutes)
+efficiency: $(BUILD)/efficiency $(made)
+	@$< $(or $(CH),$(SCENE),cornell) $(chosen)
+#: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time (A=mine/09: yours; 2 minutes)
+compare: $(if $(of_reader),$(BUILD)/compare $(filter $(patsubst %,$(BUILD)/%_%,$(filter-out mine/%,$(A) $(B))),$(chapters:%=$(BUILD)/%)),$(BUILD)/efficiency) $(made)
+	@$(if $(of_reader),tests/check/beside $(BUILD) '$(A)' '$(B)' '$(SCENE)',$< $(or $(SCENE),cornell) $(chosen) --equal-time)
+#: maintaining: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
+radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
+	@$< $(SCENE)
+#: maintaining: make references   render what the charts compare with (25 minutes)
+references: $(BUILD)/references $(made)
+	$< $(SCENE)
+#: measuring: make bench        rays per second of the hierarchy of common/geometry, beside Embree (2 minutes)
+bench: $(BUILD)/bench $(made)
+	@$<
+readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
+# What a test program consists of beside the test itself.
+harness := $(common) $(support) $(filter $(BUILD)/obj/tests/known/%,$(tests)) $(BUILD)/obj/tests/laws/laws.o $(filter $(BUILD)/obj/tests/methods/%,$(tests))
+teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
+#: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's) (15 minutes)
+teeth: $(harness) $(made)
+	@$(teeth)
+#: teaching: make break CH=09 N=2   plant the second mistake of that page, and show its test red
+break: $(harness) $(made)
+	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
+
+# Changes of the code that no test notices.
+.PHONY: mutants
+#: maintaining: make mutants DIR=common/light   change the code in 25 (or N=) places, and list what no test notices (SEED=)
+mutants: $(made)
+	@tests/mutants --build $(BUILD) $(if $(N),--n $(N)) $(if $(SEED),--seed $(SEED)) $(DIR)
+
+# Other renderers beside the methods of the chapters.
+.PHONY: race
+$(BUILD)/flatten: $(BUILD)/obj/tests/race/programs/flatten.o $(common)
+	$(link)
+started += $(BUILD)/flatten
+#: measuring: make race         other renderers beside the chapters, on the same scenes (PEERS='cycles pbrt'; PBRT=FILE, SCENES=) (28 minutes)
+race: programs $(BUILD)/flatten
+	@tests/race/race $(BUILD) $(SCENES) $(foreach name,peers blender pbrt size turns seconds reference,$(call option,$(name)))
+option = $(if $($(shell tr a-z A-Z <<<$(1))),--$(1) '$($(shell tr a-z A-Z <<<$(1)))')
