@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -16,7 +17,6 @@
 #include "common/base/vec.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
-#include "tests/known/words.h"
 #include "tests/known/worlds.h"
 
 namespace numbers {
@@ -24,7 +24,11 @@ namespace numbers {
 /// What a function returned, or what is known of it: names and numbers.
 using Values = std::vector<std::pair<std::string, double>>;
 
-inline std::string digits(double x) { return format("%.6g", x); }
+inline std::string digits(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", x);
+    return text;
+}
 
 /// Arguments, from a hash of the number of the draw. Often one at the end of its range.
 class Draw {

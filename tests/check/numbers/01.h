@@ -1,6 +1,6 @@
 // Functions of chapter 01, for numbers.h.
 inline numbers::Functions functions() {
-    using namespace numbers;
+    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact, numbers::by_chance;
     auto slope = [](Vec2 x) { return double{x.x} + 3 * double{x.y} * double{x.y}; };
     return Functions{
         exact("score_dart",

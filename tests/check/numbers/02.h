@@ -1,6 +1,7 @@
 // Functions of chapter 02, for numbers.h.
 inline numbers::Functions functions() {
-    using namespace numbers;
+    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact, numbers::by_chance,
+        numbers::of_sets;
     Functions all = {
         by_chance("random_pair",
                   [](Draw& d) -> Values {

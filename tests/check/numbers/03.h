@@ -1,6 +1,7 @@
 // Functions of chapter 03, for numbers.h.
 inline numbers::Functions functions() {
-    using namespace numbers;
+    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact, numbers::by_chance,
+        numbers::of_sets;
     auto pair = [](Vec2 p) { return Values{{"x", double{p.x}}, {"y", double{p.y}}}; };
     auto top_bits = [](uint32_t x, int n) { return static_cast<double>(x >> (32 - n)); };
     Functions all = {

@@ -1,6 +1,6 @@
 // Functions of chapter 04, for numbers.h.
 inline numbers::Functions functions() {
-    using namespace numbers;
+    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact, numbers::by_chance;
     auto scaled = [](std::vector<double> weights) {
         double sum = 0;
         for (double w : weights) sum += w;

@@ -1,6 +1,6 @@
 // Functions of chapter 05, for numbers.h.
 inline numbers::Functions functions() {
-    using namespace numbers;
+    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact;
     auto vector = [](Vec3 v) { return Values{{"x", v.x}, {"y", v.y}, {"z", v.z}}; };
     auto color = [](Rgb c) { return Values{{"red", c.r}, {"green", c.g}, {"blue", c.b}}; };
     // A ray to some point near the origin; seldom it ends before.

@@ -1,6 +1,6 @@
 // Functions of chapter 06, for numbers.h.
 inline numbers::Functions functions() {
-    using namespace numbers;
+    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact;
     auto box_values = [](const Box& b) {
         return Values{{"low.x", b.low.x},   {"low.y", b.low.y},   {"low.z", b.low.z},
                       {"high.x", b.high.x}, {"high.y", b.high.y}, {"high.z", b.high.z}};

@@ -1,6 +1,6 @@
 // Functions of chapter 26, for numbers.h.
 inline numbers::Functions functions() {
-    using namespace numbers;
+    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact, numbers::by_chance;
     auto triangle = [](Draw& d, Vec3 near, float size) {
         self::Patch p;
         for (Vec3& corner : p.p) corner = near + size * d.vector();
