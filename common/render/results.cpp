@@ -8,7 +8,6 @@
 #include "common/base/system.h"
 #include "common/picture/drawing.h"
 #include "common/render/render.h"
-#include "common/render/warnings.h"
 #include "common/scene/origin.h"
 
 namespace {
