@@ -1,7 +1,8 @@
 #include "common/base/system.h"
 
-#include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <system_error>
 
@@ -14,17 +15,37 @@ std::string file_name(const fs::path& path) {
 }
 
 static std::vector<void (*)(int)> handlers_before(stop_signals.size());
-static std::atomic<void (*)(int)> caught_by = nullptr;
+static std::atomic<bool> are_caught = false;
+static std::atomic<int64_t> first_times[NSIG];  // ns, of the first signal of each kind; 0: none
+static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler must not touch it
+static_assert(std::atomic<int64_t>::is_always_lock_free);
 
-void catch_stop_signals(void (*handler)(int)) {
+/// Ends the program as the signal does where nobody handles it.
+static void end_by_signal(int signal);
+
+static void request_stop(int signal) {
+    constexpr int64_t second = 1'000'000'000;  // ns
+    int before = errno;
+    std::chrono::nanoseconds time = std::chrono::steady_clock::now().time_since_epoch();
+    int64_t now = time.count(), first = 0;
+    bool again = !first_times[signal].compare_exchange_strong(first, now);
+    if (again && now - first > second / 2) return end_by_signal(signal);
+    stop_requested = true;
+    std::signal(signal, request_stop);  // some systems call it once
+    errno = before;
+}
+
+void catch_stop_signals() {
+    stop_requested = false;
+    for (int signal : stop_signals) first_times[signal] = 0;
     for (size_t i = 0; i < stop_signals.size(); i++) {
-        handlers_before[i] = std::signal(stop_signals[i], handler);
+        handlers_before[i] = std::signal(stop_signals[i], request_stop);
         if (handlers_before[i] == SIG_IGN) std::signal(stop_signals[i], SIG_IGN);
     }
-    caught_by = handler;
+    are_caught = true;
 }
 void release_stop_signals() {
-    caught_by = nullptr;
+    are_caught = false;
     for (size_t i = 0; i < stop_signals.size(); i++)
         std::signal(stop_signals[i], handlers_before[i]);
 }
@@ -63,15 +84,14 @@ fs::path own_file(const std::string&) {
 // ends the program when this returns, or 5 s later; so it waits until the work is done. The library
 // may call the handler of Ctrl-C before this, as std::signal says.
 static BOOL WINAPI console_event(DWORD event) {
-    void (*handler)(int) = caught_by;
-    if (handler == nullptr) TerminateProcess(GetCurrentProcess(), ended_by_signal);
+    if (!are_caught) TerminateProcess(GetCurrentProcess(), ended_by_signal);
     bool is_key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
-    handler(!is_key ? SIGTERM : event == CTRL_C_EVENT ? SIGINT : SIGBREAK);
-    for (int i = 0; i < 45 && !is_key && caught_by != nullptr; i++) Sleep(100);
+    request_stop(!is_key ? SIGTERM : event == CTRL_C_EVENT ? SIGINT : SIGBREAK);
+    for (int i = 0; i < 45 && !is_key && are_caught; i++) Sleep(100);
     return TRUE;
 }
 
-void end_by_signal(int) { TerminateProcess(GetCurrentProcess(), ended_by_signal); }
+static void end_by_signal(int) { TerminateProcess(GetCurrentProcess(), ended_by_signal); }
 void prepare_streams() {}
 
 // Windows starts programs here: with words in UTF-16, which main() gets in UTF-8. The streams take
@@ -138,7 +158,7 @@ void prepare_streams() {
     std::setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
 }
 
-void end_by_signal(int signal) {
+static void end_by_signal(int signal) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }

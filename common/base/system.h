@@ -1,6 +1,7 @@
 // What differs between systems, in one place: the names of files, locks, the signals that end a
 // program, and its streams. All else is written in standard C++.
 #pragma once
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -32,9 +33,10 @@ inline const std::vector<int> stop_signals = {SIGINT, SIGTERM, SIGBREAK};
 #else
 inline const std::vector<int> stop_signals = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
 #endif
-/// Lets `handler` have them, except those that the program was started to ignore; and gives them
-/// back to who had them.
-void catch_stop_signals(void (*handler)(int signal));
+/// Whether one of them has come since they were caught.
+inline std::atomic<bool> stop_requested = false;
+
+/// Lets them ask for a stop, except those that the program was started to ignore; and gives them
+/// back to who had them. One that comes again, at least half a second later, ends the program.
+void catch_stop_signals();
 void release_stop_signals();
-/// Ends the program as the signal does where nobody handles it.
-void end_by_signal(int signal);

@@ -83,6 +83,23 @@ bool prepare_pass(const Method& method, uint32_t pass, int threads, const Limit&
 /// is large, and stratified samples reduce it much more than that of other pixels.
 void mark_lamp_edges(const Scene& scene, int threads, Film& film);
 
+/// One line for each reason why the error of the picture may exceed its standard error: most light
+/// comes from a few samples, the error is unknown, or this method misses light or rarely finds it.
+/// Empty if there is none.
+/// tested by  "truth: what a film says of its own error"
+/// tested by  "truth: what each search for light leaves out, scene by scene"
+std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
+                                     const Rendering& rendering);
+
+/// Only the warnings that follow from the samples. place: where the largest of them is, in words.
+std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts,
+                                     const std::string& place = "");
+
+/// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
+/// view and the lights tell them; nothing is rendered. Not empty.
+/// tested by  "truth: the causes of a black picture, all of them, and no others"
+std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);
+
 /// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 if a sample was
 /// not finite, 3 if a signal stopped the render before its end.
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& rendering);

@@ -8,7 +8,6 @@
 #include "common/base/system.h"
 #include "common/picture/drawing.h"
 #include "common/render/render.h"
-#include "common/render/warnings.h"
 #include "common/scene/origin.h"
 
 namespace {
@@ -26,36 +25,44 @@ Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering
     return notes_of(label_of(scene, whole, r), r.film.spp());
 }
 
+/// The statistics as one level of JSON, a line for each value.
 std::string stats_json(const Scene& scene, const RenderOptions& options, const Rendering& r) {
     const RenderStats& s = r.stats;
     Rgb mean = r.film.mean_rgb();
     double pixels = static_cast<double>(r.film.pixels().size());
+    std::string lines;
+    auto add = [&](const std::string& name, const std::string& value) {
+        lines += (lines.empty() ? "  " : ",\n  ") + json_quoted(name) + ": " + value;
+    };
+    auto add_texts = [&](const std::string& name, std::vector<std::string> texts) {
+        for (std::string& text : texts) text = json_quoted(text);
+        add(name, '[' + listed(texts, ", ") + ']');
+    };
     std::vector<std::string> stand_ins;
-    for (const UsedStandIn& used : scene.origin->stand_ins)
-        stand_ins.push_back(printable(used.text()));
-    JsonObject json;
-    json.add("scene", scene.origin->file);
-    json.add("spp", r.film.spp());
-    json.add("notes", lines_of(notes_of(scene, options, r)));
-    if (!stand_ins.empty()) json.add("stand_ins", stand_ins);
-    json.add("threads", options.threads);
-    json.add("seconds", s.seconds);
-    json.add("samples_per_second", per_second(r.film.samples(), s.samples_before, s));
-    json.add("rays", s.rays);
-    json.add("rays_per_second", per_second(s.rays, s.rays_before, s));
-    json.add("mean", r.film.mean());
-    json.add("mean_rgb", std::vector{double{mean.r}, double{mean.g}, double{mean.b}});
-    json.add("standard_error", r.film.standard_error());
-    json.add("samples_not_finite", s.not_finite);
-    json.add("paths_cut_by_depth", s.paths_cut);
-    json.add("largest_sample", s.largest);
-    json.add("largest_sample_at", s.largest_at ? s.largest_at->text() : "");
-    json.add("effective_samples", r.film.effective_samples());
-    json.add("empty_pixels_share", static_cast<double>(r.film.empty_pixels()) / pixels);
-    json.add("warnings", warnings_of(scene, options, r));
-    if (s.first_radius > 0) json.add("first_radius", s.first_radius);
-    json.add("interrupted", s.interrupted);
-    return json.text();
+    for (const UsedStandIn& used : scene.origin->stand_ins) stand_ins.push_back(used.text());
+    add("scene", json_quoted(scene.origin->file));
+    add("spp", json_number(r.film.spp()));
+    add_texts("notes", lines_of(notes_of(scene, options, r)));
+    if (!stand_ins.empty()) add_texts("stand_ins", stand_ins);
+    add("threads", std::to_string(options.threads));
+    add("seconds", json_number(s.seconds));
+    add("samples_per_second", json_number(per_second(r.film.samples(), s.samples_before, s)));
+    add("rays", std::to_string(s.rays));
+    add("rays_per_second", json_number(per_second(s.rays, s.rays_before, s)));
+    add("mean", json_number(r.film.mean()));
+    add("mean_rgb", '[' + json_number(double{mean.r}) + ", " + json_number(double{mean.g}) + ", " +
+                        json_number(double{mean.b}) + ']');
+    add("standard_error", json_number(r.film.standard_error()));
+    add("samples_not_finite", std::to_string(s.not_finite));
+    add("paths_cut_by_depth", std::to_string(s.paths_cut));
+    add("largest_sample", json_number(s.largest));
+    add("largest_sample_at", json_quoted(s.largest_at ? s.largest_at->text() : ""));
+    add("effective_samples", json_number(r.film.effective_samples()));
+    add("empty_pixels_share", json_number(static_cast<double>(r.film.empty_pixels()) / pixels));
+    add_texts("warnings", warnings_of(scene, options, r));
+    if (s.first_radius > 0) add("first_radius", json_number(s.first_radius));
+    add("interrupted", s.interrupted ? "true" : "false");
+    return "{\n" + lines + "\n}\n";
 }
 
 void print_summary(const Scene& scene, const RenderOptions& options, const Rendering& r) {

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <chrono>
 
+#include "common/base/system.h"
+
 /// When work has to end before all of it is done: after some seconds, or on a signal.
 ///
 /// While it exists, the first SIGINT (Ctrl-C), SIGTERM or other signal that would end the program
@@ -11,16 +13,20 @@
 /// to ignore, as by nohup, stay ignored. If several objects exist, a signal stops them all.
 class Limit {
 public:
-    explicit Limit(double seconds = 0);  // 0: signals alone
-    ~Limit();
+    explicit Limit(double seconds = 0) : seconds_(seconds) {  // 0: signals alone
+        if (alive++ == 0) catch_stop_signals();
+    }
+    ~Limit() {
+        if (--alive == 0) release_stop_signals();
+    }
     Limit(const Limit&) = delete;
     Limit& operator=(const Limit&) = delete;
 
     bool reached() const { return interrupted() || (seconds_ > 0 && elapsed() >= seconds_); }
-    bool interrupted() const { return signal_came; }
+    bool interrupted() const { return stop_requested; }
     /// Whether it was interrupted; resets it, so that the signal ends one part of the work but not
     /// the next.
-    bool take_interruption() { return signal_came.exchange(false); }
+    bool take_interruption() { return stop_requested.exchange(false); }
     /// Whether overdue() has found the limit reached; at most a few rays late.
     bool seen() const { return reached_at_ != 0; }
     /// Whether it was reached some time ago. Until then, samples that have started are finished:
@@ -36,8 +42,7 @@ public:
     }
 
 private:
-    friend void request_stop(int signal);
-    static inline std::atomic<bool> signal_came = false;
+    static inline int alive = 0;
 
     double seconds_;
     mutable std::atomic<double> reached_at_ = 0;  // s, when a thread first noticed it; 0: not yet

@@ -1,19 +1,20 @@
-#include "common/render/warnings.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
+#include "common/material/ggx.h"
 #include "common/material/metal.h"
-#include "common/path/light_paths.h"
 #include "common/path/sampler.h"
 #include "common/picture/heat_map.h"
+#include "common/render/render.h"
 #include "common/scene/intersect.h"
 #include "common/scene/prepare.h"
+#include "common/scene/sky_image.h"
 
 namespace {
 
@@ -203,40 +204,61 @@ bool lamps_are_near(const Scene& scene, const InView& seen) {
     });
 }
 
+/// The probabilities with which chapter 20 starts paths: at the lights, as in chapter 11; then at
+/// the pixels of the sky's image, by their light.
+std::vector<double> starts_of(const Scene& scene) {
+    std::vector<double> pmf = light_pmf(scene, 0.25), sky;
+    for (size_t i = 0; scene.sky_image && i < scene.sky_image->pixels.size(); i++) {
+        float angle = solid_angle_per_area(*scene.sky_image, scene.sky_image->middle_of(i));
+        sky.push_back(double{angle * average(scene.sky_image->pixels[i])});
+    }
+    double all = std::accumulate(sky.begin(), sky.end(), 0.0), share = pmf.empty() ? 1 : 0.5;
+    if (all == 0) return pmf;
+    for (double& p : pmf) p *= 1 - share;
+    for (double p : sky) pmf.push_back(share * p / all);
+    return pmf;
+}
+
 /// The part of the picture's mean that hardly any path from a light finds: the direct light of
 /// those places in view that the fewest paths reach, together fewer than few_paths. A light sample
 /// at each place tells how many of `paths` paths from that light reach it.
 double light_by_few_paths(const Scene& scene, const InView& seen, double paths) {
     constexpr uint32_t tries = 4;
-    Endpoints endpoints = endpoints_of(scene);
-    double q = endpoints.p_image;
-    if (scene.max_depth == 0 || (scene.lights.empty() && q == 0)) return 0;
-    double part = seen.receivers / seen.pixels / static_cast<double>(tries * seen.points.size());
+    std::vector<double> pmf = starts_of(scene), cdf(pmf.size());
+    std::partial_sum(pmf.begin(), pmf.end(), cdf.begin());
+    if (scene.max_depth == 0 || pmf.empty()) return 0;
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    Vec3 pixel = cross(view.dx, view.dy);
+    double pixels = seen.receivers / static_cast<double>(tries * seen.points.size());  // of a place
     std::vector<std::pair<double, double>> places;  // paths that reach it; its light
     Sampler sampler(SamplerType::independent, 1, 1);
     for (uint32_t i = 0; i < tries * seen.points.size(); i++) {
         const auto& [ray, x] = seen.points[i / tries];
         sampler.start(0, i);
         double u = to_unit_double(sampler.u2());
-        float pmf = static_cast<float>(q), power = pi * scene.radius * scene.radius;
+        auto light =
+            static_cast<size_t>(std::upper_bound(cdf.begin(), cdf.end() - 1, u) - cdf.begin());
         LightSample y;
-        if (u < q) {
-            y = sample_image(*scene.sky_image, endpoints.image_cdf, u / q, sampler.u2());
-            power *= average(y.Le) / y.pdf_w;
-        } else {
-            size_t light = pick_light(endpoints.lights, (u - q) / (1 - q));
+        float power = pi * scene.radius * scene.radius;
+        if (light < scene.lights.size()) {
             y = sample_one_light(scene, light, x, sampler.u2());
-            pmf = static_cast<float>(1 - q) * pmf_light(endpoints.lights, light);
             power = light_power(scene, light);
+        } else {
+            const SkyImage& sky = *scene.sky_image;
+            Vec2 uv = sky.point_in(light - scene.lights.size(), sampler.u2());
+            float all = static_cast<float>(sky.pixels.size());
+            y = {direction_of(sky, uv), sky.at(uv), infinity, all / solid_angle_per_area(sky, uv)};
+            power *= average(y.Le) / y.pdf_w;
         }
         float cos_x = dot(y.wi, x.n);
         if (y.pdf_w == 0 || cos_x <= 0 || occluded(scene, spawn_ray(x, y.wi, y.dist))) continue;
         // A path carries power / pmf; this place has this area, and this is its irradiance.
-        float pixels = importance_cos(endpoints.camera, ray.d) * std::abs(dot(ray.d, x.ng));
-        double area = part * double{x.t} * double{x.t} / double{pixels};
+        float a = dot(pixel, ray.d), b = a / dot(pixel, view.corner);  // a b^2: its solid angle
+        double area = pixels * double{std::abs(a / dot(ray.d, x.ng)) * b * b * x.t * x.t};
         double E = double{average(y.Le) * cos_x / y.pdf_w};
-        Rgb L = eval_bsdf(x, -ray.d, y.wi) * y.Le * (cos_x / y.pdf_w / pmf);
-        places.emplace_back(paths * E * area / double{power}, part * double{average(L)});
+        Rgb L = glossy_bsdf::eval_bsdf(x, -ray.d, y.wi) * y.Le * (cos_x / y.pdf_w);
+        places.emplace_back(paths * E * area / double{power},
+                            pixels / seen.pixels * double{average(L)} / pmf[light]);
     }
     std::sort(places.begin(), places.end());
     double reached = 0, light = 0;
@@ -254,16 +276,15 @@ double share_by_few_paths_to_mirrors(const Scene& scene, double paths) {
     Outlines mirrors = outlines_of(
         scene, [&](const Material& m) { return is_specular(m) || is_nearly_mirror(m, paths); });
     if (mirrors.area == 0) return 0;
-    Endpoints endpoints = endpoints_of(scene);
+    std::vector<double> pmf = starts_of(scene);
     double few = 0, all = 0;
     for (size_t i = 0; i < scene.lights.size(); i++) {
         LightType type = scene.lights[i].type;
         if (type != LightType::distant && type != LightType::point) continue;
         double hit = std::min(1.0, mirrors.area / spread_of(scene, i, mirrors.middle));
         double power = hit * double{light_power(scene, i)};
-        double pmf = (1 - endpoints.p_image) * double{pmf_light(endpoints.lights, i)};
         all += power;
-        if (paths * pmf * hit < few_paths) few += power;
+        if (paths * pmf[i] * hit < few_paths) few += power;
     }
     return all > 0 ? few / all : 0;
 }
@@ -448,13 +469,10 @@ std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& op
                                      const Rendering& r) {
     const std::optional<SampleAt>& at = r.stats.largest_at;
     auto lines = warnings_of(r.film, r.stats, at ? ": see --explain " + at->text() : "");
-    if (r.film.samples() > 0 && r.film.mean() == 0) {
-        for (const std::string& cause : causes_of_black(scene, options)) {
+    if (r.film.samples() > 0 && r.film.mean() == 0)
+        for (const std::string& cause : causes_of_black(scene, options))
             lines.push_back("possible cause: " + cause);
-        }
-    }
-    for (const auto& more :
-         {std::vector<std::string>(missed_light(scene, options, r.film)), r.warnings})
-        lines.insert(lines.end(), more.begin(), more.end());
+    for (const std::string& line : missed_light(scene, options, r.film)) lines.push_back(line);
+    lines.insert(lines.end(), r.warnings.begin(), r.warnings.end());
     return lines;
 }

@@ -4,7 +4,6 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/render/render.h"
-#include "common/render/warnings.h"
 
 static int merge(const std::string& out, const std::vector<std::string>& films) {
     check_outputs({out}, films);

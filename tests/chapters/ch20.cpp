@@ -3,7 +3,6 @@
 
 #include "chapters/15_mis_ris/estimator.h"
 #include "chapters/20_light_tracing/estimator.h"
-#include "common/render/warnings.h"
 #include "tests/support/known_lights.h"
 #include "tests/support/light_paths.h"
 

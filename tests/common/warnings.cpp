@@ -1,9 +1,8 @@
 // What is said of a picture's error, and of light that is missing: each rule on both sides of its
 // threshold, and what programs say.
-#include "common/render/warnings.h"
-
 #include <doctest/doctest.h>
 
+#include "common/render/render.h"
 #include "common/scene/prepare.h"
 #include "tests/support/estimators.h"
 
