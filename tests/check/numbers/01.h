@@ -16,6 +16,8 @@ inline numbers::Functions functions() {
                       for (uint32_t n = d.below(20); n > 0; n--) stats.add(base + d.from(-1, 1));
                       all.merge(stats);
                   }
+                  for (uint32_t twice = d.count(0, 40); twice > 0; twice--)
+                      all.merge(self::RunningStats(all));
                   for (uint32_t n = d.below(3); n > 0; n--) all.add(base + d.from(-1, 1));
                   return {{"count()", static_cast<double>(all.count())},
                           {"mean()", all.mean()},
