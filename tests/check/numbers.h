@@ -8,7 +8,9 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -108,6 +110,47 @@ private:
     std::string said_;
 };
 
+// Arguments: functions of a Draw.
+inline double unit(Draw& d) { return d.unit(); }
+inline Vec2 point(Draw& d) { return d.point(); }
+inline Vec3 vector(Draw& d) { return d.vector(); }
+inline Vec3 direction(Draw& d) { return d.direction(); }
+inline uint32_t seed(Draw& d) { return d.seed(); }
+inline auto from(double low, double high) {
+    return [=](Draw& d) { return d.from(low, high); };
+}
+inline auto power(double low, double high) {
+    return [=](Draw& d) { return d.power(low, high); };
+}
+inline auto count(uint32_t low, uint32_t high) {
+    return [=](Draw& d) { return d.count(low, high); };
+}
+inline auto point_in(double low, double high) {
+    return [=](Draw& d) { return d.point(low, high); };
+}
+inline auto points(uint32_t most) {
+    return [=](Draw& d) { return d.points(most); };
+}
+
+// What a function returned, as numbers.
+inline Values values_of(Values v) { return v; }
+inline Values values_of(double x) { return {{"", x}}; }
+inline Values values_of(Vec2 p) { return {{"x", p.x}, {"y", p.y}}; }
+inline Values values_of(Vec3 p) { return {{"x", p.x}, {"y", p.y}, {"z", p.z}}; }
+inline Values values_of(Rgbd c) { return {{"red", c.r}, {"green", c.g}, {"blue", c.b}}; }
+inline Values values_of(Rgb c) { return values_of(Rgbd(c)); }
+inline Values values_of(const std::vector<double>& list) {
+    double sum = 0, place = 0;
+    for (double x : list) sum += x * ++place;
+    return {{"the size", double(list.size())}, {"a sum", sum}};
+}
+template <class T>
+Values values_of(const std::optional<T>& x) {
+    Values values = values_of(x.value_or(T{}));
+    values.push_back({"whether there is any", x.has_value()});
+    return values;
+}
+
 /// A function of the chapter, and how it is compared.
 struct Function {
     std::string name;
@@ -116,16 +159,28 @@ struct Function {
     double tolerance = 1e-4;  // of a value
     double rounded = 0.002;   // the share of draws in which rounding may decide
     uint32_t draws = 5000;
+
+    Function within(double of_value, double of_draws) const {
+        Function f = *this;
+        f.tolerance = of_value, f.rounded = of_draws;
+        return f;
+    }
 };
 using Functions = std::vector<Function>;
 
-inline Function exact(std::string name, std::function<Values(Draw&)> values,
-                      double tolerance = 1e-4, double rounded = 0.002) {
-    return {std::move(name), std::move(values), false, tolerance, rounded};
+/// f(arguments...), or what f makes of a Draw.
+template <class F>
+Function exact(const std::string& name, const F& f) {
+    return {name, [=](Draw& d) { return values_of(f(d)); }};
 }
-inline Function by_chance(std::string name, std::function<Values(Draw&)> values,
-                          uint32_t draws = 5000) {
-    return {std::move(name), std::move(values), true, 1e-4, 0.002, draws};
+template <class F, class... Arguments>
+Function exact(const std::string& name, const F& f,
+               const Arguments&... arguments) requires(sizeof...(Arguments) > 0) {
+    return {name, [=](Draw& d) { return values_of(std::apply(f, std::tuple{arguments(d)...})); }};
+}
+template <class F>
+Function by_chance(const std::string& name, const F& f, uint32_t draws = 5000) {
+    return {name, [=](Draw& d) { return values_of(f(d)); }, true, 1e-4, 0.002, draws};
 }
 
 /// What is known of sets of points on the square: estimates from them, less what is right.
@@ -161,6 +216,12 @@ Values of_sets(Draw& d, uint32_t most, const Make& make) {
             {"the error for |x - y|", e.diagonal},
             {"the error for xy times that of the next seed", e.xy * next.xy},
             {"the error for pi times that of the next seed", e.circle * next.circle}};
+}
+
+template <class Make>
+Function sets(const std::string& name, uint32_t most, const Make& make, uint32_t draws = 2000) {
+    return by_chance(
+        name, [=](Draw& d) { return of_sets(d, most, make); }, draws);
 }
 
 /// What is wrong with the reader's function; "": nothing.

@@ -1,6 +1,6 @@
 // Functions of chapter 26, for numbers.h.
 inline numbers::Functions functions() {
-    using numbers::Draw, numbers::Values, numbers::Functions, numbers::exact, numbers::by_chance;
+    using numbers::Draw, numbers::Values, numbers::exact, numbers::by_chance, numbers::from;
     auto triangle = [](Draw& d, Vec3 near, float size) {
         self::Patch p;
         for (Vec3& corner : p.p) corner = near + size * d.vector();
@@ -18,7 +18,7 @@ inline numbers::Functions functions() {
         Vec3 away = d.f(d.pick({0.3, 1.0, 2.0, d.power(1, 100)})) * d.direction();
         return std::pair{triangle(d, {}, 1), triangle(d, away, size)};
     };
-    // Several patches, and what they exchange: a symmetric matrix whose rows sum to less than 1.
+    // Several patches, what they exchange (rows sum to less than 1), and light on its way.
     struct Room {
         self::Patches patches;
         self::Matrix G;
@@ -27,34 +27,26 @@ inline numbers::Functions functions() {
     auto room = [=](Draw& d) {
         Room r;
         size_t n = d.count(2, 12);
-        for (size_t i = 0; i < n; i++) r.patches.patch.push_back(triangle(d, {}, 1));
         r.patches.closed = d.below(3) == 0;
         r.G.assign(n, std::vector<float>(n));
-        for (size_t i = 0; i < n; i++)
-            for (size_t j = 0; j < i; j++) {
-                float area = std::min(r.patches.patch[i].area, r.patches.patch[j].area);
-                float G = d.below(4) == 0 ? 0 : area / float(n) * d.f(d.from(0, 1));
-                r.G[i][j] = r.G[j][i] = G;
-            }
+        auto light = [&] { return d.below(4) == 0 ? 0 : d.from(0, 2); };
         for (size_t i = 0; i < n; i++) {
-            auto light = [&] { return d.below(4) == 0 ? 0 : d.from(0, 2); };
+            r.patches.patch.push_back(triangle(d, {}, 1));
             r.s.H.push_back({light(), light(), light()});
             r.s.unshot.push_back({light(), light(), light()});
+            for (size_t j = 0; j < i; j++) {
+                float area = std::min(r.patches.patch[i].area, r.patches.patch[j].area);
+                r.G[i][j] = r.G[j][i] = d.below(4) == 0 ? 0 : area / float(n) * d.f(d.from(0, 1));
+            }
         }
         return r;
     };
-    auto color = [](const std::string& name, Rgbd c) {
-        return Values{{name + ", red", c.r}, {name + ", green", c.g}, {name + ", blue", c.b}};
-    };
-    auto state = [=](const self::Solution& s) {
+    auto state = [](const self::Solution& s, double more = 0) {
         Rgbd H, unshot;
         for (size_t i = 0; i < s.H.size(); i++) H += double(i + 1) * s.H[i];
         for (size_t i = 0; i < s.unshot.size(); i++) unshot += double(i + 1) * s.unshot[i];
-        Values values = color("a sum of H", H);
-        for (auto& v : color("a sum of what is unshot", unshot)) values.push_back(v);
-        for (auto& v : color("escaped", s.escaped)) values.push_back(v);
-        values.push_back({"steps", double(s.steps)});
-        return values;
+        return std::vector{
+            H.r, H.g, H.b, unshot.r, unshot.g, unshot.b, sum_of(s.escaped), double(s.steps), more};
     };
     // A board, to hide what is behind it.
     static const Scene scene = [] {
@@ -66,53 +58,40 @@ inline numbers::Functions functions() {
         prepare(board, 1);
         return board;
     }();
-    return Functions{
+    return {
         exact("by_centres",
-              [=](Draw& d) -> Values {
+              [=](Draw& d) {
                   auto [p, q] = two(d);
-                  return {{"", self::by_centres(p, q, p.centre, q.centre)}};
+                  return self::by_centres(p, q, p.centre, q.centre);
               }),
         exact("point_to_polygon",
-              [=](Draw& d) -> Values {
+              [=](Draw& d) {
                   auto [p, q] = two(d);
-                  Vec3 x = d.vector();
                   std::vector<Vec3> corners(q.p.begin(), q.p.end());
                   if (d.below(2) == 0) corners.push_back(q.p[0] + 0.3f * (q.p[2] - q.p[1]));
-                  return {{"", self::point_to_polygon(x, d.direction(), corners)}};
+                  Vec3 x = d.below(5) == 0 ? q.p[0] : d.vector();
+                  return self::point_to_polygon(x, d.direction(), corners);
               }),
         exact("mean_to_polygon",
-              [=](Draw& d) -> Values {
+              [=](Draw& d) {
                   auto [p, q] = two(d);
-                  return {{"", self::mean_to_polygon(p.p, p.n, q, int(d.below(4)))}};
+                  return self::mean_to_polygon(p.p, p.n, q, int(d.below(4)));
               }),
         by_chance("exchange",
-                  [=](Draw& d) -> Values {
+                  [=](Draw& d) {
                       auto [p, q] = two(d);
                       uint32_t key = d.seed();
-                      double G = self::exchange(scene, p, q, key), size = p.area * q.area;
-                      return {{"G over both areas", G / size},
-                              {"that times that of the next key",
-                               G * self::exchange(scene, p, q, key + 1) / (size * size)}};
+                      double size = double{p.area * q.area},
+                             G = self::exchange(scene, p, q, key) / size,
+                             next = self::exchange(scene, p, q, key + 1) / size;
+                      return Values{{"G over both areas", G}, {"that by the next key's", G * next}};
                   }),
-        exact("radiosity_of",
-              [=](Draw& d) {
-                  Room r = room(d);
-                  return color("", self::radiosity_of(r.patches.patch[0], r.s.H[0]));
-              }),
-        exact("gather",
-              [=](Draw& d) {
-                  Room r = room(d);
-                  size_t i = d.below(uint32_t(r.G.size()));
-                  return color("", self::gather(r.G, r.patches.patch, r.s.H, i));
-              }),
         exact("sweep",
               [=](Draw& d) {
                   Room r = room(d);
                   auto kind = d.pick({self::Sweep::jacobi, self::Sweep::gauss_seidel});
                   double change = self::sweep(r.G, r.patches.patch, kind, r.s);
-                  Values values = state(r.s);
-                  values.push_back({"the change", change});
-                  return values;
+                  return state(r.s, change);
               }),
         exact("solve",
               [=](Draw& d) {
@@ -122,18 +101,11 @@ inline numbers::Functions functions() {
                   self::solve(r.G, r.patches.patch, kind, d.power(1e-9, 0.1), r.s);
                   return state(r.s);
               }),
-        exact("start",
+        exact("start and brightest",
               [=](Draw& d) {
                   Room r = room(d);
                   self::start(r.patches.patch, r.s);
-                  return state(r.s);
-              }),
-        exact("brightest",
-              [=](Draw& d) -> Values {
-                  Room r = room(d);
-                  if (d.below(10) == 0) r.s.unshot.assign(r.G.size(), {});
-                  auto found = self::brightest(r.patches.patch, r.s);
-                  return {{"", found ? double(*found) : -1}};
+                  return state(r.s, double(self::brightest(r.patches.patch, r.s).value_or(99)));
               }),
         exact("shoot",
               [=](Draw& d) {
@@ -141,14 +113,14 @@ inline numbers::Functions functions() {
                   size_t i = d.below(uint32_t(r.G.size()));
                   self::shoot(r.patches, i, r.G[i], r.s);
                   self::shoot(r.patches, 0, r.G[0], r.s);
-                  return state(r.s);
+                  return state(r.s, double(self::brightest(r.patches.patch, r.s).value_or(99)));
               }),
         exact("ambient",
               [=](Draw& d) {
                   Room r = room(d);
                   for (auto& H : r.s.H) H = 3 * H + Rgbd(2, 2, 2);
                   r.s.escaped = d.pick({0.0, 0.1}) * Rgbd(1, 1, 1);
-                  return color("", self::ambient(r.patches.patch, r.s, d.pick({1 - 1e-6, 0.5})));
+                  return self::ambient(r.patches.patch, r.s, d.pick({1 - 1e-6, 0.5}));
               }),
     };
 }
