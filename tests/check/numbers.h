@@ -241,7 +241,7 @@ inline std::string difference(const Function& own, const Function& mine) {
             double b = is[k].second;
             auto& [shoulds, squares, by, by_squares] = all[name];
             shoulds.add(a), squares.add(a * a);
-            double size = std::abs(a) + 0.01 * std::sqrt(squares.mean());
+            double size = std::abs(a) + 1e-4 * std::sqrt(squares.mean());
             bool both = a == b || (std::isnan(a) && std::isnan(b));
             bool near = both || std::abs(a - b) <= mine.tolerance * size;
             by.add(near ? 0 : b - a), by_squares.add(near ? 0 : b * b - a * a);

@@ -11,12 +11,16 @@ inline numbers::Functions functions() {
                   double base = d.pick({0.0, 1.0, -1e6});
                   auto some = [&](uint32_t most) {
                       self::RunningStats stats;
-                      for (uint32_t n = d.below(most); n > 0; n--) stats.add(base + d.from(-1, 1));
+                      double place = base + d.from(-1, 1);
+                      for (uint32_t n = d.below(most); n > 0; n--) stats.add(place + d.from(-1, 1));
                       return stats;
                   };
-                  for (uint32_t part = d.below(4); part > 0; part--) all.merge(some(20));
-                  for (uint32_t twice = d.count(0, 40); twice > 0; twice--)
-                      all.merge(self::RunningStats(all));
+                  for (uint32_t part = d.below(4); part > 0; part--) {
+                      self::RunningStats stats = some(20);
+                      for (uint32_t twice = d.pick({0u, 3u, 33u}); twice > 0; twice--)
+                          stats.merge(self::RunningStats(stats));
+                      all.merge(stats);
+                  }
                   all.merge(some(3));
                   return Values{{"count()", double(all.count())},
                                 {"mean()", all.mean()},

@@ -64,19 +64,40 @@ inline numbers::Functions functions() {
                   auto [p, q] = two(d);
                   return self::by_centres(p, q, p.centre, q.centre);
               }),
-        exact("point_to_polygon",
+        exact("point_to_polygon, beside area / distance^2",
               [=](Draw& d) {
-                  auto [p, q] = two(d);
+                  self::Patch q = triangle(d, {}, d.f(d.pick({1.0, d.power(0.001, 1)})));
                   std::vector<Vec3> corners(q.p.begin(), q.p.end());
                   if (d.below(2) == 0) corners.push_back(q.p[0] + 0.3f * (q.p[2] - q.p[1]));
-                  Vec3 x = d.below(5) == 0 ? q.p[0] : d.vector();
-                  return self::point_to_polygon(x, d.direction(), corners);
+                  Vec3 x = d.f(d.pick({1.0, 1.0, d.power(1, 1000)})) * d.vector();
+                  if (d.below(5) == 0) x = q.p[0];
+                  double size = double{q.area / length_squared(q.centre - x)};
+                  return self::point_to_polygon(x, d.direction(), corners) / size;
               }),
-        exact("mean_to_polygon",
+        exact("mean_to_polygon, beside area / distance^2",
               [=](Draw& d) {
                   auto [p, q] = two(d);
-                  return self::mean_to_polygon(p.p, p.n, q, int(d.below(4)));
+                  double size = double{q.area / length_squared(q.centre - p.centre)};
+                  return self::mean_to_polygon(p.p, p.n, q, int(d.below(4))) / size;
               }),
+        by_chance("pairs_of_points",
+                  [=](Draw& d) {
+                      self::Patch p = triangle(d, {}, 1), q = p;
+                      uint32_t key = d.seed();
+                      auto pairs = self::pairs_of_points(p, q, key);
+                      auto others = self::pairs_of_points(p, q, key + 1);
+                      double both = 0, next = 0, far = 0;
+                      for (size_t i = 0; i < pairs.size(); i++) {
+                          auto [x, y] = pairs[i];
+                          both += double{dot(x - p.centre, y - p.centre)};
+                          next += double{dot(x - p.centre, others[i][0] - p.centre)};
+                          far +=
+                              double{length_squared(x - p.centre) - length_squared(y - p.centre)};
+                      }
+                      return Values{{"a point by its partner", both},
+                                    {"a point by the next key's", next},
+                                    {"how much farther one is than its partner", far}};
+                  }),
         by_chance("exchange",
                   [=](Draw& d) {
                       auto [p, q] = two(d);
