@@ -227,6 +227,7 @@ bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const s
     for (const NamedMethod& method : methods_named({chapter + "+"})) {
         NamedMethod watched = watch.watched(method);
         int more_noise = 0, less_noise = 0;
+        RunningStats noise;  // the logarithm of mine over the chapter's
         Off most_noise;
         for (const auto& [at, unused] : right) {
             auto [name, number, first] = at;
@@ -250,11 +251,13 @@ bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const s
                 if (ratio.mean > most_noise.ratio.mean) most_noise = here;
                 more_noise += ratio.mean > 1.5;
                 less_noise += ratio.mean < 1 / 1.5;
+                if (ratio.mean > 0) noise.add(std::log(std::min(ratio.mean, 10.0)));
             }
         }
-        // Other random numbers make as often more noise as less.
-        int seen = more_noise + less_noise;
-        if (found.off.empty() && more_noise - less_noise > 4.2 * std::sqrt(seen)) {
+        // Other random numbers make as often more noise as less, and as much.
+        bool often = more_noise - less_noise > 4.2 * std::sqrt(more_noise + less_noise);
+        bool everywhere = noise.mean() > std::max(0.1, 5 * noise.standard_error());
+        if (found.off.empty() && (often || everywhere)) {
             most_noise.what += " (there is more in " + std::to_string(more_noise) + " scenes)";
             found.off.push_back(most_noise);
         }
