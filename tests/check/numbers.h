@@ -17,6 +17,7 @@
 #include "common/base/hash.h"
 #include "common/base/stats.h"
 #include "common/base/vec.h"
+#include "common/scene/camera.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 #include "tests/known/worlds.h"

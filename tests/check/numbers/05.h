@@ -12,8 +12,8 @@ inline numbers::Functions functions() {
     }();
     // A ray of the camera of one of them.
     auto seen = [](Draw& d, const Scene& s) {
-        CameraView view = camera_view(s.camera, s.width, s.height);
-        return camera_ray(view, {d.f(d.from(0, s.width)), d.f(d.from(0, s.height))});
+        ::CameraView view = ::camera_view(s.camera, s.width, s.height);
+        return ::camera_ray(view, {d.f(d.from(0, s.width)), d.f(d.from(0, s.height))});
     };
     return {
         exact("camera_view and camera_ray",
