@@ -1,4 +1,4 @@
-// The reader's functions beside the chapter's own, with arguments drawn by chance: for chapters
+// The reader's functions beside the chapter's own, with random arguments: for chapters
 // whose functions return numbers. tests/check/check compiles numbers/NN.h for both files.
 #pragma once
 #include <doctest/doctest.h>
