@@ -238,7 +238,9 @@ bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const s
             WorldValues mine;
             worlds::measure(watched, o, number, mine);
             for (auto from = right.lower_bound({name, number, ""});
-                 from != right.end() && std::get<1>(from->first) == number; ++from)
+                 from != right.end() && std::get<0>(from->first) == name &&
+                 std::get<1>(from->first) == number;
+                 ++from)
                 mine.insert({from->first, {}});  // what the reader's file does not bring
             for (const auto& [key, values] : mine) {
                 auto theirs = right.find(key);
