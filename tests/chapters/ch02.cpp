@@ -1,8 +1,6 @@
 // Chapter 02: strata by their exact variances, and their failures.
 #include <doctest/doctest.h>
 
-#include <set>
-
 #include "chapters/02_stratification/figure.h"
 #include "tests/support/points.h"
 
@@ -29,16 +27,6 @@ Points grid(uint32_t n) {  // the centres of n x n cells
 }  // namespace
 
 TEST_SUITE("ch02 strata") {
-    TEST_CASE("identity: no seed has a point of another, and the last of 2^24 strata is a corner") {
-        std::set<std::pair<float, float>> points;
-        for (uint32_t seed = 0; seed < 100; seed++)
-            for (Vec2 u : ch02::make_points(PointSet::uniform, 100, seed))
-                points.insert({u.x, u.y});
-        CHECK(points.size() == 10000);
-        Vec2 last = ch02::jitter_in_stratum((1 << 24) - 1, 1 << 24, {0.5f, 0.5f});
-        CHECK(std::min(last.x, last.y) > 1 - 1.0f / 4096);
-    }
-
     TEST_CASE("truth: points in strata are unbiased, for pi, for xy and for e^(x+y)") {
         for (PointSet set : all_sets)
             check_points([=](auto... n_and_seed) { return ch02::make_points(set, n_and_seed...); },
