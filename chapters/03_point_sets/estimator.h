@@ -123,7 +123,7 @@ inline Points halton_points(uint32_t pair, uint32_t n, uint32_t seed) {
 ///   bit k of the result (from the top) = sum over j of binomial(j, k) bit j of index, mod 2
 ///
 /// Steps: each adds the higher half of a block of bits to the lower, with halves of 16 ... 1 bits.
-/// tested by  "truth: every dyadic box holds one of the first 2^m Sobol points", exactly
+/// tested by  "identity: scrambled and shuffled points fill the same boxes, ...", exactly
 inline uint32_t sobol_second(uint32_t index) {
     uint32_t x = reverse_bits(index);
     x ^= (x << 16) & 0xffff0000u;

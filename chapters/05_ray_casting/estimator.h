@@ -56,7 +56,7 @@ struct TriangleHit {
 ///
 /// Seen edge-on the determinant is 0, and t infinity or NaN: no hit.
 /// source  Moeller, Trumbore 1997
-/// tested by  "agreement: the plain formulas find what ...", t exactly, b1 and b2 within 1e-6
+/// tested by  "brute: in random scenes a ray hits what the hierarchy says", t within 1e-3
 inline std::optional<TriangleHit> intersect_triangle(const Ray& ray, Vec3 p0, Vec3 p1, Vec3 p2) {
     Vec3d d(ray.d), corner(p0);
     Vec3d side1 = Vec3d(p1) - corner, side2 = Vec3d(p2) - corner, from = Vec3d(ray.o) - corner;
@@ -73,7 +73,7 @@ inline std::optional<TriangleHit> intersect_triangle(const Ray& ray, Vec3 p0, Ve
 ///
 ///   |o + t d - c|^2 = r^2:  a t^2 + 2 b t + |f|^2 - r^2 = 0,  f = o - c, a = d.d, b = f.d
 ///
-/// tested by  "agreement: the plain formulas find what ...", within 1e-6
+/// tested by  "brute: in random scenes a ray hits what the hierarchy says", within 1e-3
 inline std::optional<float> intersect_sphere(const Ray& ray, Vec3 c, float r) {
     Vec3d d(ray.d), f = Vec3d(ray.o) - Vec3d(c);
     double a = dot(d, d), b = dot(f, d);

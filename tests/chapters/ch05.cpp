@@ -157,52 +157,6 @@ TEST_SUITE("ch05 camera") {
     }
 }
 
-TEST_SUITE("ch05 shapes") {
-    TEST_CASE("agreement: rays of any camera are those of common/scene/camera.h") {
-        Sampler random = random_numbers(1);
-        auto vector = [&] { return Vec3{random.u1(), random.u1(), random.u1()}; };
-        for (int i = 0; i < 1000; i++) {
-            Camera camera;
-            camera.o = vector(), camera.right = vector(), camera.up = vector();
-            camera.forward = vector(), camera.fov = 20 + 90 * random.u1();
-            if (random.u1() < 0.5f) camera.frame_aspect = 0.5f + random.u1();
-            if (random.u1() < 0.5f)
-                camera.screen_window = {-random.u1(), random.u1(), -random.u1(), random.u1()};
-            int width = 1 + i % 50, height = 1 + i % 37;
-            Vec2 film = {50 * random.u1(), 50 * random.u1()};
-            Ray ray = ch05::camera_ray(ch05::camera_view(camera, width, height), film);
-            Ray same = camera_ray(camera_view(camera, width, height), film);
-            CHECK(length(ray.o - same.o) + length(ray.d - same.d) < 1e-5f);
-        }
-    }
-
-    TEST_CASE("agreement: the plain formulas find what common/geometry/shapes.h finds") {
-        Sampler random = random_numbers(1);
-        auto point = [&] { return Vec3{random.u1(), random.u1(), random.u1()}; };
-        int met = 0;
-        for (int i = 0; i < 100000; i++) {
-            Vec3 p0 = point(), p1 = point(), p2 = point(), c = point();
-            float r = 0.5f * random.u1();
-            Vec3 o = 2 * point();
-            Ray ray = {o, normalize(point() - o)};
-            auto hit = ch05::intersect_triangle(ray, p0, p1, p2);
-            auto same = intersect_triangle(ray, shear_to_ray(ray.d), p0, p1, p2);
-            REQUIRE(hit.has_value() == same.has_value());
-            if (hit) CHECK(hit->t == same->t);
-            if (hit) CHECK(std::abs(hit->b1 - same->b1) + std::abs(hit->b2 - same->b2) < 1e-6f);
-            auto t = ch05::intersect_sphere(ray, c, r), also = intersect_sphere(ray, c, r);
-            REQUIRE(t.has_value() == also.has_value());
-            if (t) CHECK(std::abs(*t - *also) < 1e-6f);
-            Vec3 n = normalize(point() - point());
-            auto at = ch05::intersect_disk(ray, c, n, r), there = intersect_disk(ray, c, n, r);
-            REQUIRE(at.has_value() == there.has_value());
-            if (at) CHECK(std::abs(*at - *there) < 1e-5f);
-            met += hit.has_value() + t.has_value() + at.has_value();
-        }
-        CHECK(met > 10000);
-    }
-}
-
 TEST_SUITE("ch05 mirrors and glass") {
     TEST_CASE("truth: a pane of glass, up to the branches that are too faint") {
         // T = (1 - R)^2 (1 + R^2 + ...), R = 0.04: the second term is dropped; so are those of

@@ -23,13 +23,6 @@ Scene three_lights() {
         black_lamp("1", unit_square(0.5, 1.5)) + black_lamp("20", disk(0.5, 3, 1)) +
         black_lamp("300", "Translate -1 2 1 Shape \"sphere\" \"float radius\" 0.1\n"));
 }
-/// The same scene, in which only this light shines.
-Scene only(size_t light, Scene scene) {
-    for (size_t k = 0; k < scene.lights.size(); k++)
-        if (k != light) scene.lights[k].L = {};
-    return scene;
-}
-
 template <class Number>
 double sum_of(const std::vector<Number>& numbers) {
     return std::accumulate(numbers.begin(), numbers.end(), 0.0);
@@ -93,32 +86,6 @@ TEST_SUITE("ch15 two lights") {
                     sum += double{c.inclusion[i]};
                 }
                 REQUIRE(std::abs(sum - std::min(N, 2)) < 1e-3);
-            }
-        }
-    }
-
-    TEST_CASE("identity: each candidate is included for its share of u") {
-        Scene scene = three_lights();
-        for (int M : {1, 2, 3, 64}) {
-            CAPTURE(M);
-            ch15::Lights lights = ch15::prepare(scene, M);
-            Hit x = origin_of(scene);
-            ch15::Candidates c;
-            ch15::choose_candidates(lights, x, x.n, 0.4, c);
-            ch15::compute_inclusions(scene, lights, c);
-            REQUIRE(c.size == std::min(M, 3));
-            for (int i = 0; i < c.size; i++) {
-                Scene dark = only(c.light[i], scene);
-                constexpr int steps = 1 << 12;
-                int included = 0;
-                for (int k = 0; k < steps; k++) {
-                    float u = (static_cast<float>(k) + 0.5f) / steps;
-                    Recorder recorder;
-                    Rgb Ld = ch15::direct_light(dark, lights, c, {0, u, {0.5f, 0.5f}, {0.5f, 0.5f}},
-                                                recorder);
-                    included += is_black(Ld) ? 0 : 1;
-                }
-                CHECK(std::abs(included - double{c.inclusion[i]} * steps) < 2);
             }
         }
     }

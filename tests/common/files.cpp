@@ -41,17 +41,6 @@ std::string bytes_of(const std::vector<float>& values) {
     return {reinterpret_cast<const char*>(values.data()), 4 * values.size()};
 }
 
-/// A PNG file, one pixel high: its rows are one block that is not packed.
-std::string png_of(int width, int depth, int kind, const std::string& row) {
-    std::string header(13, '\0'), packed = "\x78\x01\x01";
-    header[3] = static_cast<char>(width), header[7] = 1;
-    header[8] = static_cast<char>(depth), header[9] = static_cast<char>(kind);
-    for (int n : {static_cast<int>(row.size() + 1), 255 - static_cast<int>(row.size() + 1)})
-        packed += {static_cast<char>(n), static_cast<char>(n < 128 ? 0 : 255)};
-    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR" + header) +
-           png_chunk("IDAT" + packed + '\0' + row + "sums") + png_chunk("IEND");
-}
-
 }  // namespace
 
 TEST_SUITE("files") {
@@ -211,41 +200,6 @@ TEST_SUITE("files") {
             std::string damaged = png;
             damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ 1 << bit % 8);
             CHECK_THROWS_AS(decode_image("a.png", damaged), InputError);
-        }
-    }
-
-    TEST_CASE("truth: .png files of 16 bits, of grey, and with transparency are read") {
-        auto sample = [](int code, int most) {
-            return to_linear(static_cast<float>(code) / static_cast<float>(most));
-        };
-        auto read = [](int width, int depth, int kind, const std::string& row) {
-            return decode_image("a.png", png_of(width, depth, kind, row)).pixels;
-        };
-        // 16 bits, the high byte first: neither is lost.
-        CHECK(read(1, 16, 2, std::string("\x12\x34\x80\x01\xff\xfe", 6)) ==
-              std::vector<Rgb>{
-                  {sample(0x1234, 65535), sample(0x8001, 65535), sample(0xfffe, 65535)}});
-        CHECK(read(2, 8, 0, "\x40\xff") ==
-              std::vector<Rgb>{Rgb{1, 1, 1} * sample(0x40, 255), Rgb{1, 1, 1}});
-        CHECK(read(3, 1, 0, "\xa0") == std::vector<Rgb>{{1, 1, 1}, {0, 0, 0}, {1, 1, 1}});
-        // Transparency is left out, as in pbrt.
-        CHECK(read(1, 8, 6, std::string("\x10\x20\x30\0", 4)) ==
-              std::vector<Rgb>{{sample(16, 255), sample(32, 255), sample(48, 255)}});
-        CHECK(read(1, 8, 4, std::string("\x10\0", 2)) ==
-              std::vector<Rgb>{Rgb{1, 1, 1} * sample(16, 255)});
-    }
-
-    TEST_CASE("input: damaged pictures are errors") {
-        const std::string values(12, 'x');
-        for (const std::string& bytes :
-             {std::string(), std::string("P3\n1 1\n255\n0 0 0\n"), std::string("\x89PNG\r\n\x1a\n"),
-              std::string("P6\n1 1\n255"), std::string("P6\n1 1\n255\n00"),
-              std::string("P6\n1 1\n255\n0001"), std::string("P6\n1 1\n65535\n000000"),
-              std::string("P6\n0 4\n255\n"), std::string("P6\n-1 -1\n255\n000"),
-              std::string("P6\n65536 65536\n255\n"), "PF\n1 1\n-1\n" + values.substr(1),
-              "PF\n1 1\n0\n" + values, "PF\n1 1\n1e-99\n" + values, "PF\n1 1\nnan\n" + values}) {
-            CAPTURE(bytes);
-            CHECK(error_of([&] { decode_image("a", bytes); }).starts_with("a: error: "));
         }
     }
 }

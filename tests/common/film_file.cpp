@@ -170,15 +170,6 @@ TEST_SUITE("film files") {
         CHECK(refusal(bytes_of(film_of(0, 2)) + "x") == "the film is damaged, or cut short");
     }
 
-    TEST_CASE("input: films of other kinds are not added, though each is right by itself") {
-        for (int kind : {0, 1, 2, 3})
-            for (int other = 0; other < 6; other++) {
-                LabeledFilm a = film_of(0, 2, 1, kind, false),
-                            b = film_of(2, 4, 1, other % 4, other > 3);
-                CHECK(error_of([&] { add_film(a, "b", b); }).empty() == (other == kind));
-            }
-    }
-
     TEST_CASE("truth: what is missing is named, sample by sample and part by part") {
         auto missing = [](const std::vector<SampleRange>& samples, const std::vector<Goal>& goals) {
             FilmLabel label{{}, samples, goals, {}};

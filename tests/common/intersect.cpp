@@ -146,22 +146,6 @@ TEST_SUITE("intersect") {
                                        {0x1.72ecdp+1f, 0x1.185692p+1f, -0x1.3de4f8p+0f}));
     }
 
-    TEST_CASE("truth: edges and corners belong to the triangle, and what is edge-on is not hit") {
-        Vec3 p0 = {0, 0, 0}, p1 = {1, 0, 0}, p2 = {0, 1, 0};
-        auto hit = [&](Vec3 o, Vec3 d = {0, 0, 1}) {
-            return intersect_triangle({o, d}, shear_to_ray(d), p0, p1, p2).has_value();
-        };
-        const Vec3 ahead = {0, 0, 1};
-        for (Vec3 p : {p0, p1, p2, 0.5f * (p0 + p1), 0.5f * (p1 + p2), 0.5f * (p2 + p0)})
-            CHECK(hit(p - ahead));
-        for (Vec3 p : {Vec3{-0.001f, 0.5f, 0}, {0.51f, 0.5f, 0}}) CHECK_FALSE(hit(p - ahead));
-        CHECK_FALSE(hit({-1, 0.2f, 0}, {1, 0, 0}));
-        for (Vec3 flat : {Vec3{0.5f, 0, 0}, {0, std::nanf(""), 0}}) {  // no area
-            p2 = flat;
-            CHECK_FALSE(hit(Vec3{0.2f, 0, 0} - ahead));
-        }
-    }
-
     TEST_CASE("brute: no ray leaks through a closed mesh") {
         for (Vec3 offset : {Vec3{0, 0, 0}, {148376, 1234, -223423}}) {
             Geometry g = closed_mesh(3);

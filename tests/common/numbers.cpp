@@ -47,29 +47,10 @@ TEST_SUITE("numbers") {
     }
 }
 
-namespace {
-
-/// The character of a code point, in UTF-8.
-std::string utf8(uint32_t code) {
-    auto tail = [&](int shift) { return static_cast<char>(0x80 | (code >> shift & 0x3f)); };
-    if (code < 0x80) return {static_cast<char>(code)};
-    if (code < 0x800) return {static_cast<char>(0xc0 | code >> 6), tail(0)};
-    if (code < 0x10000) return {static_cast<char>(0xe0 | code >> 12), tail(6), tail(0)};
-    return {static_cast<char>(0xf0 | code >> 18), tail(12), tail(6), tail(0)};
-}
-
-}  // namespace
-
 TEST_SUITE("text") {
-    TEST_CASE("truth: of all characters, those that a terminal may obey are printed as ?") {
-        size_t wrong = 0;
-        for (uint32_t code = 0; code <= 0x10ffff; code++) {
-            if (code == 0xd800) code = 0xe000;  // no characters: halves of UTF-16
-            bool is_obeyed = code < 0x20 || (code >= 0x7f && code < 0xa0);
-            std::string text = utf8(code) + 'b';
-            wrong += printable(text) != (is_obeyed ? "?b" : text);
-        }
-        CHECK(wrong == 0);
+    TEST_CASE("truth: characters that a terminal may obey are printed as ?") {
+        CHECK(printable("a\x1b[2J\n\x7f\xc2\x85\xc2\xa0") == "a?[2J???\xc2\xa0");
+        CHECK(printable("\xf0\x9f\x98\x80\xe2\x82\xac") == "\xf0\x9f\x98\x80\xe2\x82\xac");
         CHECK(printable("gr\xfc\xdf") == "gr??");
         CHECK(printable("\xc2") == "?");
         CHECK(printable("") == "");

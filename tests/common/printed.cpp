@@ -47,21 +47,6 @@ Rendering rendering_of() {
 }  // namespace
 
 TEST_SUITE("printed") {
-    TEST_CASE("truth: --stats counts the samples and rays of this run, and empty pixels") {
-        TemporaryFolder folder;
-        RenderOptions options = options_of(folder.path());
-        options.quiet = true;
-        options.stats = folder / "s.json";
-        Rendering r = rendering_of();
-        r.film.pixels()[3] = {};
-        write_results(small_scene(), options, r);
-        StatsFile stats{read_file(options.stats)};
-        CHECK(stats.number("seconds") == 2);
-        CHECK(stats.number("samples_per_second") == 98);
-        CHECK(stats.number("rays_per_second") == 4e6);
-        CHECK(stats.number("empty_pixels_share") == 0.01);
-    }
-
     TEST_CASE("truth: the command to see a sample that is not finite is told") {
         TemporaryFolder folder;
         RenderOptions options = options_of(folder.path());
@@ -108,23 +93,6 @@ TEST_SUITE("printed") {
         CHECK(explained().code == 1);
         options.paths = "LDE";
         CHECK(explained().code == 0);
-    }
-
-    TEST_CASE("truth: which samples are wanted, with a time, and where they are too few or many") {
-        Scene scene = empty_scene(4, 4, 10);
-        RenderOptions o;
-        o.seed = 3, o.parts = 11;
-        CHECK(error_of([&] { wanted_samples(scene, o); }).starts_with("error: --part: there are"));
-        // With --time alone there is no last one; --spp ends it too.
-        o.parts = 1, o.time = 1;
-        CHECK(wanted_samples(scene, o) == SampleRange{3, 0, PixelSum::most});
-        o.spp = 6;
-        CHECK(wanted_samples(scene, o) == SampleRange{3, 0, 6});
-        o.spp = 0, o.parts = 2;
-        CHECK(wanted_samples(scene, o) == SampleRange{3, 0, 5});
-        o.parts = 1, o.time = 0, o.film = "a.film";
-        scene.spp = (1 << 28) + 1;
-        CHECK(error_of([&] { wanted_samples(scene, o); }).starts_with("error: --film: "));
     }
 
     TEST_CASE("truth: a film goes on where its samples begin what is wanted, and says why not") {

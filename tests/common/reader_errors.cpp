@@ -64,6 +64,7 @@ TEST_SUITE("reader: malformed input") {
             {"WorldBegin Shape \"sphere\" LightSource \"infinite\"", "", "no Camera"},
             {"# \xc3\xbc\xe2\x82\xac\xf0\x9f\x98\x80\xff", ":1:6", utf8},
             {{"\xff\xfe#\x00", 4}, ":1:1", utf8},  // UTF-16
+            {"#\xed\xa0\x80", ":1:2", utf8},       // half of a character
             {std::string("A\x01\x7f\0B", 5), ":1:1", unknown + "\"A???B\""},
             {std::string(100, 'x'), ":1:1", unknown + '"' + std::string(60, 'x') + "...\""},
             // Lines end with LF, CR LF or CR.
@@ -73,24 +74,6 @@ TEST_SUITE("reader: malformed input") {
         };
         for (const auto& c : cases)
             CHECK(refuse(c.text) == "scene.pbrt" + c.place + ": error: " + c.message);
-        for (const char* bad : {"\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80",
-                                "\xf8\x88\x80\x80\x80", "\xc3", "\x80"}) {
-            CHECK(refuse(std::string("#") + bad) == "scene.pbrt:1:2: error: " + utf8);
-        }
-    }
-
-    TEST_CASE("input: a scene that is cut off anywhere is refused or whole, never half read") {
-        const std::string scene = unquoted(
-            "LookAt 0 0 -4 0 0 0 0 1 0 Camera 'perspective' 'float fov' [ 40 ]\n"
-            "WorldBegin\nLightSource 'infinite' 'rgb L' [ 1 1 1 ]\n"
-            "AttributeBegin Material 'diffuse' 'rgb reflectance' [ .8 .8 .8 ]\n"
-            "Shape 'trianglemesh' 'integer indices' [ 0 1 2 ]"
-            " 'point3 P' [ 0 0 0 1 0 0 0 1 0 ] AttributeEnd");
-        for (size_t length = 0; length < scene.size(); length++) {
-            CAPTURE(scene.substr(0, length));
-            CHECK(refuse(scene.substr(0, length)) != "");
-        }
-        CHECK(refuse(scene) == "");
     }
 
     TEST_CASE("input: after twenty different errors the rest is not read") {
@@ -110,18 +93,6 @@ TEST_SUITE("reader: malformed input") {
         std::string b = write(folder, "sub/b.pbrt", "\n  Include \"../a.pbrt\"");
         CHECK(refuse_file(a) ==
               b + ":2:3: error: \"" + folder / "sub/../a.pbrt" + "\" includes itself");
-        // A hundred may include each other in a row.
-        for (int i = 0; i < 100; i++)
-            write(folder, std::to_string(i), "Include \"" + std::to_string(i + 1) + "\"\n");
-        write(folder, "100", world + "Shape \"sphere\"");
-        CHECK(refuse_file(folder / "0") == "");
-        // Each of 100 files includes the next one twice: 2^100 files, if nobody counts.
-        for (int i = 0; i < 100; i++) {
-            std::string next = "Include \"" + std::to_string(i + 1) + "\"\n";
-            write(folder, std::to_string(i), next + next);
-        }
-        write(folder, "100", "Identity");
-        CHECK(refuse_file(folder / "0").ends_with("more than 10000 files are included"));
         CHECK(refuse_file(null_device).starts_with(null_device + ": error: "));
     }
 
@@ -136,76 +107,39 @@ TEST_SUITE("reader: malformed input") {
         struct {
             std::string text, inside, outside;  // @: the number
         } cases[] = {
-            {view + "'float fov' @ WorldBegin ", ".001", ".0009"},
             {view + "'float fov' @ WorldBegin ", "179.999", "179.9995"},
-            {view + "'float frameaspectratio' @ WorldBegin ", "1e-4", ".9e-4"},
-            {view + "'float frameaspectratio' @ WorldBegin ", "1e4", "1.1e4"},
             {view + "'float screenwindow' [0 1 0 @] WorldBegin ", "1.8e-5", "1.7e-5"},
-            {view + "'float screenwindow' [0 @ 0 1] WorldBegin ", "1e4", "10001"},
-            {view + "'float screenwindow' [@ 1 0 1] WorldBegin ", "-1e4", "-10001"},
-            {view + "'float lensradius' @ WorldBegin ", "1e6", "1.1e6"},
             {view + "'float lensradius' @ WorldBegin ", "0", "-1"},
-            {view + "'float lensradius' 1 'float focaldistance' @ WorldBegin ", "1e-6", ".9e-6"},
-            {view + "'float lensradius' 1 'float focaldistance' @ WorldBegin ", "1e9", "1.1e9"},
             {view + "'float shutterclose' @ WorldBegin ", ".01", "0"},
             {"Translate @ 0 0 " + end, "1e9", "1.1e9"},
-            {"Scale @ @ @ " + end, "9e5", "1.1e6"},
             {"Scale @ @ @ " + end, "1.1e-6", ".9e-6"},
             {"Film 'rgb' 'integer xresolution' @ " + end, "65536", "65537"},
-            {"Film 'rgb' 'integer yresolution' @ " + end, "65536", "65537"},
-            {"Film 'rgb' 'integer yresolution' @ " + end, "1", "0"},
             {"Film 'rgb' 'integer xresolution' 16384 'integer yresolution' @ " + end, "16384",
              "16385"},
-            {"Film 'rgb' 'float iso' @ " + end, "9e16", "1.1e17"},
-            {"Film 'rgb' 'float iso' @ " + end, "1e-30", ".9e-30"},
             {"Sampler 'sobol' 'integer pixelsamples' @ " + end, "16777216", "16777217"},
-            {"Sampler 'stratified' 'integer xsamples' @ " + end, "4096", "4097"},
-            {"Sampler 'stratified' 'integer ysamples' @ " + end, "4096", "4097"},
-            {"Sampler 'stratified' 'integer xsamples' @ " + end, "1", "0"},
             {"Sampler 'stratified' 'integer ysamples' @ " + end, "1", "0"},
             {"Integrator 'path' 'integer maxdepth' @ " + end, "1073741824", "1073741825"},
             {lit + "'point3 from' [0 0 @]", "1e9", "1.1e9"},
-            {lit + "'float scale' @", "9e14", "1.1e15"},
             {lit + "'blackbody I' @", "500", "499"},
-            {lit + "'blackbody I' @", "1e6", "1.1e6"},
             {"AreaLightSource 'diffuse' 'float scale' @ " + ball, "9e14", "1.1e15"},
             {"Material 'diffuse' 'rgb reflectance' [0 0 @]", "1", "1.1"},
-            {metal + "'float roughness' @", "100", "101"},
             {metal + "'rgb eta' [1 @ 1]", "1e4", "1.1e4"},
-            {glass + "'float eta' @", "1e-4", ".9e-4"},
-            {glass + "'float eta' @", "1e4", "1.1e4"},
             {glass + "'bool remaproughness' false 'float roughness' @", ".0009", ".0011"},
             {ball + "'float radius' @", "1.1e-19", "1e-19"},
-            {ball + "'float radius' @", "1e9", "1.1e9"},
             {"Translate 9e8 0 0 " + ball + "'float radius' @", "9e7", "1.1e8"},
-            {"Translate 0 9e8 0 Shape 'disk' 'float radius' @", "9e7", "1.1e8"},
-            {"Scale @ @ @ " + ball, "1.1e-19", "1.07e-19"},
-            {"Scale 1 1 @ " + ball, "1.0009", "1.0011"},
             {"Scale 1 @ 1 " + ball, "1.0009", "1.0011"},
-            {"Scale 1 @ 9 Shape 'disk'", "1.0009", "1.0011"},
             {"ConcatTransform [1 0 0 0 @ 1 0 0 0 0 1 0 0 0 0 1]" + ball, ".0009", ".0011"},
             {mesh + "[0 0 0 1 0 0 0 @ 0]", "1e9", "1.1e9"},
             {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [0 1 @]", "2", "3"},
             {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [@ 1 2]", "0", "-1"},
             // A shape is whole where pbrt clamps its limits to the whole.
             {ball + "'float zmin' @", "-2", "-.99"},
-            {ball + "'float zmin' @", "-1", "2"},
-            {ball + "'float zmax' @", "7", ".5"},
-            {ball + "'float zmax' @", "1", "-2"},
             {ball + "'float zmax' -1 'float zmin' @", "1", ".5"},
-            {ball + "'float zmin' 3 'float zmax' @", "-3", "5"},
             {ball + "'float phimax' @", "360.5", "359"},
-            {"Shape 'disk' 'float phimax' @", "1e9", "-360"},
             {"Shape 'disk' 'float innerradius' @", "0", "-.5"},
-            {"Texture 't' 'spectrum' 'scale' 'float scale' @", "1e9", "1.1e9"},
             {board + "'float uscale' @", "1e9", "1.1e9"},
-            {board + "'float vdelta' @", "-1e9", "-1.1e9"},
-            {board + "'integer dimension' @", "2", "1"},
-            {"Scale @ 1 1 " + lit, "9e29", "1.1e30"},
             {"Scale 1e-20 1e-20 @ " + lit, "1.1e-20", ".9e-20"},
             {"Transform [1 0 0 @ 0 1 0 0 0 0 1 0 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
-            {"Transform [1 0 0 0 0 1 0 @ 0 0 1 0 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
-            {"Transform [1 0 0 0 0 1 0 0 0 0 1 @ 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},
             {"Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 @] " + lit, "1.0000009", "1.0000011"},
         };
         for (const auto& c : cases)
@@ -241,16 +175,12 @@ TEST_SUITE("reader: malformed input") {
         placed.directives = 20;
         const std::string instance = "ObjectInstance \"a\"\n",
                           object = "ObjectBegin \"a\"\n" + repeated(sphere, 5) + "ObjectEnd\n";
-        const std::string many = named("Shape \"sphere\"", 100),
-                          attributes = named("Attribute \"light\"", 100);
+        const std::string many = named("Shape \"sphere\"", 100);
         struct {
             Limits limits;
             std::string begin, one_more, place, message;
         } cases[] = {
             {primitives, sphere + sphere + disk, sphere, "5:1", "3 triangles, spheres and disks"},
-            {primitives, sphere + triangles, sphere, "4:1", "3 triangles, spheres and disks"},
-            {primitives, sphere, triangles + triangles, "4:1", "3 triangles, spheres and disks"},
-            {primitives, sphere + moves + sphere + disk, sphere, "6:1", "spheres and disks"},
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
             {vertices, triangle, moves + triangle, "4:1", "more than 3 vertices"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
@@ -266,11 +196,6 @@ TEST_SUITE("reader: malformed input") {
              many + " \"float x\" 1",
              "3:1406",
              "more than 100 parameters of one directive"},
-            {{},
-             sphere + attributes + '\n',
-             "Attribute \"light\" \"float x\" 1",
-             "4:1",
-             "attributes"},
             {{},
              moves + repeated(sphere, 1000),
              sphere,

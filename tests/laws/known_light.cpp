@@ -169,13 +169,6 @@ TEST_SUITE("law: known light") {
             }
     }
 
-    TEST_CASE("failure: without lights a picture is black") {
-        Scene none = lit_floor(black_lamp("1", unit_square(1)));
-        none.lights.clear();
-        for (Shape& shape : none.shapes) shape.light = -1;
-        check_light(none, {0});
-    }
-
     /// A floor under n lamps, and others of huge power that light nothing.
     void check_many_lights(int n) {
         const std::string sun =

@@ -1,5 +1,6 @@
 #include "tests/laws/laws.h"
 
+#include "tests/known/worlds.h"
 #include "tests/support/light_paths.h"
 
 std::vector<NamedMethod> methods_for(const Scene& scene) {
@@ -21,6 +22,8 @@ Scene seen_along(Scene scene, const Ray& ray) {
     scene.width = scene.height = 1;
     return scene;
 }
+
+Scene random_scene(uint32_t number) { return scene_of(random_world(13, number)); }
 
 Scene lit_floor(const std::string& lights) { return seen_along(floor_under(lights), onto_origin); }
 

@@ -43,6 +43,5 @@ int check_classes_agree(const Scene& scene, int paths, uint32_t seed = 1, bool b
 /// described, or where they are: by length and class of path.
 void check_same_light(const Scene& a, const std::vector<Scene>& others, int paths);
 
-/// World directives of a room that is put together at random: a floor and a wall, one or two lights
-/// of any kind, two things of any material. The same for the same seed.
-std::string generated_room(uint32_t seed);
+/// A random scene of what chapter 13 can render (known/worlds.h).
+Scene random_scene(uint32_t number);

@@ -51,9 +51,9 @@ double difference(const Recorder& recorder, const Sample& sample) {
 TEST_SUITE("law: same pictures") {
     TEST_CASE("identity: recording never changes an estimate, and its parts add up to it") {
         std::map<std::string, int> lit;  // paths that brought light, by method
-        for (uint32_t seed = 1; seed <= 8; seed++) {
+        for (uint32_t seed = 8; seed < 16; seed++) {
             CAPTURE(seed);
-            Scene scene = world_of(generated_room(seed));
+            Scene scene = random_scene(seed);
             scene.max_depth = seed % 2 == 0 ? 20 : 4;
             auto check = [&](const std::string& name, Method trace) {
                 CAPTURE(name);
@@ -115,7 +115,7 @@ TEST_SUITE("law: same pictures") {
 
     TEST_CASE("identity: the same bytes for any threads, parts and stops") {
         TemporaryFolder folder;
-        Scene scene = world_of(generated_room(3), 9);
+        Scene scene = random_scene(30);
         for (NamedMethod row : methods_for(scene)) {
             if (row.biased() && !row.name.ends_with("-few")) continue;
             CAPTURE(row.name);
@@ -157,7 +157,8 @@ TEST_SUITE("law: same pictures") {
 
 TEST_SUITE("law: same pictures slow") {
     TEST_CASE("consistency: the reported error is the spread over seeds, with each sampler") {
-        Scene scene = world_of(generated_room(3), 12);
+        Scene scene = random_scene(30);
+        scene.width = 10, scene.height = 8;
         for (const NamedMethod& row : methods_for(scene)) {
             if (row.biased() ? !row.name.ends_with("-few") : row.is_variant()) continue;
             // So many passes know their error; so many samples are more than a pilot.
