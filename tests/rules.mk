@@ -90,7 +90,7 @@ chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))
 of_reader  = $(filter mine/%,$(A) $(B))
 
-.PHONY: chart front stability agree efficiency compare radiosity references bench teeth break
+.PHONY: chart front stability agree efficiency compare references bench teeth break
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
 	$(link)
@@ -117,16 +117,13 @@ efficiency: $(BUILD)/efficiency $(made)
 #: measuring: make compare A=09 B=10 SCENE=cornell   two chapters with equal samples, and with equal time (A=mine/09: yours; 2 minutes)
 compare: $(if $(of_reader),$(BUILD)/compare $(filter $(patsubst %,$(BUILD)/%_%,$(filter-out mine/%,$(A) $(B))),$(chapters:%=$(BUILD)/%)),$(BUILD)/efficiency) $(made)
 	@$(if $(of_reader),tests/check/beside $(BUILD) '$(A)' '$(B)' '$(SCENE)',$< $(or $(SCENE),cornell) $(chosen) --equal-time)
-#: maintaining: make radiosity    error against time: patches of chapter 26 beside paths of 15 (1 minute)
-radiosity: $(BUILD)/radiosity $(BUILD)/gnuplot $(made)
-	@$< $(SCENE)
 #: maintaining: make references   render what the charts compare with (25 minutes)
 references: $(BUILD)/references $(made)
 	$< $(SCENE)
 #: measuring: make bench        rays per second of the hierarchy of common/geometry, beside Embree (2 minutes)
 bench: $(BUILD)/bench $(made)
 	@$<
-readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency radiosity stability gnuplot))
+readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency stability gnuplot))
 # What a test program consists of beside the test itself.
 harness := $(common) $(support) $(filter $(BUILD)/obj/tests/known/%,$(tests)) $(BUILD)/obj/tests/laws/laws.o $(filter $(BUILD)/obj/tests/methods/%,$(tests))
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))

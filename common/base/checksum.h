@@ -9,7 +9,7 @@
 ///
 ///   h = mix(h ^ word)      for each 8 bytes, the last ones filled up with 0
 ///
-/// tested by  "identity: the checksum of bytes is the same however they are cut into pieces"
+/// tested by  "teeth: a film with any bit flipped, or cut anywhere, is refused"
 class Checksum {
 public:
     void add(std::string_view bytes) {

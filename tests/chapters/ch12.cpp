@@ -5,7 +5,6 @@
 
 #include "chapters/11_light_importance/estimator.h"
 #include "chapters/12_ris/estimator.h"
-#include "common/recording/path_story.h"
 #include "tests/support/known_lights.h"
 
 namespace {
@@ -199,16 +198,6 @@ TEST_SUITE("ch12 target") {
 }
 
 TEST_SUITE("ch12 ris") {
-    TEST_CASE("identity: --explain tells the density that W stands for") {
-        const std::string light = "LightSource \"point\" \"point3 from\" [0 1 0]\n";
-        Scene scene = floor_under(light + light);
-        PathStory story(scene.max_depth, false);
-        Recorder recorder(true, &story);
-        Sampler random = random_numbers(1);
-        trace_12(scene)(scene, onto_origin, random, recorder);
-        CHECK(story.text.find(": pdf_l 0.5,") != std::string::npos);
-    }
-
     TEST_CASE("variance: a thousand lights: a quarter of the relMSE of chapter 11") {
         Scene scene = scene_from("scenes/thousand-lights.pbrt", 32, 8);
         CHECK(rel_mse(scene, trace_12(scene), 128) < rel_mse(scene, trace_11(scene), 256) / 4);

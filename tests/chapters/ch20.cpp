@@ -97,13 +97,7 @@ TEST_SUITE("ch20 camera") {
 
 TEST_SUITE("ch20 light tracing") {
     TEST_CASE("identity: each light sends out its power") {
-        Scene scene = world_of(
-            square(0, true) + "LightSource \"point\" \"point3 from\" [1 2 0] \"rgb I\" [1 2 3]\n" +
-            "LightSource \"distant\" \"point3 to\" [1 -2 3] LightSource \"infinite\"\n" +
-            "AttributeBegin " + shining + "Translate 1 1 0 Shape \"sphere\" AttributeEnd " +
-            "AttributeBegin " + shining + "Rotate 70 1 2 3 Shape \"disk\" AttributeEnd " +
-            "AreaLightSource \"diffuse\" \"bool twosided\" true Translate 0 3 0 " +
-            square(0, false));
+        Scene scene = all_kinds();
         ch20::Endpoints endpoints = ch20::endpoints_of(scene);
         Sampler random = random_numbers(1);
         double share = 0, backs = 0, n = 0;

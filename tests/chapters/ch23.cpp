@@ -273,23 +273,4 @@ TEST_SUITE("ch23 first radius") {
         CHECK(width_of(32) == nearly(width_of(128), 1e-4));
         CHECK(width_of(256) == nearly(width_of(128) / 2, 1e-4));
     }
-
-    TEST_CASE("identity: the first radius has the unit of the scene, whose size does not matter") {
-        auto radius = [](float unit, const std::string& floor) {
-            std::string u = std::to_string(unit) + " ", power = std::to_string(unit * unit) + " ";
-            Scene scene = world_of(
-                "Scale " + u + u + u +
-                "AttributeBegin Material \"dielectric\" Translate 0 -.5 0 Shape \"sphere\" "
-                "\"float radius\" 0.4 AttributeEnd LightSource \"point\" \"point3 from\" [1 2 0] "
-                "\"rgb I\" [" +
-                power + power + power + "] Translate 0 -1 0 Scale " + floor + square(0, true));
-            scene.camera.o = unit * scene.camera.o;
-            return double{ch23::photon_passes(scene, {}).first_radius} / double{unit};
-        };
-        double whole = radius(1, "30 1 30 ");
-        CHECK(whole > 0.01);
-        // A larger ground has a few more film points, so the search takes other steps.
-        CHECK(radius(1, "3000 1 3000 ") == nearly(whole, 0.3));
-        for (float unit : {0.001f, 1000.0f}) CHECK(radius(unit, "30 1 30 ") == nearly(whole, 0.01));
-    }
 }

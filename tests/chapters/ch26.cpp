@@ -218,13 +218,6 @@ TEST_SUITE("ch26 patches") {
             std::string text = refusal(lamp + directive + "\nShape \"sphere\"");
             CHECK(text.starts_with("test.pbrt:9:1: error: radiosity knows "));
         }
-        // Shapes too small to be cut into triangles.
-        for (std::string kind : {"sphere", "disk"})
-            for (auto [radius, refused] : {std::pair{"1e-9", true}, {"1e-4", false}}) {
-                std::string shape = "Shape \"" + kind + "\" \"float radius\" " + radius;
-                Scene scene = world_of("Translate 3 2 1 " + emitting(1, 0.5, shape + "\n"));
-                CHECK(error_of([&] { tessellate(scene, 2); }).empty() == !refused);
-            }
     }
 }
 
@@ -398,26 +391,6 @@ TEST_SUITE("ch26 program") {
                 end.out.find(" of the lamps' light falls on patches wider") != end.out.npos;
             CHECK(warns == is_wrong);
         }
-    }
-
-    TEST_CASE(
-        "truth: a room that is 10,000 times dimmer than the one beside it has its own light") {
-        TemporaryFolder folder;
-        std::string rooms = cube(0.5, 6) + "Translate 2 0 0\n" + cube(0.5, 6, 1e4), first;
-        write_file_atomically(folder / "rooms.pbrt",
-                              "LookAt 0.5 0.5 0.05  0.5 0.5 1  0 1 0\nCamera \"perspective\"\n"
-                              "PixelFilter \"box\"\nWorldBegin\n" +
-                                  rooms);
-        for (const char* threads : {"1", "2", "7"}) {
-            Words words = {"--quiet", "--patches",     "24", "--threads", threads,
-                           "--out",   folder / "a.pfm"};
-            CHECK(run_program_with(words, folder / "rooms.pbrt").code == 0);
-            std::string bytes = read_file(folder / "a.pfm");
-            if (first.empty()) first = bytes;
-            CHECK(bytes == first);
-        }
-        for (Rgb L : read_image(folder / "a.pfm").pixels)
-            CHECK(double{L.g} == nearly(2 / pi_exact, 2e-3));
     }
 
     TEST_CASE("files: --time soon ends solution and picture, which are written") {

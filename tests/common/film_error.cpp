@@ -180,20 +180,6 @@ TEST_SUITE("film error") {
         CHECK(film.standard_error() == about(expected()));
     }
 
-    TEST_CASE("truth: the errors of three pixels, and without the worst of them") {
-        Image a(3, 1), b(3, 1);
-        a.pixels = {grey(1.5), grey(0.5), grey(0)}, b.pixels = {grey(1), grey(0.5), grey(0.25)};
-        const double first = 0.25, last = 0.0625;  // squared errors
-        for (bool trimmed : {false, true}) {       // the last has the largest relative error
-            Comparison c = compare(a, b, trimmed ? 34 : 0);
-            double n = trimmed ? 2 : 3, mse = (first + (trimmed ? 0 : last)) / n;
-            CHECK(c.mse == about(mse));
-            CHECK(c.rmse == about(std::sqrt(mse)));
-            CHECK(c.rel_mse == about((first / 1.01 + (trimmed ? 0 : last / 0.0725)) / n));
-            CHECK(c.rows.size() == 1);
-        }
-    }
-
     TEST_CASE("brute: a comparison's numbers counted in another way") {
         const int width = 37, height = 21;
         Image a = random_image(width, height, 3), b = random_image(width, height, 4);

@@ -170,11 +170,8 @@ TEST_SUITE("reader: malformed input") {
             for (int i = 0; i < count; i++) text += " \"float x" + std::to_string(i) + "\" 1";
             return text;
         };
-        Limits primitives, vertices, directives, placed;
+        Limits primitives, vertices, directives;
         primitives.primitives = 3, vertices.vertices = 3, directives.directives = 5;
-        placed.directives = 20;
-        const std::string instance = "ObjectInstance \"a\"\n",
-                          object = "ObjectBegin \"a\"\n" + repeated(sphere, 5) + "ObjectEnd\n";
         const std::string many = named("Shape \"sphere\"", 100);
         struct {
             Limits limits;
@@ -184,8 +181,6 @@ TEST_SUITE("reader: malformed input") {
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
             {vertices, triangle, moves + triangle, "4:1", "more than 3 vertices"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
-            {placed, object + repeated(instance, 4), instance, "13:1",
-             "more than 20 shapes of objects are placed"},
             {{},
              sphere,
              repeated("AttributeBegin ", 1001),

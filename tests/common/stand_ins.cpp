@@ -181,12 +181,6 @@ TEST_SUITE("stand-ins") {
         CHECK(files.world(light + "Material 'none'").geometry.spheres.empty());
         // pbrt imports a file as if it stood in a block.
         CHECK(files.world(light + "Import 'a.pbrt'").geometry.spheres[1].c.x == 0);
-        // A transform is wrong only where something is made with it.
-        CHECK_NOTHROW(files.world(light + "Scale 1 0 1 Identity"));
-        CHECK_THROWS_AS(files.world(light + "Scale 1 0 1 "), InputError);
-        CHECK_THROWS_AS(files.world(light + "Scale 1 0 1 CoordinateSystem 'a' Identity"),
-                        InputError);
-
         // A picture of the sky stands for its mean in chapters without one.
         Scene sky = files.read(
             "Camera 'perspective' WorldBegin\nShape 'sphere'\nLightSource "

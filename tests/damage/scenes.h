@@ -50,19 +50,6 @@ inline std::string mutate(std::string bytes, const std::string& other,
     }
 }
 
-/// The input with one of its lines many times, in some of them with another number in each: to find
-/// what takes time or memory with the square of the input, or prints without an end.
-inline std::string repeat_line(const std::string& bytes, Dice& dice) {
-    size_t start = bytes.rfind('\n', dice.below(bytes.size() + 1)) + 1;
-    std::string line = bytes.substr(start, bytes.find('\n', start) - start) + '\n', lines;
-    size_t number_at = std::min(line.find_last_of("0123456789\""), line.size() - 1);
-    bool numbered = dice.below(2) == 0;
-    for (size_t i = 0; lines.size() < 200'000; i++)
-        lines += numbered ? line.substr(0, number_at) + std::to_string(i) + line.substr(number_at)
-                          : line;
-    return bytes.substr(0, start) + lines + bytes.substr(start);
-}
-
 /// The .png with right checksums wherever its chunks have a right length.
 inline std::string with_checksums(std::string png) {
     for (size_t at = 8; at + 12 <= png.size();) {
@@ -179,7 +166,6 @@ inline FuzzResult fuzz(uint32_t first, uint32_t count) {
     for (uint32_t i = first; i < first + count; i++) {
         Dice dice(i);
         auto [path, bytes] = corpus[dice.below(corpus.size())];
-        if (dice.below(200) == 0) bytes = repeat_line(bytes, dice);
         for (size_t changes = 1 + dice.below(5) * dice.below(2); changes > 0; changes--)
             bytes = mutate(bytes, corpus[dice.below(corpus.size())].second, words, dice);
         if (path.ends_with(".png")) bytes = with_checksums(bytes);

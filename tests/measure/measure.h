@@ -2,11 +2,11 @@
 // spread of those says.
 #pragma once
 #include <chrono>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "common/base/progress.h"
 #include "common/render/command_line.h"
 #include "common/render/table.h"
 #include "tests/measure/numbers.h"
@@ -91,37 +91,28 @@ std::map<std::string, Reference> read_references();
 /// The path of a scene from its path or its scene_name, or UsageError.
 std::string find_scene(const std::string& name);
 
-/// A piece of work in steps. Says on standard error what it is, and every 10 s which step it is at
-/// and how long the others will take.
+/// A piece of work in steps. Says on standard error what it is, and now and then which step it is
+/// at and how long the others will take.
 class Work {
 public:
     /// steps      how many, or the sum of their weights
     /// expected   s, as far as that is known; 0: not
     Work(const std::string& what, double steps, double expected = 0) : steps_(steps) {
-        std::fputs(what.c_str(), stderr);
-        if (expected > 0) std::fprintf(stderr, ", about %.0f s", expected);
-        std::fputs("\n", stderr);
+        tell(what + (expected > 0 ? ", about " + short_number(expected) + " s\n" : "\n"));
     }
 
     /// The next step begins. weight: its share of the time, beside the others'.
     void next(const std::string& name, double weight = 1) {
-        Clock::time_point now = Clock::now();
-        double share = begun_ / steps_;
+        std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+        if (begun_ > 0) progress_.show(name, begun_ / steps_, seconds.count());
         begun_ += weight;
-        if (share == 0 || now - last_ < std::chrono::seconds(10)) return;
-        last_ = now;
-        double seconds = std::chrono::duration<double>(now - start_).count();
-        std::fprintf(stderr, "[%3.0f %%] %s: %.0f s so far, about %.0f s left\n", 100 * share,
-                     name.c_str(), seconds, seconds / share - seconds);
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
     double steps_, begun_ = 0;
-    Clock::time_point start_ = Clock::now(), last_ = start_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Progress progress_{10};
 };
 
 /// Says on standard error that a file was written.
-inline void say_wrote(const std::string& files) {
-    std::fprintf(stderr, "wrote %s\n", files.c_str());
-}
+inline void say_wrote(const std::string& files) { tell("wrote " + files + "\n"); }

@@ -8,8 +8,6 @@
 #undef near
 #endif
 
-#include <cmath>
-#include <ctime>
 #include <utility>
 
 #include "tests/support/process.h"
@@ -35,47 +33,11 @@ std::wstring quoted(const std::wstring& word) {
 
 struct Reporter : doctest::ConsoleReporter {
     explicit Reporter(const doctest::ContextOptions& options) : ConsoleReporter(options) {}
-    void test_case_start(const doctest::TestCaseData& data) override {
-        ConsoleReporter::test_case_start(data);
-        name_ = data.m_name;
-        bool in_suite = std::string(data.m_test_suite).find("slow") != std::string::npos;
-        limit_ = in_suite ? HUGE_VAL : data.m_skip ? 10 : 3;
-        begun_ = seconds();
-    }
-    void test_case_end(const doctest::CurrentTestCaseStats& stats) override {
-        doctest::CurrentTestCaseStats of_processor = stats;  // --duration prints these seconds
-        of_processor.seconds = seconds() - begun_;
-        ConsoleReporter::test_case_end(of_processor);
-        if (of_processor.seconds <= limit_) return;
-        std::printf("'%s' takes %.0f s of processor time: beyond %.0f s a test belongs into %s\n",
-                    name_.c_str(), of_processor.seconds, limit_,
-                    limit_ == 10 ? "a slow suite" : "those with doctest::skip()");
-    }
     void test_run_end(const doctest::TestRunStats& stats) override {
         ConsoleReporter::test_run_end(stats);
         ran_none = stats.numTestCasesPassingFilters == 0;
         if (ran_none) std::fprintf(stderr, "error: no test has this name\n");
     }
-
-private:
-    /// Of processor time so far, with that of the programs that tests start.
-    static double seconds() {
-#ifdef _WIN32
-        return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-#else
-        double sum = 0;
-        for (int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-            rusage used;
-            ::getrusage(who, &used);
-            sum += processor_seconds(used);
-        }
-        return sum;
-#endif
-    }
-
-    std::string name_;
-    double limit_ = 0;  // s of processor time
-    double begun_ = 0;
 };
 
 /// doctest takes a comma for the end of a name, unless a backslash stands before it.

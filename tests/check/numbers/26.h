@@ -122,12 +122,6 @@ inline numbers::Functions functions() {
                   self::solve(r.G, r.patches.patch, kind, d.power(1e-9, 0.1), r.s);
                   return state(r.s);
               }),
-        exact("start and brightest",
-              [=](Draw& d) {
-                  Room r = room(d);
-                  self::start(r.patches.patch, r.s);
-                  return state(r.s, double(self::brightest(r.patches.patch, r.s).value_or(99)));
-              }),
         exact("shoot",
               [=](Draw& d) {
                   Room r = room(d);
