@@ -93,7 +93,9 @@ struct World {
     std::string light() {
         std::string color = dice.rgb(0.2, 1);
         std::string power = format(" \"float scale\" %.3g", bright * dice.power(0.3, 30));
-        switch (dice.below(chapter < 9 ? 9 : 12)) {
+        int kind = dice.below(chapter < 9 ? 9 : 12);
+        if (chapter >= 17 && kind < 3) kind = 0;  // skies, which may have pictures
+        switch (kind) {
             case 0:
                 if (chapter < 17 || has_picture || dice.chance(0.3))
                     return "LightSource \"infinite\" \"rgb L\" " + color + power + "\n";
@@ -132,7 +134,7 @@ struct World {
             width, height, dice.chance(0.2) ? 20 : 1 + dice.below(7));
         double distance = dice.chance(0.1) ? dice.power(5, 500) : dice.power(0.6, 5),
                angle = dice.from(0, 6.283),
-               up = dice.chance(0.15) ? -0.5 : dice.from(0.1, 0.9);  // or from below the floor
+               up = dice.chance(0.3) ? -0.5 : dice.from(0.1, 0.9);  // or from below the floor
         if (dice.chance(0.2)) text += scale(dice.power(0.3, 3)) + "\n";
         text += format("LookAt %.4g %.4g %.4g  %.3g %.3g %.3g  0 1 0\n",
                        size * distance * std::cos(angle), size * distance * up,
