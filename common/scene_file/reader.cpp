@@ -6,6 +6,7 @@
 #include "common/base/text.h"
 #include "common/material/metal.h"
 #include "common/scene/mover.h"
+#include "common/scene_file/lights.h"
 #include "common/scene_file/settings.h"
 #include "common/scene_file/shapes.h"
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "common/scene/prepare.h"
+#include "common/scene_file/lights.h"
 #include "common/scene_file/materials.h"
 
 /// What AttributeBegin saves and AttributeEnd restores.
@@ -202,23 +203,6 @@ inline void add_disk(const Params& params, const Transform& t, bool reverse, Sce
     Vec3 normal = to_vec3(normalize(transform_normal(t, {0, 0, reverse ? -1.0 : 1.0})));
     scene.geometry.disks.push_back(
         {centre, normal, read_radius(params, centre, {t.x, t.y}), next_shape(scene)});
-}
-
-// Adds the light of a primitive of this area, and returns its number.
-inline int add_light(const Params& params, const AreaEmission& emission, float area, Scene& scene) {
-    Light light;
-    light.L = emission.L;
-    if (emission.power > 0) {
-        float of_one = pi * area * (emission.two_sided ? 2 : 1);  // W, of L = 1
-        // Half of a patch's power for each of its triangles.
-        float power = params.type() == "bilinearmesh" ? emission.power / 2 : emission.power;
-        light.L *= power / of_one;
-    }
-    check_brightness(params, light.L);
-    light.two_sided = emission.two_sided;
-    light.at = kept(params.at());
-    scene.lights.push_back(light);
-    return static_cast<int>(scene.lights.size()) - 1;
 }
 
 /// Adds the primitives of one Shape directive, where they are at the start, and their lights, to

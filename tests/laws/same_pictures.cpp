@@ -51,7 +51,7 @@ double difference(const Recorder& recorder, const Sample& sample) {
 TEST_SUITE("law: same pictures") {
     TEST_CASE("identity: recording never changes an estimate, and its parts add up to it") {
         std::map<std::string, int> lit;  // paths that brought light, by method
-        for (uint32_t seed = 8; seed < 16; seed++) {
+        for (uint32_t seed : {0u, 3u, 12u, 16u, 18u, 23u, 30u, 39u}) {
             CAPTURE(seed);
             Scene scene = random_scene(seed);
             scene.max_depth = seed % 2 == 0 ? 20 : 4;
