@@ -27,6 +27,13 @@ inline numbers::Functions functions() {
                                     {"x by that of a later number", x * at(later, seed)},
                                     {"x by the next seed's", x * at(i, seed + 1)}};
                   }),
+        sets("radical_inverse, scrambled, as points", 64,
+             [](uint32_t n, uint32_t seed) {
+                 Points all;
+                 for (uint32_t i = 0; i < n; i++)
+                     all.push_back({self::radical_inverse(2, i, seed + 3), 0.5f});
+                 return all;
+             }),
         exact("sobol_second", self::sobol_second, count(0, ~0u)).within(0, 0),
         by_chance("owen_scramble",
                   [=](Draw& d) {
