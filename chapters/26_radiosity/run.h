@@ -9,7 +9,7 @@
 #include "common/path/method.h"
 #include "common/picture/smooth_corners.h"
 #include "common/render/render.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 
 namespace ch26 {
 

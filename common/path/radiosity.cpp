@@ -8,7 +8,6 @@
 #include "common/material/basic_bsdf.h"
 #include "common/path/sampler.h"
 #include "common/scene/intersect.h"
-#include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "common/render/render.h"
 #include "common/render/table.h"
 #include "common/scene/intersect.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "common/base/progress.h"
 #include "common/base/system.h"
 #include "common/render/render.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 
 namespace {
 

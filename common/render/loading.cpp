@@ -7,7 +7,6 @@
 #include "common/base/error.h"
 #include "common/base/progress.h"
 #include "common/scene/mover.h"
-#include "common/scene/origin.h"
 #include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
 #include "common/scene_file/reader.h"

@@ -8,7 +8,7 @@
 #include "common/base/system.h"
 #include "common/picture/drawing.h"
 #include "common/render/render.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 
 namespace {
 

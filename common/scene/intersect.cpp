@@ -9,34 +9,6 @@
 
 namespace {
 
-uint32_t finish(const Geometry& g, const Triangle& tri, const PrimHit& found, Hit& x) {
-    Vec3 p0 = g.positions[tri.v[0]], p1 = g.positions[tri.v[1]], p2 = g.positions[tri.v[2]];
-    float b0 = 1 - found.b1 - found.b2;
-    x.p = b0 * p0 + found.b1 * p1 + found.b2 * p2;
-    x.eps = rounding_error(max_component(b0 * abs(p0) + found.b1 * abs(p1) + found.b2 * abs(p2)));
-    x.n = x.ng = g.facet_normals[found.prim];
-    if (!g.normals.empty()) {
-        Vec3 n = b0 * g.normals[tri.v[0]] + found.b1 * g.normals[tri.v[1]] +
-                 found.b2 * g.normals[tri.v[2]];
-        if (dot(n, n) > 0) x.n = normalize(n);
-    }
-    return tri.shape;
-}
-
-uint32_t finish(const Sphere& sphere, Vec3 p, Hit& x) {
-    x.n = x.ng = normalize(p - sphere.c);
-    x.p = sphere.c + sphere.r * x.ng;
-    x.eps = rounding_error(max_component(abs(sphere.c)) + sphere.r);
-    return sphere.shape;
-}
-
-uint32_t finish(const Disk& disk, Vec3 p, Hit& x) {
-    x.n = x.ng = disk.n;
-    x.p = p - dot(p - disk.c, disk.n) * disk.n;
-    x.eps = rounding_error(max_component(abs(disk.c)) + disk.r);
-    return disk.shape;
-}
-
 /// Turns the normal of what is met edge-on towards the ray, so that no cosine is 0.
 [[gnu::noinline]] float tilt(const Ray& ray, Vec3& n) {
     n = normalize(n - 0x1p-20f * normalize(ray.d));
@@ -47,10 +19,35 @@ uint32_t finish(const Disk& disk, Vec3 p, Hit& x) {
 /// returns its shape. In its place: a copy would have to wait until all parts are in memory.
 const Shape& place_hit(const Scene& scene, const Geometry& g, const Ray& ray, const PrimHit& found,
                        Hit& x) {
+    Vec3 p = ray.o + found.t * ray.d;  // on a triangle its weights are more exact
     uint32_t shape = visit(
-        g, found.prim, [&](const Triangle& triangle) { return finish(g, triangle, found, x); },
-        [&](const Sphere& sphere) { return finish(sphere, ray.o + found.t * ray.d, x); },
-        [&](const Disk& disk) { return finish(disk, ray.o + found.t * ray.d, x); });
+        g, found.prim,
+        [&](const Triangle& tri) {
+            Vec3 p0 = g.positions[tri.v[0]], p1 = g.positions[tri.v[1]], p2 = g.positions[tri.v[2]];
+            float b0 = 1 - found.b1 - found.b2;
+            x.p = b0 * p0 + found.b1 * p1 + found.b2 * p2;
+            x.eps = rounding_error(
+                max_component(b0 * abs(p0) + found.b1 * abs(p1) + found.b2 * abs(p2)));
+            x.n = x.ng = g.facet_normals[found.prim];
+            if (!g.normals.empty()) {
+                Vec3 n = b0 * g.normals[tri.v[0]] + found.b1 * g.normals[tri.v[1]] +
+                         found.b2 * g.normals[tri.v[2]];
+                if (dot(n, n) > 0) x.n = normalize(n);
+            }
+            return tri.shape;
+        },
+        [&](const Sphere& sphere) {
+            x.n = x.ng = normalize(p - sphere.c);
+            x.p = sphere.c + sphere.r * x.ng;
+            x.eps = rounding_error(max_component(abs(sphere.c)) + sphere.r);
+            return sphere.shape;
+        },
+        [&](const Disk& disk) {
+            x.n = x.ng = disk.n;
+            x.p = p - dot(p - disk.c, disk.n) * disk.n;
+            x.eps = rounding_error(max_component(abs(disk.c)) + disk.r);
+            return disk.shape;
+        });
     return scene.shapes[shape];
 }
 
@@ -104,6 +101,8 @@ void carry_on(const Transform& t, Hit& x) {
             rounding_error(max_component(abs(x.p)));
 }
 
+/// The normal of the mesh at p, a point of this primitive: those of the triangle's corners, each by
+/// its weight, of any length. 0 where there is none.
 Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
     if (g.normals.empty() || prim >= g.triangles.size()) return {};
     const auto& v = g.triangles[prim].v;
@@ -174,14 +173,23 @@ bool occluded(const Scene& scene, const Ray& ray) {
     return met;
 }
 
-Vec3 interpolated_normal(const Scene& scene, uint32_t prim, Vec3 p, float time) {
-    if (prim < scene.geometry.size()) return interpolated_normal(scene.geometry, prim, p);
+Vec3 smooth_normal(const Scene& scene, const Hit& x) {
+    if (!scene.has_normals || !(x.n == x.ng)) return x.n;
+    const Geometry* g = &scene.geometry;
+    uint32_t prim = x.prim;
+    Transform world_from_start;
     auto behind = std::upper_bound(
         scene.movers.begin(), scene.movers.end(), prim,
         [](uint32_t number, const Mover& mover) { return number < mover.first_prim; });
-    const Mover& mover = behind[-1];
-    Transform world_from_start = mover.world_from_start(static_cast<double>(time));
-    Vec3 back = to_vec3(transform_point(inverse(world_from_start), Vec3d(p)));
-    Vec3 n = interpolated_normal(mover.geometry, prim - mover.first_prim, back);
-    return to_vec3(transform_normal(world_from_start, Vec3d(n)));
+    if (behind != scene.movers.begin()) {
+        g = &behind[-1].geometry;
+        prim -= behind[-1].first_prim;
+        world_from_start = behind[-1].world_from_start(static_cast<double>(x.time));
+    }
+    Vec3 back = to_vec3(transform_point(inverse(world_from_start), Vec3d(x.p)));
+    Vec3d smooth(interpolated_normal(*g, prim, back));
+    Vec3 n = to_vec3(transform_normal(world_from_start, smooth));
+    if (!(dot(n, n) > 0)) return x.ng;
+    n = normalize(n);
+    return dot(n, x.ng) < 0 ? -n : n;
 }

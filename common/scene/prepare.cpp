@@ -2,7 +2,6 @@
 
 #include "common/geometry/bvh.h"
 #include "common/scene/mover.h"
-#include "common/scene/origin.h"
 #include "common/scene/sky_image.h"
 #include "common/scene/texture.h"
 
@@ -62,6 +61,58 @@ std::vector<LightShape> light_shapes_of(const Scene& scene) {
         shape.flat = one || shape.parallelogram;
     }
     return shapes;
+}
+
+using Polygon = std::vector<Vec3d>;
+
+/// The corners of a triangle, or of 16 points around a disk; a sphere has none.
+Polygon corners_of(const Emitter& e) {
+    if (e.kind == Emitter::triangle) return {Vec3d(e.p0), Vec3d(e.p1), Vec3d(e.p2)};
+    Polygon corners;
+    for (int i = 0; i < 16 && e.kind == Emitter::disk; i++) {
+        Vec3 out = from_cylindrical(e.r, static_cast<float>(i) / 16, 0);
+        corners.push_back(Vec3d(e.p0 + Frame(e.n).to_world(out)));
+    }
+    return corners;
+}
+
+/// Twice the area of a flat polygon, along its normal.
+Vec3d area_of(const Polygon& p) {
+    Vec3d sum;
+    for (size_t i = 2; i < p.size(); i++) sum = sum + cross(p[i - 1] - p[0], p[i] - p[0]);
+    return sum;
+}
+
+/// The part of polygon a that lies straight above or below b; n: the normal of b.
+/// source  Sutherland, Hodgman 1974
+Polygon clip(Polygon a, const Polygon& b, Vec3d n) {
+    for (size_t k = 0; k < b.size(); k++) {
+        Vec3d inward = cross(n, b[(k + 1) % b.size()] - b[k]);
+        Polygon kept;
+        for (size_t i = 0; i < a.size(); i++) {
+            Vec3d p = a[i], q = a[(i + 1) % a.size()];
+            double at_p = dot(p - b[k], inward), at_q = dot(q - b[k], inward);
+            if (at_p >= 0) kept.push_back(p);
+            if ((at_p >= 0) != (at_q >= 0)) kept.push_back(p + at_p / (at_p - at_q) * (q - p));
+        }
+        a = kept;
+    }
+    return a;
+}
+
+/// Whether two primitives lie in one place: balls, or faces that overlap by a thousandth of the
+/// smaller one and there lie in one plane, up to rounding.
+bool coincide(const Emitter& e, const Emitter& f, double rounding) {
+    Polygon a = corners_of(e), b = corners_of(f);
+    if (a.empty() || b.empty()) {
+        return a.empty() && b.empty() && length(Vec3d(e.p0) - Vec3d(f.p0)) < rounding &&
+               double{std::abs(e.r - f.r)} < rounding;
+    }
+    Vec3d area = area_of(b), n = normalize(area);
+    auto is_in_plane = [&](Vec3d p) { return std::abs(dot(p - b[0], n)) <= rounding; };
+    Polygon both = clip(a, b, n);
+    return std::all_of(both.begin(), both.end(), is_in_plane) &&
+           length(area_of(both)) > 1e-3 * std::min(length(area), length(area_of(a)));
 }
 
 }  // namespace
@@ -145,4 +196,41 @@ void prepare(Scene& scene, int threads, const Report& report) {
     scene.light_shapes = light_shapes_of(scene);
     scene.geometry.facet_normals = facet_normals(scene.geometry);
     scene.bvh = std::make_shared<Bvh>(build_bvh(scene.geometry, threads, report));
+}
+
+std::vector<std::string> notes_of_coincident(const Scene& scene) {
+    const Geometry& g = scene.geometry;
+    auto shape_of = [&](uint32_t prim) -> const Shape& {
+        auto number = [](const auto& primitive) { return primitive.shape; };
+        return scene.shapes[visit(g, prim, number, number, number)];
+    };
+    std::vector<std::string> notes;
+    constexpr uint64_t most = 30'000'000;
+    uint64_t compared = 0;
+    for (const Light& light : scene.lights) {
+        uint32_t end = light.first_prim + light.prims;
+        for (uint32_t a = light.first_prim; a < end && compared < most; a++, compared += g.size()) {
+            Box here = box_of(g, a);
+            float rounding = 2 * rounding_error(max_component(max(abs(here.low), abs(here.high))));
+            for (uint32_t b = 0; b < g.size() && notes.size() < 20; b++) {
+                Box there = box_of(g, b);
+                Vec3 gap = max(here.low - there.high, there.low - here.high);
+                const Shape& other = shape_of(b);
+                bool once = b < a || other.light < 0;  // each pair of lamps
+                if (!once || max_component(gap) > rounding) continue;
+                if (!coincide(emitter_of(scene, a), emitter_of(scene, b), double{rounding}))
+                    continue;
+                std::string faces =
+                    other.light < 0 ? "this lamp and the Shape at " : "this lamp and the lamp at ";
+                faces += place_text(scene.place(other.at));
+                if (&other == &shape_of(a)) faces = "faces of this lamp";
+                std::string note = message_at(
+                    scene.place(light.at), "note",
+                    faces + " lie in one place, where rounding decides which of them a ray meets");
+                if (std::find(notes.begin(), notes.end(), note) == notes.end())
+                    notes.push_back(note);
+            }
+        }
+    }
+    return notes;
 }

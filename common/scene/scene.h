@@ -59,14 +59,8 @@ struct Shape {
     uint32_t material = 0;  // into Scene::materials
     int light = -1;         // into Scene::lights; -1: does not shine
     bool reverse = false;   // a sphere whose normal points inwards; others are turned when read
-    int axes = -1;          // of a sphere or disk, into Scene::axes; -1: the world's
     const Position* at = nullptr;  // where a scene file makes it, for messages
-};
-
-/// The axes of a shape's own space, in the world: unit vectors.
-struct Axes {
-    Vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    bool operator==(const Axes&) const = default;
+    Vec3 x, y, z;  // of a sphere or disk: the axes of its own space in the world, unit vectors
 };
 
 /// The camera as the file says it; camera_view() in camera.h makes it ready for one picture size.
@@ -89,7 +83,6 @@ struct Scene {
     std::vector<Shape> shapes;
     std::vector<Material> materials;
     std::shared_ptr<const Textures> textures;  // null: none
-    std::vector<Axes> axes;
     std::vector<Light> lights;
     std::vector<LightShape> light_shapes;       // one for each light
     Vec3 centre;                                // of a sphere around all primitives

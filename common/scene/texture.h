@@ -16,9 +16,8 @@ struct Scene;
 ///   constant      value
 ///   picture       value * the picture at (s, t), or 1 minus that (inverted)
 ///   checkerboard  the first input where floor(s) + floor(t) is even, else the second
-///   product       value * the first input
 struct Texture {
-    enum class Kind : uint8_t { constant, picture, checkerboard, product };
+    enum class Kind : uint8_t { constant, picture, checkerboard };
     enum class Wrap : uint8_t { repeat, clamp, black };  // what is beside the picture
 
     Kind kind = Kind::constant;
@@ -34,6 +33,11 @@ struct TexturePicture {
     int width = 0, height = 0;
     std::vector<Rgb> texels;  // linear reflectances, row by row from the top left
 };
+
+/// The nearest reflectance.
+inline Rgb from_0_to_1(Rgb a) {
+    return {std::clamp(a.r, 0.f, 1.f), std::clamp(a.g, 0.f, 1.f), std::clamp(a.b, 0.f, 1.f)};
+}
 
 struct Textures {
     std::vector<Texture> all;

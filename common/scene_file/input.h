@@ -12,16 +12,10 @@
 #include "common/base/files.h"
 #include "common/base/system.h"
 #include "common/picture/image.h"
-#include "common/scene/origin.h"
-#include "common/scene_file/ply.h"
+#include "common/scene/prepare.h"
+#include "common/scene_file/lexer.h"
+#include "common/scene_file/reader.h"
 
-/// An error behind which nothing more is read: a limit that is passed, a string without an end.
-struct ReadingEnds : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-[[noreturn]] inline void stop_reading(const Position& at, const std::string& text) {
-    throw ReadingEnds(message_at(at, "error", text));
-}
 /// Stops where there are more than `most` things.
 inline void check_limit(const Position& at, uint64_t count, uint64_t most,
                         const std::string& things) {
@@ -45,46 +39,30 @@ const auto& look_up(const Map& map, const std::string& name, const std::string& 
 }
 
 /// The bytes of a scene file, unpacked if they are packed by gzip; throws InputError when it cannot
-/// be read, and at once for what is no file: a device or a pipe may never end.
+/// be read.
 inline std::string read_scene_file(const std::string& path) {
-    std::error_code none;
-    std::filesystem::file_status status = std::filesystem::status(file_path(path), none);
-    if (std::filesystem::is_other(status))
-        fail({path}, "cannot read: a device or a pipe and no file");
     std::string bytes = read_file(path);
     return is_gzip(bytes) ? unpack_gzip(path, bytes) : bytes;
 }
-/// The one name of a file that has many, such as a/../b.
-inline std::string canonical(const std::string& path) {
-    std::error_code none;
-    return file_name(std::filesystem::weakly_canonical(file_path(path), none));
-}
 
 /// One run of the reader: what it may read, has read, and says.
-class Input {
-public:
+struct Input {
     const std::string main_file;
     const Limits limits;
     const Report report;
-    const bool stand_ins;  // whether what is not modelled is replaced
+    const bool stand_ins;                  // whether what is not modelled is replaced
+    std::vector<std::string>& notes;       // lines, also when the reader throws
+    std::vector<std::string> errors = {};  // lines
+    std::set<std::string> texts = {};      // of errors and notes
+    std::map<std::string, std::set<Position>> used = {};  // stand-ins, and where
+    Origin origin = {};                                   // what was read
+    uint64_t bytes_read = 0;
+    Checksum checksum = {};
 
-    /// Appends notes to `notes`, which has them even when the reader throws.
-    Input(std::string path, const Limits& most, const Report& hears,
-          std::vector<std::string>& notes, bool replaces)
-        : main_file(std::move(path)),
-          limits(most),
-          report(hears),
-          stand_ins(replaces),
-          notes_(notes) {}
-
-    // Each text is said only once: with the first place that it is said of.
-    /// At most 100 notes are kept.
+    /// Each text is said only once, with its first place; at most 100 notes are kept.
     void note(const Position& at, const std::string& text) {
-        constexpr size_t most = 100;
-        if (notes_.size() > most || !texts_.insert(text).second) return;
-        bool too_many = notes_.size() == most;
-        notes_.push_back(
-            message_at(at, "note", too_many ? "there is more of which to take note" : text));
+        if (notes.size() == 100 || !texts.insert(text).second) return;
+        notes.push_back(message_at(at, "note", text));
     }
     void error(const Position& at, const std::string& text) {
         add(InputError(message_at(at, "error", text)));
@@ -93,12 +71,12 @@ public:
     void add(const std::exception& error) {
         std::string line = error.what();
         std::string text = line.substr(std::min(line.size(), line.find(": error: ")));
-        if (texts_.insert(text).second) errors_.push_back(line);
+        if (texts.insert(text).second) errors.push_back(line);
     }
     /// Takes the stand-in of this name; where they are not allowed it is an error, `text` if given.
     void stand_in(const Position& at, const std::string& what, const std::string& text = "") {
         if (stand_ins) {
-            used_[what].insert(at);
+            used[what].insert(at);
         } else {
             std::string wrong = text.empty() ? what + " is not supported" : text;
             error(at, wrong + or_stand_in(what).substr(wrong.ends_with('?') ? 1 : 0));
@@ -111,20 +89,18 @@ public:
             read();
             return true;
         } catch (const InputError& error) {
-            if (stand_ins) stand_in(at, what);
+            if (stand_ins) used[what].insert(at);
             if (!stand_ins) add(InputError(error.what() + or_stand_in(what)));
-            return false;
         }
+        return false;
     }
-    size_t errors() const { return errors_.size(); }
     /// Throws the errors, if there are some; else says what was read, and what stands in.
-    Origin finish() const {
-        throw_lines(errors_);
-        Origin origin = {main_file, files_, checksum_.value(), {}};
-        for (const auto& [what, instead] : all_stand_ins()) {
-            auto found = used_.find(what);
-            if (found == used_.end()) continue;
-            const std::set<Position>& places = found->second;
+    Origin finish() {
+        throw_lines(errors);
+        origin.file = main_file;
+        origin.checksum = checksum.value();
+        for (const auto& [what, places] : used) {
+            std::string instead = all_stand_ins().at(what);
             origin.stand_ins.push_back({what, instead, places.size(), *places.begin()});
         }
         return origin;
@@ -136,9 +112,7 @@ public:
         std::filesystem::path path = file_path(at.file).parent_path() / file_path(name);
         std::filesystem::path from_main = file_path(main_file).parent_path() / file_path(name);
         std::error_code none;
-        bool only_there =
-            !std::filesystem::exists(path, none) && std::filesystem::exists(from_main, none);
-        return file_name(only_there ? from_main : path);
+        return file_name(std::filesystem::exists(path, none) ? path : from_main);
     }
     /// The bytes of the file; throws at the place that names it when it cannot be read, or when
     /// more than the limit would be read in all.
@@ -152,33 +126,15 @@ public:
             fail(at, quote_file(path) + text.substr(text.rfind(": error: ") + 7));
         }
         add_file(path, bytes);
-        bytes_read_ += bytes.size();
-        check_limit(at, bytes_read_, limits.file_bytes, "bytes in all files together");
+        bytes_read += bytes.size();
+        check_limit(at, bytes_read, limits.file_bytes, "bytes in all files together");
         return bytes;
-    }
-    /// The mesh in a PLY file, which is read once, however often it is named.
-    const TriangleMesh& mesh(const std::string& path, const Position& at) {
-        std::string file = canonical(path);
-        auto known = meshes_.find(file);
-        if (known != meshes_.end()) return known->second;
-        if (report) report("reading " + path, 0);
-        return meshes_[file] = parse_ply(path, read(path, at), limits);
     }
     /// Keeps which files are read, and a checksum of them in the order in which they are read.
     void add_file(const std::string& path, const std::string& bytes) {
-        files_.insert(path);
+        origin.files.insert(path);
         uint64_t size = bytes.size();
-        checksum_.add({reinterpret_cast<const char*>(&size), sizeof size});
-        checksum_.add(bytes);
+        checksum.add({reinterpret_cast<const char*>(&size), sizeof size});
+        checksum.add(bytes);
     }
-
-private:
-    std::vector<std::string>& notes_;
-    std::vector<std::string> errors_;                 // lines
-    std::set<std::string> texts_;                     // of errors and notes
-    std::map<std::string, std::set<Position>> used_;  // stand-ins, and where
-    std::set<std::string> files_;                     // that were read
-    uint64_t bytes_read_ = 0;
-    Checksum checksum_;
-    std::map<std::string, TriangleMesh> meshes_;  // by the canonical names of their files
 };

@@ -6,8 +6,17 @@
 #include <string>
 #include <string_view>
 
+#include "common/base/error.h"
+#include "common/base/progress.h"
 #include "common/base/text.h"
-#include "common/scene_file/input.h"
+
+/// An error behind which nothing more is read: a limit that is passed, a string without an end.
+struct ReadingEnds : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+[[noreturn]] inline void stop_reading(const Position& at, const std::string& text) {
+    throw ReadingEnds(message_at(at, "error", text));
+}
 
 struct Token {
     enum Type : uint8_t { word, string, opens, closes, end };  // opens, closes: brackets
@@ -25,19 +34,16 @@ class Lexer {
 public:
     Lexer(std::string file, std::string bytes, const Report& report = {})
         : file_(std::move(file)), bytes_(std::move(bytes)), report_(report) {
-        for (size_t i = 0; i < bytes_.size();) {
-            size_t length = utf8_length(bytes_, i);
-            if (length == 0) {
-                advance_to(i);
-                fail({file_, line_, column_}, "not UTF-8 text");
-            }
-            i += length;
+        for (size_t i = 0, length = 0; i < bytes_.size(); i += length) {
+            length = utf8_length(bytes_, i);
+            if (length > 0) continue;
+            advance_to(i);
+            fail({file_, line_, column_}, "not UTF-8 text");
         }
         if (bytes_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
         ahead_ = read();
     }
     Lexer(const Lexer&) = delete;  // tokens point into bytes_
-    Lexer& operator=(const Lexer&) = delete;
 
     const Token& peek() const { return ahead_; }
     Token next() {
@@ -50,6 +56,10 @@ public:
         if (ahead_.type != Token::word) return ahead_.type != Token::end;
         return ahead_.text[0] < 'A' || ahead_.text[0] > 'Z';
     }
+    /// Reads over what is left of a directive.
+    void skip_arguments() {
+        while (has_argument()) next();
+    }
     Position at(const Token& token) const { return {file_, token.line, token.column}; }
 
     /// The next token, which must be of this type; throws `NEEDS, not ...` where it is another.
@@ -58,15 +68,13 @@ public:
         if (token.type != type) fail_at(token, needs);
         return token;
     }
-    /// The next number; throws `WHAT needs a number, not ...` where there is none.
+    /// The next number, which a float can hold; throws `WHAT needs a number, not ...`.
     double number(const std::string& what) {
         Token token = next();
         std::optional<double> value;
         if (token.type == Token::word) value = to_number(token.text);
-        if (!value) fail_at(token, what + " needs a number");
-        if (std::abs(*value) > std::numeric_limits<float>::max()) {
-            fail(at(token), "number too large: " + quote(token.text));
-        }
+        bool is_float = value && std::abs(*value) <= std::numeric_limits<float>::max();
+        if (!is_float) fail_at(token, what + " needs a number");
         return *value;
     }
     /// What the quoted string means: its escapes \b \f \n \r \t \\ \' \" resolved.
@@ -116,21 +124,19 @@ private:
         while (stands_at(" \t\r\n#")) {
             advance_to(stands_at("#") ? bytes_.find_first_of("\r\n", position_) : position_ + 1);
         }
-        if (position_ >= next_report_) {
-            constexpr size_t step = size_t{1} << 20;
-            next_report_ = position_ + step;
+        if (report_ && position_ >= next_report_) {
+            next_report_ = position_ + (size_t{1} << 20);
             double share = static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
-            if (report_) report_("reading " + file_, share);
+            report_("reading " + file_, share);
         }
         Token token = {Token::end, {}, line_, column_};
         size_t start = position_;
         if (start == bytes_.size()) return token;
         if (stands_at("\"")) {
-            // Look for what ends it, but behind the pairs \\ and \".
+            // Look for what ends it, but behind pairs such as \\ and \".
             size_t end = bytes_.find_first_of("\\\"\r\n", start + 1);
             while (end < bytes_.size() && bytes_[end] == '\\') {
-                bool is_pair = bytes_[end + 1] == '\\' || bytes_[end + 1] == '"';
-                end = bytes_.find_first_of("\\\"\r\n", end + (is_pair ? 2 : 1));
+                end = bytes_.find_first_of("\\\"\r\n", end + 2);
             }
             if (end >= bytes_.size() || bytes_[end] != '"') {
                 stop_reading(at(token), "the string does not end on its line");

@@ -1,15 +1,154 @@
-// Materials of a pbrt-v4 scene file.
+// Materials and textures of a pbrt-v4 scene file, and the pictures that it names.
 #pragma once
+#include <algorithm>
+#include <optional>
+
 #include "common/material/metal.h"
 #include "common/material/spectrum.h"
+#include "common/picture/image.h"
 #include "common/scene/scene.h"
-#include "common/scene_file/textures.h"
+#include "common/scene/texture.h"
+#include "common/scene_file/params.h"
 
-inline constexpr float smooth_below =
-    1e-3f;  // the alpha under which pbrt takes a surface for smooth
+inline Rgb larger(Rgb a, Rgb b) {
+    return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)};
+}
+
+// Returns whether the mapping is "uv", not one that grey stands in for.
+inline bool read_mapping(const Params& params, Texture& texture) {
+    texture.scale = {params.number("uscale"), params.number("vscale")};
+    texture.shift = {params.number("udelta"), params.number("vdelta")};
+    bool is_uv = params.string("mapping", "uv") == "uv";
+    if (!is_uv) params.stand_in("a mapping other than \"uv\"", "mapping");
+    return is_uv;
+}
+
+// How codes become linear values: to this power, or as sRGB codes (0).
+inline float read_encoding(const Params& params) {
+    std::string encoding = params.string("encoding", "sRGB");
+    if (encoding == "sRGB") return 0;
+    if (encoding == "linear") return 1;
+    bool is_gamma = encoding.starts_with("gamma ");
+    auto gamma = to_number(std::string_view(encoding).substr(is_gamma ? 6 : 0));
+    if (is_gamma && gamma && *gamma >= 0.01 && *gamma <= 100) return static_cast<float>(*gamma);
+    fail(params.at("encoding"), "encoding must be sRGB, linear, or gamma and 0.01 to 100");
+}
+
+inline const std::map<std::string, Texture::Wrap> wraps = {{"black", Texture::Wrap::black},
+                                                           {"clamp", Texture::Wrap::clamp},
+                                                           {"repeat", Texture::Wrap::repeat}};
+
+/// The picture that "filename" names. Nothing where its stand-in is to be taken, grey.
+///
+/// gamma  how codes become linear values, see to_linear()
+inline std::optional<Image> read_picture(const Params& params, float gamma) {
+    const Param& name = params.required("filename");
+    Input& input = params.input();
+    std::string path = input.find(name.at, name.strings[0]);
+    Image image;
+    bool is_read = input.try_to_read(params.at(), "a picture that cannot be read", [&] {
+        image = decode_image(path, input.read(path, name.at), gamma);
+        for (Rgb r : image.pixels) {
+            if (is_finite(r) && std::min({r.r, r.g, r.b}) >= 0) continue;
+            fail(name.at, quote_file(path) + " has a pixel that is negative or no number");
+        }
+    });
+    if (!is_read) return {};
+    return image;
+}
+
+/// A texture, and what a material that names it must know.
+struct NamedTexture {
+    uint32_t index = 0;     // into Textures::all
+    Rgb most;               // an upper bound of its values
+    bool needs_uv = false;  // varies over the surface
+};
+
+/// Reads textures and finds them by name. Those of type "float" are read over.
+class TextureReader {
+public:
+    /// Reads what stands after the word Texture.
+    void read(Lexer& lexer, const Position& at, Input& input, const ParamMap& defaults) {
+        Token name_token = lexer.expect(Token::string, "Texture needs a name in quotes");
+        const std::string needs = "Texture needs \"float\" or \"spectrum\"";
+        Token type = lexer.expect(Token::string, needs);
+        std::string name = lexer.unescape(name_token);
+        if (type.text == "float") return lexer.skip_arguments();
+        Params params(lexer, "Texture", at, input, defaults);
+        if (type.text != "spectrum") lexer.fail_at(type, needs);
+        if (known_.contains(name)) fail(lexer.at(name_token), "a second texture " + quote(name));
+        known_[name] = read_texture(params);
+    }
+    /// The texture that a parameter "texture NAME" names; null where it is not given.
+    const NamedTexture* find(const Params& params, const std::string& name) const {
+        const Param* param = params.find(name);
+        if (!param || param->type != "texture") return nullptr;
+        return &look_up(known_, param->strings[0], "texture", param->at);
+    }
+    Textures take() { return std::move(textures_); }
+
+private:
+    NamedTexture read_texture(const Params& params) {
+        if (params.stands_in()) return grey(params);
+        if (params.type() == "imagemap") return read_picture_texture(params);
+        if (params.type() == "constant") return constant(params, params.color("value"));
+        return read_checkerboard(params);
+    }
+    NamedTexture read_checkerboard(const Params& params) {
+        bool is_flat = params.integer("dimension") == 2;
+        if (!is_flat) params.stand_in("a checkerboard of 3 dimensions", "dimension");
+        NamedTexture a = read_input(params, "tex1"), b = read_input(params, "tex2");
+        Texture texture;
+        texture.kind = Texture::Kind::checkerboard;
+        texture.inputs = {a.index, b.index};
+        is_flat &= read_mapping(params, texture);
+        if (!is_flat) return grey(params);
+        return add(params, texture, {0, larger(a.most, b.most), true});
+    }
+    // A texture, or one colour.
+    NamedTexture read_input(const Params& params, const std::string& name) {
+        const NamedTexture* texture = find(params, name);
+        return texture ? *texture : constant(params, params.color(name));
+    }
+    NamedTexture read_picture_texture(const Params& params) {
+        Texture texture;
+        texture.kind = Texture::Kind::picture;
+        bool is_uv = read_mapping(params, texture);
+        texture.wrap = look_up(wraps, params.string("wrap", "repeat"), "wrap", params.at("wrap"));
+        texture.nearest = params.string("filter") == "point";
+        texture.inverted = params.boolean("invert");
+        float scale = params.number("scale");
+        texture.value = {scale, scale, scale};
+        std::optional<Image> image = read_picture(params, read_encoding(params));
+        if (!image || !is_uv) return grey(params);
+        Rgb most;
+        for (Rgb r : image->pixels) most = larger(most, scale * r);
+        if (max_component(most) > 1) params.note("has values above 1, which are read as 1");
+        most = texture.inverted ? Rgb{1, 1, 1} : from_0_to_1(most);
+        texture.picture = static_cast<uint32_t>(textures_.pictures.size());
+        textures_.pictures.push_back({image->width, image->height, std::move(image->pixels)});
+        return add(params, texture, {0, most, true});
+    }
+    NamedTexture add(const Params& params, const Texture& texture, NamedTexture named) {
+        check_limit(params.at(), textures_.all.size() + 1, 65535, "textures");
+        named.index = static_cast<uint32_t>(textures_.all.size());
+        textures_.all.push_back(texture);
+        return named;
+    }
+    NamedTexture constant(const Params& params, Rgb value) {
+        Texture texture;
+        texture.value = value;
+        return add(params, texture, {0, value});
+    }
+    NamedTexture grey(const Params& params) { return constant(params, {0.5f, 0.5f, 0.5f}); }
+
+    Textures textures_;
+    std::map<std::string, NamedTexture> known_;
+};
 
 /// The roughness as GGX's alpha; sqrt(roughness) unless remaproughness is false.
 inline float read_alpha(const Params& params, const std::string& prefix = "") {
+    constexpr float smooth_below = 1e-3f;  // where pbrt takes a surface for smooth
     float roughness = params.number(prefix + "roughness");
     float u = params.number(prefix + "uroughness", roughness);
     float v = params.number(prefix + "vroughness", roughness);
@@ -46,9 +185,7 @@ inline Rgb read_metal(const Params& params, const std::string& prefix, const std
 /// Nothing for a material that is as if the surface were not there: it only bounds media.
 inline std::optional<Material> read_material(const Params& params, const TextureReader& textures) {
     const std::string& type = params.type();
-    for (const char* absent : {"", "interface", "none", "thindielectric"}) {
-        if (type == absent) return {};
-    }
+    if (type.empty() || has_word("interface none thindielectric", type)) return {};
     Material material;
     material.at = kept(params.at());
     if (type == "dielectric") {
@@ -62,7 +199,7 @@ inline std::optional<Material> read_material(const Params& params, const Texture
 
     // One colour, or a texture and its largest value.
     material.reflectance = params.color("reflectance");
-    std::optional<NamedTexture> texture = textures.find(params, "reflectance");
+    const NamedTexture* texture = textures.find(params, "reflectance");
     if (texture) material.reflectance = texture->most;
     if (texture && texture->needs_uv) material.texture = static_cast<uint16_t>(texture->index + 1);
     if (!type.ends_with("conductor")) return material;

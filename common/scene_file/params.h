@@ -16,6 +16,8 @@ struct Param {
     std::vector<std::string> strings;
     bool is_default = false;  // given by Attribute, also to directives that do not know it
 };
+/// Parameters by their names.
+using ParamMap = std::map<std::string, Param>;
 
 /// The words between blanks.
 inline std::vector<std::string> words_of(const std::string& line) {
@@ -24,61 +26,41 @@ inline std::vector<std::string> words_of(const std::string& line) {
     for (std::string word; in >> word;) words.push_back(word);
     return words;
 }
+inline bool has_word(const std::string& line, const std::string& word) {
+    return (' ' + line + ' ').find(' ' + word + ' ') != std::string::npos;
+}
 
-/// A type of parameters.
-struct ParamType {
-    static constexpr std::string_view number = "a number", text = "a string in quotes",
-                                      whole = "a whole number", truth = "true or false",
-                                      spectrum = "a name or numbers";
-
-    std::string_view needs;  // what each of its values must be
-    size_t group = 1;        // how many of them make one
-    double low = -double{infinity}, high = double{infinity};
-};
-inline const std::map<std::string, ParamType> param_types = {
-    {"blackbody", {ParamType::number, 1, 500, 1e6}},
-    {"bool", {ParamType::truth}},
-    {"float", {ParamType::number}},
-    {"integer", {ParamType::whole}},
-    {"normal", {ParamType::number, 3}},
-    {"point3", {ParamType::number, 3}},
-    {"point2", {ParamType::number, 2}},
-    {"rgb", {ParamType::number, 3}},
-    {"spectrum", {ParamType::spectrum}},
-    {"string", {ParamType::text}},
-    {"texture", {ParamType::text}},
-    {"vector3", {ParamType::number, 3}},
-    {"vector2", {ParamType::number, 2}}};
+/// The types of parameters, and how many numbers or strings make one.
+inline const std::map<std::string, size_t> param_types = {
+    {"blackbody", 1}, {"bool", 1},    {"float", 1},  {"integer", 1},  {"normal", 3},
+    {"point3", 3},    {"point2", 2},  {"rgb", 3},    {"spectrum", 1}, {"string", 1},
+    {"texture", 1},   {"vector3", 3}, {"vector2", 2}};
 
 // One message about a scene of pbrt-v3 is enough: nearly every line of it has to change.
 inline void refuse_old(const Position& at, const std::string& word) {
-    for (const char* old :
-         {"area", "glass", "image", "matte", "metal", "mirror", "plastic", "substrate", "uber"}) {
-        if (word != old) continue;
-        stop_reading(at, quote(word) + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
-                             "pbrt --upgrade old.pbrt > new.pbrt");
-    }
+    if (!has_word("area glass image matte metal mirror plastic substrate uber", word)) return;
+    stop_reading(at, quote(word) + " is of pbrt-v3: let pbrt-v4 convert the scene, by " +
+                         "pbrt --upgrade old.pbrt > new.pbrt");
 }
 
 // Adds one value to the parameter.
-inline void read_value(Lexer& lexer, const ParamType& type, Param& param) {
-    std::string name = quote(param.type + ' ' + param.name);
-    Token token = lexer.peek();
-    bool is_text = type.needs == type.text, is_either = type.needs == type.spectrum;
-    if (token.type == Token::string && (is_text || is_either)) {
-        param.strings.push_back(lexer.unescape(lexer.next()));
-    } else if (type.needs == type.number || is_either) {
-        param.numbers.push_back(lexer.number(name));
-    } else {
-        lexer.next();
+inline void read_value(Lexer& lexer, Param& param) {
+    const std::string &type = param.type, name = quote(type + ' ' + param.name);
+    bool is_string = lexer.peek().type == Token::string;
+    if (type == "string" || type == "texture" || (type == "spectrum" && is_string)) {
+        Token token = lexer.expect(Token::string, name + " needs a string in quotes");
+        param.strings.push_back(lexer.unescape(token));
+    } else if (type == "bool" || type == "integer") {
+        Token token = lexer.next();
+        bool is_true = token.text == "true";
         std::optional<double> value;
-        if (type.needs == type.whole) value = to_integer(token.text);
-        if (type.needs == type.truth && token.text == "true") value = 1;
-        if (type.needs == type.truth && token.text == "false") value = 0;
-        if (!value || token.type != Token::word) {
-            lexer.fail_at(token, name + " needs " + std::string(type.needs));
-        }
+        if (type == "integer") value = to_integer(token.text);
+        if (type == "bool" && (is_true || token.text == "false")) value = is_true;
+        const std::string needs = type == "bool" ? " needs true or false" : " needs a whole number";
+        if (is_string || !value) lexer.fail_at(token, name + needs);
         param.numbers.push_back(*value);
+    } else {
+        param.numbers.push_back(lexer.number(name));
     }
 }
 
@@ -93,19 +75,13 @@ inline Param read_param(Lexer& lexer) {
     param.type = words[0];
     param.name = words[1];
     refuse_old(param.at, param.type);
-    const ParamType& type = look_up(param_types, param.type, "parameter type", param.at);
-    if (lexer.peek().type != Token::opens) {
-        read_value(lexer, type, param);
-    } else {
-        Token open = lexer.next();
-        while (lexer.peek().type != Token::closes) {
-            if (lexer.peek().type == Token::end) fail(lexer.at(open), "the file ends before ]");
-            read_value(lexer, type, param);
-        }
-        lexer.next();
-    }
-    if (param.numbers.empty() && param.strings.empty())
-        fail(param.at, quote(declared) + " is empty");
+    look_up(param_types, param.type, "parameter type", param.at);
+    bool is_list = lexer.peek().type == Token::opens;
+    if (is_list) lexer.next();
+    do {
+        read_value(lexer, param);
+    } while (is_list && lexer.peek().type != Token::closes);
+    if (is_list) lexer.next();
     return param;
 }
 
@@ -123,10 +99,6 @@ using KnownParams = std::map<std::string, const ParamRow*>;
 /// Those of each directive, by its type, such as those of Shape and "disk".
 const std::map<std::string, std::map<std::string, KnownParams>>& known_params();
 
-inline auto named(const std::string& name) {
-    return [&](const Param& param) { return param.name == name; };
-}
-
 inline std::string digits(double x) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.10g", x);
@@ -141,8 +113,8 @@ public:
     /// token that is none; `defaults` count where it has none of their name. Throws for a type that
     /// is unknown.
     Params(Lexer& lexer, const std::string& directive, const Position& at, Input& input,
-           const std::vector<Param>& defaults = {})
-        : input_(&input), at_(at), directive_(directive) {
+           const ParamMap& defaults)
+        : input_(&input), at_(at), directive_(directive), params_(defaults) {
         bool is_named = directive_ == "MakeNamedMaterial";  // of which the type is a parameter
         Position type_at = at_;
         if (!is_named) {
@@ -153,14 +125,7 @@ public:
         while (lexer.peek().type == Token::string) {
             Param param = read_param(lexer);
             check_limit(param.at, params_.size() + 1, 100, "parameters of one directive");
-            if (std::erase_if(params_, named(param.name)) > 0) {
-                input.note(param.at, quote(param.name) + " of " + owner() +
-                                         " is given twice: the last one counts");
-            }
-            params_.push_back(std::move(param));
-        }
-        for (size_t i = defaults.size(); i-- > 0;) {
-            if (!find(defaults[i].name)) params_.push_back(defaults[i]);
+            params_[param.name] = std::move(param);
         }
         // Say here what is wrong, not where a parameter behind it is missing.
         if (lexer.has_argument()) lexer.fail_at(lexer.peek(), "expected a directive");
@@ -169,33 +134,34 @@ public:
             if (type.type == "string") type_ = type.strings[0];
             type_at = type.at;
             directive_ = "Material";
-            std::erase_if(params_, named("type"));
+            params_.erase("type");
         }
         check_type(type_at);
-        std::erase_if(params_, [&](const Param& param) { return !is_usable(param); });
+        std::erase_if(params_, [&](const auto& param) { return !is_usable(param.second); });
     }
 
     const std::string& type() const { return type_; }
     /// Whether the type is not supported: what is read stands in for it.
     bool stands_in() const { return stands_in_; }
     Input& input() const { return *input_; }
-
     /// Where the directive stands, and where a parameter does (the directive if it is not given).
-    const Position& at() const { return at_; }
-    const Position& at(const std::string& name) const {
+    const Position& at(const std::string& name = "") const {
         const Param* param = find(name);
         return param ? param->at : at_;
     }
     /// The directive and its type, for messages.
     std::string owner() const { return directive_ + ' ' + quote(type_); }
-    /// Says of the directive that it is not done as the file says, or is not modelled.
-    void note(const std::string& text) const { input_->note(at_, text); }
-    void stand_in(const std::string& what) const { input_->stand_in(at_, what); }
+    /// Says of the directive that it is not done as the file says; of what `name` gives, or of the
+    /// directive, that it is not modelled.
+    void note(const std::string& text) const { input_->note(at_, owner() + ' ' + text); }
+    void stand_in(const std::string& what, const std::string& name = "") const {
+        input_->stand_in(at(name), what);
+    }
 
     /// The parameter of this name; null if not given.
     const Param* find(const std::string& name) const {
-        auto found = std::find_if(params_.begin(), params_.end(), named(name));
-        return found == params_.end() ? nullptr : &*found;
+        auto found = params_.find(name);
+        return found == params_.end() ? nullptr : &found->second;
     }
     /// The same; throws if not given.
     const Param& required(const std::string& name) const {
@@ -204,13 +170,12 @@ public:
         return *param;
     }
     /// The value of a parameter; where it is not given that of the table, or the one given here.
-    float number(const std::string& name) const {
-        auto row = known_->find(name);
-        return number(name, row == known_->end() ? 0 : static_cast<float>(row->second->fallback));
-    }
-    float number(const std::string& name, float fallback) const {
+    float number(const std::string& name, std::optional<float> fallback = {}) const {
         const Param* param = find(name);
-        return param && !param->numbers.empty() ? static_cast<float>(param->numbers[0]) : fallback;
+        if (param && !param->numbers.empty()) return static_cast<float>(param->numbers[0]);
+        auto row = known_->find(name);
+        double usual = row == known_->end() ? 0 : row->second->fallback;
+        return fallback.value_or(static_cast<float>(usual));
     }
     int integer(const std::string& name) const { return static_cast<int>(number(name)); }
     bool boolean(const std::string& name) const { return number(name) != 0; }
@@ -222,9 +187,9 @@ public:
     std::vector<Vec3> points(const std::string& name) const {
         std::vector<Vec3> all;
         const Param* param = find(name);
-        if (param) all.resize(param->numbers.size() / 3);
-        for (size_t i = 0; i < 3 * all.size(); i++) {
-            all[i / 3][static_cast<int>(i % 3)] = static_cast<float>(param->numbers[i]);
+        for (size_t i = 0; param && i + 2 < param->numbers.size(); i += 3) {
+            all.push_back(
+                to_vec3({param->numbers[i], param->numbers[i + 1], param->numbers[i + 2]}));
         }
         return all;
     }
@@ -246,23 +211,15 @@ private:
         stands_in_ = !or_stand_in(owner()).empty();
         if (stands_in_) input_->stand_in(at, owner());
         const auto& types = known_params().at(directive_);
-        auto found = types.find(type_);
-        if (found == types.end()) {
-            refuse_old(at, type_);
-            std::vector<std::string> known = names_of(types);
-            std::erase_if(known, [&](const std::string& type) {
-                return !or_stand_in(directive_ + ' ' + quote(type)).empty();
-            });
-            fail_unknown(at, directive_, type_, known);
-        }
-        known_ = &found->second;
+        if (!types.contains(type_)) refuse_old(at, type_);
+        known_ = &look_up(types, type_, directive_, at);
     }
     bool is_usable(const Param& param) const {
         const std::string given = quote(param.type + ' ' + param.name) + " of " + owner();
         auto found = known_->find(param.name);
         if (found == known_->end()) {
-            if (param.is_default || stands_in_) return false;
-            input_->error(param.at, unknown(owner() + " parameter", param.name, names_of(*known_)));
+            std::string wrong = unknown(owner() + " parameter", param.name, names_of(*known_));
+            if (!stands_in_ && !param.is_default) input_->error(param.at, wrong);
             return false;
         }
         const ParamRow& row = *found->second;
@@ -270,23 +227,21 @@ private:
             input_->stand_in(param.at, row.stand_in, given + " is not supported");
             return true;
         }
-        const ParamType& type = param_types.at(param.type);
-        const std::vector<std::string> types = words_of(row.types);
         size_t count = param.numbers.size() + param.strings.size();
-        size_t group = std::max(row.values, size_t{1}) * type.group;
-        double low = std::max(row.low, type.low), high = std::min(row.high, type.high);
-        auto is_outside = [&](double x) { return x < low || x > high; };
+        size_t group = std::max(row.values, size_t{1}) * param_types.at(param.type);
+        bool is_spectrum = param.type == "spectrum";
+        auto is_outside = [&](double x) { return x < row.low || x > row.high; };
         std::string wrong, stand_in;
-        if (std::find(types.begin(), types.end(), param.type) == types.end() ||
-            (param.type == "spectrum" && param.strings.empty())) {
+        if (!has_word(row.types, param.type) || (is_spectrum && param.strings.empty())) {
             wrong = given + " must be of type " + row.types;
             if (param.type == "texture") stand_in = "a texture that is no reflectance";
-            if (param.type == "spectrum") stand_in = "a spectrum that is not known";
+            if (is_spectrum) stand_in = "a spectrum that is not known";
         } else if (row.values > 0 ? count != group : count % group != 0) {
             wrong = given + " has " + std::to_string(count) + " values, not " +
                     (row.values > 0 ? "" : "a multiple of ") + std::to_string(group);
         } else if (std::any_of(param.numbers.begin(), param.numbers.end(), is_outside)) {
-            wrong = quote(param.name) + " must be from " + digits(low) + " to " + digits(high);
+            wrong =
+                quote(param.name) + " must be from " + digits(row.low) + " to " + digits(row.high);
         }
         if (!stand_in.empty()) {
             input_->stand_in(param.at, stand_in, wrong);
@@ -301,5 +256,5 @@ private:
     std::string directive_, type_;
     bool stands_in_ = false;
     const KnownParams* known_ = nullptr;
-    std::vector<Param> params_;
+    ParamMap params_;
 };

@@ -1,25 +1,24 @@
 #include "common/scene_file/reader.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "common/base/text.h"
-#include "common/material/metal.h"
 #include "common/scene/mover.h"
-#include "common/scene_file/lights.h"
-#include "common/scene_file/settings.h"
 #include "common/scene_file/shapes.h"
 
 namespace {
 
-constexpr const char* moving_light = "a light or camera that moves";
+constexpr const char *moving_light = "a light or camera that moves",
+                     *unusable = "the transform has no inverse, projects, or is too large or small";
 
 /// Reads directive by directive, in one file and in all that it includes, and keeps what holds for
 /// what comes next. What is wrong with one directive does not keep it from reading the next.
 class Reader {
 public:
     explicit Reader(Input& input) : input_(input) {
-        scene_.materials.emplace_back();  // of shapes that are given none
+        scene_.materials.emplace_back();  // number 0, grey, of shapes that are given none
     }
 
     Scene read_scene(std::string text) {
@@ -27,11 +26,9 @@ public:
             input_.add_file(input_.main_file, text);
             read(input_.main_file, std::move(text));
             // What is missing may be in what could not be used.
-            if (input_.errors() == 0) finish();
-        } catch (const InputError& error) {
+            if (input_.errors.empty()) finish();
+        } catch (const std::runtime_error& error) {  // an InputError, or where reading ends
             input_.add(error);
-        } catch (const ReadingEnds& end) {
-            input_.add(end);
         }
         scene_.origin = std::make_shared<Origin>(input_.finish());
         return std::move(scene_);
@@ -55,20 +52,18 @@ private:
              Block::both, &R::unsupported},
             {"Attribute", Block::both, &R::attribute},
             {"AttributeBegin TransformBegin", Block::world, &R::begin},
-            {"AttributeEnd TransformEnd", Block::world, &R::end},
+            {"AttributeEnd ObjectEnd TransformEnd", Block::world, &R::end},
             {"Camera", Block::options, &R::camera},
             {"CoordSysTransform", Block::both, &R::coord_sys_transform},
             {"CoordinateSystem", Block::both, &R::coordinate_system},
             {"Identity Translate Scale Rotate LookAt Transform ConcatTransform", Block::both,
              &R::move},
-            {"Import", Block::world, &R::include},
-            {"Include", Block::both, &R::include},
+            {"Import Include", Block::both, &R::include},
             {"LightSource", Block::world, &R::light_source},
             {"MakeNamedMaterial", Block::world, &R::make_named_material},
             {"Material", Block::world, &R::material},
             {"NamedMaterial", Block::world, &R::named_material},
             {"ObjectBegin", Block::world, &R::object_begin},
-            {"ObjectEnd", Block::world, &R::object_end},
             {"ObjectInstance", Block::world, &R::object_instance},
             {"ReverseOrientation", Block::world, &R::reverse_orientation},
             {"Shape", Block::world, &R::shape},
@@ -86,27 +81,21 @@ private:
     }
 
     void read(const std::string& path, std::string text) {
-        constexpr size_t most_errors = 20;
         Lexer lexer(path, std::move(text), input_.report);
         Lexer* outer = std::exchange(lexer_, &lexer);
-        open_files_.push_back(canonical(path));
+        check_limit(at_, ++open_files_, 100, "files in each other");
         while (lexer.peek().type != Token::end) {
             try {
                 read_directive(lexer.next());
             } catch (const InputError& error) {
                 input_.add(error);
-                skip_arguments();
+                lexer.skip_arguments();
             }
-            if (input_.errors() < most_errors) continue;
+            if (input_.errors.size() < 20) continue;
             stop_reading({input_.main_file}, "so much is wrong that the rest is not read");
         }
-        open_files_.pop_back();
+        open_files_--;
         lexer_ = outer;
-    }
-
-    // Reads over what is left of a directive.
-    void skip_arguments() {
-        while (lexer_->has_argument()) lexer_->next();
     }
 
     void read_directive(const Token& word) {
@@ -121,60 +110,41 @@ private:
         if (block == (in_world_ ? Block::options : Block::world)) {
             fail(at_, name_ + " must stand " + (in_world_ ? "before" : "after") + " WorldBegin");
         }
-        if (block == Block::options && !options_read_.insert(name_).second) {
-            input_.note(at_, "a second " + name_ + ": the last one counts");
-        }
+        if (block == Block::options) options_read_.insert(name_);
         (this->*read)();
     }
 
-    // Those of the directive, and of Attribute for what it makes.
-    Params params(const std::string& what = "medium") {
-        return Params(*lexer_, name_, at_, input_, state_.defaults[what]);
-    }
+    Params params() { return Params(*lexer_, name_, at_, input_, state_.defaults[name_]); }
     // The name in quotes behind the directive.
     std::string name() {
         return lexer_->unescape(lexer_->expect(Token::string, name_ + " needs a name in quotes"));
     }
 
     void include() {
+        std::string path = input_.find(at_, name()), text;
         bool is_import = name_ == "Import";
-        Position at = at_;
-        std::string path = input_.find(at, name()), file = canonical(path), text;
-        if (std::find(open_files_.begin(), open_files_.end(), file) != open_files_.end()) {
-            fail(at, quote_file(path) + " includes itself");
-        }
-        check_limit(at, open_files_.size(), 100, "files include each other");
-        check_limit(at, ++includes_, 10000, "files are included");
-        if (!input_.try_to_read(at, "a scene file that cannot be read",
-                                [&] { text = input_.read(path, at); })) {
-            return;
-        }
-        if (!is_import) return read(path, std::move(text));
-        // What Import changes, it changes for the file alone.
-        begin();
-        read(path, std::move(text));
-        name_ = "Import";
-        at_ = at;
-        end();
+        State outer = state_;
+        bool is_read = input_.try_to_read(at_, "a scene file that cannot be read",
+                                          [&] { text = input_.read(path, at_); });
+        if (is_read) read(path, std::move(text));
+        if (is_import) state_ = outer;
     }
 
     void move() {
         Transform step = read_transform(*lexer_, name_);
         bool replaces = name_ == "Identity" || name_ == "Transform";
-        if (replaces) state_.unusable.clear();
         for (auto [is_set, t] :
              {std::pair(state_.set_start, &state_.start), std::pair(state_.set_end, &state_.end)}) {
             if (!is_set) continue;
-            *t = replaces ? step : *t * step;
-            if (is_usable(*t) || !state_.unusable.empty()) continue;
-            state_.unusable = message_at(
-                at_, "error", "the transform has no inverse, projects, or is too large or small");
+            Transform next = replaces ? step : *t * step;
+            if (!is_usable(next)) fail(at_, unusable);
+            *t = next;
         }
     }
 
     void active_transform() {
         Token which = lexer_->next();
-        if (which.text != "All" && which.text != "StartTime" && which.text != "EndTime") {
+        if (!has_word("All StartTime EndTime", std::string(which.text))) {
             lexer_->fail_at(which, "ActiveTransform needs All, StartTime or EndTime");
         }
         state_.set_start = which.text != "EndTime";
@@ -182,39 +152,39 @@ private:
     }
 
     void attribute() {
-        std::string what = name();
-        look_up(state_.defaults, what, "Attribute", at_);
-        std::vector<Param>& defaults = state_.defaults[what];
+        static const std::map<std::string, std::string> directives = {
+            {"light", "AreaLightSource LightSource"},
+            {"material", "Material"},
+            {"medium", ""},
+            {"shape", "Shape"},
+            {"texture", "Texture"}};
+        const std::string whose = look_up(directives, name(), "Attribute", at_);
         while (lexer_->peek().type == Token::string) {
-            check_limit(at_, defaults.size() + 1, 100, "attributes");
-            defaults.push_back(read_param(*lexer_));
-            defaults.back().is_default = true;
+            Param param = read_param(*lexer_);
+            param.is_default = true;
+            for (const std::string& each : words_of(whose)) {
+                state_.defaults[each][param.name] = param;
+            }
         }
     }
 
-    void coordinate_system() {
-        std::string own = name();
-        if (!state_.unusable.empty()) throw InputError(state_.unusable);
-        coordinate_systems_[own] = {state_.start, state_.end};
-    }
+    void coordinate_system() { coordinate_systems_[name()] = {state_.start, state_.end}; }
 
     void coord_sys_transform() {
         std::tie(state_.start, state_.end) =
             look_up(coordinate_systems_, name(), "coordinate system", at_);
-        state_.unusable = {};
     }
 
     void unsupported() {
-        skip_arguments();
+        lexer_->skip_arguments();
         if (or_stand_in(name_).empty()) return input_.note(at_, name_ + " is ignored");
         input_.stand_in(at_, name_);
     }
 
     void camera() {
         Params read = params();
-        Transform camera_from_world = still_transform(read);
-        scene_.camera = read_camera(read, camera_from_world);
-        Transform world_from_camera = inverse(camera_from_world);
+        Transform world_from_camera = inverse(still_transform(read));
+        scene_.camera = read_camera(read, world_from_camera);
         coordinate_systems_["camera"] = {world_from_camera, world_from_camera};
     }
 
@@ -222,43 +192,35 @@ private:
 
     void world_begin() {
         in_world_ = true;
-        State fresh;
-        fresh.defaults = std::move(state_.defaults);
-        state_ = std::move(fresh);
+        state_.start = state_.end = {};
+        state_.set_start = state_.set_end = true;
         coordinate_systems_["world"] = {};
     }
 
-    void area_light_source() { state_.emission = read_area_light(params("light")); }
+    void area_light_source() { state_.emission = read_area_light(params()); }
 
     void begin() {
-        check_limit(at_, saved_.size() + 1, 1000, "blocks in each other");
-        saved_.push_back(state_);
-        state_.begin = name_;
-        state_.at = at_;
+        check_limit(at_, blocks_.size() + 1, 1000, "blocks in each other");
+        blocks_.push_back({name_, at_, state_});
     }
 
     void end() {
-        if (saved_.empty()) fail(at_, name_ + " without a beginning");
-        if (state_.begin.front() != name_.front()) {
-            fail(at_, name_ + " cannot close the " + state_.begin + " of line " +
-                          std::to_string(state_.at.line));
+        if (blocks_.empty() || blocks_.back().name.front() != name_.front()) {
+            fail(at_, name_ + " without a beginning");
         }
-        state_ = saved_.back();
-        saved_.pop_back();
+        if (name_ == "ObjectEnd") open_object_ = nullptr;
+        state_ = blocks_.back().state;
+        blocks_.pop_back();
     }
 
     void light_source() {
-        Params read = params("light");
+        Params read = params();
         bool is_sky = read.type() == "infinite", is_picture = read.find("filename");
         // A sky of one color is the same wherever it stands.
         Transform place = is_sky && !is_picture ? Transform{} : still_transform(read);
-        if (is_picture && has_sky_image_) {
-            input_.stand_in(at_, "a second picture of the sky");
-        } else if (is_picture) {
-            has_sky_image_ = true;  // also when it cannot be read: then it is not read again
-            sky_image_ = read_sky_image(read, place);
-            if (sky_image_) return;
-        }
+        if (is_picture && sky_image_) fail(at_, "a second picture of the sky");
+        if (is_picture) sky_image_ = read_sky_image(read, place);
+        if (sky_image_ && is_picture) return;
         Light light = read_light(read, place);
         if (!is_black(light.L)) scene_.lights.push_back(light);
     }
@@ -280,7 +242,7 @@ private:
     }
 
     void material() {
-        std::optional<Material> material = read_material(params("material"), textures_);
+        std::optional<Material> material = read_material(params(), textures_);
         scene_.materials.push_back(material.value_or(Material{}));
         state_.material = static_cast<uint32_t>(scene_.materials.size() - 1);
         if (!material) absent_.insert(state_.material);
@@ -310,40 +272,31 @@ private:
         open_object_ = &objects_[own];
     }
 
-    void object_end() {
-        end();
-        open_object_ = nullptr;
-    }
-
     // They are placed when all objects are known.
     void object_instance() {
         std::string own = name();
         if (open_object_) fail(at_, "ObjectInstance inside an object");
-        instances_.push_back({own, state_});
-        instances_.back().second.at = at_;
+        instances_.push_back({own, at_, state_});
     }
 
     void place_instances() {
-        for (const auto& [object, state] : instances_) {
-            for (const auto& [shape, inside] : look_up(objects_, object, "object", state.at)) {
-                check_limit(state.at, ++placed_, input_.limits.directives,
-                            "shapes of objects are placed");
+        for (const auto& [object, at, state] : instances_) {
+            for (const auto& [shape, inside] : look_up(objects_, object, "object", at)) {
                 State where = inside;
                 where.start = state.start * inside.start;
                 where.end = state.end * inside.end;
-                if (where.unusable.empty()) where.unusable = state.unusable;
+                if (!is_usable(where.start) || !is_usable(where.end)) fail(at, unusable);
                 place(shape, where);
             }
         }
     }
 
     void shape() {
-        Params read = params("shape");
+        Params read = params();
         if (!open_object_) return place(read, state_);
         // Keep it for the instances.
         open_object_->push_back({read, state_});
         State& kept = open_object_->back().second;
-        kept.defaults.clear();
         if (kept.emission) input_.note(at_, "lights inside an object are left out, as in pbrt");
         kept.emission = {};
     }
@@ -353,36 +306,29 @@ private:
         bool is_clear = alpha && alpha->numbers == std::vector<double>{0} && !where.emission;
         bool is_nothing = params.stands_in() && params.type() != "loopsubdiv";
         if (absent_.contains(where.material) || is_nothing || is_clear) return;
-        if (!where.unusable.empty()) throw InputError(where.unusable);
         bool moves = where.start != where.end;
-        if (moves && where.emission) {
-            input_.stand_in(params.at(), moving_light);
-            moves = false;
-        }
+        if (moves && where.emission) input_.stand_in(params.at(), moving_light);
         std::optional<Mover> mover;
-        if (moves) {
+        if (moves && !where.emission) {
             check_limit(params.at(), scene_.movers.size() + 1, 1000, "shapes that move");
             mover.emplace(where.start, where.end);
             mover->at = kept(params.at());
             std::swap(scene_.geometry, mover->geometry);
         }
-        size_t primitives = scene_.geometry.size(), vertices = scene_.geometry.positions.size();
         read_shape(params, where, scene_);
-        primitives_ += scene_.geometry.size() - primitives;
-        vertices_ += scene_.geometry.positions.size() - vertices;
-        check_limit(params.at(), primitives_, input_.limits.primitives,
+        const Geometry& g = scene_.geometry;
+        check_limit(params.at(), g.size(), input_.limits.primitives,
                     "triangles, spheres and disks");
-        check_limit(params.at(), vertices_, input_.limits.vertices, "vertices");
+        check_limit(params.at(), g.positions.size(), input_.limits.vertices, "vertices");
         if (!mover) return;
         std::swap(scene_.geometry, mover->geometry);
         if (mover->geometry.size() > 0) scene_.movers.push_back(std::move(*mover));
     }
 
-    void texture() { textures_.read(*lexer_, at_, input_, state_.defaults["texture"]); }
+    void texture() { textures_.read(*lexer_, at_, input_, state_.defaults["Texture"]); }
 
     // The current transform; not supported where it moves while the shutter is open.
     Transform still_transform(const Params& params) {
-        if (!state_.unusable.empty()) throw InputError(state_.unusable);
         if (state_.start != state_.end) input_.stand_in(params.at(), moving_light);
         return state_.start;
     }
@@ -391,24 +337,17 @@ private:
     void check_uvs(const Geometry& g) {
         for (const Triangle& t : g.triangles) {
             Shape& shape = scene_.shapes[t.shape];
-            Material plain = scene_.materials[shape.material];
             bool has_uv = !g.uvs.empty() && !std::isnan(g.uvs[t.v[0]].x);
-            if (plain.texture == 0 || has_uv) continue;
+            if (scene_.materials[shape.material].texture == 0 || has_uv) continue;
             input_.stand_in(*shape.at, "a textured mesh without usable uv");
-            plain.reflectance = textures_.mean(plain.texture - 1u);
-            if (plain.type == MaterialType::conductor) {
-                plain.k = k_of_reflectance(plain.reflectance);
-            }
-            plain.texture = 0;
-            shape.material = static_cast<uint32_t>(scene_.materials.size());
-            scene_.materials.push_back(plain);
+            shape.material = 0;
         }
     }
 
     // pbrt renders what is missing without complaint, and we only with stand-ins.
     void check_complete() {
         Position file = {input_.main_file};
-        if (!saved_.empty()) fail(state_.at, state_.begin + " is never closed");
+        if (!blocks_.empty()) fail(blocks_.back().at, blocks_.back().name + " is never closed");
         for (const auto& [name, at] : unmade_) named_materials_.erase(name);
         for (const auto& [name, at] : unmade_) {
             input_.error(at, unknown("material", name, names_of(named_materials_)));
@@ -426,7 +365,11 @@ private:
             Light sky;
             sky.type = LightType::infinite;
             sky.L = {0.5f, 0.5f, 0.5f};
+            sky.at = kept(file);
             scene_.lights.push_back(sky);
+        }
+        if (!options_read_.contains("PixelFilter")) {
+            input_.note(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
         }
     }
 
@@ -442,30 +385,27 @@ private:
         }
     }
 
+    // Gives a light what pbrt's film does: twice the exposure is a picture twice as bright.
+    void expose(std::span<Rgb> L, const Position* at) {
+        // From all sides, and 1e9 m away: 1e35 W. Powers of brighter lights may be no floats.
+        constexpr float brightest = 1e15f;
+        const Camera& camera = scene_.camera;
+        float exposure = (camera.shutter_close - camera.shutter_open) * iso_ / 100, most = 0;
+        for (Rgb& each : L) {
+            each *= exposure;
+            most = std::max(most, is_finite(each) ? max_component(each) : infinity);
+        }
+        if (most > 0 && most <= brightest) return;
+        input_.error(*at, "the light, times shutter and iso / 100, is 0 or more than 1e15");
+    }
+
     void finish() {
-        Position file = {input_.main_file};
         check_complete();
         number_light_primitives();
-
-        // Give the lights what pbrt's film does: twice the exposure is a picture twice as bright.
-        const Camera& camera = scene_.camera;
-        float exposure = (camera.shutter_close - camera.shutter_open) * iso_ / 100;
-        bool usable = true;
-        auto expose = [&](Rgb& L) {
-            L *= exposure;
-            usable &= !too_bright(L);
-        };
-        for (Light& light : scene_.lights) {
-            expose(light.L);
-            usable &= !is_black(light.L);
-        }
+        for (Light& light : scene_.lights) expose({&light.L, 1}, light.at);
         if (sky_image_) {
-            for (Rgb& L : sky_image_->pixels) expose(L);
+            expose(sky_image_->pixels, sky_image_->at_file);
             scene_.sky_image = std::make_shared<SkyImage>(std::move(*sky_image_));
-        }
-        if (!usable) fail(file, "shutter or iso leave no usable light");
-        if (!options_read_.contains("PixelFilter")) {
-            input_.note(file, "no PixelFilter: pbrt's \"gaussian\" is replaced by the box");
         }
         // Keep what textures need only if there are some.
         auto has_texture = [](const Material& m) { return m.texture != 0; };
@@ -481,26 +421,30 @@ private:
     Scene scene_;
     std::optional<SkyImage> sky_image_;
     float iso_ = 100;
-    bool in_world_ = false, has_sky_image_ = false;
+    bool in_world_ = false;
 
-    Lexer* lexer_ = nullptr;               // of the innermost file
-    std::string name_;                     // of the directive that is read
-    Position at_;                          // where it stands
-    std::vector<std::string> open_files_;  // by their canonical names
-    std::set<std::string> options_read_;   // Camera and its like
-    uint64_t directives_read_ = 0, includes_ = 0;
+    Lexer* lexer_ = nullptr;              // of the innermost file
+    std::string name_;                    // of the directive that is read
+    Position at_;                         // where it stands
+    std::set<std::string> options_read_;  // Camera and its like
+    uint64_t directives_read_ = 0, open_files_ = 0;
 
+    /// The state where a block or an instance of an object begins, with the name of which.
+    struct Place {
+        std::string name;
+        Position at;
+        State state;
+    };
     State state_;
-    std::vector<State> saved_;
+    std::vector<Place> blocks_;
     std::map<std::string, uint32_t> named_materials_;  // into Scene::materials
     std::map<std::string, Position> unmade_;           // those that are only used yet, and where
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
     std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
     using Shapes = std::vector<std::pair<Params, State>>;  // between ObjectBegin and ObjectEnd
     std::map<std::string, Shapes> objects_;
-    std::vector<std::pair<std::string, State>> instances_;  // of which object; `at`: their places
-    Shapes* open_object_ = nullptr;                         // the one that is being defined
-    uint64_t placed_ = 0, primitives_ = 0, vertices_ = 0;
+    std::vector<Place> instances_;
+    Shapes* open_object_ = nullptr;  // the one that is being defined
 };
 
 }  // namespace
@@ -508,7 +452,7 @@ private:
 Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes,
                   const Report& report, const Limits& limits, bool stand_ins) {
     std::vector<std::string> unread;
-    Input input(path, limits, report, notes ? *notes : unread, stand_ins);
+    Input input = {path, limits, report, stand_ins, notes ? *notes : unread};
     return Reader(input).read_scene(std::move(text));
 }
 

@@ -1,5 +1,6 @@
 // Reads a scene from a file in our subset of pbrt-v4's scene language.
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,6 @@ struct Limits {
     uint64_t directives = 10'000'000;
     uint64_t primitives = uint64_t{1} << 25;  // triangles, spheres and disks
     uint64_t vertices = uint64_t{1} << 26;
-    uint64_t texels = uint64_t{1} << 28;  // of the pictures of all textures together
 };
 
 /// Reads the scene file and all that it includes. Everything is in world space afterwards, powers
@@ -34,11 +34,8 @@ Scene load_scene(const std::string& path, std::vector<std::string>* notes,
 Scene parse_scene(const std::string& path, std::string text, std::vector<std::string>* notes,
                   const Report& report = {}, const Limits& limits = {}, bool stand_ins = false);
 
-/// What --stand-in renders in the place of something that the programs do not model.
-struct StandIn {
-    std::string what, instead;
-};
-/// All of them, see supported.cpp; scenes/README.md sums them up.
-const std::vector<StandIn>& all_stand_ins();
+/// What --stand-in renders in the place of what the programs do not model, by its name; see
+/// supported.cpp. scenes/README.md sums them up.
+const std::map<std::string, std::string>& all_stand_ins();
 /// "; --stand-in renders it as INSTEAD", which ends a message; empty for what has no stand-in.
 std::string or_stand_in(const std::string& what);

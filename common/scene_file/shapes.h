@@ -3,28 +3,18 @@
 #include <limits>
 
 #include "common/scene/prepare.h"
-#include "common/scene_file/lights.h"
-#include "common/scene_file/materials.h"
+#include "common/scene_file/ply.h"
+#include "common/scene_file/settings.h"
 
 /// What AttributeBegin saves and AttributeEnd restores.
 struct State {
-    std::string begin;  // what began the block, and where
-    Position at;
     Transform start, end;  // the current transform when the shutter opens and when it closes
-    std::string unusable;  // why nothing can stand there, as a message
     bool set_start = true, set_end = true;  // which of them a transform directive changes
     uint32_t material = 0;                  // into Scene::materials
     std::optional<AreaEmission> emission;
     bool reverse_orientation = false;
-    std::map<std::string, std::vector<Param>> defaults = {
-        {"light", {}}, {"material", {}}, {"medium", {}}, {"shape", {}}, {"texture", {}}};
+    std::map<std::string, ParamMap> defaults = {};  // of directives, from Attribute
 };
-
-// Throws for a point so far out that squares of areas would overflow a float.
-inline void check_extent(const Params& params, Vec3 p) {
-    if (is_finite(p) && max_component(abs(p)) <= 1e9f) return;
-    fail(params.at(), params.owner() + " reaches farther than 1e9: choose a larger unit");
-}
 
 inline std::vector<uint32_t> read_indices(const Params& params, size_t vertices, size_t corners) {
     std::vector<double> numbers = {0, 1, 2, 3};
@@ -32,14 +22,13 @@ inline std::vector<uint32_t> read_indices(const Params& params, size_t vertices,
     if (vertices != corners || params.find("indices")) numbers = params.required("indices").numbers;
     Position at = params.at("indices");
     if (numbers.size() % corners != 0) {
-        fail(at, std::to_string(numbers.size()) + " indices, not a multiple of " +
-                     std::to_string(corners));
+        fail(at, "the number of indices is not a multiple of " + std::to_string(corners));
     }
     std::vector<uint32_t> indices;
     for (double index : numbers) {
         if (index < 0 || index >= static_cast<double>(vertices)) {
-            fail(at, "index " + std::to_string(static_cast<int>(index)) +
-                         " is out of range: there are " + std::to_string(vertices) + " vertices");
+            fail(at, "index " + digits(index) + " is out of range: there are " +
+                         std::to_string(vertices) + " vertices");
         }
         indices.push_back(static_cast<uint32_t>(index));
     }
@@ -58,25 +47,19 @@ inline TriangleMesh read_mesh(const Params& params) {
         mesh.uvs.push_back(
             {static_cast<float>(uv->numbers[i]), static_cast<float>(uv->numbers[i + 1])});
     }
-    for (auto [name, count] : {std::pair("N", mesh.normals.size()),
-                               {"S", params.points("S").size()},
-                               {"uv", mesh.uvs.size()}}) {
+    for (auto [name, count] : {std::pair("N", mesh.normals.size()), {"uv", mesh.uvs.size()}}) {
         if (!params.find(name) || count == mesh.positions.size()) continue;
         fail(params.at(name), quote(name) + " is not given for each of the vertices");
     }
-    if (!are_usable(mesh.uvs)) mesh.uvs.clear();
-    mesh.indices = read_indices(params, mesh.positions.size(), corners);
-    if (corners == 3) return mesh;
-
-    // The corners of a patch are at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
-    params.note("a bilinear patch is read as two triangles");
-    std::vector<uint32_t> patches = std::move(mesh.indices);
-    mesh.indices.clear();
-    for (size_t i = 0; i < patches.size(); i += 4) {
-        uint32_t a = patches[i], b = patches[i + 1], c = patches[i + 2], d = patches[i + 3];
-        mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
+    std::vector<uint32_t> indices = read_indices(params, mesh.positions.size(), corners);
+    for (size_t i = 0; i < indices.size(); i += corners) {
+        const uint32_t* v = &indices[i];
+        mesh.indices.insert(mesh.indices.end(), {v[0], v[1], v[corners - 1]});
+        if (corners == 4) mesh.indices.insert(mesh.indices.end(), {v[0], v[3], v[2]});
     }
-    if (!uv && mesh.positions.size() == 4 && patches == std::vector<uint32_t>{0, 1, 2, 3}) {
+    if (corners == 3) return mesh;
+    params.note("is read as two triangles for each patch");
+    if (!uv && mesh.positions.size() == 4 && indices == std::vector<uint32_t>{0, 1, 2, 3}) {
         mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
     }
     return mesh;
@@ -91,9 +74,11 @@ inline void add_vertices(const Params& params, const TriangleMesh& mesh, const S
         check_extent(params, world);
         g.positions.push_back(world);
     }
-    if (!mesh.uvs.empty() || !g.uvs.empty()) {
+    auto is_usable = [](Vec2 uv) { return std::abs(uv.x) <= 1e9f && std::abs(uv.y) <= 1e9f; };
+    bool has_uvs = std::all_of(mesh.uvs.begin(), mesh.uvs.end(), is_usable) && !mesh.uvs.empty();
+    if (has_uvs || !g.uvs.empty()) {
         g.uvs.resize(first, {NAN, NAN});
-        g.uvs.insert(g.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+        if (has_uvs) g.uvs.insert(g.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
         g.uvs.resize(g.positions.size(), {NAN, NAN});
     }
     if (mesh.normals.empty() && g.normals.empty()) return;
@@ -108,28 +93,20 @@ inline void add_vertices(const Params& params, const TriangleMesh& mesh, const S
     g.normals.resize(g.positions.size());
 }
 
-// The number of the Shape that is read.
-inline uint32_t next_shape(const Scene& scene) {
-    return static_cast<uint32_t>(scene.shapes.size());
-}
-
 // Adds the mesh, and turns each triangle so that its corners run counter-clockwise on its outside.
 // each: whether each triangle has a Shape of its own.
 inline void add_mesh(const Params& params, const TriangleMesh& mesh, const State& state, bool each,
                      Scene& scene) {
     Geometry& g = scene.geometry;
-    uint32_t first = static_cast<uint32_t>(g.positions.size()), shape = next_shape(scene);
+    uint32_t first = static_cast<uint32_t>(g.positions.size());
+    uint32_t shape = static_cast<uint32_t>(scene.shapes.size());
     add_vertices(params, mesh, state, g);
     bool mirrored = determinant(state.start) < 0;
-    uint64_t left_out = mesh.faces_left_out;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         uint32_t a = first + mesh.indices[i], b = first + mesh.indices[i + 1],
                  c = first + mesh.indices[i + 2];
         Vec3 normal = cross(g.positions[b] - g.positions[a], g.positions[c] - g.positions[a]);
-        if (!(length_squared(normal) >= std::numeric_limits<float>::min())) {
-            left_out++;
-            continue;
-        }
+        if (!(length_squared(normal) >= std::numeric_limits<float>::min())) continue;
         bool turn = mirrored != state.reverse_orientation;
         if (!mesh.normals.empty()) {
             float side = dot(normal, g.normals[a] + g.normals[b] + g.normals[c]);
@@ -139,70 +116,55 @@ inline void add_mesh(const Params& params, const TriangleMesh& mesh, const State
         g.triangles.push_back({{a, b, c}, shape});
         if (each) shape++;
     }
-    if (left_out > 0) {
-        params.note("left out triangles without area, and faces that do not have 3 or 4 corners: " +
-                    std::to_string(left_out));
-    }
+    if (mesh.faces_left_out == 0) return;
+    params.note("is read without faces of fewer than 3 or more than 4 corners: " +
+                std::to_string(mesh.faces_left_out));
 }
 
-// The one factor by which the transform scales these axes; not supported where there is none.
-inline double uniform_scale(const Params& params, const std::vector<Vec3d>& axes) {
+// The mean factor by which the transform scales these axes; not supported where they differ.
+inline double mean_scale(const Params& params, const std::vector<Vec3d>& axes) {
     constexpr double tolerance = 1e-3;  // for numbers written with few digits
-    double scale = length(axes[0]);
+    double scale = length(axes[0]), product = 1;
+    bool is_uniform = true;
     for (size_t i = 0; i < axes.size(); i++) {
         Vec3d next = axes[(i + 1) % axes.size()];
-        bool same = std::abs(length(next) - scale) <= tolerance * scale;
-        bool right_angle = std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
-        if (same && right_angle) continue;
-        params.stand_in("a sphere or disk scaled differently along its axes");
-        double product = 1;
-        for (Vec3d axis : axes) product *= length(axis);
-        return std::pow(product, 1 / static_cast<double>(axes.size()));
+        is_uniform &= std::abs(length(next) - scale) <= tolerance * scale;
+        is_uniform &= std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
+        product *= length(next);
     }
-    return scale;
+    if (is_uniform) return scale;
+    params.stand_in("a sphere or disk scaled differently along its axes");
+    return std::pow(product, 1 / static_cast<double>(axes.size()));
 }
 
-// The radius in the world.
-inline float read_radius(const Params& params, Vec3 centre, const std::vector<Vec3d>& axes) {
-    float r = static_cast<float>(params.number("radius") * uniform_scale(params, axes));
+// Adds a sphere or a disk, which is to be whole. pbrt clamps its limits to the whole.
+inline void add_round(const Params& params, const State& state, Shape& shape, Scene& scene) {
+    const Transform& t = state.start;
+    bool is_disk = params.type() == "disk";
+    float radius = params.number("radius");
+    float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
+    bool is_whole = std::min(z0, z1) <= -radius && std::max(z0, z1) >= radius;
+    if (params.number("phimax") < 360 || params.number("innerradius") != 0 || !is_whole) {
+        params.stand_in("a part of a sphere or disk");
+    }
+    double scale = mean_scale(params, is_disk ? std::vector{t.x, t.y} : std::vector{t.x, t.y, t.z});
+    float r = static_cast<float>(radius * scale);
     if (!(r * r >= std::numeric_limits<float>::min())) {
         fail(params.at("radius"), params.owner() + " is smaller than 1e-18: choose a smaller unit");
     }
-    check_extent(params, abs(centre) + Vec3{r, r, r});
-    return r;
-}
-
-// Parts are not supported. pbrt clamps an angle above 360 degrees.
-inline void require_whole(const Params& params, bool is_whole) {
-    if (params.number("phimax") >= 360 && is_whole) return;
-    params.stand_in("a part of a sphere or disk");
-}
-
-// The number of the axes of a sphere or disk; -1 where they are the world's.
-inline int add_axes(const Transform& t, Scene& scene) {
-    auto unit = [](Vec3d v) { return to_vec3(normalize(v)); };
-    Axes axes = {unit(t.x), unit(t.y), unit(t.z)};
-    if (axes == Axes{}) return -1;
-    scene.axes.push_back(axes);
-    return static_cast<int>(scene.axes.size()) - 1;
-}
-
-inline void add_sphere(const Params& params, const Transform& t, Scene& scene) {
-    float radius = params.number("radius");
-    // In either order, and clamped to the sphere, as in pbrt.
-    float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
-    require_whole(params, std::min(z0, z1) <= -radius && std::max(z0, z1) >= radius);
-    Vec3 centre = to_vec3(t.o);
-    scene.geometry.spheres.push_back(
-        {centre, read_radius(params, centre, {t.x, t.y, t.z}), next_shape(scene)});
-}
-
-inline void add_disk(const Params& params, const Transform& t, bool reverse, Scene& scene) {
-    require_whole(params, params.number("innerradius") == 0);
-    Vec3 centre = to_vec3(transform_point(t, {0, 0, params.number("height")}));
-    Vec3 normal = to_vec3(normalize(transform_normal(t, {0, 0, reverse ? -1.0 : 1.0})));
-    scene.geometry.disks.push_back(
-        {centre, normal, read_radius(params, centre, {t.x, t.y}), next_shape(scene)});
+    Vec3 c = to_vec3(transform_point(t, {0, 0, params.number("height")}));
+    check_extent(params, abs(c) + Vec3{r, r, r});
+    shape.x = to_vec3(normalize(t.x));
+    shape.y = to_vec3(normalize(t.y));
+    shape.z = to_vec3(normalize(t.z));
+    uint32_t number = static_cast<uint32_t>(scene.shapes.size());
+    if (!is_disk) {
+        shape.reverse = state.reverse_orientation;
+        scene.geometry.spheres.push_back({c, r, number});
+        return;
+    }
+    Vec3d up = {0, 0, state.reverse_orientation ? -1.0 : 1.0};
+    scene.geometry.disks.push_back({c, to_vec3(normalize(transform_normal(t, up))), r, number});
 }
 
 /// Adds the primitives of one Shape directive, where they are at the start, and their lights, to
@@ -219,24 +181,22 @@ inline void read_shape(const Params& params, const State& state, Scene& scene) {
     // With a power each primitive is a light of its own that sends all of it, as in pbrt.
     bool each = shines && state.emission->power > 0;
     size_t first = g.triangles.size(), before = g.size();
-    Shape shape = {state.material, -1, false, -1, kept(params.at())};
-    if (params.type() == "sphere") {
-        add_sphere(params, state.start, scene);
-        first += g.spheres.size() - 1;
-        shape.reverse = state.reverse_orientation;
-        shape.axes = add_axes(state.start, scene);
-    } else if (params.type() == "disk") {
-        add_disk(params, state.start, state.reverse_orientation, scene);
-        first = before;
-        shape.axes = add_axes(state.start, scene);
+    Shape shape;
+    shape.material = state.material;
+    shape.at = kept(params.at());
+    if (params.type() == "sphere" || params.type() == "disk") {
+        add_round(params, state, shape, scene);
+        first = params.type() == "disk" ? before : first + g.spheres.size() - 1;
     } else if (params.type() == "plymesh") {
         const Param& name = params.required("filename");
         Input& input = params.input();
-        const TriangleMesh* mesh = nullptr;
-        input.try_to_read(params.at(), "a mesh that cannot be read", [&] {
-            mesh = &input.mesh(input.find(name.at, name.strings[0]), name.at);
+        std::string path = input.find(name.at, name.strings[0]);
+        TriangleMesh mesh;
+        bool is_read = input.try_to_read(params.at(), "a mesh that cannot be read", [&] {
+            if (input.report) input.report("reading " + path, 0);
+            mesh = parse_ply(path, input.read(path, name.at), input.limits);
         });
-        if (mesh) add_mesh(params, *mesh, state, each, scene);
+        if (is_read) add_mesh(params, mesh, state, each, scene);
     } else {
         add_mesh(params, read_mesh(params), state, each, scene);
     }
@@ -244,7 +204,18 @@ inline void read_shape(const Params& params, const State& state, Scene& scene) {
     for (size_t i = first; i < first + (each ? added : std::min(added, size_t{1})); i++) {
         scene.shapes.push_back(shape);
         if (!shines) continue;
-        float area = area_of(emitter_of(scene, static_cast<uint32_t>(i)));
-        scene.shapes.back().light = add_light(params, *state.emission, area, scene);
+        Light light;
+        light.L = state.emission->L;
+        light.two_sided = state.emission->two_sided;
+        light.at = shape.at;
+        if (each) {
+            // Half of a patch's power for each of its triangles.
+            float area = area_of(emitter_of(scene, static_cast<uint32_t>(i)));
+            float sides = light.two_sided ? 2 : 1;
+            float power = state.emission->power / (params.type() == "bilinearmesh" ? 2 : 1);
+            light.L *= power / (pi * area * sides);
+        }
+        scene.shapes.back().light = static_cast<int>(scene.lights.size());
+        scene.lights.push_back(light);
     }
 }

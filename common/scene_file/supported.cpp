@@ -19,8 +19,7 @@ constexpr const char* meshes = "trianglemesh bilinearmesh loopsubdiv";
 constexpr const char* shapes =
     "sphere disk plymesh trianglemesh bilinearmesh loopsubdiv curve cylinder";
 constexpr const char* mapped = "imagemap checkerboard";
-constexpr const char* ignored =
-    "bool or float or integer or string";  // no effect on what is rendered
+constexpr const char* ignored = "bool or float or integer or string";  // changes nothing
 
 constexpr ParamRow rows[] = {
     {"Camera", cameras, "float", "fov", 90, 0.001, 179.999},
@@ -97,10 +96,8 @@ constexpr ParamRow rows[] = {
     {"Shape", meshes, "point2", "uv", 0, -inf, inf, 0},
     {"Shape", meshes, "integer", "indices faceIndices", 0, -inf, inf, 0},
 
-    {"Texture", "bilerp directionmix dots marble mix ptex", "", ""},
+    {"Texture", "bilerp directionmix dots marble mix ptex scale", "", ""},
     {"Texture", "constant", "rgb", "value", 1, 0, 1},
-    {"Texture", "scale", "rgb or texture", "tex", 1, 0, 1},
-    {"Texture", "scale", "float", "scale", 1, 0, 1e9},
     {"Texture", "checkerboard", "rgb or texture", "tex1", 1, 0, 1},
     {"Texture", "checkerboard", "rgb or texture", "tex2", 0, 0, 1},
     {"Texture", "checkerboard", "integer", "dimension", 2, 2, 3},
@@ -131,69 +128,62 @@ const std::map<std::string, std::map<std::string, KnownParams>>& known_params() 
     return all;
 }
 
-const std::vector<StandIn>& all_stand_ins() {
-    static const std::vector<StandIn> all = {
-        {"Material \"coatedconductor\"", "the metal under the coat"},
-        {"Material \"coateddiffuse\"", "diffuse"},
-        {"Material \"diffusetransmission\"", "diffuse, without the light that passes"},
-        {"Material \"hair\"", "diffuse"},
-        {"Material \"measured\"", "diffuse"},
-        {"Material \"mix\"", "diffuse"},
-        {"Material \"subsurface\"", "diffuse"},
-        {"Material \"thindielectric\"", "nothing: light passes"},
-        {"rough glass", "smooth glass"},
-        {"a roughness that differs between u and v", "their geometric mean"},
-        {"a spectrum that is not known", "the default of its parameter"},
-        {"a bump or normal map", "none"},
-        {"alpha", "1, or nothing where it is 0 everywhere"},
-        {"a texture that is no reflectance", "the default of its parameter"},
-        {"Texture \"bilerp\"", "grey (0.5)"},
-        {"Texture \"directionmix\"", "grey (0.5)"},
-        {"Texture \"dots\"", "grey (0.5)"},
-        {"Texture \"marble\"", "grey (0.5)"},
-        {"Texture \"mix\"", "grey (0.5)"},
-        {"Texture \"ptex\"", "grey (0.5)"},
-        {"a checkerboard of 3 dimensions", "its mean"},
-        {"a mapping other than \"uv\"", "the mean of the texture"},
-        {"a textured mesh without usable uv", "the mean of the texture"},
-        {"a picture that cannot be read", "grey (0.5)"},
-        {"a mesh that cannot be read", "nothing"},
-        {"a scene file that cannot be read", "nothing"},
-        {"Shape \"curve\"", "nothing"},
-        {"Shape \"cylinder\"", "nothing"},
-        {"Shape \"loopsubdiv\"", "its control mesh"},
-        {"a part of a sphere or disk", "the whole"},
-        {"a sphere or disk scaled differently along its axes", "one of their mean size"},
-        {"a light or camera that moves", "one that rests as when the shutter opens"},
-        {"TransformTimes", "0 1"},
-        {"LightSource \"goniometric\"", "a point light"},
-        {"LightSource \"projection\"", "a point light"},
-        {"LightSource \"spot\"", "a point light"},
-        {"an image on an area light", "its L alone"},
-        {"the illuminance of a picture of the sky", "the picture as it is"},
-        {"a portal", "none: the light comes from everywhere"},
-        {"a second picture of the sky", "grey (0.5)"},
-        {"a scene without shapes", "its lights alone"},
-        {"a scene without light", "a grey sky (0.5)"},
-        {"Camera \"orthographic\"", "a perspective one from far away"},
-        {"Camera \"realistic\"", "a pinhole camera of 40 degrees"},
-        {"Camera \"spherical\"", "a perspective camera of 90 degrees"},
-        {"Film \"gbuffer\"", "\"rgb\""},
-        {"Film \"spectral\"", "\"rgb\""},
-        {"a part of the film", "the whole"},
-        {"a sensor or white balance", "\"cie1931\""},
-        {"MakeNamedMedium", "empty space"},
-        {"a lens, in a chapter without one", "a pinhole"},
-        {"glass that disperses, in a chapter without it", "glass of one index"},
-        {"a shape that moves, in a chapter where all rest", "one that rests at its start"},
-        {"a picture of the sky, in a chapter without one", "a sky of its mean color"},
+const std::map<std::string, std::string>& all_stand_ins() {
+    // A directive and types of it, or nothing and a name; and what is rendered instead.
+    static constexpr const char* known[][3] = {
+        {"Camera", "orthographic realistic spherical", "a perspective camera of 90 degrees"},
+        {"Film", "gbuffer spectral", "\"rgb\""},
+        {"LightSource", "goniometric projection spot", "a point light"},
+        {"Material", "coateddiffuse hair measured mix subsurface", "diffuse"},
+        {"Material", "coatedconductor", "the metal under the coat"},
+        {"Material", "diffusetransmission", "diffuse, without the light that passes"},
+        {"Material", "thindielectric", "nothing: light passes"},
+        {"Shape", "curve cylinder", "nothing"},
+        {"Shape", "loopsubdiv", "its control mesh"},
+        {"Texture", "bilerp directionmix dots marble mix ptex scale", "grey (0.5)"},
+        {"", "MakeNamedMedium", "empty space"},
+        {"", "TransformTimes", "0 1"},
+        {"", "rough glass", "smooth glass"},
+        {"", "a roughness that differs between u and v", "their geometric mean"},
+        {"", "a spectrum that is not known", "the default of its parameter"},
+        {"", "a bump or normal map", "none"},
+        {"", "alpha", "1, or nothing where it is 0 everywhere"},
+        {"", "a texture that is no reflectance", "the default of its parameter"},
+        {"", "a checkerboard of 3 dimensions", "grey (0.5)"},
+        {"", "a mapping other than \"uv\"", "grey (0.5)"},
+        {"", "a textured mesh without usable uv", "grey (0.5)"},
+        {"", "a picture that cannot be read", "grey (0.5)"},
+        {"", "a mesh that cannot be read", "nothing"},
+        {"", "a scene file that cannot be read", "nothing"},
+        {"", "a part of a sphere or disk", "the whole"},
+        {"", "a sphere or disk scaled differently along its axes", "one of their mean size"},
+        {"", "a light or camera that moves", "one that rests as when the shutter opens"},
+        {"", "an image on an area light", "its L alone"},
+        {"", "the illuminance of a picture of the sky", "the picture as it is"},
+        {"", "a portal", "none: the light comes from everywhere"},
+        {"", "a scene without shapes", "its lights alone"},
+        {"", "a scene without light", "a grey sky (0.5)"},
+        {"", "a part of the film", "the whole"},
+        {"", "a sensor or white balance", "\"cie1931\""},
+        {"", "a lens, in a chapter without one", "a pinhole"},
+        {"", "glass that disperses, in a chapter without it", "glass of one index"},
+        {"", "a shape that moves, in a chapter where all rest", "one that rests at its start"},
+        {"", "a picture of the sky, in a chapter without one", "a sky of its mean color"},
     };
+    static const auto all = [] {
+        std::map<std::string, std::string> map;
+        for (auto [directive, what, instead] : known) {
+            if (!*directive) map[what] = instead;
+            for (const std::string& type : words_of(*directive ? what : "")) {
+                map[std::string(directive) + ' ' + quote(type)] = instead;
+            }
+        }
+        return map;
+    }();
     return all;
 }
 
 std::string or_stand_in(const std::string& what) {
-    for (const StandIn& stand_in : all_stand_ins()) {
-        if (stand_in.what == what) return "; --stand-in renders it as " + stand_in.instead;
-    }
-    return "";
+    auto found = all_stand_ins().find(what);
+    return found == all_stand_ins().end() ? "" : "; --stand-in renders it as " + found->second;
 }

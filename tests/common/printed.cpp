@@ -4,7 +4,7 @@
 
 #include "common/path/camera_sample.h"
 #include "common/render/render.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"
 

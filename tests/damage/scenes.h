@@ -105,10 +105,9 @@ inline void check_scene(const Scene& scene) {
     require(length(cross(c.right, c.up)) > 0 && length(c.forward) > 0, "camera is flat");
     require(!scene.lights.empty() || scene.sky_image, "no light");
     for (const Shape& s : scene.shapes)
-        require(s.material < scene.materials.size() &&
-                    s.light < static_cast<int>(scene.lights.size()) &&
-                    s.axes < static_cast<int>(scene.axes.size()),
-                "shape");
+        require(
+            s.material < scene.materials.size() && s.light < static_cast<int>(scene.lights.size()),
+            "shape");
     for (const Light& light : scene.lights)
         require(is_light(light.L) && !is_black(light.L) && is_finite(light.p) &&
                     light.first_prim + light.prims <= scene.geometry.size(),

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "common/render/loading.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
 #include "tests/known/worlds.h"
 #include "tests/laws/laws.h"

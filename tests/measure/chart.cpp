@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/picture/comparison.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 #include "tests/measure/measure.h"
 
 namespace {

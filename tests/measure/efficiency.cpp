@@ -1,7 +1,7 @@
 // Chapter against chapter: variance at equal samples, time, and both in one number.
 #include <cstdio>
 
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 #include "tests/measure/measure.h"
 
 namespace {

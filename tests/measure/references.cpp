@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 #include "tests/measure/measure.h"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 
 static std::vector<NamedMethod>& table() {
     static std::vector<NamedMethod> methods;

@@ -5,7 +5,7 @@
 #include "common/base/error.h"
 #include "common/render/command_line.h"
 #include "common/scene/mover.h"
-#include "common/scene/origin.h"
+#include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
 
 namespace {
