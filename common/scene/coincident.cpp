@@ -2,7 +2,7 @@
 #include <cmath>
 #include <set>
 
-#include "common/base/checksum.h"
+#include "common/base/files.h"
 #include "common/material/basic_bsdf.h"
 #include "common/scene/mover.h"
 #include "common/scene/origin.h"
