@@ -71,6 +71,13 @@ struct Range {
 /// How far a rounded hit may lie outside of the exact box of a primitive, relative to the centre.
 float pad_of(const Box& b) { return 0x1p-20f * max_component(max(abs(b.low), abs(b.high))); }
 
+/// The box around a disk: that of the ball around it would be met by many rays that miss it.
+Box box_of_disk(const Disk& disk, Vec3 centre) {
+    Vec3 n = disk.n / length(disk.n);
+    Vec3 r = disk.r * Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
+    return {disk.c - centre - r, disk.c - centre + r};
+}
+
 /// Cuts the box around the centres into slices, on each axis.
 struct Binning {
     Float4 neg_first, per_length;
@@ -260,7 +267,9 @@ private:
             for (size_t i = begin; i < end; i++) {
                 // No ray can hit a primitive with NaN or infinity in it.
                 auto prim = static_cast<uint32_t>(i);
-                Box box = box_of(g_, prim, bvh_.centre);
+                size_t first_disk = g_.triangles.size() + g_.spheres.size();
+                Box box = i < first_disk ? box_of(g_, prim, bvh_.centre)
+                                         : box_of_disk(g_.disks[i - first_disk], bvh_.centre);
                 bool is_finite_box = is_finite(box.low) && is_finite(box.high);
                 refs_[i] = {box, pad_of(box), is_finite_box ? prim : PrimHit::none};
                 if (!is_finite_box) continue;
