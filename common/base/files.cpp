@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <thread>
-#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/progress.h"
@@ -16,8 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int most_tries = 50;
-void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
+constexpr const char* part_lock = ".part.lock";
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
     throw InputError(
@@ -53,23 +52,19 @@ std::string why_not_replaced(const fs::path& file) {
         fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
     std::error_code none;
     fs::file_status status = fs::status(file, none);
-    if (!fs::is_regular_file(status)) return "";
-    // Root may do everything, and yet a write-protected file is meant to stay.
-    if ((status.permissions() & to_write) == fs::perms::none) return "it is write-protected";
-    errno = 0;
-    return std::ofstream(file, std::ios::app) ? "" : std::strerror(errno);
+    if (fs::is_directory(status)) return "it is a folder";
+    bool is_protected = (status.permissions() & to_write) == fs::perms::none;
+    return fs::is_regular_file(status) && is_protected ? "it is write-protected" : "";
 }
 
 // What goes wrong while they are written, a line for each.
 std::vector<std::string> errors_of(const std::vector<Output>& outputs) {
     std::vector<std::string> errors;
-    for (const auto& [path, write] : outputs) {
+    for (const Output& output : outputs) {
         try {
-            write();
+            output.second();
         } catch (const InputError& error) {
             errors.push_back(error.what());
-        } catch (const std::bad_alloc&) {
-            errors.push_back(path + ": error: cannot write: out of memory");
         }
     }
     return errors;
@@ -77,66 +72,49 @@ std::vector<std::string> errors_of(const std::vector<Output>& outputs) {
 
 }  // namespace
 
-FileLock::FileLock(const std::string& path, const std::string& file) : name_(file + ".lock") {
-    for (int i = 0; (lock_ = lock_file(name_)) < 0; i++) {
+FileLock::FileLock(const std::string& path, const std::string& ending)
+    : name_(file_name(after_links(path)) + ending) {
+    for (int tries = 0; (lock_ = lock_file(name_)) < 0; tries++) {
         if (errno != EWOULDBLOCK) fail(path, "cannot write", errno);
-        if (i >= most_tries)
+        if (tries >= 50)
             throw InputError(printable(path + ": error: another program is writing it"));
-        wait_a_little();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
 }
 FileLock::~FileLock() { unlock_file(lock_, name_); }
 
-NewFile::NewFile(const std::string& path) : path_(path) {
-    if (!is_device(path)) {
-        target_ = file_name(after_links(path)), temporary_ = target_ + ".part";
-        std::error_code error;
-        if (fs::is_directory(file_path(target_), error)) fail(path, "cannot write", EISDIR);
-        lock_.emplace(path, temporary_);
+void write_file_atomically(const std::string& path,
+                           const std::function<void(std::ostream&)>& write) {
+    bool is_replaced = !is_device(path);
+    fs::path target = is_replaced ? after_links(path) : file_path(path), part = target;
+    std::optional<FileLock> lock;
+    std::error_code error;
+    if (is_replaced) {
+        part += ".part";
+        lock.emplace(path, part_lock);
         // It may be a link to another file, and somebody else's.
-        fs::remove(file_path(temporary_), error);
+        fs::remove(part, error);
         if (error) fail(path, "cannot write", error.default_error_condition().value());
     }
     errno = 0;
-    file_.open(file_path(temporary_.empty() ? path : temporary_), std::ios::binary);
-    if (!file_) fail(path, "cannot write", errno);
-}
-
-NewFile::~NewFile() {
-    file_.close();
-    std::error_code none;
-    if (!temporary_.empty()) fs::remove(file_path(temporary_), none);
-}
-
-void NewFile::write(std::string_view bytes) {
-    errno = 0;
-    if (!file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        fail(path_, "cannot write", errno);
-}
-
-void NewFile::commit() {
-    errno = 0;
-    file_.close();
-    if (!file_) fail(path_, "cannot write", errno);
-    if (temporary_.empty()) return;
-    std::string why = why_not_replaced(file_path(target_));
-    std::error_code error;
-    // On Windows this fails as long as a program has the old one open.
-    for (int i = 0; why.empty() && i < most_tries; i++) {
-        fs::rename(file_path(temporary_), file_path(target_), error);
-        if (!error || fs::is_directory(file_path(target_))) break;
-        wait_a_little();
+    std::ofstream file(part, std::ios::binary);
+    if (file) write(file);
+    file.close();
+    if (!file) {
+        int reason = errno;
+        if (is_replaced) fs::remove(part, error);
+        fail(path, "cannot write", reason);
     }
+    if (!is_replaced) return;
+    std::string why = why_not_replaced(target);
+    if (why.empty()) fs::rename(part, target, error);
     if (error) why = error.message();
     if (why.empty()) return;
-    why += "; what was to be written is " + std::exchange(temporary_, "");
-    throw InputError(printable(path_ + ": error: cannot write: " + why));
+    why += "; what was to be written is " + file_name(part);
+    throw InputError(printable(path + ": error: cannot write: " + why));
 }
-
 void write_file_atomically(const std::string& path, std::string_view bytes) {
-    NewFile file(path);
-    file.write(bytes);
-    file.commit();
+    write_file_atomically(path, [&](std::ostream& file) { file << bytes; });
 }
 
 void write_outputs(const std::vector<Output>& outputs) { throw_lines(errors_of(outputs)); }
@@ -145,7 +123,7 @@ void check_writable(const std::string& path) {
     if (is_device(path)) return;
     std::string why = why_not_replaced(after_links(path));
     if (!why.empty()) throw InputError(printable(path + ": error: cannot write: " + why));
-    NewFile never_committed(path);
+    FileLock can_be_made(path, part_lock);
 }
 
 bool has_ending(const std::string& path, const std::string& ending) {

@@ -1,20 +1,18 @@
-// Files that are either wholly written or not touched, and whole files read.
+// Files that are either wholly written or not touched, whole files read, and checksums of them.
 #pragma once
 #include <cstdint>
 #include <fstream>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// Keeps other programs from a file that this one writes, by a file NAME.lock beside it. Throws
-/// InputError, with the name `path` in it, where another program has it, and still after half a
-/// second.
+/// Keeps other programs from a file that this one writes, by a file beside it, which has its name
+/// after all links with this ending. Throws InputError where another program has it, and still
+/// after half a second.
 class FileLock {
 public:
-    explicit FileLock(const std::string& path, const std::string& file);
-    explicit FileLock(const std::string& path) : FileLock(path, path) {}
+    explicit FileLock(const std::string& path, const std::string& ending = ".lock");
     ~FileLock();
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
@@ -24,32 +22,12 @@ private:
     int lock_ = -1;
 };
 
-/// A file that is written beside its place, as NAME.part, and put there when it is whole; until
-/// then what was there stays. A device or pipe is written to directly. What fails throws
-/// InputError; without commit() nothing is left behind. What a killed run has left behind is
-/// overwritten.
-class NewFile {
-public:
-    explicit NewFile(const std::string& path);
-    ~NewFile();
-    NewFile(const NewFile&) = delete;
-    NewFile& operator=(const NewFile&) = delete;
-
-    void write(std::string_view bytes);
-    /// Puts the file in its place. Where that cannot be done, NAME.part stays, and the error says
-    /// so.
-    void commit();
-
-private:
-    std::string path_;                // as named, for messages
-    std::string target_, temporary_;  // after all links; beside it. Empty for a device
-    std::optional<FileLock> lock_;
-    std::ofstream file_;
-};
-
-/// Writes `bytes` to a new file beside `path` and renames it over `path`: a full disk or a kill
-/// leaves what was there before. A device or pipe is written to directly.
-/// Throws InputError when anything fails.
+/// Writes a file beside its place, as NAME.part, and puts it there when it is whole: a full disk or
+/// a kill leaves what was there before. A device or pipe is written to directly. Throws InputError
+/// when anything fails; where the file cannot be put in its place, NAME.part stays, and the error
+/// says so. What a killed run has left behind is overwritten.
+void write_file_atomically(const std::string& path,
+                           const std::function<void(std::ostream&)>& write);
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
 /// The name of a file, and the function that writes it.
@@ -77,3 +55,34 @@ void check_outputs(const std::vector<std::string>& files,
 
 /// The whole file; throws InputError when it is missing, a folder, or larger than 1 GiB.
 std::string read_file(const std::string& path);
+
+/// A number of 64 bits for any bytes, given piece by piece; where the pieces end does not matter.
+/// A change within eight bytes that are hashed together, such as one flipped bit, always changes
+/// it: each step is a bijection. No protection against those who want to deceive.
+///
+///   h = mix(h ^ word)      for each 8 bytes, the last ones filled up with 0
+///
+/// tested by  "teeth: a film with any bit flipped, or cut anywhere, is refused"
+class Checksum {
+public:
+    void add(std::string_view bytes) {
+        for (char byte : bytes) {
+            word_ |= uint64_t{static_cast<unsigned char>(byte)} << 8 * (length_ % 8);
+            if (++length_ % 8 == 0) step(word_), word_ = 0;
+        }
+    }
+    uint64_t value() const {
+        Checksum end = *this;
+        end.step(word_);
+        end.step(length_);
+        return end.sum_;
+    }
+
+private:
+    void step(uint64_t word) {
+        sum_ = (sum_ ^ word) * 0x9e3779b97f4a7c15u;
+        sum_ = (sum_ ^ sum_ >> 32) * 0xd6e8feb86659fd93u;
+        sum_ ^= sum_ >> 29;
+    }
+    uint64_t sum_ = 0x243f6a8885a308d3u, word_ = 0, length_ = 0;
+};

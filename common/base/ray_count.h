@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <mutex>
+#include <vector>
 
 /// Thrown from a ray of a path for which there is no time left; what it has found is lost.
 struct TracingEnds : std::exception {
@@ -13,13 +15,26 @@ struct TracingEnds : std::exception {
 /// now and then. Of several, the last one counts.
 class TracingLimit {
 public:
-    explicit TracingLimit(std::function<bool()> ends);
-    ~TracingLimit();
+    explicit TracingLimit(const std::function<bool()>& ends) : ends_(ends) {
+        std::lock_guard lock(mutex);
+        limits.push_back(this);
+    }
+    ~TracingLimit() {
+        std::lock_guard lock(mutex);
+        std::erase(limits, this);
+    }
     TracingLimit(const TracingLimit&) = delete;
     TracingLimit& operator=(const TracingLimit&) = delete;
 
+    static bool is_reached() {
+        std::lock_guard lock(mutex);
+        return !limits.empty() && limits.back()->ends_();
+    }
+
 private:
-    friend class RayCount;
+    // Those that live. Renders on several threads begin and end in any order.
+    static inline std::mutex mutex;
+    static inline std::vector<const TracingLimit*> limits;
     const std::function<bool()> ends_;
 };
 
@@ -36,7 +51,10 @@ public:
 
 private:
     static constexpr uint64_t between_looks = 128;
-    void look();
+    [[gnu::noinline]] void look() {
+        counted_ += between_looks, left_ = between_looks;
+        if (TracingLimit::is_reached()) throw TracingEnds();
+    }
 
     uint64_t counted_ = between_looks, left_ = between_looks;
 };

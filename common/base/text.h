@@ -71,15 +71,12 @@ inline size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 /// The known word nearest to `word`; empty when none is closer than half its length. Only the first
-/// 64 letters of the word and the first 10,000 known words count, since longer searches take
-/// seconds.
+/// 64 letters of the word count, since longer searches take seconds.
 inline std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
-    constexpr size_t longest = 64, most = 10'000;
-    word = word.substr(0, longest);
+    word = word.substr(0, 64);
     std::string nearest;
     size_t best = word.size() / 2 + 1;
-    for (size_t i = 0; i < std::min(known.size(), most); i++) {
-        const std::string& candidate = known[i];
+    for (const std::string& candidate : known) {
         if (candidate.size() >= word.size() + best) continue;  // as many letters to insert
         size_t distance = edit_distance(word, candidate);
         if (distance < best) {

@@ -13,25 +13,35 @@ struct Vec2 {
     float x = 0, y = 0;
 };
 
-struct Vec3 {
-    float x = 0, y = 0, z = 0;
-    float operator[](int axis) const { return (&x)[axis]; }
-    float& operator[](int axis) { return (&x)[axis]; }
+/// A point or a direction.
+template <typename T>
+struct Vector3 {
+    T x = 0, y = 0, z = 0;
+
+    T operator[](auto axis) const { return (&x)[axis]; }
+    T& operator[](auto axis) { return (&x)[axis]; }
+    template <typename U>
+    explicit operator Vector3<U>() const {
+        return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)};
+    }
+    bool operator==(const Vector3&) const = default;
+
+    friend Vector3 operator-(Vector3 a) { return {-a.x, -a.y, -a.z}; }
+    friend Vector3 operator+(Vector3 a, Vector3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Vector3 operator-(Vector3 a, Vector3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Vector3 operator*(T s, Vector3 a) { return {s * a.x, s * a.y, s * a.z}; }
+    friend Vector3 operator*(Vector3 a, T s) { return s * a; }
+    friend Vector3 operator/(Vector3 a, T s) { return {a.x / s, a.y / s, a.z / s}; }
+    friend Vector3& operator+=(Vector3& a, Vector3 b) { return a = a + b; }
+
+    friend T dot(Vector3 a, Vector3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+    friend Vector3 cross(Vector3 a, Vector3 b) {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
 };
+using Vec3 = Vector3<float>;
+using Vec3d = Vector3<double>;  // for where float loses too much
 
-inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator*(float s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Vec3 operator*(Vec3 a, float s) { return s * a; }
-inline Vec3 operator/(Vec3 a, float s) { return {a.x / s, a.y / s, a.z / s}; }
-inline Vec3& operator+=(Vec3& a, Vec3 b) { return a = a + b; }
-inline bool operator==(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
-inline float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 inline float length_squared(Vec3 a) { return dot(a, a); }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline Vec3 normalize(Vec3 a) { return (1 / length(a)) * a; }
@@ -47,29 +57,7 @@ inline bool is_finite(Vec3 a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// A vector in double precision, for where float loses too much.
-struct Vec3d {
-    double x = 0, y = 0, z = 0;
-
-    Vec3d() = default;
-    Vec3d(double a, double b, double c) : x(a), y(b), z(c) {}
-    explicit Vec3d(Vec3 a) : x(double{a.x}), y(double{a.y}), z(double{a.z}) {}
-    double& operator[](size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
-    double operator[](size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-    bool operator==(const Vec3d&) const = default;
-};
-
-inline Vec3 to_vec3(Vec3d a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-inline Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3d operator*(double s, Vec3d a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Vec3d operator/(Vec3d a, double s) { return {a.x / s, a.y / s, a.z / s}; }
-inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3d cross(Vec3d a, Vec3d b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline Vec3 to_vec3(Vec3d a) { return Vec3(a); }
 inline double length(Vec3d a) { return std::hypot(a.x, a.y, a.z); }
 /// A template, so that normalize({x, y, z}) is that of a Vec3.
 template <std::same_as<Vec3d> T>
@@ -94,21 +82,28 @@ inline Vec3 from_cylindrical(float r, float u, float z) {
 }
 
 /// Radiance, reflectance or throughput in linear sRGB primaries.
-struct Rgb {
-    float r = 0, g = 0, b = 0;
-};
+template <typename T>
+struct Color {
+    T r = 0, g = 0, b = 0;
 
-inline Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-inline Rgb operator-(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-inline Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-inline Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
-inline Rgb operator*(Rgb a, float s) { return s * a; }
-inline Rgb operator/(Rgb a, float s) { return (1 / s) * a; }
-inline Rgb& operator+=(Rgb& a, Rgb b) { return a = a + b; }
-inline Rgb& operator*=(Rgb& a, Rgb b) { return a = a * b; }
-inline Rgb& operator*=(Rgb& a, float s) { return a = s * a; }
-inline Rgb& operator/=(Rgb& a, float s) { return a = a / s; }
-inline bool operator==(Rgb a, Rgb b) { return a.r == b.r && a.g == b.g && a.b == b.b; }
+    operator Color<double>() const requires std::same_as<T, float> {
+        return {double{r}, double{g}, double{b}};
+    }
+    bool operator==(const Color&) const = default;
+
+    friend Color operator+(Color x, Color y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
+    friend Color operator-(Color x, Color y) { return {x.r - y.r, x.g - y.g, x.b - y.b}; }
+    friend Color operator*(Color x, Color y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
+    friend Color operator*(T s, Color x) { return {s * x.r, s * x.g, s * x.b}; }
+    friend Color operator*(Color x, T s) { return s * x; }
+    friend Color operator/(Color x, T s) { return (1 / s) * x; }
+    friend Color& operator+=(Color& x, Color y) { return x = x + y; }
+    friend Color& operator*=(Color& x, Color y) { return x = x * y; }
+    friend Color& operator*=(Color& x, T s) { return x = s * x; }
+    friend Color& operator/=(Color& x, T s) { return x = x / s; }
+};
+using Rgb = Color<float>;
+using Rgbd = Color<double>;  // for sums of many
 
 inline float max_component(Rgb a) { return std::max({a.r, a.g, a.b}); }
 inline float average(Rgb a) { return (a.r + a.g + a.b) * (1.0f / 3); }
@@ -117,19 +112,6 @@ inline bool is_finite(Rgb a) {
     return std::isfinite(a.r) && std::isfinite(a.g) && std::isfinite(a.b);
 }
 
-/// The same in double, for sums of many.
-struct Rgbd {
-    double r = 0, g = 0, b = 0;
-
-    Rgbd() = default;
-    Rgbd(double red, double green, double blue) : r(red), g(green), b(blue) {}
-    Rgbd(Rgb x) : r(double{x.r}), g(double{x.g}), b(double{x.b}) {}
-};
-inline Rgbd operator+(Rgbd x, Rgbd y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
-inline Rgbd operator-(Rgbd x, Rgbd y) { return {x.r - y.r, x.g - y.g, x.b - y.b}; }
-inline Rgbd operator*(Rgbd x, Rgbd y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
-inline Rgbd operator*(double s, Rgbd x) { return {s * x.r, s * x.g, s * x.b}; }
-inline Rgbd& operator+=(Rgbd& x, Rgbd y) { return x = x + y; }
 /// x / y; 0 where y is 0.
 inline Rgbd ratio(Rgbd x, Rgbd y) {
     return {y.r > 0 ? x.r / y.r : 0, y.g > 0 ? x.g / y.g : 0, y.b > 0 ? x.b / y.b : 0};

@@ -57,15 +57,6 @@ float next_above(float t) { return std::bit_cast<float>(std::bit_cast<uint32_t>(
     return found;
 }
 
-/// Calls test_in_double() on a copy of `best`, so that the caller can keep its own in registers.
-bool in_double(const BvhBlock& block, uint32_t hits, const Ray& ray, const Shear& shear,
-               PrimHit& best) {
-    PrimHit nearer = best;
-    bool found = test_in_double(block, hits, ray, shear, nearer);
-    best = nearer;
-    return found;
-}
-
 /// Relative error of t in float at which double precision takes over.
 constexpr float float_error = 0x1p-8f;
 
@@ -153,26 +144,27 @@ template <bool any>
         Floats near = min(ends[0], ends[1]), far = max(ends[0], ends[1]);
         unsure &= ~(less(t, zero) & less(error, size));
         unsure &= less(zero, far) & less_equal(near, reach);
-        if (unsure != 0) found |= in_double(block, unsure, ray, shear, best);
+        PrimHit nearer = best;  // a copy, so that `best` can stay in registers
+        if (unsure != 0 && test_in_double(block, unsure, ray, shear, nearer)) {
+            best = nearer;
+            found = true;
+        }
     }
     return found;
 }
 
-/// The spheres and disks of a block, one by one: the lanes without corners, up to the unused ones.
-bool test_others(const BvhBlock& block, const Geometry& g, Ray ray, PrimHit& best) {
-    Floats corner = load(block.vertex[0]);
-    uint32_t others = less_equal(corner, corner) ^ ((1u << lanes) - 1);
+/// The spheres and disks of a block, one by one.
+[[gnu::noinline]] bool test_others(const BvhBlock& block, const Geometry& g, Ray ray,
+                                   PrimHit& best) {
+    Shear shear = shear_to_ray(ray.d);
     bool found = false;
-    for (; others != 0; others &= others - 1) {
-        uint32_t prim = block.prim[std::countr_zero(others)];
-        if (prim == PrimHit::none) break;
+    for (int k = 0; k < lanes && block.prim[k] != PrimHit::none; k++) {
+        uint32_t prim = block.prim[k];
+        if (prim < g.triangles.size()) break;
         ray.t_max = next_above(best.t);
-        auto t = visit(
-            g, prim, [](const Triangle&) { return std::optional<float>{}; },
-            [&](const Sphere& s) { return intersect_sphere(ray, s.c, s.r); },
-            [&](const Disk& d) { return intersect_disk(ray, d.c, d.n, d.r); });
-        if (!t || (*t == best.t && prim >= best.prim)) continue;
-        best = {prim, *t};
+        PrimHit hit = intersect_primitive(g, prim, ray, shear);
+        if (hit.prim == PrimHit::none || (hit.t == best.t && prim >= best.prim)) continue;
+        best = hit;
         found = true;
     }
     return found;
@@ -181,10 +173,10 @@ bool test_others(const BvhBlock& block, const Geometry& g, Ray ray, PrimHit& bes
 /// Updates `best` by the hits of the ray with the block. Returns whether `any` is set and a hit was
 /// found.
 template <bool any>
-[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, bool mixed, const Geometry& g,
+[[gnu::always_inline]] inline bool test_block(const BvhBlock& block, const Geometry& g,
                                               const Ray& ray, const Shear& shear, PrimHit& best) {
     bool found = test_triangles<any>(block, ray, shear, best);
-    if (mixed && !(any && found)) {
+    if (block.prim[0] >= g.triangles.size() && !(any && found)) {
         PrimHit other = best;  // a copy, so that `best` can stay in registers
         found |= test_others(block, g, ray, other);
         best = other;
@@ -192,22 +184,19 @@ template <bool any>
     return any && found;
 }
 
-/// All blocks, one after the other: no boxes.
 template <bool any>
 PrimHit scan(const Bvh& bvh, const Geometry& g, const Ray& ray) {
     Shear shear = shear_to_ray(ray.d);
     PrimHit best;
     best.t = next_below(ray.t_max);
-    for (size_t i = 0; i < bvh.blocks.size(); i++) {
-        bool mixed = i >= (bvh.root & BvhNode::index);
-        if (test_block<any>(bvh.blocks[i], mixed, g, ray, shear, best)) return {0};
-    }
+    for (const BvhBlock& block : bvh.blocks)
+        if (test_block<any>(block, g, ray, shear, best)) return {0};
     return best.prim == PrimHit::none ? PrimHit{} : best;
 }
 
 template <bool any>
 PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
-    if (bvh.root & BvhNode::leaf) return scan<any>(bvh, g, ray);
+    if (bvh.nodes.empty()) return scan<any>(bvh, g, ray);
     // A rounded t may come before its box; and boxes at the same t must be looked at.
     constexpr float slack = 1 + 0x1p-12f, tiny = 0x1p-60f;
     PrimHit best;
@@ -215,7 +204,6 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
     if (!(scale > 0 && scale < infinity && ray.t_max > 0)) return {};
     Shear shear = shear_to_ray(ray.d);
     best.t = next_below(ray.t_max);
-
     // Where d is 0, put one so small that the ray stays within the padding.
     auto not_zero = [&](float d) { return std::copysign(std::max(std::abs(d), tiny * scale), d); };
     Float4 inv = scale / Float4{not_zero(ray.d.x), not_zero(ray.d.y), not_zero(ray.d.z), 1};
@@ -243,7 +231,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
         return stack[size];
     };
 
-    uint32_t current = bvh.root;
+    uint32_t current = 0;
     while (true) {
         // Go down to a leaf.
         while (!(current & BvhNode::leaf)) {
@@ -276,9 +264,8 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
         }
         if (current == BvhNode::nothing) break;
 
-        const BvhBlock& block = bvh.blocks[current & BvhNode::index];
-        bool mixed = current & BvhNode::mixed;
-        if (test_block<any>(block, mixed, g, ray, shear, best)) return {0};
+        const BvhBlock& block = bvh.blocks[current ^ BvhNode::leaf];
+        if (test_block<any>(block, g, ray, shear, best)) return {0};
         reach = best.t * scale * slack;
         current = pop();
     }

@@ -1,6 +1,6 @@
 // The hierarchy of bounding boxes that finds what a ray hits (chapter 06).
 #pragma once
-#include <new>
+#include <memory>
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -9,38 +9,17 @@
 #include "common/geometry/geometry.h"
 #include "common/geometry/simd.h"
 
-/// Allocates from the start of a cache line, and large arrays in pages of 2 MB where the system
-/// has them: the processor then looks up fewer addresses.
+/// Allocates in pages of 2 MB where the system has them: the processor looks up fewer addresses.
 template <typename T>
-struct PageAllocator {
-    using value_type = T;
-
-    PageAllocator() = default;
-    template <typename U>
-    PageAllocator(PageAllocator<U>) {}
-
+struct PageAllocator : std::allocator<T> {
     T* allocate(size_t n) {
-        void* p = ::operator new (n * sizeof(T), std::align_val_t{alignment(n)});
+        T* p = std::allocator<T>::allocate(n);
 #ifdef MADV_HUGEPAGE
-        if (alignment(n) == large_page) madvise(p, n * sizeof(T), MADV_HUGEPAGE);
+        size_t in_page = reinterpret_cast<uintptr_t>(p) % 4096;
+        if (n * sizeof(T) > size_t{4} << 20)
+            madvise(reinterpret_cast<char*>(p) - in_page, in_page + n * sizeof(T), MADV_HUGEPAGE);
 #endif
-        return static_cast<T*>(p);
-    }
-    void deallocate(T* p, size_t n) { ::operator delete (p, std::align_val_t{alignment(n)}); }
-    /// Leaves new elements unwritten, unless they are given a value.
-    template <typename U>
-    void construct(U* p) {
-        ::new (static_cast<void*>(p)) U;
-    }
-    template <typename U>
-    bool operator==(PageAllocator<U>) const {
-        return true;
-    }
-
-private:
-    static constexpr size_t cache_line = 64, large_page = size_t{2} << 20;
-    static size_t alignment(size_t n) {
-        return n * sizeof(T) < 2 * large_page ? cache_line : large_page;
+        return p;
     }
 };
 
@@ -51,12 +30,10 @@ struct alignas(sizeof(Floats)) BvhNode {
     LaneOrder far_first[8];  // for each octant (signs of a direction): children from far to near
 
     static constexpr uint32_t leaf = 1u << 31;
-    static constexpr uint32_t mixed = 1u << 30;  // a leaf that does not hold triangles alone
-    static constexpr uint32_t index = mixed - 1;
     static constexpr uint32_t nothing = ~0u;  // an unused child
 };
 
-/// One leaf: primitives side by side. Lanes that hold no triangle have NaN for vertices.
+/// One leaf: primitives side by side, triangles last. Lanes that hold none have NaN for vertices.
 struct alignas(sizeof(Floats)) BvhBlock {
     float vertex[9][lanes];  // row 3 * k + axis: vertex k
     uint32_t prim[lanes];    // PrimHit::none: this lane and all after it are unused
@@ -64,10 +41,8 @@ struct alignas(sizeof(Floats)) BvhBlock {
 
 /// Nodes with as many children as one instruction tests, leaves of as many triangles.
 struct Bvh {
-    uint32_t root = 0;  // as BvhNode::child; or leaf | number of blocks of triangles alone, which
-                        // come first: then there are no nodes
-    Vec3 centre;        // of the geometry: the boxes are relative to it
-    std::vector<BvhNode, PageAllocator<BvhNode>> nodes;
+    Vec3 centre;  // of the geometry: the boxes are relative to it
+    std::vector<BvhNode, PageAllocator<BvhNode>> nodes;  // the root first; none over a few blocks
     std::vector<BvhBlock, PageAllocator<BvhBlock>> blocks;
 };
 

@@ -1,6 +1,7 @@
 // Builds the hierarchy of bounding boxes (chapter 06): a tree of two children per node where the
 // surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
 #include <bit>
+#include <memory>
 #include <queue>
 
 #include "common/base/parallel.h"
@@ -13,7 +14,7 @@ constexpr uint32_t small = lanes / 2;      // references of a block that is not 
 constexpr float worth_parting = 0.67f;     // of a block's surface, that its parts have together
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
-constexpr uint32_t reported = 16384;       // references of a subtree whose end is reported
+constexpr int reported_level = 6;          // of subtrees whose end is reported
 constexpr float worth_cutting = 1e-2f;     // of all surface, that one box wastes
 constexpr uint32_t whole_for_a_part = 10;  // so many references for one more by cutting
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
@@ -43,9 +44,9 @@ struct Ref {
     NegatedBox box;
 
     Ref() = default;
-    Ref(Vec3 lo, Vec3 hi, float pad, uint32_t prim)
-        : box{{pad - lo.x, pad - lo.y, pad - lo.z, std::bit_cast<float>(prim)},
-              {pad + hi.x, pad + hi.y, pad + hi.z}} {}
+    Ref(const Box& b, float pad, uint32_t prim)
+        : box{{pad - b.low.x, pad - b.low.y, pad - b.low.z, std::bit_cast<float>(prim)},
+              {pad + b.high.x, pad + b.high.y, pad + b.high.z}} {}
     uint32_t prim() const { return std::bit_cast<uint32_t>(box.neg_lo[3]); }
 };
 using Refs = std::vector<Ref, PageAllocator<Ref>>;
@@ -67,42 +68,14 @@ struct Range {
     }
 };
 
-/// The middle of it all. Boxes are relative to it, so that far from the origin they are no wider
-/// than near it.
-Vec3 centre_of(const Geometry& g) {
-    Vec3 centre = bounds_of(g).centre();
-    return is_finite(centre) ? centre : Vec3{};
-}
+/// How far a rounded hit may lie outside of the exact box of a primitive, relative to the centre.
+float pad_of(const Box& b) { return 0x1p-20f * max_component(max(abs(b.low), abs(b.high))); }
 
-/// How far a rounded hit may lie outside of the exact box of a primitive, relative to `centre`.
-float pad_of(Vec3 lo, Vec3 hi) { return 0x1p-20f * max_component(max(abs(lo), abs(hi))); }
-
-/// The box of a primitive, relative to `centre`, and padded. Nothing for a primitive with NaN or
-/// infinity in it, which no ray can hit.
-Ref make_ref(const Geometry& g, Vec3 centre, uint32_t prim) {
-    Vec3 lo, hi;
-    visit(
-        g, prim,
-        [&](const Triangle& tri) {
-            Vec3 a = g.positions[tri.v[0]], b = g.positions[tri.v[1]], c = g.positions[tri.v[2]];
-            bool finite = is_finite(a) && is_finite(b) && is_finite(c);
-            lo = finite ? min(min(a, b), c) - centre : Vec3{infinity, infinity, infinity};
-            hi = max(max(a, b), c) - centre;
-        },
-        [&](const Sphere& sphere) {
-            float r = std::abs(sphere.r);
-            lo = sphere.c - centre - Vec3{r, r, r};
-            hi = sphere.c - centre + Vec3{r, r, r};
-        },
-        [&](const Disk& disk) {
-            Vec3 n = disk.n / length(disk.n);
-            Vec3 r = std::abs(disk.r) *
-                     Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
-            lo = disk.c - centre - r;
-            hi = disk.c - centre + r;
-        });
-    if (!is_finite(lo) || !is_finite(hi)) prim = PrimHit::none;
-    return {lo, hi, pad_of(lo, hi), prim};
+/// The box around a disk: that of the ball around it would be met by many rays that miss it.
+Box box_of_disk(const Disk& disk, Vec3 centre) {
+    Vec3 n = disk.n / length(disk.n);
+    Vec3 r = disk.r * Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
+    return {disk.c - centre - r, disk.c - centre + r};
 }
 
 /// Cuts the box around the centres into slices, on each axis.
@@ -126,22 +99,6 @@ struct Split {
     int axis = 0, bin = 0;  // what is in a lower bin goes to the left
 };
 
-/// What is in the slices: the box around it, and how much it is.
-struct Bins {
-    NegatedBox box[3][bins];
-    uint32_t count[3][bins] = {};
-
-    void add(const Refs& refs, uint32_t begin, uint32_t end, const Binning& bin_of) {
-        for (uint32_t i = begin; i < end; i++) {
-            Int4 bin = bin_of(refs[i].box);
-            for (int axis = 0; axis < 3; axis++) {
-                box[axis][bin[axis]].grow(refs[i].box);
-                count[axis][bin[axis]]++;
-            }
-        }
-    }
-};
-
 /// The split between two bins that is cheapest by the surface area heuristic:
 ///
 ///   cost = area(left) n(left) + area(right) n(right)
@@ -149,7 +106,18 @@ struct Bins {
 /// A ray that meets the whole box meets a part with probability area(part) / area(whole). n counts
 /// blocks, as each takes one test, however full.
 /// source  MacDonald, Booth 1990; in bins: Wald 2007
-Split find_split(const Bins& binned, uint32_t size) {
+Split find_split(const Refs& refs, const Range& range, const Binning& bin_of) {
+    // What is in the bins: the box around it, and how much it is.
+    NegatedBox box[3][bins];
+    uint32_t count[3][bins] = {};
+    for (uint32_t i = range.begin; i < range.end; i++) {
+        Int4 bin = bin_of(refs[i].box);
+        for (int axis = 0; axis < 3; axis++) {
+            box[axis][bin[axis]].grow(refs[i].box);
+            count[axis][bin[axis]]++;
+        }
+    }
+
     // Sweep from the right, then from the left.
     auto blocks = [](uint32_t n) { return static_cast<float>((n + lanes - 1) / lanes); };
     Split best;
@@ -158,17 +126,17 @@ Split find_split(const Bins& binned, uint32_t size) {
         NegatedBox part;
         uint32_t n = 0;
         for (int bin = bins - 1; bin > 0; bin--) {
-            part.grow(binned.box[axis][bin]);
-            n += binned.count[axis][bin];
+            part.grow(box[axis][bin]);
+            n += count[axis][bin];
             right_cost[bin] = part.area() * blocks(n);
         }
         part = {};
         n = 0;
         for (int bin = 1; bin < bins; bin++) {
-            part.grow(binned.box[axis][bin - 1]);
-            n += binned.count[axis][bin - 1];
+            part.grow(box[axis][bin - 1]);
+            n += count[axis][bin - 1];
             float cost = part.area() * blocks(n) + right_cost[bin];
-            if (cost < best.cost && n > 0 && n < size) best = {cost, axis, bin};
+            if (cost < best.cost && n > 0 && n < range.size()) best = {cost, axis, bin};
         }
     }
     return best;
@@ -178,11 +146,11 @@ Split find_split(const Bins& binned, uint32_t size) {
 /// number of its places, `share` says how to fill them.
 struct Node {
     NegatedBox box;
-    Node* children = nullptr;  // two, side by side
-    uint32_t begin, end;       // its references
-    uint8_t axis = 0;          // of the split: the left child is on the lower side
-    uint8_t lane = 0;          // its place in the wide node
-    uint32_t number = 0;       // its BvhNode::child there
+    std::unique_ptr<Node[]> children;  // two
+    uint32_t begin, end;               // its references
+    uint8_t axis = 0;                  // of the split: the left child is on the lower side
+    uint8_t lane = 0;                  // its place in the wide node
+    uint32_t number = 0;               // its BvhNode::child there
     // [k - 2]: of k places, so many go to the left child; 0: k - 1 places do as well.
     uint8_t share[lanes - 1] = {};
 
@@ -242,12 +210,6 @@ struct Gathered {
     }
 };
 
-/// Pairs of children, in memory that is not touched before it is used.
-struct Pair {
-    alignas(Node) std::byte bytes[2 * sizeof(Node)];
-};
-using Pairs = std::vector<Pair, PageAllocator<Pair>>;
-
 class Builder {
 public:
     Builder(const Geometry& geometry, int threads, const Report& report)
@@ -257,11 +219,10 @@ public:
         Range all = make_refs();
         Node root;
         if (all.size() <= few) {
-            bvh_.root = add_few(all.size());
+            add_few(all.size());
         } else {
-            pairs_.resize(all.size());  // more than there can be
             build(root, all, 0);
-            bvh_.root = number(root);
+            number(root);
         }
         size_t nodes = wide_.size();
         bvh_.nodes.resize(nodes);
@@ -297,13 +258,21 @@ private:
 
     Range make_refs() {
         refs_.resize(g_.size());
-        bvh_.centre = centre_of(g_);
+        // Far from the origin, boxes relative to the middle are no wider than near it.
+        Vec3 centre = bounds_of(g_).centre();
+        if (is_finite(centre)) bvh_.centre = centre;
         std::array<Range, chunks> parts;
         in_chunks(refs_.size(), [&](size_t begin, size_t end, int chunk) {
             Range part{0, 0};
             for (size_t i = begin; i < end; i++) {
-                refs_[i] = make_ref(g_, bvh_.centre, static_cast<uint32_t>(i));
-                if (refs_[i].prim() == PrimHit::none) continue;
+                // No ray can hit a primitive with NaN or infinity in it.
+                auto prim = static_cast<uint32_t>(i);
+                size_t first_disk = g_.triangles.size() + g_.spheres.size();
+                Box box = i < first_disk ? box_of(g_, prim, bvh_.centre)
+                                         : box_of_disk(g_.disks[i - first_disk], bvh_.centre);
+                bool is_finite_box = is_finite(box.low) && is_finite(box.high);
+                refs_[i] = {box, pad_of(box), is_finite_box ? prim : PrimHit::none};
+                if (!is_finite_box) continue;
                 part.grow(refs_[i].box);
                 part.end++;
             }
@@ -342,8 +311,7 @@ private:
             Part whole{0, 0, i, {}};
             for (size_t k = 0; k < 3; k++)
                 whole.p[k] = g_.positions[g_.triangles[refs_[i].prim()].v[k]] - bvh_.centre;
-            auto [a, b, c] = whole.p;
-            whole.pad = pad_of(min(min(a, b), c), max(max(a, b), c));
+            whole.pad = pad_of(box_of(g_, refs_[i].prim(), bvh_.centre));
             add(whole);
         }
         for (uint32_t left = all.size() / whole_for_a_part; left > 0 && !worst.empty(); left--) {
@@ -355,9 +323,9 @@ private:
             refs_.push_back(refs_[part.ref]);
             for (Part half : {Part{0, part.pad, part.ref, {a, m, c}},
                               Part{0, part.pad, all.end++, {m, b, c}}}) {
-                auto [p, q, r] = half.p;
-                refs_[half.ref] = {min(min(p, q), r), max(max(p, q), r), half.pad,
-                                   refs_[half.ref].prim()};
+                Box box;
+                for (Vec3 p : half.p) box.add(p);
+                refs_[half.ref] = {box, half.pad, refs_[half.ref].prim()};
                 all.grow(refs_[half.ref].box);
                 add(half);
             }
@@ -372,91 +340,58 @@ private:
         Costs one_block;
         one_block.fill(range.box.area());
         if (range.size() <= small) return one_block;
-        Range left, right;
-        node.axis = split(range, level < cost_levels, left, right);
-        float parts = left.box.area() + right.box.area();
+        std::array<Range, 2> halves;
+        node.axis = split(range, level < cost_levels, halves);
+        float parts = halves[0].box.area() + halves[1].box.area();
         if (node.fits_a_block() && parts > worth_parting * range.box.area()) return one_block;
-        node.children = new (&pairs_[next_pair_++]) Node[2];
-        Costs left_cost, right_cost;
-        both(
-            std::min(left.size(), right.size()),
-            [&] { left_cost = build(node.children[0], left, level + 1); },
-            [&] { right_cost = build(node.children[1], right, level + 1); });
-        if (range.size() > reported) {
-            for (const Range& half : {left, right}) {
-                if (half.size() <= reported) tell(half.size());
-            }
+        node.children = std::make_unique<Node[]>(2);
+        uint32_t smaller = std::min(halves[0].size(), halves[1].size());
+        bool apart = smaller >= worth_a_thread && idle_threads_ > 0;
+        if (apart) idle_threads_--;
+        std::array<Costs, 2> costs;
+        parallel_for(2, apart ? 2 : 1, [&](int i) {
+            auto k = static_cast<size_t>(i);
+            costs[k] = build(node.children[k], halves[k], level + 1);
+            if (apart) idle_threads_++;
+        });
+        if (apart) idle_threads_--;
+        if (level == reported_level && report_) {
+            double done = built_ += range.size();
+            report_("building the hierarchy", done / static_cast<double>(refs_.size()));
         }
-        return share_places(node, left_cost, right_cost);
-    }
-
-    /// Reports that so many more references are in the leaves.
-    void tell(uint32_t references) {
-        double done = built_ += references;
-        if (report_) report_("building the hierarchy", done / static_cast<double>(refs_.size()));
-    }
-
-    /// Does both, on two threads when it is worth it and one is idle.
-    template <typename A, typename B>
-    void both(uint32_t references, const A& a, const B& b) {
-        if (references < worth_a_thread) {
-            a();
-            b();
-        } else if (idle_threads_-- > 0) {
-            parallel_for(2, 2, [&](int i) {
-                i == 0 ? a() : b();
-                idle_threads_++;
-            });
-            idle_threads_--;
-        } else {
-            idle_threads_++;
-            a();
-            b();
-        }
+        return share_places(node, costs[0], costs[1]);
     }
 
     /// Parts a range in two, by cost or else by number, and returns the axis.
-    uint8_t split(const Range& range, bool by_cost, Range& left, Range& right) {
-        uint32_t middle = range.begin + range.size() / 2;
+    uint8_t split(const Range& range, bool by_cost, std::array<Range, 2>& halves) {
+        uint32_t front = range.begin, middle = range.begin + range.size() / 2;
         Binning bin_of(range.centers);
         Split best;
-        if (by_cost) {
-            Bins binned;
-            binned.add(refs_, range.begin, range.end, bin_of);
-            best = find_split(binned, range.size());
-        }
-        partition(
-            range.begin, range.end,
-            [=](const Ref& ref, uint32_t i) {
-                return best.cost < infinity ? bin_of(ref.box)[best.axis] < best.bin : i < middle;
-            },
-            left, right);
-        return static_cast<uint8_t>(best.axis);
-    }
-
-    /// Swaps what goes left to the front. The side cannot be predicted, so there is no branch.
-    template <typename GoesLeft>
-    void partition(uint32_t begin, uint32_t end, GoesLeft goes_left, Range& left, Range& right) {
-        uint32_t front = begin;
-        NegatedBox box[2], centers[2];
-        for (uint32_t i = begin; i < end; i++) {
+        if (by_cost) best = find_split(refs_, range, bin_of);
+        by_cost = best.cost < infinity;
+        // Swap what goes left to the front. The side cannot be predicted, so there is no branch.
+        for (uint32_t i = range.begin; i < range.end; i++) {
             Ref ref = refs_[i];
-            bool to_left = goes_left(ref, i);
-            box[to_left].grow(ref.box);
-            centers[to_left].grow({-ref.box.center(), ref.box.center()});
-            uint32_t to = to_left ? front : i;
+            bool to_right = by_cost ? bin_of(ref.box)[best.axis] >= best.bin : i >= middle;
+            halves[to_right].grow(ref.box);
+            uint32_t to = to_right ? i : front;
             refs_[i] = refs_[to];
             refs_[to] = ref;
-            front += to_left;
+            front += !to_right;
         }
-        left = {begin, front, box[1], centers[1]};
-        right = {front, end, box[0], centers[0]};
+        halves[0].begin = range.begin;
+        halves[0].end = halves[1].begin = front;
+        halves[1].end = range.end;
+        return static_cast<uint8_t>(best.axis);
     }
 
     /// Numbers the wide nodes and the leaves below a node, depth first: all that one thread has to
     /// do alone before many can write them. Returns the BvhNode::child of the node.
     uint32_t number(Node& root) {
-        if (root.fits_a_block()) return add_leaf({root.begin, root.end});
+        if (root.fits_a_block()) {
+            leaves_.push_back({root.begin, root.end});
+            return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
+        }
         auto index = static_cast<uint32_t>(wide_.size());
         wide_.push_back(&root);
         Gathered children;
@@ -480,57 +415,36 @@ private:
                 node.plane[2 * axis + 1][i] = box.hi[axis];
             }
             node.child[i] = child ? child->number : BvhNode::nothing;
-            if (child && child->fits_a_block())
-                node.child[i] |= flags_of({child->begin, child->end});
         }
-        // What comes first for an octant comes last for the opposite one.
-        for (uint32_t octant = 0; octant < 4; octant++) {
+        for (uint32_t octant = 0; octant < 8; octant++) {
             Gathered sorted;
             sorted.add(root, lanes, octant);
-            LaneOrder order = 0, opposite = 0;
-            for (uint32_t i = 0, n = children.size; i < lanes; i++) {
-                order |= LaneOrder{i < n ? sorted.node[i]->lane : i} << (4 * i);
-                opposite |= LaneOrder{i < n ? sorted.node[n - 1 - i]->lane : i} << (4 * i);
-            }
+            LaneOrder order = 0;
+            for (uint32_t i = 0; i < lanes; i++)
+                order |= LaneOrder{i < sorted.size ? sorted.node[i]->lane : i} << (4 * i);
             node.far_first[octant] = order;
-            node.far_first[7 - octant] = opposite;
         }
-    }
-
-    uint32_t add_leaf(Leaf leaf) {
-        leaves_.push_back(leaf);
-        return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
     }
 
     bool is_triangle(const Ref& ref) const { return ref.prim() < g_.triangles.size(); }
 
-    /// BvhNode::mixed when there are spheres or disks in the leaf.
-    uint32_t flags_of(Leaf leaf) const {
-        auto first = refs_.begin() + leaf.begin, last = refs_.begin() + leaf.end;
-        bool alone = std::all_of(first, last, [&](const Ref& ref) { return is_triangle(ref); });
-        return alone ? 0 : BvhNode::mixed;
-    }
-
     /// A few blocks and no node: triangles first, and of these the large ones. Most rays hit
     /// something in the first block and nothing in the others, so that the processor can foresee
     /// it.
-    uint32_t add_few(uint32_t size) {
-        std::sort(refs_.begin(), refs_.begin() + size, [&](const Ref& a, const Ref& b) {
+    void add_few(uint32_t size) {
+        std::sort(refs_.begin(), refs_.end(), [&](const Ref& a, const Ref& b) {
             bool first = is_triangle(a), second = is_triangle(b);
             return first != second ? first : a.box.area() > b.box.area();
         });
-        uint32_t of_triangles = 0;
-        for (uint32_t i = 0; i < size; i += lanes) {
-            Leaf leaf = {i, std::min(i + lanes, size)};
-            of_triangles += flags_of(leaf) == 0;
-            add_leaf(leaf);
-        }
-        return BvhNode::leaf | of_triangles;
+        for (uint32_t i = 0; i < size; i += lanes)
+            leaves_.push_back({i, std::min(i + lanes, size)});
     }
 
     void fill_block(Leaf leaf, BvhBlock& block) {
         std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
         std::fill_n(block.prim, lanes, PrimHit::none);
+        auto first = refs_.begin() + leaf.begin, end = refs_.begin() + leaf.end;
+        std::partition(first, end, [&](const Ref& ref) { return !is_triangle(ref); });
         uint32_t lane = 0;
         for (uint32_t i = leaf.begin; i < leaf.end; i++) {
             uint32_t prim = refs_[i].prim();
@@ -551,8 +465,6 @@ private:
     const Report& report_;
     std::atomic<uint32_t> built_ = 0;  // references in finished subtrees
     Refs refs_;
-    Pairs pairs_;
-    std::atomic<uint32_t> next_pair_ = 0;
     std::vector<Node*> wide_;   // the roots of wide nodes, in their order
     std::vector<Leaf> leaves_;  // in the order of their blocks
     Bvh bvh_;

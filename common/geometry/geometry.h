@@ -80,17 +80,15 @@ auto visit(const Geometry& g, uint32_t prim, const OnTriangle& on_triangle,
 /// The box around a ball of radius r around c.
 inline Box box_of_ball(Vec3 c, float r) { return {c - Vec3{r, r, r}, c + Vec3{r, r, r}}; }
 
-/// The box around one primitive; of a disk, with all of the sphere around it.
-inline Box box_of(const Geometry& g, uint32_t prim) {
-    return visit(
-        g, prim,
-        [&](const Triangle& triangle) {
-            Box box;
-            for (uint32_t v : triangle.v) box.add(g.positions[v]);
-            return box;
-        },
-        [](const Sphere& sphere) { return box_of_ball(sphere.c, sphere.r); },
-        [](const Disk& disk) { return box_of_ball(disk.c, disk.r); });
+/// The box around one primitive, relative to `origin`; of a disk, with all of the sphere around it.
+inline Box box_of(const Geometry& g, uint32_t prim, Vec3 origin = {}) {
+    auto of_ball = [&](const auto& round) { return box_of_ball(round.c - origin, round.r); };
+    auto of_triangle = [&](const Triangle& triangle) {
+        Box box;
+        for (uint32_t v : triangle.v) box.add(g.positions[v] - origin);
+        return box;
+    };
+    return visit(g, prim, of_triangle, of_ball, of_ball);
 }
 
 /// The box around all vertices, spheres and disks.

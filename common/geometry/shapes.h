@@ -112,33 +112,32 @@ inline std::optional<float> intersect_disk(const Ray& ray, Vec3 c, Vec3 n, float
     return t;
 }
 
+/// Where the ray meets one primitive; PrimHit::none where it does not.
+inline PrimHit intersect_primitive(const Geometry& g, uint32_t prim, const Ray& ray,
+                                   const Shear& shear) {
+    auto at = [&](std::optional<float> t) { return t ? PrimHit{prim, *t} : PrimHit{}; };
+    return visit(
+        g, prim,
+        [&](const Triangle& triangle) {
+            auto [a, b, c] = triangle.v;
+            auto hit =
+                intersect_triangle(ray, shear, g.positions[a], g.positions[b], g.positions[c]);
+            return hit ? PrimHit{prim, hit->t, hit->b1, hit->b2} : PrimHit{};
+        },
+        [&](const Sphere& s) { return at(intersect_sphere(ray, s.c, s.r)); },
+        [&](const Disk& d) { return at(intersect_disk(ray, d.c, d.n, d.r)); });
+}
+
 /// Tests every primitive in turn: the slow and certain way, which every hierarchy must agree with.
 /// Of two hits at the same t the lower number wins.
 inline PrimHit linear_scan(const Geometry& g, Ray ray) {
     PrimHit best;
     Shear shear = shear_to_ray(ray.d);
-    uint32_t prim = 0;
-    for (const Triangle& tri : g.triangles) {
-        if (auto hit = intersect_triangle(ray, shear, g.positions[tri.v[0]], g.positions[tri.v[1]],
-                                          g.positions[tri.v[2]])) {
-            best = {prim, hit->t, hit->b1, hit->b2};
-            ray.t_max = hit->t;
-        }
-        prim++;
-    }
-    for (const Sphere& s : g.spheres) {
-        if (auto t = intersect_sphere(ray, s.c, s.r)) {
-            best = {prim, *t};
-            ray.t_max = *t;
-        }
-        prim++;
-    }
-    for (const Disk& disk : g.disks) {
-        if (auto t = intersect_disk(ray, disk.c, disk.n, disk.r)) {
-            best = {prim, *t};
-            ray.t_max = *t;
-        }
-        prim++;
+    for (uint32_t prim = 0, end = g.size(); prim < end; prim++) {
+        PrimHit hit = intersect_primitive(g, prim, ray, shear);
+        if (hit.prim == PrimHit::none) continue;
+        best = hit;
+        ray.t_max = hit.t;
     }
     return best;
 }

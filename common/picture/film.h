@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include "common/base/hash.h"
+#include "common/path/sampler.h"
 #include "common/picture/image.h"
 
 namespace pixel_sum {

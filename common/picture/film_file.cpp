@@ -8,7 +8,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/base/checksum.h"
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/system.h"
@@ -190,25 +189,24 @@ Notes notes_in(const std::string& comment) {
 }
 
 void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
-    NewFile file(path);
-    Checksum checksum;
-    auto write = [&](std::string_view bytes) {
-        checksum.add(bytes);
-        file.write(bytes);
-    };
-    write(first_line);
-    for (const std::string& line : lines_of(label.options)) write(option + line + '\n');
-    write("\n");
-    uint64_t sizes[] = {label.samples.size(), label.goals.size()};
-    write(bytes_of(shape_of(film)));
-    write(bytes_of(sizes));
-    write(bytes_of(label.samples));
-    write(bytes_of(label.goals));
-    write(bytes_of(std::array{label.counts}));
-    for (const Film::Sums* sums : film.sums()) write(bytes_of(*sums));
-    uint64_t sum = checksum.value();
-    file.write({reinterpret_cast<const char*>(&sum), sizeof sum});
-    file.commit();
+    write_file_atomically(path, [&](std::ostream& file) {
+        Checksum checksum;
+        auto write = [&](std::string_view bytes) {
+            checksum.add(bytes);
+            file << bytes;
+        };
+        write(first_line);
+        for (const std::string& line : lines_of(label.options)) write(option + line + '\n');
+        write("\n");
+        uint64_t sizes[] = {label.samples.size(), label.goals.size()};
+        write(bytes_of(shape_of(film)));
+        write(bytes_of(sizes));
+        write(bytes_of(label.samples));
+        write(bytes_of(label.goals));
+        write(bytes_of(std::array{label.counts}));
+        for (const Film::Sums* sums : film.sums()) write(bytes_of(*sums));
+        file << bytes_of(std::array{checksum.value()});
+    });
 }
 
 void check_film_is_file(const std::string& path) {

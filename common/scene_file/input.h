@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/base/checksum.h"
 #include "common/base/files.h"
 #include "common/base/system.h"
 #include "common/picture/image.h"

@@ -64,15 +64,15 @@ TEST_SUITE("files") {
         // Somebody makes a folder of its name, or protects the file, while it is written.
         for (std::string bytes : {"first", "second"}) {
             std::string error = error_of([&] {
-                NewFile file(f);
-                file.write(bytes);
-                if (bytes == "first") {
-                    fs::create_directory(f);
-                } else {
-                    std::ofstream(f) << "old";
-                    ::chmod(f.c_str(), 0444);
-                }
-                file.commit();
+                write_file_atomically(f, [&](std::ostream& file) {
+                    file << bytes;
+                    if (bytes == "first") {
+                        fs::create_directory(f);
+                    } else {
+                        std::ofstream(f) << "old";
+                        ::chmod(f.c_str(), 0444);
+                    }
+                });
             });
             CHECK(error.starts_with(f + ": error: cannot write: "));
             CHECK(error.ends_with("; what was to be written is " + f + ".part"));
@@ -90,13 +90,11 @@ TEST_SUITE("files") {
         std::string f = folder / "f", why = f + ": error: another program is writing it";
         for (const char* left : {".part", ".lock", ".part.lock"})
             std::ofstream(f + left) << "of a run that was killed";
-        {
-            NewFile file(f);
-            file.write("half of i");
+        write_file_atomically(f, [&](std::ostream& file) {
+            file << "half of i";
             CHECK(error_of([&] { write_file_atomically(f, "by another"); }) == why);
-            file.write("t");
-            file.commit();
-        }
+            file << "t";
+        });
         CHECK(read_file(f) == "half of it");
         {
             FileLock lock(f);

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "common/base/checksum.h"
 #include "common/base/files.h"
 #include "common/path/sampler.h"
 #include "tests/support/folder.h"

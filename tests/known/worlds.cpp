@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "common/base/hash.h"
+#include "common/path/sampler.h"
 #include "tests/known/words.h"
 
 namespace {

@@ -133,8 +133,8 @@ inline numbers::Functions functions() {
         exact("ambient",
               [=](Draw& d) {
                   Room r = room(d);
-                  for (auto& H : r.s.H) H = 3 * H + Rgbd(2, 2, 2);
-                  r.s.escaped = d.pick({0.0, 0.1}) * Rgbd(1, 1, 1);
+                  for (auto& H : r.s.H) H = 3 * H + Rgbd{2, 2, 2};
+                  r.s.escaped = d.pick({0.0, 0.1}) * Rgbd{1, 1, 1};
                   return self::ambient(r.patches.patch, r.s, d.pick({1 - 1e-6, 0.5}));
               }),
     };
