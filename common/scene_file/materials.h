@@ -1,6 +1,6 @@
 // Materials of a pbrt-v4 scene file.
 #pragma once
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/material/spectrum.h"
 #include "common/scene/scene.h"
 #include "common/scene_file/textures.h"

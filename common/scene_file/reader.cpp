@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/text.h"
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/scene/mover.h"
 #include "common/scene_file/lights.h"
 #include "common/scene_file/settings.h"

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "common/path/camera_sample.h"
+#include "common/path/method.h"
 #include "common/picture/comparison.h"
 #include "common/picture/heat_map.h"
 #include "tests/support/folder.h"

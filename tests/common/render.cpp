@@ -7,7 +7,6 @@
 #include <csignal>
 
 #include "common/base/system.h"
-#include "common/path/camera_sample.h"
 #include "tests/support/stand_ins.h"
 
 namespace {
@@ -148,7 +147,7 @@ TEST_SUITE("render loop") {
         for (const auto& [name, film] : r.classes)
             CHECK(film.image().pixels == one.classes.at(name).image().pixels);
         // Those with light for other pixels.
-        r = render_film(scene, options, Method(random_splats));
+        r = render_film(scene, options, method_of<random_splats>());
         Image own = r.classes.at("LE").image(), others = r.classes.at("LDE").image();
         whole = r.film.image();
         for (size_t i = 0; i < whole.pixels.size(); i++) {
