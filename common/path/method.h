@@ -19,22 +19,15 @@ inline void start_sample(Sampler& sampler, size_t pixel, int half, uint32_t numb
     sampler.start(static_cast<uint32_t>(pixel) | (half == 1 ? another_key : 0), number);
 }
 
-struct CameraSample {
-    Ray ray;
-    Vec2 film;  // the point that the ray passes, in pixels from the top left
-};
-
-/// A ray through a uniformly distributed point of pixel (x, y), from the first two numbers of a
-/// sample. The mean over such rays is the pixel's average: a box filter. `centre`: always through
-/// the pixel's centre, a mistake that chapter 16 shows.
+/// A uniformly distributed point of pixel (x, y) on the film, in pixels from its top left, from the
+/// first two numbers of a sample. The mean over rays through such points is the pixel's average: a
+/// box filter. `centre`: always the pixel's centre, a mistake that chapter 16 shows.
 ///
-/// tested by  "identity: a camera sample is the ray through its pixel, at the next two numbers"
-inline CameraSample camera_sample(const CameraView& view, int x, int y, Sampler& sampler,
-                                  bool centre = false) {
+/// tested by  "identity: a camera sample is a point of its pixel, at the next two numbers"
+inline Vec2 film_point(int x, int y, Sampler& sampler, bool centre = false) {
     Vec2 u = sampler.u2();
     if (centre) u = {0.5f, 0.5f};
-    Vec2 film = {static_cast<float>(x) + u.x, static_cast<float>(y) + u.y};
-    return {camera_ray(view, film), film};
+    return {static_cast<float>(x) + u.x, static_cast<float>(y) + u.y};
 }
 
 /// The statistics of the pilot samples of one half of a pixel: mean and sum of (sample - mean)^2 of
@@ -104,12 +97,11 @@ struct Method {
 
 /// What was prepared once, or what a pass prepares anew. As a call it would make 22 6 % slower.
 template <class T>
-[[gnu::always_inline]] inline const T& prepared(const T& once) {
-    return once;
-}
-template <class T>
-[[gnu::always_inline]] inline const T& prepared(const std::shared_ptr<T>& in_each_pass) {
-    return *in_each_pass;
+[[gnu::always_inline]] inline const auto& prepared(const T& own) {
+    if constexpr (requires { own.use_count(); })
+        return *own;
+    else
+        return own;
 }
 
 /// A chapter's trace(), with what the chapter has prepared as its arguments after the scene. It may

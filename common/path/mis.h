@@ -1,8 +1,8 @@
 // taught by chapters 12 and 14
-// Targets of lights, by which chapter 15 chooses one; MIS weights of directions that two strategies
-// can sample.
+// Resampling (RIS): choosing one of M candidate lights by its target; and MIS weights of directions
+// that two strategies can sample.
 #pragma once
-#include "common/light/lights.h"
+#include "common/light/light_table.h"
 
 /// What the target function needs to know about a light: the same fields for every type.
 struct LightBounds {
@@ -41,6 +41,50 @@ inline float target(const LightBounds& y, const Hit& x) {
     float seen = ((cos_x < -1.00001f * least) | (cos_y < -least)) ? 0.0f : 1.0f;
     cos_x = std::max(cos_x, least), cos_y = std::max(cos_y, std::max(least, least_cos));
     return seen * y.power * cos_x * cos_y / d2;
+}
+
+/// The candidate kept so far, and the sum of all weights.
+struct Reservoir {
+    size_t light = 0;
+    float p_hat = 0;       // of that light
+    float weight_sum = 0;  // of all candidates
+
+    /// Keeps this candidate instead with probability weight / weight_sum.
+    ///
+    /// u in [0,1) decides, and is then rescaled to [0,1) for the next candidate.
+    void offer(size_t candidate, float p_hat_candidate, float weight, float& u) {
+        if (!(weight > 0)) return;
+        weight_sum += weight;
+        float share = weight / weight_sum;
+        if (u < share) {
+            light = candidate, p_hat = p_hat_candidate;
+            u = u / share;
+        } else {
+            u = (u - share) / (1 - share);
+        }
+    }
+    /// The weight W of the kept light, which replaces 1 / probability.
+    float W(int M) const { return p_hat > 0 ? weight_sum / (static_cast<float>(M) * p_hat) : 0; }
+};
+
+/// The source of candidates: a table of lights by power, and the number M of candidates.
+struct Proposal {
+    LightTable lights;
+    int M;
+};
+
+/// Draws M lights by power, and keeps one with probability proportional to w = p_hat / p at x.
+///
+/// u: draws all candidates, one from each of M slices of the table; u1: chooses among them.
+inline Reservoir resample_lights(const Scene& scene, const Proposal& p, const Hit& x, double u,
+                                 float u1) {
+    Reservoir kept;
+    for (int i = 0; i < p.M; i++) {
+        size_t light = pick_light(p.lights, (i + u) / p.M);
+        float p_hat = target(light_bounds(scene, light), x);
+        kept.offer(light, p_hat, p_hat / pmf_light(p.lights, light), u1);
+    }
+    return kept;
 }
 
 /// The MIS weight of a direction that was sampled with density a; b: the other strategy's density.

@@ -278,7 +278,8 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
     PathStory story{scene.max_depth, options.search == LightSearch::photons};
     Recorder recorder(true, &story);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    auto [ray, film] = camera_sample(view, x, y, sampler, scene.camera.pixel_centre);
+    Vec2 film = film_point(x, y, sampler, scene.camera.pixel_centre);
+    Ray ray = camera_ray(view, film);
     Splats splats;
     std::optional<Rgb> L;  // none: the path took too long
     try {

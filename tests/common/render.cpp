@@ -59,7 +59,7 @@ Rgb sample_of(const Scene& scene, const RenderOptions& options, const Method& tr
     sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
     Recorder recorder;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    Ray ray = camera_sample(view, x, y, sampler).ray;
+    Ray ray = camera_ray(view, film_point(x, y, sampler));
     return trace(scene, ray, sampler, recorder);
 }
 
