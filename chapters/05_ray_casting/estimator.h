@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "common/base/ray_count.h"
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
 #include "common/scene/intersect.h"

@@ -3,7 +3,7 @@
 //   Lo(x, wo) = Le(x, wo) + integral f(x, wo, wi) Li(x, wi) cos(wi) dwi
 //             ~ Le(x, wo) + f(x, wo, wi) Li(x, wi) cos(wi) / pdf_w(wi)      one wi, drawn by pdf_w
 #pragma once
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/material/optics.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"

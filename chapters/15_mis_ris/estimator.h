@@ -6,7 +6,6 @@
 
 #include "common/light/light_shapes.h"
 #include "common/light/light_table.h"
-#include "common/light/resampling.h"
 #include "common/material/ggx.h"
 #include "common/path/mis.h"
 #include "common/path/roulette.h"

@@ -9,8 +9,6 @@
 #include "chapters/23_photon_mapping/photon_maps.h"
 #include "common/base/parallel.h"
 #include "common/light/light_shapes.h"
-#include "common/path/camera_sample.h"
-#include "common/path/first_radius.h"
 #include "common/path/lens.h"
 #include "common/path/light_paths.h"
 #include "common/path/method.h"

@@ -8,7 +8,6 @@
 #include "chapters/25_vertex_merging/light_map.h"
 #include "common/path/method.h"
 #include "common/path/photons.h"
-#include "common/path/shrinking_radius.h"
 #include "common/path/stored_subpaths.h"
 
 namespace ch25 {

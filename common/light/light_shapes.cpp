@@ -3,34 +3,12 @@
 #include "common/light/solid_angle.h"
 #include "common/scene/prepare.h"
 
-using light_shape_details::is_near;
-
 namespace {
 
 /// The light's primitive number `index`.
 Emitter emitter_of(const Scene& scene, size_t light, uint32_t index) {
     if (index == 0) return scene.light_shapes[light].first;
     return emitter_of(scene, scene.lights[light].first_prim + index);
-}
-
-LightPoint sample_emitter_area(const Emitter& e, Vec2 u) {
-    switch (e.kind) {
-        case Emitter::triangle: {
-            float s = std::sqrt(u.x);
-            Vec3 p = (1 - s) * e.p0 + s * (1 - u.y) * e.p1 + s * u.y * e.p2;
-            return {p, e.n, e.eps, 1};
-        }
-        case Emitter::sphere: {
-            float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
-            Vec3 n = from_cylindrical(r, u.y, z);
-            return {e.p0 + e.r * n, e.inward ? -n : n, e.eps, 1};
-        }
-        case Emitter::disk: {
-            Vec3 to_p = from_cylindrical(e.r * std::sqrt(u.x), u.y, 0);
-            return {e.p0 + Frame(e.n).to_world(to_p), e.n, e.eps, 1};
-        }
-    }
-    return {};
 }
 
 Vec3d unit(Vec3d a) { return (1 / std::sqrt(dot(a, a))) * a; }
@@ -46,14 +24,26 @@ uint32_t choose_by_area(const LightShape& shape, float& u) {
     return static_cast<uint32_t>(i);
 }
 
-/// The corners of a disk's bounding square, relative to x; c: its centre, relative to x. One side
-/// faces x, so that an x in the disk's plane beside the disk is also beside the square.
-void put_square_around(const Emitter& e, Vec3d c, Vec3d (&p)[4]) {
-    Vec3d n = unit(Vec3d(e.n)), away = c - dot(c, n) * n;
-    bool beside = dot(away, away) > 1e-12 * dot(c, c);
-    Vec3d s = beside ? unit(away) : Vec3d(Frame(e.n).s), t = cross(n, s);
-    s = double{e.r} * s, t = double{e.r} * t;
-    p[0] = c - s - t, p[1] = c + s - t, p[2] = c + s + t, p[3] = c - s + t;
+/// sin^2 of the half angle of the cone in which x sees a sphere; 1 for inside and other shapes.
+float sin2_of_cone(const LightShape& shape, Vec3 x) {
+    const Emitter& e = shape.first;
+    bool one_sphere = e.kind == Emitter::sphere && !e.inward && shape.area_up_to.empty();
+    float d2 = length_squared(x - e.p0), touching = e.r + e.eps;
+    if (!one_sphere || d2 <= touching * touching) return 1;
+    return std::max(e.r * e.r / d2, 1 / densest);
+}
+
+/// Samples a direction of the cone in which x sees the sphere; returns the point seen there.
+LightPoint sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u) {
+    Vec3 to_centre = e.p0 - x, w = sample_cone(sin2, u);
+    float d2 = length_squared(to_centre), d = std::sqrt(d2);
+    // Where the ray enters the sphere: from sines, which lose no digits for a narrow cone.
+    float sin2_y = std::min((w.x * w.x + w.y * w.y) / sin2, 1.0f), cos_y = std::sqrt(1 - sin2_y);
+    float t = (d2 - e.r * e.r) / (d * w.z + e.r * cos_y);
+    Frame frame(to_centre / d);
+    Vec3 n = {t / e.r * w.x, t / e.r * w.y, -(w.z * cos_y + sin2_y * e.r / d)};
+    float eps = e.eps + rounding_error(d);  // rounding errors of t and of the direction
+    return {x + t * frame.to_world(w), frame.to_world(n), eps, pdf_cone(sin2)};
 }
 
 /// A triangle, or a quadrangle of two triangles, to sample directions from.
@@ -64,14 +54,48 @@ struct Plan {
     float pdf = 0;         // sr^-1; 0: by area, where directions are not possible or not needed
 };
 
-/// Computes solid angles and density; `share`: the probability of sampling this piece.
-void look(Plan& plan, size_t corners, float share) {
-    auto& w = plan.w;
-    for (size_t i = 0; i < corners; i++) w[i] = unit(plan.p[i]);
+/// The corners of a disk's bounding square, relative to x; c: its centre, relative to x. One side
+/// faces x, so that an x in the disk's plane beside the disk is also beside the square.
+void put_square_around(const Emitter& e, Vec3d c, Vec3d (&p)[4]) {
+    Vec3d n = unit(Vec3d(e.n)), away = c - dot(c, n) * n;
+    bool beside = dot(away, away) > 1e-12 * dot(c, c);
+    Vec3d s = beside ? unit(away) : Vec3d(Frame(e.n).s), t = cross(n, s);
+    s = double{e.r} * s, t = double{e.r} * t;
+    p[0] = c - s - t, p[1] = c + s - t, p[2] = c + s + t, p[3] = c - s + t;
+}
+
+/// Chooses how to sample the whole light, or primitive number `index` of a larger mesh.
+///
+/// Coordinates relative to x, in double: shapes that are near or seen edge-on lose no digits.
+Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
+    const LightShape& shape = scene.light_shapes[light];
+    Plan plan;
+    if (!light_shape_details::is_near(shape, x)) return plan;
+    const Emitter& e = plan.e = emitter_of(scene, light, index);
+    float eps = e.off_plane + rounding_error(dot(abs(e.n), abs(x)));
+    if (std::abs(dot(e.n, e.p0 - x)) <= eps) return plan;  // on the light
+
+    auto from_x = [&](Vec3 p) { return Vec3d(p) - Vec3d(x); };
+    auto &p = plan.p, &w = plan.w;
+    size_t corners = 4;
+    float share = 1;  // the probability of sampling this piece
+    if (shape.parallelogram) {
+        for (size_t i = 0; i < 4; i++) p[i] = from_x(shape.corners[i]);
+    } else if (e.kind == Emitter::disk && scene.lights[light].prims == 1) {
+        put_square_around(e, from_x(e.p0), p);
+    } else if (e.kind == Emitter::triangle) {
+        p[0] = from_x(e.p0), p[1] = from_x(e.p1), p[2] = from_x(e.p2);
+        share = area_of(e) / shape.area;
+        corners = 3;
+    } else {
+        return plan;
+    }
+    for (size_t i = 0; i < corners; i++) w[i] = unit(p[i]);
     plan.omega[0] = triangle_solid_angle(w[0], w[1], w[2]);
     if (corners == 4) plan.omega[1] = triangle_solid_angle(w[0], w[3], w[2]);
     double omega = plan.omega[0] + plan.omega[1];
     if (omega > 0) plan.pdf = std::min(static_cast<float>(double{share} / omega), densest);
+    return plan;
 }
 
 /// The point, relative to x, in a direction sampled from a plan's triangles.
@@ -88,30 +112,6 @@ Vec3d sample_seen(const Plan& plan, Vec2 u) {
     return dot(n, p[0]) / dot(n, to_y) * to_y;
 }
 
-/// Chooses how to sample the whole light, or primitive number `index` of a larger mesh.
-///
-/// Coordinates relative to x, in double: shapes that are near or seen edge-on lose no digits.
-Plan plan(const Scene& scene, size_t light, Vec3 x, uint32_t index) {
-    const LightShape& shape = scene.light_shapes[light];
-    Plan plan;
-    const Emitter& e = plan.e = emitter_of(scene, light, index);
-    float off_plane = std::abs(dot(e.n, e.p0 - x));
-    float eps = e.off_plane + rounding_error(dot(abs(e.n), abs(x)));
-    if (!is_near(shape, x) || off_plane <= eps) return plan;  // far away, or on the light
-    auto from_x = [&](Vec3 p) { return Vec3d(p) - Vec3d(x); };
-    if (shape.parallelogram) {
-        for (size_t i = 0; i < 4; i++) plan.p[i] = from_x(shape.corners[i]);
-        look(plan, 4, 1);
-    } else if (e.kind == Emitter::disk && scene.lights[light].prims == 1) {
-        put_square_around(e, from_x(e.p0), plan.p);
-        look(plan, 4, 1);
-    } else if (e.kind == Emitter::triangle) {
-        plan.p[0] = from_x(e.p0), plan.p[1] = from_x(e.p1), plan.p[2] = from_x(e.p2);
-        look(plan, 3, area_of(e) / shape.area);
-    }
-    return plan;
-}
-
 }  // namespace
 
 float pdf_area(const Scene& scene, size_t light) { return 1 / scene.light_shapes[light].area; }
@@ -119,31 +119,40 @@ float pdf_area(const Scene& scene, size_t light) { return 1 / scene.light_shapes
 LightPoint light_shape_details::sample_pieces(const Scene& scene, size_t light, Vec2 u) {
     const LightShape& shape = scene.light_shapes[light];
     if (!(shape.area > 0)) return {};
-    uint32_t i = choose_by_area(shape, u.x);
-    LightPoint y = sample_emitter_area(emitter_of(scene, light, i), u);
-    y.pdf = 1 / shape.area;
-    return y;
-}
-
-LightPoint light_shape_details::sample_sphere(const Emitter& e, Vec3 x, float sin2, Vec2 u) {
-    Vec3 to_centre = e.p0 - x, w = sample_cone(sin2, u);
-    float d2 = length_squared(to_centre), d = std::sqrt(d2);
-    // Where the ray enters the sphere: from sines, which lose no digits for a narrow cone.
-    float sin2_y = std::min((w.x * w.x + w.y * w.y) / sin2, 1.0f), cos_y = std::sqrt(1 - sin2_y);
-    float t = (d2 - e.r * e.r) / (d * w.z + e.r * cos_y);
-    Frame frame(to_centre / d);
-    Vec3 n = {t / e.r * w.x, t / e.r * w.y, -(w.z * cos_y + sin2_y * e.r / d)};
-    float eps = e.eps + rounding_error(d);  // rounding errors of t and of the direction
-    return {x + t * frame.to_world(w), frame.to_world(n), eps, pdf_cone(sin2)};
+    float pdf = 1 / shape.area;
+    Emitter e = emitter_of(scene, light, choose_by_area(shape, u.x));
+    switch (e.kind) {
+        case Emitter::triangle: {
+            float s = std::sqrt(u.x);
+            Vec3 p = (1 - s) * e.p0 + s * (1 - u.y) * e.p1 + s * u.y * e.p2;
+            return {p, e.n, e.eps, pdf};
+        }
+        case Emitter::sphere: {
+            float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+            Vec3 n = from_cylindrical(r, u.y, z);
+            return {e.p0 + e.r * n, e.inward ? -n : n, e.eps, pdf};
+        }
+        case Emitter::disk: {
+            Vec3 to_p = from_cylindrical(e.r * std::sqrt(u.x), u.y, 0);
+            return {e.p0 + Frame(e.n).to_world(to_p), e.n, e.eps, pdf};
+        }
+    }
+    return {};
 }
 
 LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Vec3 x, Vec2 u) {
     const LightShape& shape = scene.light_shapes[light];
     if (!(shape.area > 0)) return {};
+    if (float sin2 = sin2_of_cone(shape, x); sin2 < 1)
+        return sample_sphere(shape.first, x, sin2, u);
     Vec2 v = u;
     uint32_t index = shape.parallelogram ? 0 : choose_by_area(shape, v.x);
     Plan way = plan(scene, light, x, index);
-    if (way.pdf == 0) return sample_far(scene, light, x, u);
+    if (way.pdf == 0) {
+        LightPoint y = sample_area(scene, light, u);
+        y.pdf = area_to_solid_angle(y.pdf, x, y.p, y.n);
+        return y;
+    }
     Vec3 y = x + to_vec3(sample_seen(way, v));
     bool beside = length_squared(y - way.e.p0) > way.e.r * way.e.r;
     if (way.e.kind == Emitter::disk && beside) return {};
@@ -152,7 +161,7 @@ LightPoint light_shape_details::sample_near(const Scene& scene, size_t light, Ve
 
 float pdf_solid_angle(const Scene& scene, size_t light, Vec3 x, const Hit& y) {
     const LightShape& shape = scene.light_shapes[light];
-    if (float sin2 = light_shape_details::sin2_of_cone(shape, x); sin2 < 1) return pdf_cone(sin2);
+    if (float sin2 = sin2_of_cone(shape, x); sin2 < 1) return pdf_cone(sin2);
     uint32_t index = shape.parallelogram ? 0 : y.prim - scene.lights[light].first_prim;
     Plan way = plan(scene, light, x, index);
     if (way.pdf == 0) return area_to_solid_angle(1 / shape.area, x, y.p, y.ng);

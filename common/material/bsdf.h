@@ -2,7 +2,6 @@
 // What sampling a surface returns; uniform directions, mirrors and glass.
 #pragma once
 #include "common/material/hit.h"
-#include "common/material/metal.h"
 #include "common/material/optics.h"
 
 /// A direction sampled from a BSDF. pdf_w == 0: no sample, the path ends.

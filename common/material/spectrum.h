@@ -46,7 +46,7 @@ inline constexpr std::array<std::array<double, 3>, 41> observer = {{
 }};
 
 /// CIE XYZ as linear sRGB; negative channels are set to 0.      source  IEC 61966-2-1
-inline std::array<double, 3> srgb_from_xyz(double X, double Y, double Z) {
+inline Rgbd srgb_from_xyz(double X, double Y, double Z) {
     return {std::max(0.0, 3.2406 * X - 1.5372 * Y - 0.4986 * Z),
             std::max(0.0, -0.9689 * X + 1.8758 * Y + 0.0415 * Z),
             std::max(0.0, 0.0557 * X - 0.2040 * Y + 1.0570 * Z)};
@@ -58,9 +58,7 @@ inline std::vector<Rgb> shares_of_white() {
     std::vector<Rgb> shares;
     Rgb sum;
     for (auto [x, y, z] : observer) {
-        std::array<double, 3> rgb = srgb_from_xyz(x, y, z);
-        shares.push_back(
-            {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
+        shares.push_back(to_rgb(srgb_from_xyz(x, y, z)));
         sum += shares.back();
     }
     for (Rgb& share : shares) share = {share.r / sum.r, share.g / sum.g, share.b / sum.b};
@@ -76,22 +74,19 @@ inline Rgb blackbody_rgb(double kelvin) {
     constexpr double c2 = 1.438776877e-2;  // m K, the second radiation constant
 
     // Weigh the spectrum with the observer, relative to its value at 560 nm against underflow.
-    double X = 0, Y = 0, Z = 0, nm = observer_first_nm;
+    Vec3d sum;
+    double nm = observer_first_nm;
     for (const auto& [x, y, z] : observer) {
         double exponent = c2 / (nm * 1e-9 * kelvin), reference = c2 / (560e-9 * kelvin);
         double B = std::pow(560 / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) /
                    std::expm1(-exponent);
-        X += B * x;
-        Y += B * y;
-        Z += B * z;
+        sum = sum + B * Vec3d(x, y, z);
         nm += observer_step_nm;
     }
 
     // Give the color luminance 1.
-    std::array<double, 3> rgb = srgb_from_xyz(X / Y, 1, Z / Y);
-    double scale = 1 / (0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
-    return {static_cast<float>(scale * rgb[0]), static_cast<float>(scale * rgb[1]),
-            static_cast<float>(scale * rgb[2])};
+    Rgbd rgb = srgb_from_xyz(sum.x / sum.y, 1, sum.z / sum.y);
+    return to_rgb(1 / (0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b) * rgb);
 }
 
 /// "metal-Ag-eta" and "metal-Ag-k", the complex index of refraction eta + i k, and those of Al, Au

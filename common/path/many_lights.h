@@ -3,8 +3,6 @@
 #pragma once
 #include <numeric>
 
-#include "common/light/light_shapes.h"
-#include "common/light/resampling.h"
 #include "common/material/ggx.h"
 #include "common/path/mis.h"
 #include "common/path/sampler.h"

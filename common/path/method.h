@@ -1,4 +1,5 @@
-// A chapter's estimator, as the renderer calls it, with what the chapter has prepared bound to it.
+// A chapter's estimator, as the renderer calls it, with what the chapter has prepared bound to it;
+// and where a path from the camera begins.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -9,7 +10,25 @@
 #include "common/base/parallel.h"
 #include "common/path/sampler.h"
 #include "common/recording/recorder.h"
-#include "common/scene/scene.h"
+#include "common/scene/camera.h"
+
+/// Starts sample `number` of a pixel. Samples of half 1, and audits, have random numbers of their
+/// own, from a key that no pixel has.
+inline void start_sample(Sampler& sampler, size_t pixel, int half, uint32_t number) {
+    constexpr uint32_t another_key = 1u << 31;
+    sampler.start(static_cast<uint32_t>(pixel) | (half == 1 ? another_key : 0), number);
+}
+
+/// A uniformly distributed point of pixel (x, y) on the film, in pixels from its top left, from the
+/// first two numbers of a sample. The mean over rays through such points is the pixel's average: a
+/// box filter. `centre`: always the pixel's centre, a mistake that chapter 16 shows.
+///
+/// tested by  "identity: a camera sample is a point of its pixel, at the next two numbers"
+inline Vec2 film_point(int x, int y, Sampler& sampler, bool centre = false) {
+    Vec2 u = sampler.u2();
+    if (centre) u = {0.5f, 0.5f};
+    return {static_cast<float>(x) + u.x, static_cast<float>(y) + u.y};
+}
 
 /// The statistics of the pilot samples of one half of a pixel: mean and sum of (sample - mean)^2 of
 /// each channel, computed as in RunningStats.
@@ -64,18 +83,11 @@ struct Method {
     Allocation allocation = {};  // of samples to pixels
 
     Method() = default;
-    /// From a function object that has the parameters of trace, or all but the splats.
+    /// From a function object that has the parameters of trace, but for the splats.
     template <class Sample>
-    requires(!std::is_same_v<Sample, Method>) Method(Sample sample) {
-        constexpr bool adds_splats =
-            std::is_invocable_v<Sample, const Scene&, Ray, Splats&, Sampler&, Recorder&>;
-        splats = adds_splats;
-        if constexpr (adds_splats)
-            trace = std::move(sample);
-        else
-            trace = [=](const Scene& scene, const Ray& ray, Splats&, Sampler& sampler,
-                        Recorder& recorder) { return sample(scene, ray, sampler, recorder); };
-    }
+    requires(!std::is_same_v<Sample, Method>) Method(Sample sample)
+        : trace([=](const Scene& scene, const Ray& ray, Splats&, Sampler& sampler,
+                    Recorder& recorder) { return sample(scene, ray, sampler, recorder); }) {}
     /// One sample, without what it adds to other pixels.
     Rgb operator()(const Scene& scene, const Ray& ray, Sampler& sampler, Recorder& recorder) const {
         Splats none;
@@ -83,21 +95,13 @@ struct Method {
     }
 };
 
-/// Copies number by number: `volatile` forbids wider loads, which would have to wait until the
-/// numbers just written have reached the cache.
-inline Ray copy_of(const volatile Ray& ray) {
-    return {
-        {ray.o.x, ray.o.y, ray.o.z}, {ray.d.x, ray.d.y, ray.d.z}, ray.t_max, ray.time, ray.from};
-}
-
 /// What was prepared once, or what a pass prepares anew. As a call it would make 22 6 % slower.
 template <class T>
-[[gnu::always_inline]] inline const T& prepared(const T& once) {
-    return once;
-}
-template <class T>
-[[gnu::always_inline]] inline const T& prepared(const std::shared_ptr<T>& in_each_pass) {
-    return *in_each_pass;
+[[gnu::always_inline]] inline const auto& prepared(const T& own) {
+    if constexpr (requires { own.use_count(); })
+        return *own;
+    else
+        return own;
 }
 
 /// A chapter's trace(), with what the chapter has prepared as its arguments after the scene. It may
@@ -119,7 +123,7 @@ Method method_of(Own... own) {
                                               Recorder& recorder) __attribute__((flatten))
                        ->Rgb {
         if constexpr (has_ray) {
-            return trace(scene, prepared(own)..., copy_of(ray), sampler, recorder);
+            return trace(scene, prepared(own)..., ray, sampler, recorder);
         } else if constexpr (has_splats) {
             trace(scene, prepared(own)..., splats, sampler, recorder);
             return {};

@@ -2,9 +2,8 @@
 // The first step of photon mapping: light paths, and maps of the flux at their vertices.
 #pragma once
 #include "common/base/parallel.h"
-#include "common/path/camera_sample.h"
-#include "common/path/first_radius.h"
 #include "common/path/light_paths.h"
+#include "common/path/method.h"
 #include "common/path/photon_map.h"
 #include "common/path/roulette.h"
 

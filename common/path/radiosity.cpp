@@ -1,8 +1,5 @@
 #include "common/path/radiosity.h"
 
-#include <cstdio>
-#include <limits>
-
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/material/basic_bsdf.h"
@@ -12,9 +9,7 @@
 
 namespace {
 
-/// Adds the triangle a b c to the scene's geometry, but for one without area.
 void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
-    if (!(length_squared(cross(b - a, c - a)) >= std::numeric_limits<float>::min())) return;
     uint32_t first = static_cast<uint32_t>(g.positions.size());
     for (Vec3 p : {a, b, c}) {
         g.positions.push_back(p);
@@ -24,7 +19,7 @@ void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
 }
 
 /// Cuts a triangle of the unit sphere in four, `depth` times.
-void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth, std::vector<std::array<Vec3, 3>>& parts) {
+void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth, std::vector<Corners>& parts) {
     if (depth == 0) return parts.push_back({a, b, c});
     Vec3 d = normalize(b + c), e = normalize(c + a), f = normalize(a + b);
     divide_on_sphere(a, f, e, depth - 1, parts);
@@ -36,7 +31,7 @@ void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth, std::vector<std::array<
 /// 512 triangles with the area of the sphere: an octahedron, divided.
 void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
     constexpr int depth = 3;
-    std::vector<std::array<Vec3, 3>> parts;
+    std::vector<Corners> parts;
     for (int octant = 0; octant < 8; octant++) {
         Vec3 a = {octant & 1 ? -1.0f : 1.0f, 0, 0}, b = {0, octant & 2 ? -1.0f : 1.0f, 0};
         Vec3 c = {0, 0, octant & 4 ? -1.0f : 1.0f};
@@ -69,16 +64,12 @@ void add_disk(Geometry& g, const Disk& disk) {
 /// Throws InputError for a shape so small that rounding its corners to floats changes its area.
 void check_size(const Scene& scene, Vec3 centre, float r, uint32_t shape) {
     if (rounding_error(max_component(abs(centre)) + r) <= r / 20) return;
-    char text[150];
-    std::snprintf(text, sizeof text,
-                  "a sphere or disk of radius %.3g m is too small to be cut into triangles; "
-                  "chapters from 09 on render it",
-                  double{r});
-    fail(scene.place(scene.shapes[shape].at), text);
+    fail(scene.place(scene.shapes[shape].at),
+         "a sphere or disk this small cannot be cut into triangles; chapters from 09 on render it");
 }
 
-/// The sides that rays from this side meet: 2 i is the front of triangle i, 2 i + 1 its back;
-/// no_side when one meets nothing.
+/// The sides that rays from this side meet: 2 i is the front of triangle i, 2 i + 1 its back; a
+/// number above all of them where a ray leaves the scene.
 std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
     constexpr uint32_t rays = 256;
     auto [a, b, c] = corners(scene, side / 2);
@@ -94,10 +85,8 @@ std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
         Vec3 x = (1 - s) * a + s * (1 - u.y) * b + s * u.y * c;
         x += rounding_error(max_component(abs(x))) * n;
         auto y = intersect(scene, {x, frame.to_world(sample_cosine_hemisphere(sampler.u2()))});
-        seen.push_back(y ? 2 * y->prim + (y->front ? 0 : 1) : no_side);
+        seen.push_back(y ? 2 * y->prim + (y->front ? 0 : 1) : 2 * scene.geometry.size());
     }
-    std::sort(seen.begin(), seen.end());
-    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
     return seen;
 }
 
@@ -135,10 +124,9 @@ void refuse(const Scene& scene) {
         fail(scene.place(light.at),
              "radiosity knows lamps with a surface alone; chapters from 09 on render other lights");
     }
-    const Geometry& g = scene.geometry;
     Rgb least = {1, 1, 1};
-    auto check = [&](uint32_t shape) {
-        const Material& m = scene.materials[scene.shapes[shape].material];
+    for (const Shape& shape : scene.shapes) {
+        const Material& m = scene.materials[shape.material];
         if (m.texture != 0 || m.type != MaterialType::diffuse) {
             fail(scene.place(m.at),
                  "radiosity knows diffuse surfaces of one reflectance alone (LD*E); chapters "
@@ -146,10 +134,7 @@ void refuse(const Scene& scene) {
         }
         Rgb rho = m.reflectance;
         least = {std::min(least.r, rho.r), std::min(least.g, rho.g), std::min(least.b, rho.b)};
-    };
-    for (const Triangle& t : g.triangles) check(t.shape);
-    for (const Sphere& s : g.spheres) check(s.shape);
-    for (const Disk& d : g.disks) check(d.shape);
+    }
     if (max_component(least) < 1) return;
     fail({scene.origin->file},
          "radiosity needs a surface that absorbs: in a closed room whose surfaces reflect all "
@@ -157,33 +142,29 @@ void refuse(const Scene& scene) {
 }
 
 std::vector<char> find_lit_sides(const Scene& scene, bool& closed, int threads) {
-    size_t count = 2 * scene.geometry.triangles.size();
-    std::vector<std::vector<uint32_t>> seen(count);
-    parallel_for(static_cast<int>(count), threads, [&](int side) {
+    size_t outside = 2 * scene.geometry.triangles.size();  // counts as one more side
+    std::vector<std::vector<uint32_t>> seen(outside);
+    parallel_for(static_cast<int>(outside), threads, [&](int side) {
         seen[static_cast<size_t>(side)] = sides_seen(scene, static_cast<uint32_t>(side));
     });
-    std::vector<char> lit(count), sends(count);  // sends: what reaches it goes on from there
-    for (uint32_t side = 0; side < count; side++) {
+    std::vector<char> lit(outside + 1), sends(outside + 1);  // sends: what reaches it goes on
+    for (uint32_t side = 0; side < outside; side++) {
         lit[side] = !is_black(emitted(scene, side / 2, side % 2 == 0));
         sends[side] = lit[side] || !is_black(reflectance(scene, side / 2));
     }
-    closed = true;
     for (bool changed = true; changed;) {
         changed = false;
         auto reach = [&](size_t from, size_t to) {
             if (!lit[from] || !sends[from] || lit[to]) return;
             lit[to] = changed = true;
         };
-        for (size_t a = 0; a < count; a++) {
+        for (size_t a = 0; a < outside; a++) {
             for (uint32_t b : seen[a]) {
-                if (b == no_side) {
-                    if (lit[a] && sends[a]) closed = false;
-                } else {
-                    reach(a, b);
-                    reach(b, a);  // rays from b may miss a small side
-                }
+                reach(a, b);
+                reach(b, a);  // rays from b may miss a small side
             }
         }
     }
+    closed = !lit[outside];
     return lit;
 }

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "common/recording/path_story.h"
+#include "common/scene/intersect.h"
 
 namespace {
 
@@ -36,8 +36,8 @@ std::string end_at_vertex(const PathStory& story, const Hit& x, size_t number) {
 }  // namespace
 
 void PathStory::add(const std::string& line) {
-    for (; told < rays.size(); told++) {
-        const TracedRay& traced = rays[told];
+    for (; told < rays_kept->size(); told++) {
+        const TracedRay& traced = (*rays_kept)[told];
         if (traced.shadow && traced.met) {
             text += "    shadow ray along " + to_text(traced.ray.d) + ": blocked\n";
         } else if (!traced.shadow && !traced.met) {
@@ -48,19 +48,10 @@ void PathStory::add(const std::string& line) {
     text += line;
 }
 
-void PathStory::starts_at_eye() {
-    ends();
-    rays_kept = &rays;
-    step("from the eye:\n");
-}
-
 void PathStory::ends() {
-    if (!rays.empty()) add("");
-    if (!rays.empty() && !if_last.empty()) text += "    ends: " + if_last + "\n";
-    rays_kept = nullptr;
+    add("");
+    if (!rays_kept->empty() && !if_last.empty()) text += "    ends: " + if_last + "\n";
 }
-
-void Recorder::forget() { static_cast<RecordedPath&>(*this) = {}; }
 
 void Recorder::note_start_at_light(Vec3 p) {
     from_light_.clear();
@@ -72,7 +63,9 @@ void Recorder::note_start_at_light(Vec3 p) {
 
 void Recorder::note_start_at_eye() {
     at_light_ = false;
-    if (story_) story_->starts_at_eye();
+    if (!story_) return;
+    story_->ends();
+    story_->step("from the eye:\n");
 }
 
 void Recorder::note_vertex(const Hit& x) {
@@ -141,7 +134,7 @@ std::string Recorder::class_of(std::string path_class, size_t events) const {
 }
 
 void Recorder::note_emitted(Rgb Le, float mis_b) {
-    bool sky = story_ && story_->has_left();
+    bool sky = story_ && !rays_kept->empty() && !rays_kept->back().met && !rays_kept->back().shadow;
     keep({class_of("L", depth_), beta() * Le * mis_b, Contribution::own_pixel, eye_vertex(depth_),
           sky ? "sky met" : "light met", mis_b});
 }

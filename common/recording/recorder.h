@@ -9,8 +9,6 @@
 #include "common/base/vec.h"
 #include "common/material/hit.h"
 
-struct PathStory;
-
 /// The contribution of a path from a light to the pixel in which the camera sees it.
 struct Splat {
     size_t pixel;
@@ -50,6 +48,29 @@ struct RecordedPath {
     std::vector<Contribution> contributions_;
 };
 
+/// The steps of one path in words, for --explain. Of the rays that this thread keeps (rays_kept) it
+/// tells which shadow rays were blocked, and why the path ends. Chapter 05 has its own intersection
+/// code: without rays the story cannot tell how the path ends.
+struct PathStory {
+    int max_depth;
+    bool gathers;  // a path may end by gathering photons, as in chapter 23
+    std::string text = {};
+    std::string if_last = {};  // why the path ends, if no other step follows; empty: unknown
+    bool is_cut = false;       // by the depth limit
+    size_t told = 0;           // rays described so far
+
+    /// Adds a line, after those about the rays traced before it.
+    void add(const std::string& line);
+    /// The same for a step of the path. why: it ends, if no other step follows; empty: unknown.
+    void step(const std::string& line, const std::string& why = "") {
+        add(line);
+        if_last = why;
+        is_cut = false;
+    }
+    /// Adds the reason why the path ended.
+    void ends();
+};
+
 /// Receives the events of a path from trace(), which never reads from it: trace() returns the same
 /// value whether or not the recorder stores anything. One that stores nothing costs an untaken
 /// branch for each event.
@@ -58,15 +79,14 @@ struct RecordedPath {
 /// beta.      tested by  "identity: recording never changes an estimate"
 class Recorder : RecordedPath {
 public:
-    /// Stores only how many paths the depth limit has ended.
-    Recorder() = default;
-    /// Stores all contributions and vertices. story: receives each step.
-    explicit Recorder(bool keeps_all, PathStory* story = nullptr)
+    /// keeps_all: stores all contributions and vertices, else only counts. story: receives each
+    /// step.
+    explicit Recorder(bool keeps_all = false, PathStory* story = nullptr)
         : listening_(keeps_all), story_(story) {}
 
     /// Starts a new path from the eye; the path before is deleted.
     void start() {
-        if (listening_) forget();
+        if (listening_) static_cast<RecordedPath&>(*this) = {};
     }
     /// The next events belong to a path that starts at p, a point of a light.
     void start_at_light(Vec3 p) {
@@ -150,7 +170,6 @@ public:
     uint64_t inner_photons() const { return inner_; }
 
 private:
-    void forget();
     void note_start_at_light(Vec3);
     void note_start_at_eye();
     void note_vertex(const Hit&);
@@ -169,7 +188,7 @@ private:
     std::string class_of(std::string path_class, size_t events) const;
     int eye_vertex(size_t events) const;
 
-    bool listening_ = false;
-    PathStory* story_ = nullptr;
+    bool listening_;
+    PathStory* story_;
     uint64_t paths_cut_ = 0, gathered_ = 0, inner_ = 0;
 };

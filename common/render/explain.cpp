@@ -4,9 +4,8 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/progress.h"
-#include "common/path/camera_sample.h"
 #include "common/recording/class_filter.h"
-#include "common/recording/path_story.h"
+#include "common/recording/recorder.h"
 #include "common/render/render.h"
 #include "common/render/table.h"
 #include "common/scene/intersect.h"
@@ -274,10 +273,13 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     uint32_t number = static_cast<uint32_t>(halves ? s / 2 : s);
     start_sample(sampler, pixel, halves ? s % 2 : 0, number);
-    PathStory story(scene.max_depth, options.search == LightSearch::photons);
+    std::vector<TracedRay> rays;
+    rays_kept = &rays;
+    PathStory story{scene.max_depth, options.search == LightSearch::photons};
     Recorder recorder(true, &story);
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    auto [ray, film] = camera_sample(view, x, y, sampler, scene.camera.pixel_centre);
+    Vec2 film = film_point(x, y, sampler, scene.camera.pixel_centre);
+    Ray ray = camera_ray(view, film);
     Splats splats;
     std::optional<Rgb> L;  // none: the path took too long
     try {
@@ -286,6 +288,7 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
         story.step("    given up here: the path goes on, but the program was stopped\n");
     }
     story.ends();
+    rays_kept = nullptr;
 
     std::printf(
         "pixel %d,%d sample %d of %s: camera at (%.6g, %.6g, %.6g), film point +%.4f +%.4f\n", x, y,
@@ -307,7 +310,7 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
             returned, told);
 
     std::string file = drawing_path(options);
-    write_file_atomically(file, draw_path(scene, ray.o, recorder.vertices(), story.rays));
+    write_file_atomically(file, draw_path(scene, ray.o, recorder.vertices(), rays));
     if (!options.quiet) std::printf("wrote %s\n", file.c_str());
     if (!L) return 3;
     bool finite = std::all_of(counted.begin(), counted.end(),

@@ -8,7 +8,6 @@
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/progress.h"
-#include "common/path/camera_sample.h"
 #include "common/picture/heat_map.h"
 #include "common/recording/class_filter.h"
 #include "common/scene/intersect.h"
@@ -196,7 +195,7 @@ struct TileRenderer {
         start_sample(t.sampler, at.pixel, half, at.sample);
         t.recorder.start();
         bool centre = scene.camera.pixel_centre;
-        Ray ray = camera_sample(view, at.x, at.y, t.sampler, centre).ray;
+        Ray ray = camera_ray(view, film_point(at.x, at.y, t.sampler, centre));
         t.splats.clear();
         t.L = method.trace(scene, ray, t.splats, t.sampler, t.recorder);
         if (chooses || splits) choose(t);

@@ -8,7 +8,7 @@
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
 #include "common/material/ggx.h"
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/path/sampler.h"
 #include "common/picture/heat_map.h"
 #include "common/render/render.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/material/spectrum.h"
 #include "common/picture/image.h"
 #include "common/scene/scene.h"

@@ -7,7 +7,6 @@
 
 #include "chapters/12_ris/estimator.h"
 #include "chapters/15_mis_ris/estimator.h"
-#include "common/light/resampling.h"
 #include "tests/support/known_lights.h"
 
 namespace {

@@ -49,7 +49,7 @@ TEST_SUITE("class filter") {
             {"LD{2}E", "3"},    {"(((((((((", "9"},
             {"L\\1E", "2"},     {"^LE$", "1"},
             {"L E", "2"},       {"ld", "1"},
-            {"L\xc3\xa4", "2"}, {std::string(100000, '('), "1001"}};
+            {"L\xc3\xa4", "2"}, {std::string(100000, '('), "9"}};
         for (const auto& [filter, column] : cases)
             CHECK(error_of([&, text = filter] {
                       ClassFilter read(text);

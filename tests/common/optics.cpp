@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "chapters/07_path_tracing/estimator.h"
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/material/spectrum.h"
 #include "tests/support/directions.h"
 #include "tests/support/estimators.h"

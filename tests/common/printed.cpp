@@ -2,7 +2,6 @@
 // not fit.
 #include <doctest/doctest.h>
 
-#include "common/path/camera_sample.h"
 #include "common/render/render.h"
 #include "common/scene/prepare.h"
 #include "tests/support/process.h"

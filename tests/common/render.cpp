@@ -7,7 +7,6 @@
 #include <csignal>
 
 #include "common/base/system.h"
-#include "common/path/camera_sample.h"
 #include "tests/support/stand_ins.h"
 
 namespace {
@@ -60,7 +59,7 @@ Rgb sample_of(const Scene& scene, const RenderOptions& options, const Method& tr
     sampler.start(static_cast<uint32_t>(y * scene.width + x), static_cast<uint32_t>(s));
     Recorder recorder;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    Ray ray = camera_sample(view, x, y, sampler).ray;
+    Ray ray = camera_ray(view, film_point(x, y, sampler));
     return trace(scene, ray, sampler, recorder);
 }
 
@@ -148,7 +147,7 @@ TEST_SUITE("render loop") {
         for (const auto& [name, film] : r.classes)
             CHECK(film.image().pixels == one.classes.at(name).image().pixels);
         // Those with light for other pixels.
-        r = render_film(scene, options, Method(random_splats));
+        r = render_film(scene, options, method_of<random_splats>());
         Image own = r.classes.at("LE").image(), others = r.classes.at("LDE").image();
         whole = r.film.image();
         for (size_t i = 0; i < whole.pixels.size(); i++) {

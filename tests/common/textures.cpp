@@ -6,7 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/geometry/shapes.h"
-#include "common/material/metal.h"
+#include "common/material/hit.h"
 #include "common/picture/image.h"
 #include "common/scene/intersect.h"
 #include "common/scene/sky_image.h"
