@@ -128,14 +128,15 @@ TEST_SUITE("film files") {
     }
 
     TEST_CASE("teeth: the same samples twice, and other options, are refused and change nothing") {
-        LabeledFilm sum = film_of(4, 9), other = film_of(9, 12), halves = film_of(9, 12, 1, 2);
+        LabeledFilm sum = film_of(4, 9), other = film_of(9, 12),
+                    no_splats = film_of(9, 12, 1, 1, false);
         other.label.options[3].second = "17";
         std::string before = bytes_of(sum);
         for (const auto& [part, why] :
              {std::pair(film_of(4, 9), "sample 4 of seed 1 would count twice"),
               {film_of(6, 7), "sample 6 of seed 1 would count twice"},
               {other, "its m is \"17\", here it is \"16\""},
-              {halves, "a film by another version of the program"}}) {
+              {no_splats, "a film by another version of the program"}}) {
             std::string error = error_of([&, &p = part] { add_film(sum, "b.film", p); });
             CHECK(error == "b.film: error: " + std::string(why));
             CHECK(bytes_of(sum) == before);
