@@ -48,8 +48,7 @@ TEST_SUITE("film") {
         CHECK(film.standard_error() == nearly(std::sqrt(1.0 / 3 + 1) / 2, 1e-14));
         CHECK(film.error().samples == nearly(13.0 * 13.0 / 57, 1e-14));
         CHECK(std::isnan(film_of({{0, 1, 2}, {4}}).standard_error()));
-        CHECK(film_of({{0, 1, 2}, {4, 4, 4}}).error().samples ==
-              nearly(15.0 * 15.0 / 53, 1e-14));
+        CHECK(film_of({{0, 1, 2}, {4, 4, 4}}).error().samples == nearly(15.0 * 15.0 / 53, 1e-14));
         CHECK(film_of({{0, 0}, {0, 0}}).error().samples == 0);
         // One without samples is black, and not in the mean of the others.
         film = film_of({{}, {4, 6}});
