@@ -1,7 +1,7 @@
 // What the program of chapter 06 shows: a table of its steps, and a heat map.
 #pragma once
 #include "chapters/06_bvh/estimator.h"
-#include "common/picture/heat_map.h"
+#include "common/picture/drawing.h"
 #include "common/render/table.h"
 
 namespace ch06 {

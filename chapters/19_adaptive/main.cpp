@@ -1,7 +1,7 @@
 // Chapter 19 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/19_adaptive/estimator.h"
 #include "common/base/files.h"
-#include "common/picture/heat_map.h"
+#include "common/picture/drawing.h"
 #include "common/render/render.h"
 
 int main(int argc, char** argv) {

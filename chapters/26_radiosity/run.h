@@ -7,7 +7,7 @@
 #include "common/base/progress.h"
 #include "common/base/text.h"
 #include "common/path/method.h"
-#include "common/picture/smooth_corners.h"
+#include "common/picture/drawing.h"
 #include "common/render/render.h"
 #include "common/scene/prepare.h"
 

@@ -24,11 +24,11 @@ bool is_grey(const Image& image) {
     return std::all_of(image.pixels.begin(), image.pixels.end(), same);
 }
 
-/// The squared error of a pixel, averaged over its channels: plain, and relative.
+/// The squared error of a pixel, averaged over its channels; in the order of the relative one.
 struct PixelError {
-    double squared = 0, relative = 0;
+    double relative = 0, squared = 0;
+    auto operator<=>(const PixelError&) const = default;  // NOLINT(*-use-nullptr): version 14
 };
-bool is_smaller(PixelError x, PixelError y) { return x.relative < y.relative; }
 
 std::vector<PixelError> errors_of(const Image& a, const Image& b) {
     std::vector<PixelError> errors(a.pixels.size());
@@ -46,9 +46,7 @@ std::vector<PixelError> errors_of(const Image& a, const Image& b) {
 void add_row(const Image& a, const Image& b, size_t channel, Comparison& result) {
     constexpr int side = 8, fewest = 16;  // pixels of a block, to estimate their spread
     RunningStats mean_a, mean_b;
-    for (Rgb p : a.pixels) mean_a.add(value(p, channel));
-    for (Rgb p : b.pixels) mean_b.add(value(p, channel));
-    ChannelComparison row{channels[channel], mean_a.mean(), mean_b.mean()};
+    ChannelComparison row{channels[channel]};
     double variance = 0, pixels = 0;  // of the sum of the differences
     result.blocks = 0;
     for (int y0 = 0; y0 < a.height; y0 += side) {
@@ -56,8 +54,11 @@ void add_row(const Image& a, const Image& b, size_t channel, Comparison& result)
             RunningStats difference, level;
             for (int y = y0; y < std::min(a.height, y0 + side); y++) {
                 for (int x = x0; x < std::min(a.width, x0 + side); x++) {
-                    difference.add(value(a.at(x, y), channel) - value(b.at(x, y), channel));
-                    level.add(std::abs(value(b.at(x, y), channel)));
+                    double of_a = value(a.at(x, y), channel), of_b = value(b.at(x, y), channel);
+                    mean_a.add(of_a);
+                    mean_b.add(of_b);
+                    difference.add(of_a - of_b);
+                    level.add(std::abs(of_b));
                 }
             }
             if (difference.count() < fewest) continue;
@@ -69,6 +70,7 @@ void add_row(const Image& a, const Image& b, size_t channel, Comparison& result)
             row.beyond_5 += !is_rounding && d / difference.standard_error() > 5;
         }
     }
+    row.mean_a = mean_a.mean(), row.mean_b = mean_b.mean();
     row.standard_error = pixels > 0 ? std::sqrt(variance) / pixels : NAN;
     result.rows.push_back(row);
 }
@@ -81,20 +83,8 @@ std::string value_of(const Picture& picture, const std::string& name) {
 }
 bool is_known(const Picture& picture) { return !value_of(picture, "checksum").empty(); }
 
-/// Whether both have this note, with different values; and (below) with the same value.
-bool differ(const Picture& a, const Picture& b, const std::string& name) {
-    std::string x = value_of(a, name), y = value_of(b, name);
-    return !x.empty() && !y.empty() && x != y;
-}
 bool agree(const Picture& a, const Picture& b, const std::string& name) {
-    return !value_of(a, name).empty() && value_of(a, name) == value_of(b, name);
-}
-
-/// "2 % brighter"
-std::string how_bright(const ChannelComparison& row) {
-    double d = row.difference();
-    std::string much = std::isinf(d) ? "" : percent(std::abs(d)) + " ";
-    return much + (d > 0 ? "brighter" : "darker");
+    return value_of(a, name) == value_of(b, name);
 }
 
 }  // namespace
@@ -114,7 +104,7 @@ Comparison compare(const Image& a, const Image& b, double trim) {
     bool are_grey = is_grey(a) && is_grey(b);
     for (size_t channel = 0; channel < 3 && !are_grey; channel++) add_row(a, b, channel, result);
     std::vector<PixelError> errors = errors_of(a, b);
-    std::sort(errors.begin(), errors.end(), is_smaller);
+    std::sort(errors.begin(), errors.end());
     size_t left_out = static_cast<size_t>(trim / 100 * static_cast<double>(errors.size()));
     errors.resize(errors.size() - left_out);
     for (PixelError e : errors) {
@@ -133,11 +123,8 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
     if (size(a) != size(b))
         fail({name_b}, "has " + size(b) + " pixels, but " + name_a + " has " + size(a));
     for (const auto& [image, name] : {std::pair(&a, name_a), {&b, name_b}})
-        for (size_t i = 0; i < image->pixels.size(); i++) {
-            if (is_finite(image->pixels[i])) continue;
-            size_t width = static_cast<size_t>(image->width), x = i % width, y = i / width;
-            fail({name}, "pixel " + std::to_string(x) + "," + std::to_string(y) + " is not finite");
-        }
+        for (Rgb p : image->pixels)
+            if (!is_finite(p)) fail({name}, "not all of its pixels are finite");
 }
 
 Rgb false_colour(double x) {
@@ -155,21 +142,18 @@ Rgb false_colour(double x) {
     return (1 - t) * stops[i] + t * stops[i + 1];
 }
 
-Image error_image(const Image& a, const Image& b, double range) {
+Image error_image(const Image& a, const Image& b, double& range) {
     Image picture(a.width, a.height);
-    std::vector<PixelError> errors = errors_of(a, b);
+    const std::vector<PixelError> errors = errors_of(a, b);
+    if (range == 0) {
+        std::vector<PixelError> sorted = errors;
+        std::sort(sorted.begin(), sorted.end());
+        range = std::sqrt(sorted[sorted.size() - 1 - sorted.size() / 100].relative);
+    }
     for (size_t i = 0; i < errors.size(); i++) {
         picture.pixels[i] = false_colour(range > 0 ? std::sqrt(errors[i].relative) / range : 0);
     }
     return picture;
-}
-
-double error_range(const Image& a, const Image& b) {
-    std::vector<PixelError> errors = errors_of(a, b);
-    auto place =
-        errors.begin() + static_cast<std::ptrdiff_t>(errors.size() - 1 - errors.size() / 100);
-    std::nth_element(errors.begin(), place, errors.end(), is_smaller);
-    return std::sqrt(place->relative);
 }
 
 Picture read_picture(const std::string& path) {
@@ -190,15 +174,15 @@ std::vector<std::string> doubts(const Picture& a, const Picture& b) {
             lines.push_back("warning: " + picture->file +
                             " has 8 bits: all that is brighter than 1 is cut off");
     }
+    if (!is_known(a) || !is_known(b)) return lines;
     for (const char* name : {"scene", "checksum", "stand-ins", "max-depth", "paths"}) {
-        std::string x = value_of(a, name), y = value_of(b, name);
-        if (x == y || !is_known(a) || !is_known(b)) continue;
-        lines.push_back(
-            printable("warning: A has " + std::string(name) + " '" + x + "', B '" + y + "'"));
+        if (agree(a, b, name)) continue;
+        lines.push_back(printable("warning: A has " + std::string(name) + " '" + value_of(a, name) +
+                                  "', B '" + value_of(b, name) + "'"));
     }
     bool is_same_render = agree(a, b, "checksum") && agree(a, b, "chapter") &&
                           agree(a, b, "sampler") && agree(a, b, "seed");
-    if (is_same_render && differ(a, b, "spp"))
+    if (is_same_render && !value_of(a, "seed").empty() && !agree(a, b, "spp"))
         lines.push_back(
             "warning: A and B have samples in common, and so less difference than error: give one "
             "another --seed");
@@ -208,7 +192,8 @@ std::vector<std::string> doubts(const Picture& a, const Picture& b) {
 std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
     if (c.mse == 0) return "the same picture";
     // A picture with stand-ins shows another scene than one without.
-    if (differ(a, b, "checksum") || value_of(a, "stand-ins") != value_of(b, "stand-ins"))
+    bool is_other = is_known(a) && is_known(b) && !agree(a, b, "checksum");
+    if (is_other || !agree(a, b, "stand-ins"))
         return "the pictures show different scenes, so their difference is no noise";
     const ChannelComparison& all = c.rows[0];
     if (std::isnan(all.z())) return "how sure the means are is not known";
@@ -216,12 +201,14 @@ std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
     double most = 0;
     int most_blocks = 0;
     for (const ChannelComparison& row : c.rows) {
+        double d = row.difference(), of_all = all.difference();
+        std::string much = std::isinf(d) ? "" : percent(std::abs(d)) + " ";
         std::string in = &row == &all ? "" : std::string(" in ") + row.name;
         most = std::max(most, row.z());
         // A channel that differs as the brightness does is not named.
-        bool is_told = !means.empty() && std::abs(row.difference() - all.difference()) <=
-                                             std::abs(all.difference()) / 2;
-        if (row.z() > 5 && !is_told) means += (means.empty() ? "" : ", ") + how_bright(row) + in;
+        bool is_told = !means.empty() && std::abs(d - of_all) <= std::abs(of_all) / 2;
+        if (row.z() > 5 && !is_told)
+            means += (means.empty() ? "" : ", ") + much + (d > 0 ? "brighter" : "darker") + in;
         // Noise alone puts about one block of a million beyond 5; some more, as errors are
         // estimates.
         if (row.beyond_5 <= std::max(2, c.blocks / 200)) continue;

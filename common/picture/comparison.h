@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/picture/film_file.h"
+#include "common/picture/film.h"
 
 /// One channel, or the brightness, which is the mean of the three; a: the picture, b: the
 /// reference.
@@ -14,27 +14,21 @@ struct ChannelComparison {
     double standard_error = 0;  // of mean_a - mean_b; NaN where there is no block
     int beyond_5 = 0;           // blocks that differ by more than 5 standard errors of their own
 
-    /// The relative difference of the means; 0 where they differ by rounding alone.
-    double difference() const;
-    /// How many standard errors the means differ by.
-    double z() const;
+    double difference() const;  // of the means, relative; 0 where they differ by rounding alone
+    double z() const;           // how many standard errors they differ by
 };
 
-/// The result of compare(). Errors are means over pixels and channels.
+/// Errors are means over pixels and channels. The standard errors come from the spread of a - b
+/// within blocks of 8 x 8 pixels, which needs pixels with independent noise.
 struct Comparison {
-    /// The brightness; then red, green and blue, unless both pictures are grey.
-    std::vector<ChannelComparison> rows;
-    /// Of 8 x 8 pixels. The standard errors come from the spread of a - b within them, which needs
-    /// pixels with independent noise.
+    std::vector<ChannelComparison> rows;  // brightness; red, green, blue unless both are grey
     int blocks = 0;
     double mse = 0, rmse = 0;
     double rel_mse = 0;  // of (a-b)^2 / (b^2 + 0.01)
 };
 
-/// Compares a with the reference b, pictures of the same size.
-///
-/// trim  percent of the pixels, those with the largest relative error, that mse, rmse and rel_mse
-///       leave out
+/// Compares a with the reference b, pictures of the same size. The errors leave out `trim` percent
+/// of the pixels, those with the largest relative error.
 /// tested by  "brute: a comparison's numbers counted in another way"
 Comparison compare(const Image& a, const Image& b, double trim = 0);
 
@@ -43,11 +37,9 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
                       const std::string& name_b);
 
 /// The error of a pixel, sqrt of the mean over its channels of (a-b)^2 / (b^2 + 0.01), as a colour:
-/// black for 0, then blue, purple, orange and yellow, to white for `range` and more.
-Image error_image(const Image& a, const Image& b, double range);
-
-/// A range that leaves 1 % of the pixels white.
-double error_range(const Image& a, const Image& b);
+/// black for 0, then blue, purple, orange and yellow, to white for `range` and more. A range of 0
+/// is set so that 1 % of the pixels are white.
+Image error_image(const Image& a, const Image& b, double& range);
 
 /// The colour of share x of the range, linear.
 Rgb false_colour(double x);

@@ -1,10 +1,15 @@
-// Points and curves drawn into a part of a picture; and sheets of many pictures with words.
+// What is drawn: points and curves in a part of a picture, sheets of many pictures with words, the
+// work for each pixel in false colours, and one colour for each triangle, shown smoothly.
 #pragma once
+#include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/picture/image.h"
+#include "common/scene/camera.h"
+#include "common/scene/scene.h"
 
 /// A rectangle of an image with its own coordinates: x to the right, y up.
 struct Panel {
@@ -74,3 +79,54 @@ Image sheet(const std::vector<Tile>& tiles, int columns);
 
 /// The means of n x n pixels each; what is left over at the right and at the bottom is dropped.
 Image shrunk(const Image& image, int n);
+
+/// The ray through the middle of pixel number i, counted row by row.
+inline Ray pixel_ray(const Scene& scene, const CameraView& view, int i) {
+    return camera_ray(view, {static_cast<float>(i % scene.width) + 0.5f,
+                             static_cast<float>(i / scene.width) + 0.5f});
+}
+
+/// The rays through every stride-th pixel.
+inline std::vector<Ray> pixel_rays(const Scene& scene, size_t stride) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    std::vector<Ray> rays;
+    size_t pixels = static_cast<size_t>(scene.width) * static_cast<size_t>(scene.height);
+    for (size_t i = 0; i < pixels; i += stride)
+        rays.push_back(pixel_ray(scene, view, static_cast<int>(i)));
+    return rays;
+}
+
+/// The numbers in the red channel as colours, from black (none) by blue, green and red to white
+/// (`most` or more).
+inline Image heat_map(Image numbers, float most) {
+    for (Rgb& pixel : numbers.pixels) {
+        float h = 4 * pixel.r / most;
+        auto ramp = [&](float from) { return std::clamp(h - from, 0.0f, 1.0f); };
+        pixel = {ramp(2), ramp(1) - ramp(2) + ramp(3), ramp(0) - ramp(1) + ramp(3)};
+    }
+    return numbers;
+}
+
+/// work(ray) of every pixel, as a heat map.
+template <class Work>
+Image heat_map(const Scene& scene, float most, const Work& work) {
+    Image image(scene.width, scene.height);
+    std::vector<Ray> rays = pixel_rays(scene, 1);
+    for (size_t i = 0; i < rays.size(); i++) image.pixels[i].r = work(rays[i]);
+    return heat_map(std::move(image), most);
+}
+
+using Triangles = std::vector<std::array<Vec3, 3>>;     // corners
+using CornerColours = std::vector<std::array<Rgb, 3>>;  // of each triangle, at its corners
+
+/// Whether one surface goes on from triangle i to triangle j. Any thread may ask.
+using GoesOn = std::function<bool(uint32_t i, uint32_t j)>;
+
+/// Colours at the corners: the mean of the triangles around, by area, but only where the surface
+/// goes on. That alone would flatten what rises and falls; so what a triangle's corners miss of its
+/// own colour is spread among them. None is negative.
+///
+/// size, m: corners that are nearer to each other are one
+/// tested by  "truth: corners follow radiosity that rises evenly, and stop at an edge"
+CornerColours smooth_corners(const Triangles& triangles, const std::vector<Rgb>& colours,
+                             float size, const GoesOn& goes_on, int threads);

@@ -1,13 +1,100 @@
 #include "common/picture/film.h"
 
-void PixelSum::raise(Sum sum, int by) {
-    if (std::isnan(bins[0][sum])) return;
-    for (int i = 2; i >= 0; i--) bins[i][sum] = i >= by ? bins[i - by][sum] : 0;
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+
+#include "common/base/error.h"
+#include "common/base/files.h"
+#include "common/base/system.h"
+#include "common/base/text.h"
+
+namespace {
+
+/// The lines that a picture's comment and a film begin with, and what is the same in all versions.
+constexpr const char* picture_line = "picture of path-by-path";
+constexpr std::string_view any_version = "film of path-by-path, version ",
+                           first_line = "film of path-by-path, version 9\n";
+
+/// The values as they are in memory.
+template <class Values>
+std::string_view bytes_of(const Values& values) {
+    return {reinterpret_cast<const char*>(std::data(values)), std::size(values) * sizeof values[0]};
+}
+template <class Values>
+void read(std::istream& file, Values& values) {
+    std::string_view bytes = bytes_of(values);
+    file.read(const_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
+/// What decides which sums a film has.
+using Shape = std::array<int, 6>;
+Shape shape_of(const Film& film) {
+    return {film.width,        film.height,        film.takes_splats(),
+            film.has_halves(), film.has_batches(), film.has_audits()};
+}
+
+/// The notes, a line for each, up to an empty line or the end.
+Notes read_notes(std::istream& lines) {
+    Notes notes;
+    for (std::string line; std::getline(lines, line) && !line.empty();) {
+        size_t space = std::min(line.find(' '), line.size());
+        notes.push_back({line.substr(0, space), line.substr(std::min(space + 1, line.size()))});
+    }
+    return notes;
+}
+
+/// The file, ready to be read after its checksum. Throws where it is not whole.
+std::ifstream whole_film(const std::string& path) {
+    errno = 0;
+    std::ifstream file(file_path(path), std::ios::binary);
+    if (!file) fail({path}, std::string("cannot read: ") + std::strerror(errno));
+    std::string line(first_line.size(), '\0'), piece(1 << 16, '\0');
+    std::array<uint64_t, 1> written = {};
+    read(file, line);
+    if (!line.starts_with(any_version)) fail({path}, "not a film");
+    if (line != first_line) fail({path}, "a film by another version of the program");
+    read(file, written);
+    Checksum sum;
+    while (file) {
+        read(file, piece);
+        sum.add(std::string_view(piece).substr(0, static_cast<size_t>(file.gcount())));
+    }
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(line.size() + sizeof written));
+    if (!file || written[0] != sum.value()) fail({path}, "the film is damaged, or cut short");
+    return file;
+}
+
+/// The ranges of both, joined where they touch. Throws where they overlap.
+std::vector<SampleRange> joined(const std::vector<SampleRange>& a,
+                                const std::vector<SampleRange>& b, const std::string& path) {
+    std::vector<SampleRange> all = a, result;
+    all.insert(all.end(), b.begin(), b.end());
+    std::sort(all.begin(), all.end());
+    for (SampleRange r : all) {
+        bool same_seed = !result.empty() && result.back().seed == r.seed;
+        if (same_seed && r.first < result.back().last)
+            fail({path}, text_of({r.seed, r.first, r.first + 1}) + " would count twice");
+        if (same_seed && r.first == result.back().last) {
+            r.first = result.back().first;
+            r.goal = std::max(r.goal, result.back().goal);
+            result.pop_back();
+        }
+        if (r.first == 0 && r.last == r.goal.samples) r.goal.parts = 1;
+        result.push_back(r);
+    }
+    return result;
+}
+
+}  // namespace
+
 void PixelSum::raise_to(int channels, int squares_to) {
-    for (Sum sum : {red, green, blue}) raise(sum, std::max(0, channels - top_channels));
-    raise(squares, std::max(0, squares_to - top_squares));
+    for (Sum sum : {red, green, blue, squares}) {
+        int by = std::max(0, sum == squares ? squares_to - top_squares : channels - top_channels);
+        for (int i = 2; i >= 0 && !std::isnan(bins[0][sum]); i--)
+            bins[i][sum] = i >= by ? bins[i - by][sum] : 0;
+    }
     top_channels = std::max(top_channels, static_cast<uint8_t>(channels));
     top_squares = std::max(top_squares, static_cast<uint8_t>(squares_to));
 }
@@ -19,11 +106,10 @@ void PixelSum::add_large(double r, double g, double b, double y2) {
         numbers[sum] = 0;
         for (auto& bin : bins) bin[sum] = std::nan("");
     }
-    const auto& limit = pixel_sum::tops.limit;
     double largest = std::abs(numbers[0]) + std::abs(numbers[1]) + std::abs(numbers[2]);
     int channels = top_channels, squares_to = top_squares;
-    while (!(largest < limit[static_cast<size_t>(channels)])) channels++;
-    while (!(numbers[squares] < limit[static_cast<size_t>(squares_to)])) squares_to++;
+    while (!fits(largest, channels)) channels++;
+    while (!fits(numbers[squares], squares_to)) squares_to++;
     raise_to(channels, squares_to);
     add_fitting(numbers[0], numbers[1], numbers[2], numbers[3]);
 }
@@ -32,39 +118,24 @@ void PixelSum::add(const PixelSum& other) {
     PixelSum aligned = other;
     aligned.raise_to(top_channels, top_squares);
     raise_to(aligned.top_channels, aligned.top_squares);
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 3; i++)
         for (Sum sum : {red, green, blue, squares}) bins[i][sum] += aligned.bins[i][sum];
-    }
     n += other.n;
 }
 
-PixelSum::Double2 PixelSum::add(Double2 a, Double2 b) {  // source: Knuth's two-sum
-    double sum = a.high + b.high, from_b = sum - a.high;
-    double lost = (a.high - (sum - from_b)) + (b.high - from_b);
-    return {sum, lost + a.low + b.low};
-}
-
-PixelSum::Double2 PixelSum::value(Sum sum) const {
-    return add(add({bins[0][sum], 0}, {bins[1][sum], 0}), {bins[2][sum], 0});
-}
-
-PixelSum::Double2 PixelSum::brightness() const {
-    return add(add(value(red), value(green)), value(blue));
-}
-
 double PixelSum::m2() const {
-    if (n == 0) return 0;
     // sum (X - q)^2 = sum X^2 - 2 q sum X + n q^2 with q = mean X. Where the mean is large, almost
     // all of it cancels: so fma() keeps what the products lose by rounding.
-    Double2 sum = brightness(), sum2 = value(squares);
-    double count = n, q = sum.high / count;
-    double a = 2 * q * sum.high, a_lost = std::fma(2 * q, sum.high, -a);
-    double q2 = q * q, q2_lost = std::fma(q, q, -q2);
-    double b = count * q2, b_lost = std::fma(count, q2, -b);
-    double high = (sum2.high - a) + b;
-    double low = (sum2.low - a_lost) + b_lost + count * q2_lost - 2 * q * sum.low;
-    double all = high + low;
+    double sum = r() + g() + b(), count = n, q = sum / std::max(count, 1.0);
+    double all = std::fma(q, std::fma(count, q, -2 * sum), value(squares));
     return (all < 0 ? 0 : all) / 9;  // keeps NaN
+}
+
+void Film::count_as(const Film& whole) {
+    for (size_t i = 0; i < pixels_.size(); i++) {
+        pixels_[i].n = whole.pixels_[i].n;
+        if (has_halves_) audits_[i].n = whole.audits_[i].n;
+    }
 }
 
 Rgbd Film::mean_of(size_t pixel, double spp) const {
@@ -104,19 +175,12 @@ Image Film::counts() const {
     return image;
 }
 
-static double variance_of_mean(const PixelSum& p) {
-    double n = p.n;
-    return p.m2() / (n - 1) / n;
-}
-
 void Film::start_halves() {
     has_halves_ = true;
     audits_.assign(pixels_.size(), {});
 }
 
 void Film::start_audit() {
-    audited_.clear();
-    for (PixelSum& p : pixels_) p.is_audited = 0;
     for (bool at_edges : {false, true}) {
         std::vector<size_t> some;
         for (size_t i = 0; i < pixels_.size(); i++) {
@@ -125,39 +189,12 @@ void Film::start_audit() {
         size_t one_of = std::clamp<size_t>(some.size() / 64, 1, 256);
         for (size_t first = 0; first < some.size(); first += one_of) {
             size_t size = std::min(one_of, some.size() - first);
-            size_t chosen = hash32(static_cast<uint32_t>(first)) % size;
-            audited_.push_back(some[first + chosen]);
+            audited_.push_back(some[first + hash32(static_cast<uint32_t>(first)) % size]);
         }
     }
     std::sort(audited_.begin(), audited_.end());
     for (size_t pixel : audited_) pixels_[pixel].is_audited = 1;
     audits_.assign(audited_.size(), {});
-}
-
-/// The sums that estimate the error, over pixels of one kind: at edges, or elsewhere.
-struct Film::ErrorPart {
-    double v = 0, v2 = 0;                         // sums of v and v^2 over the pixels
-    double found = 0, audited = 0, audited2 = 0;  // over the audited ones: (A - B)^2 / 2, v, v^2
-
-    double r() const { return audited > 0 ? found / audited : 1; }
-};
-
-std::array<Film::ErrorPart, 2> Film::error_parts() const {
-    std::array<ErrorPart, 2> parts;
-    for (size_t i = 0; i < pixels_.size(); i++) {
-        const PixelSum& p = measured()[i];
-        double v = p.n < 2 ? 0 : variance_of_mean(p);
-        if (has_halves_ && audits_[i].n >= 2) v = (v + variance_of_mean(audits_[i])) / 4;
-        ErrorPart& part = parts[pixels_[i].is_edge];
-        part.v += v, part.v2 += v * v;
-        if (!is_audited(i) || p.n < 2) continue;
-        const PixelSum& again = audits_[audit_of(i)];
-        double difference = p.mean() - again.mean();
-        double both = (v + variance_of_mean(again)) / 2;
-        part.found += difference * difference / 2;
-        part.audited += both, part.audited2 += both * both;
-    }
-    return parts;
 }
 
 double Film::variance_of_batches() const {
@@ -174,52 +211,58 @@ double Film::variance_of_batches() const {
     return squares / (1 - weights);
 }
 
-double Film::standard_error() const {
-    double seen = 0, sum = 0, as_if_independent = 0;
+Film::Error Film::error() const {
+    struct Part {
+        double v = 0, v2 = 0;                         // sums of v and v^2 over the pixels
+        double found = 0, audited = 0, audited2 = 0;  // of the audited: (A - B)^2 / 2, v, v^2
+    } parts[2];                                       // elsewhere, at edges
+    Error error;
+    bool is_known = true;
+    double seen = 0, sum_y = 0, sum_y2 = 0;
+    auto add_samples = [&](const PixelSum& p) {
+        error.squares += p.n < 2 ? 0 : p.m2();
+        sum_y += p.n * p.mean(), sum_y2 += p.sum_of_squares();
+    };
     for (size_t i = 0; i < pixels_.size(); i++) {
-        if (count_of(i) == 1) return std::nan("");
-        seen += count_of(i) > 0;
-        if (!has_halves_) continue;
-        if ((pixels_[i].n == 0) != (audits_[i].n == 0)) return std::nan("");
-        double difference = pixels_[i].mean() - audits_[i].mean();
-        sum += difference * difference / 4;
+        if (count_of(i) == 0) continue;
+        const PixelSum& a = (splats_.empty() ? pixels_ : totals_)[i];
+        double v = a.variance_of_mean();
+        Part& part = parts[pixels_[i].is_edge];
+        add_samples(a);
+        is_known &= count_of(i) > 1;
+        seen++;
+        if (has_halves_ || is_audited(i)) {
+            const PixelSum& b = audits_[second_of(i)];
+            double both = (v + b.variance_of_mean()) / 2, difference = a.mean() - b.mean();
+            part.found += difference * difference / 2;
+            part.audited += both, part.audited2 += both * both;
+            if (has_halves_) {
+                v = both / 2;
+                add_samples(b);
+                is_known &= std::min(a.n, b.n) > 0 && std::max(a.n, b.n) > 1;
+            }
+        }
+        part.v += v, part.v2 += v * v;
     }
-    if (!has_halves_) {
-        for (const ErrorPart& part : error_parts())
-            sum += part.r() * part.v, as_if_independent += part.v;
-    }
-    if (has_batches() && seen > 0) {
-        double all = variance_of_batches() * seen * seen;
-        if (!(all <= as_if_independent)) sum += all - as_if_independent;  // NaN stays NaN
-    }
-    return seen > 0 ? std::sqrt(sum) / seen : std::nan("");
-}
-
-Film::ErrorBasis Film::error_basis() const {
-    ErrorBasis basis;
-    double sum = 0, squares = 0, of_audits = 0;
-    for (const ErrorPart& part : error_parts()) {
-        double share = part.r() * part.v;
-        sum += share, squares += part.r() * part.r() * part.v2;
+    auto effective = [](double sum, double of_squares) {
+        return of_squares > 0 ? sum * sum / of_squares : 0;
+    };
+    double sum = 0, sum_v = 0, of_pixels = 0, of_audits = 0;
+    for (const Part& part : parts) {
+        double r = part.audited > 0 ? part.found / part.audited : 1, share = r * part.v;
+        sum += share, sum_v += part.v, of_pixels += r * r * part.v2;
         if (part.audited > 0)
             of_audits += share * share * part.audited2 / part.audited / part.audited;
     }
-    for (const Sums* half : measured_halves())
-        for (const PixelSum& p : *half) basis.squares += p.n < 2 ? 0 : p.m2();
-    if (squares > 0) basis.pixels = sum * sum / squares;
-    if (of_audits > 0) basis.audits = sum * sum / of_audits;
-    if (has_halves_) basis.audits = basis.pixels;
-    return basis;
-}
-
-double Film::effective_samples() const {
-    double sum = 0, squares = 0;
-    for (const Sums* half : measured_halves())
-        for (const PixelSum& p : *half) {
-            sum += p.n * p.mean();
-            squares += p.sum_of_squares();
-        }
-    return squares > 0 ? sum * sum / squares : 0;
+    error.pixels = effective(sum, of_pixels);
+    error.audits = effective(sum, of_audits);
+    error.samples = effective(sum_y, sum_y2);
+    if (has_batches() && seen > 0) {
+        double all = variance_of_batches() * seen * seen;
+        if (!(all <= sum_v)) sum += all - sum_v;  // NaN stays NaN
+    }
+    error.standard = is_known && seen > 0 ? std::sqrt(sum) / seen : std::nan("");
+    return error;
 }
 
 void Film::add(const Film& other) {
@@ -237,4 +280,148 @@ uint64_t Film::samples() const {
     uint64_t sum = 0;
     for (size_t i = 0; i < pixels_.size(); i++) sum += count_of(i);
     return sum;
+}
+
+std::string text_of(const SampleRange& r) {
+    std::string last = r.last - 1 > r.first ? " to " + std::to_string(r.last - 1) : "";
+    return (last.empty() ? "sample " : "samples ") + std::to_string(r.first) + last + " of seed " +
+           std::to_string(r.seed);
+}
+
+std::string SampleAt::text() const {
+    return std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(number);
+}
+
+void SampleCounts::add(const SampleCounts& other) {
+    rays += other.rays;
+    paths_cut += other.paths_cut;
+    photons += other.photons;
+    inner_photons += other.inner_photons;
+    largest = std::max(largest, other.largest);
+    if (other.not_finite > 0) bad = not_finite == 0 ? other.bad : std::min(bad, other.bad);
+    not_finite += other.not_finite;
+}
+
+std::vector<std::string> FilmLabel::missing() const {
+    std::vector<std::string> lines;
+    auto add_gap = [&](uint32_t from, uint32_t to, const SampleRange& r) {
+        if (from >= to) return;
+        uint32_t first = r.goal.part_of(from), last = r.goal.part_of(to - 1);
+        std::string more = last > first ? " to " + std::to_string(last) : "";
+        std::string parts =
+            ", part " + std::to_string(first) + more + " of " + std::to_string(r.goal.parts);
+        lines.push_back("missing: " + text_of({r.seed, from, to}) +
+                        (r.goal.parts > 1 ? parts : ""));
+    };
+    for (size_t i = 0; i < samples.size(); i++) {
+        const SampleRange& r = samples[i];
+        bool is_first = i == 0 || samples[i - 1].seed != r.seed;
+        bool is_last = i + 1 == samples.size() || samples[i + 1].seed != r.seed;
+        add_gap(is_first ? 0 : samples[i - 1].last, r.first, r);
+        if (is_last) add_gap(r.last, r.goal.samples, r);
+    }
+    return lines;
+}
+
+Notes notes_of(const FilmLabel& label, double spp) {
+    Notes notes;
+    for (const auto& [name, value] : label.options) {
+        if (name != "code" && !value.empty()) notes.push_back({name, value});
+    }
+    if (!label.samples.empty()) notes.push_back({"spp", json_number(spp)});
+    bool from_the_start = label.samples.size() == 1 && label.samples[0].first == 0;
+    for (const SampleRange& r : label.samples) {
+        std::string numbers = std::to_string(r.first) + " to " + std::to_string(r.last - 1);
+        std::string seed = std::to_string(r.seed), all = numbers + " of seed " + seed;
+        notes.push_back(from_the_start ? std::pair{"seed", seed} : std::pair{"samples", all});
+    }
+    return notes;
+}
+
+std::vector<std::string> lines_of(const Notes& notes) {
+    std::vector<std::string> lines;
+    for (const auto& [name, value] : notes) lines.push_back(name + ' ' + printable(value));
+    return lines;
+}
+
+std::string comment_of(const Notes& notes) {
+    std::string comment = picture_line;
+    for (const std::string& line : lines_of(notes)) comment += '\n' + line;
+    return comment;
+}
+
+Notes notes_in(const std::string& comment) {
+    std::istringstream lines(comment);
+    std::string line;
+    if (!std::getline(lines, line) || line != picture_line) return {};
+    return read_notes(lines);
+}
+
+void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
+    std::string options;
+    for (const std::string& line : lines_of(label.options)) options += line + '\n';
+    options += '\n';
+    const std::array shape = {shape_of(film)};
+    const std::array size = {label.samples.size()};
+    const std::array counts = {label.counts};
+    std::vector<std::string_view> parts = {options, bytes_of(shape), bytes_of(size),
+                                           bytes_of(label.samples), bytes_of(counts)};
+    for (const Film::Sums* sums : film.sums()) parts.push_back(bytes_of(*sums));
+    Checksum sum;
+    for (std::string_view part : parts) sum.add(part);
+    write_file_atomically(path, [&](std::ostream& file) {
+        file << first_line << bytes_of(std::array{sum.value()});
+        for (std::string_view part : parts) file << part;
+    });
+}
+
+LabeledFilm read_film(const std::string& path) {
+    std::ifstream file = whole_film(path);
+    FilmLabel label{read_notes(file), {}, {}};
+    Shape shape;
+    std::array<uint64_t, 1> size;
+    std::array<SampleCounts, 1> counts;
+    read(file, shape);
+    read(file, size);
+    label.samples.resize(size[0]);
+    read(file, label.samples);
+    read(file, counts);
+    label.counts = counts[0];
+    auto [width, height, takes_splats, has_halves, has_batches, has_audits] = shape;
+    Film film(width, height, takes_splats);
+    if (has_halves) film.start_halves();
+    if (has_batches) film.start_batches();
+    for (Film::Sums* sums : film.sums()) {
+        read(file, *sums);
+        // The pixels at the edges of lamps decide which are audited, and so how many audits follow.
+        if (has_audits && sums == &film.pixels()) film.start_audit();
+    }
+    return {std::move(label), std::move(film)};
+}
+
+void check_fits(const std::string& path, const LabeledFilm& film, const Notes& options,
+                const Film& sum) {
+    const Notes& its_options = film.label.options;
+    bool same_names = options.size() == its_options.size();
+    for (size_t i = 0; i < options.size() && same_names; i++) {
+        const auto& [name, value] = options[i];
+        const std::string& its_value = its_options[i].second;
+        same_names = name == its_options[i].first;
+        if (!same_names || printable(value) == its_value) continue;
+        if (name == "code") fail({path}, "the film was made by other code of this chapter");
+        if (name == "checksum") fail({path}, "a film of another scene: its files are not the same");
+        fail({path}, "its " + name + " is " + quote(its_value) + ", here it is " + quote(value));
+    }
+    bool same_sums = true;
+    for (size_t i = 0; i < sum.sums().size() && !film.label.samples.empty(); i++)
+        same_sums &= film.film.sums()[i]->size() == sum.sums()[i]->size();
+    if (!same_names || !same_sums) fail({path}, "a film by another version of the program");
+}
+
+void add_film(LabeledFilm& sum, const std::string& path, const LabeledFilm& part) {
+    check_fits(path, part, sum.label.options, sum.film);
+    if (part.label.samples.empty()) return;
+    sum.label.samples = joined(sum.label.samples, part.label.samples, path);
+    sum.label.counts.add(part.label.counts);
+    sum.film.add(part.film);
 }

@@ -68,6 +68,10 @@ constexpr size_t most_bytes = size_t{1} << 30;
 constexpr int most_pixels = 1 << 28;
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view comment_key = {"Comment\0", 8};
+// What is said of all that is wrong with a picture.
+constexpr const char* not_read =
+    "not a .ppm (P6, maxval 255), .pfm, .png, .jpg or .tga picture of 1 to 2^28 pixels, or damaged";
+constexpr const char* not_whole = "the picture is cut short, too long, or damaged";
 
 uint32_t crc32(std::string_view bytes) {
     auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -128,54 +132,53 @@ std::string png_comment(const std::string& path, std::string_view bytes) {
     std::string_view kind;
     for (size_t at = signature.size(); kind != "IEND";) {
         size_t length = big_endian_at(bytes, at, 4);
-        if (bytes.size() - at < 12 || length > bytes.size() - at - 12)
-            fail({path}, "the picture is cut short, or damaged");
+        if (bytes.size() - at < 12 || length > bytes.size() - at - 12) fail({path}, not_whole);
         kind = bytes.substr(at + 4, 4);
         std::string_view data = bytes.substr(at + 8, length);
         if (crc32(bytes.substr(at + 4, 4 + length)) != big_endian_at(bytes, at + 8 + length, 4))
-            fail({path}, "a damaged .png picture: a checksum is wrong");
+            fail({path}, not_whole);
+        // The colors of the first are in another order; stb copies the second to nowhere.
+        if (kind == "CgBI" || (kind == "IDAT" && data.empty())) fail({path}, not_read);
         if (comment.empty() && kind == "tEXt" && data.starts_with(comment_key))
             comment = data.substr(comment_key.size());
-        // The colors of the first are in another order; stb copies the second to nowhere.
-        if (kind == "CgBI" || (kind == "IDAT" && data.empty()))
-            fail({path}, "a .png picture of a rare kind (CgBI, empty IDAT): save it anew");
         at += 12 + length;
     }
     return comment;
 }
 
+/// The linear values of `count` codes.
+std::vector<float> linear_codes(size_t count, float gamma) {
+    std::vector<float> linear;
+    for (size_t i = 0; i < count; i++)
+        linear.push_back(to_linear(static_cast<float>(i) / static_cast<float>(count - 1), gamma));
+    return linear;
+}
+
 /// Any kind of .png (grey, with a palette, of 16 bits; transparency is left out), a .jpg or a .tga.
 Image decode_by_stb(const std::string& path, const std::string& bytes, float gamma) {
     if (bytes.starts_with(signature)) png_comment(path, bytes);  // checks it
-    if (bytes.size() > most_bytes || (is_jpg(bytes) && has_large_table(bytes)))
-        fail({path}, "a damaged picture, or one of more than 1 GB");
-    auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    int size = static_cast<int>(bytes.size()), width = 0, height = 0, channels = 0;
-    constexpr int64_t most = 1032;  // times smaller is what the .png format can make of it
-    most_memory = 1 << 16;
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels) ||
-        int64_t{width} * height > std::min(int64_t{most_pixels}, 8 * most * int64_t{size}))
-        fail({path}, "a damaged picture, of a kind that is not read, or of more than 2^28 pixels");
-    size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
-    most_memory += 2 * bytes.size() + 32 * pixels;
     // stb makes up what a file lacks. Behind this one there is more than it takes at once (a row of
     // 65535 pixels), so that it is seen to go on there.
     const std::string padded = bytes + std::string(1 << 18, '\0');
     auto* start = reinterpret_cast<const unsigned char*>(padded.data());
+    int size = static_cast<int>(padded.size()), width = 0, height = 0, channels = 0;
+    constexpr int64_t most = 1032;  // times smaller is what the .png format can make of it
+    most_memory = 1 << 16;
+    if ((is_jpg(bytes) && has_large_table(bytes)) ||
+        !stbi_info_from_memory(start, size, &width, &height, &channels) ||
+        int64_t{width} * height > std::min<int64_t>(most_pixels, 8 * most * ssize(bytes)))
+        fail({path}, not_read);
+    Image image(width, height);
+    most_memory += 2 * bytes.size() + 32 * image.pixels.size();
     stbi__context context = {};
-    stbi__start_mem(&context, start, static_cast<int>(padded.size()));
+    stbi__start_mem(&context, start, size);
     // With 16 bits for all: 257 times a code of 8 bits, of 65535, is the same float.
     std::unique_ptr<uint16_t, void (*)(void*)> codes(
         stbi__load_and_postprocess_16bit(&context, &width, &height, &channels, STBI_rgb),
         std::free);
-    if (!codes || context.img_buffer > start + bytes.size())
-        fail({path}, "the picture is cut short, or damaged");
-    std::vector<float> linear(65536);
-    for (size_t i = 0; i < linear.size(); i++) {
-        linear[i] = to_linear(static_cast<float>(i) / 65535, gamma);
-    }
-    Image image(width, height);
-    for (size_t i = 0; i < pixels; i++) {
+    if (!codes || context.img_buffer > start + bytes.size()) fail({path}, not_whole);
+    const std::vector<float> linear = linear_codes(65536, gamma);
+    for (size_t i = 0; i < image.pixels.size(); i++) {
         const uint16_t* code = codes.get() + 3 * i;
         image.pixels[i] = {linear[code[0]], linear[code[1]], linear[code[2]]};
     }
@@ -219,58 +222,39 @@ std::string encode_pfm(const Image& image) {
     return bytes;
 }
 
-/// What a .ppm or .pfm file begins with.
-struct Header {
-    std::string kind, comment;  // with the ends of its lines
-    int width = 0, height = 0;
-    double scale = 0;  // or the largest code
-    size_t size = 0;   // bytes, up to the blank that ends it
-};
-
-/// Reads as much of it as there is.
-Header header_of(const std::string& bytes) {
-    Header header;
-    std::istringstream text(bytes);
-    text >> header.kind;
-    for (std::string line; (text >> std::ws).peek() == '#' && std::getline(text, line);)
-        header.comment += line.substr(std::min<size_t>(2, line.size())) + '\n';
-    text >> header.width >> header.height >> header.scale;
-    header.size = std::min(static_cast<size_t>(text.tellg()), bytes.size());
-    return header;
-}
-
 /// The scale of a .pfm: its sign is the order of bytes; its magnitude multiplies all values, as in
 /// pbrt.
 Image decode_ppm_or_pfm(const std::string& path, const std::string& bytes, float gamma) {
-    Header header = header_of(bytes);
-    bool is_ppm = header.kind == "P6", is_grey = header.kind == "Pf";
-    if (!is_ppm && !is_grey && header.kind != "PF")
-        fail({path}, "not a .ppm (P6), .pfm, .png, .jpg or .tga picture");
-    bool fits = std::min(header.width, header.height) > 0 &&
-                int64_t{header.width} * header.height <= most_pixels;
-    if (!fits) fail({path}, "a picture must have from 1 to 2^28 pixels");
-    float scale = static_cast<float>(header.scale);
-    if (is_ppm && scale != 255) fail({path}, "only 8-bit .ppm files (maxval 255) are read");
-    if (!std::isfinite(scale) || scale == 0)
-        fail({path}, "a .pfm file's scale must be a finite number other than 0");
+    std::istringstream header(bytes);
+    std::string kind, comment;
+    int width = 0, height = 0;
+    float scale = 0;  // or the largest code
+    header >> kind;
+    while ((header >> std::ws).peek() == '#') std::getline(header, comment);
+    header >> width >> height >> scale;
+    bool is_ppm = kind == "P6", is_grey = kind == "Pf";
+    bool is_read = is_ppm ? scale == 255 : scale != 0 && (is_grey || kind == "PF");
+    if (!is_read || std::min(width, height) < 1 || int64_t{width} * height > most_pixels)
+        fail({path}, not_read);
 
     // One blank ends the header, or CR LF where the file then has the right size.
-    size_t pixels = static_cast<size_t>(header.width) * static_cast<size_t>(header.height);
-    size_t channels = is_grey ? 1 : 3, size = channels * pixels * (is_ppm ? 1 : 4);
-    std::string_view body = std::string_view(bytes).substr(header.size);
+    size_t channels = is_grey ? 1 : 3,
+           values = channels * static_cast<size_t>(width) * static_cast<size_t>(height),
+           size = values * (is_ppm ? 1 : 4);
+    std::string_view body = bytes;
+    body.remove_prefix(std::min(static_cast<size_t>(header.tellg()), bytes.size()));
     if (body.starts_with("\r\n") && body.size() == size + 2) body.remove_prefix(1);
-    if (body.size() != size + 1) fail({path}, "the picture is cut short, or too long");
+    if (body.size() != size + 1) fail({path}, not_whole);
     body.remove_prefix(1);
 
-    std::array<float, 256> linear;
-    for (size_t i = 0; i < 256; i++) linear[i] = to_linear(static_cast<float>(i) / 255, gamma);
+    const std::vector<float> linear = linear_codes(256, gamma);
     auto value = [&](size_t i) {
         if (is_ppm) return linear[static_cast<unsigned char>(body[i])];
         uint32_t bits;
         std::memcpy(&bits, body.data() + 4 * i, 4);
         return std::bit_cast<float>(scale < 0 ? bits : __builtin_bswap32(bits)) * std::abs(scale);
     };
-    Image image(header.width, header.height);
+    Image image(width, height);
     size_t at = 0;
     for (int row = 0; row < image.height; row++) {
         for (int x = 0; x < image.width; x++, at += channels) {
@@ -290,24 +274,21 @@ std::string png_chunk(const std::string& kind_and_data) {
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 std::string unpack_gzip(const std::string& path, const std::string& bytes) {
-    constexpr size_t most = 1032;  // times larger
-    // stb looks at a few bytes behind the data, and so is given the rest of the file too.
-    auto* start = reinterpret_cast<stbi_uc*>(const_cast<char*>(bytes.data()));
-    stbi__zbuf state = {};
-    state.zbuffer = start + size_of_gzip_header(bytes);
-    state.zbuffer_end = start + bytes.size();
-    constexpr int room = 1 << 14;
+    constexpr size_t most = 1032, room = 1 << 14;  // times larger; what stb asks for at first
     most_memory = std::min(most_bytes, room + 2 * most * bytes.size());
-    auto* memory = static_cast<char*>(std::malloc(room));
-    bool is_whole = memory && stbi__do_zlib(&state, memory, room, 1, 0);
-    std::unique_ptr<char, void (*)(void*)> unpacked(state.zout_start, std::free);
-    size_t size = static_cast<size_t>(state.zout - state.zout_start);
-    size_t tail = static_cast<size_t>(state.zbuffer - start - state.num_bits / 8);
-    std::string sums = big_endian(size) + big_endian(crc32({unpacked.get(), size}));
+    size_t header = size_of_gzip_header(bytes);
+    int size = 0;
+    // stb looks at a few bytes behind the data, and so is given the rest of the file too.
+    std::unique_ptr<char, void (*)(void*)> unpacked(
+        stbi_zlib_decode_noheader_malloc(bytes.data() + header,
+                                         static_cast<int>(bytes.size() - header), &size),
+        std::free);
+    std::string_view data(unpacked.get(), static_cast<size_t>(size));
+    std::string sums = big_endian(data.size()) + big_endian(crc32(data));
     std::reverse(sums.begin(), sums.end());  // the lowest byte comes first
-    if (!is_whole || bytes.substr(tail) != sums)
+    if (!unpacked || !bytes.ends_with(sums))
         fail({path}, "damaged, cut short, or larger than 1 GB: packed by gzip");
-    return {unpacked.get(), size};
+    return std::string(data);
 }
 
 bool is_image_path(const std::string& path) {
@@ -345,5 +326,9 @@ Image decode_image(const std::string& path, const std::string& bytes, float gamm
 
 std::string decode_comment(const std::string& path, const std::string& bytes) {
     if (bytes.starts_with(signature)) return png_comment(path, bytes);
-    return bytes.starts_with("P6") ? header_of(bytes).comment : "";
+    std::istringstream lines(bytes);
+    std::string line, comment;
+    std::getline(lines, line);  // P6
+    while (std::getline(lines, line) && line.starts_with("# ")) comment += line.substr(2) + '\n';
+    return comment;
 }

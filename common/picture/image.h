@@ -33,21 +33,18 @@ float to_linear(float code, float gamma = 0);
 /// Throws InputError; see files.h.
 void write_image(const std::string& path, const Image& image, const std::string& comment);
 
-/// The bytes of the .png that write_image writes, and of a chunk, with its length and its checksum.
+/// The bytes of a .png, and of a chunk of it, with its length and its checksum.
 std::string encode_png(const Image& image, const std::string& comment);
 std::string png_chunk(const std::string& kind_and_data);
 
 /// Whether write_image knows the extension of `path`.
 bool is_image_path(const std::string& path);
 
-/// Reads a .ppm (P6, maxval 255) or a .png, both back to linear, or a .pfm (one or three channels,
-/// either byte order, times its scale), or a .jpg or .tga, which have no checksums. Throws
-/// InputError for anything else, and for a file that is damaged: with a byte too few or too many
-/// for its size, or, in a .png, with a wrong checksum.
+/// Reads a .pfm (one or three channels, either byte order, times its scale); or, back to linear, a
+/// .ppm (P6, maxval 255), .png, .jpg or .tga. Throws InputError for anything else, and for a file
+/// that is damaged: too short or too long, or, in a .png, with a wrong checksum.
 Image read_image(const std::string& path);
-/// What read_image reads, from the bytes of the file `path`.
-///
-/// gamma  how codes of all but a .pfm become linear values, see to_linear()
+/// What read_image reads, from the bytes of the file `path`; gamma: see to_linear().
 Image decode_image(const std::string& path, const std::string& bytes, float gamma = 0);
 /// The comment that write_image put into a .ppm or .png; empty where there is none.
 std::string decode_comment(const std::string& path, const std::string& bytes);

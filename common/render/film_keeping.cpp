@@ -37,15 +37,6 @@ Notes film_options(const Scene& scene, const RenderOptions& o) {
     return options;
 }
 
-/// With --time but without --spp, a render takes samples until the time is up.
-bool is_endless(const RenderOptions& o) { return o.time > 0 && o.spp == 0 && o.parts == 1; }
-
-/// The samples of all parts.
-Goal goal_of(const Scene& scene, const RenderOptions& o) {
-    uint32_t spp = static_cast<uint32_t>(o.time > 0 && o.spp > 0 ? o.spp : scene.spp);
-    return {o.seed, is_endless(o) ? PixelSum::most : spp, static_cast<uint32_t>(o.parts)};
-}
-
 }  // namespace
 
 SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
@@ -53,10 +44,11 @@ SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
         throw UsageError("error: --part: there are " + std::to_string(scene.spp) +
                          " samples, too few for " + std::to_string(o.parts) + " parts");
     }
-    bool fits = o.film.empty() || scene.spp <= static_cast<int>(PixelSum::most);
-    if (!fits) throw UsageError("error: --film: a film holds at most 2^28 samples of a pixel");
-    Goal goal = goal_of(scene, o);
-    return {o.seed, goal.first_of(o.part), goal.first_of(o.part + 1)};
+    bool is_endless = o.time > 0 && o.spp == 0 && o.parts == 1;  // until the time is up
+    if (is_endless) return {o.seed, 0, PixelSum::most};
+    int spp = o.time > 0 && o.spp > 0 ? o.spp : scene.spp;
+    Goal goal = {static_cast<uint32_t>(spp), static_cast<uint32_t>(o.parts)};
+    return {o.seed, goal.first_of(o.part), goal.first_of(o.part + 1), goal};
 }
 
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering) {
@@ -66,9 +58,8 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
     bool is_there = std::filesystem::file_size(file_path(options.film), none) > 0 && !none;
     if (!is_there) return save_film(scene, options, rendering);
     LabeledFilm found = read_film(options.film);
-    check_options(options.film, found.label, film_options(scene, options));
+    check_fits(options.film, found, film_options(scene, options), rendering.film);
     if (found.label.samples.empty()) return;  // it was stopped before it had samples
-    check_sums(options.film, found.film, rendering.film);
     SampleRange wanted = wanted_samples(scene, options);
     SampleRange r = found.label.samples[0];
     bool is_one = found.label.samples.size() == 1;
@@ -83,20 +74,18 @@ void continue_film(const Scene& scene, const RenderOptions& options, Rendering& 
 }
 
 FilmLabel label_of(const Scene& scene, const RenderOptions& options) {
-    return {film_options(scene, options), {wanted_samples(scene, options)}, {}, {}};
+    return {film_options(scene, options), {wanted_samples(scene, options)}, {}};
 }
 
 FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rendering& rendering) {
     FilmLabel label = label_of(scene, options);
     label.counts = rendering.stats;
     const Film& film = rendering.film;
-    uint32_t most = 0, first = label.samples[0].first;
+    uint32_t most = 0;
     for (const PixelSum& p : film.pixels()) most = std::max(most, p.n);
     if (film.has_halves()) most = film.samples() > 0 ? rendering.begun : 0;
-    label.samples.clear();
-    if (most > 0) label.samples = {{options.seed, first, first + most}};
-    if (!is_endless(options)) label.goals = {goal_of(scene, options)};
-    label.keep_open_goals();
+    label.samples[0].last = label.samples[0].first + most;
+    if (most == 0) label.samples.clear();
     return label;
 }
 

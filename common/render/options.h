@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/path/sampler.h"
-#include "common/picture/film_file.h"
+#include "common/picture/film.h"
 #include "common/render/command_line.h"
 
 /// How a chapter finds light, which decides what it can know about its error.
@@ -67,7 +67,7 @@ std::string parse_picture(const std::string& option, const std::string& text,
 /// The options of the chapters without a scene (01 to 04).
 struct TableOptions {
     std::string name;
-    std::string comment;  // for the picture; see picture/film_file.h
+    std::string comment;  // for the picture; see picture/film.h
     uint64_t n = 0;
     uint32_t seed = 0;
     std::vector<std::string> out;  // pictures, and .tsv for the table

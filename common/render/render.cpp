@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/progress.h"
-#include "common/picture/heat_map.h"
+#include "common/picture/drawing.h"
 #include "common/recording/class_filter.h"
 #include "common/scene/intersect.h"
 

@@ -7,7 +7,7 @@
 
 #include "common/base/files.h"
 #include "common/path/method.h"
-#include "common/picture/film_file.h"
+#include "common/picture/film.h"
 #include "common/render/loading.h"
 #include "common/render/stop.h"
 

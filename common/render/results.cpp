@@ -57,7 +57,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     add("paths_cut_by_depth", std::to_string(s.paths_cut));
     add("largest_sample", json_number(s.largest));
     add("largest_sample_at", json_quoted(s.largest_at ? s.largest_at->text() : ""));
-    add("effective_samples", json_number(r.film.effective_samples()));
+    add("effective_samples", json_number(r.film.error().samples));
     add("empty_pixels_share", json_number(static_cast<double>(r.film.empty_pixels()) / pixels));
     add_texts("warnings", warnings_of(scene, options, r));
     if (s.first_radius > 0) add("first_radius", json_number(s.first_radius));
@@ -161,10 +161,7 @@ std::string drawing_path(const RenderOptions& options) {
 void check_outputs(const Scene& scene, const RenderOptions& options) {
     std::vector<std::string> inputs(scene.origin->files.begin(), scene.origin->files.end());
     if (options.explain) return check_outputs({drawing_path(options)}, inputs);
-    if (!options.film.empty()) {  // not to go on without it
-        check_film_is_file(options.film);
-        check_writable(options.film);
-    }
+    if (!options.film.empty()) check_writable(options.film);  // not to go on without it
     if (!options.split.empty()) make_folder(options.split);
     std::vector<std::string> files;
     std::string told;

@@ -10,7 +10,7 @@
 #include "common/material/ggx.h"
 #include "common/material/hit.h"
 #include "common/path/sampler.h"
-#include "common/picture/heat_map.h"
+#include "common/picture/drawing.h"
 #include "common/render/render.h"
 #include "common/scene/intersect.h"
 #include "common/scene/prepare.h"
@@ -427,11 +427,11 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
                                      const std::string& place) {
     Lines lines;
     double samples = static_cast<double>(film.samples()), mean = film.mean(), sum = mean * samples;
-    double error = film.standard_error(), effective = film.effective_samples();
+    const Film::Error basis = film.error();
+    double error = basis.standard, effective = basis.samples;
     double empty =
         static_cast<double>(film.empty_pixels()) / static_cast<double>(film.pixels().size());
     bool has_noise = !(error < negligible * mean);  // or it is unknown
-    Film::ErrorBasis basis = film.error_basis();
     double excess = std::max(counts.largest - mean, 0.0);
     bool one_in_many =
         basis.pixels < few_pixels && basis.squares > 0 && excess * excess > 0.05 * basis.squares;

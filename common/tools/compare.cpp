@@ -52,7 +52,6 @@ int main(int argc, char** argv) {
         print(c, trim);
         std::printf("verdict: %s\n", verdict(c, a, b).c_str());
         if (out.empty()) return 0;
-        if (range == 0) range = error_range(a.image, b.image);
         write_image(out, error_image(a.image, b.image, range), command_line(argc, argv));
         std::printf("wrote %s: relative error |A-B| / sqrt(B^2 + 0.01), black 0, white %.3g\n",
                     out.c_str(), range);

@@ -5,7 +5,7 @@
 
 #include "common/path/method.h"
 #include "common/picture/comparison.h"
-#include "common/picture/heat_map.h"
+#include "common/picture/drawing.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"

@@ -46,11 +46,10 @@ TEST_SUITE("film") {
         CHECK(film.mean() == nearly(3, 1e-14));
         // Variances 1 and 2 of one sample, 1/3 and 2/2 of the pixel.
         CHECK(film.standard_error() == nearly(std::sqrt(1.0 / 3 + 1) / 2, 1e-14));
-        CHECK(film.effective_samples() == nearly(13.0 * 13.0 / 57, 1e-14));
+        CHECK(film.error().samples == nearly(13.0 * 13.0 / 57, 1e-14));
         CHECK(std::isnan(film_of({{0, 1, 2}, {4}}).standard_error()));
-        CHECK(film_of({{0, 1, 2}, {4, 4, 4}}).effective_samples() ==
-              nearly(15.0 * 15.0 / 53, 1e-14));
-        CHECK(film_of({{0, 0}, {0, 0}}).effective_samples() == 0);
+        CHECK(film_of({{0, 1, 2}, {4, 4, 4}}).error().samples == nearly(15.0 * 15.0 / 53, 1e-14));
+        CHECK(film_of({{0, 0}, {0, 0}}).error().samples == 0);
         // One without samples is black, and not in the mean of the others.
         film = film_of({{}, {4, 6}});
         CHECK(film.image().at(0, 0) == grey(0));
@@ -106,7 +105,7 @@ TEST_SUITE("film") {
         }
         CHECK(film.mean() == nearly(0.625, 1e-14));
         CHECK(film.standard_error() == nearly(0.375 / std::sqrt(15.0), 1e-14));
-        CHECK(film.effective_samples() == nearly(15 * 1.25 * 1.25 / 1.0625, 1e-14));
+        CHECK(film.error().samples == nearly(15 * 1.25 * 1.25 / 1.0625, 1e-14));
     }
 
     TEST_CASE("failure: a sample or splat that is not finite shows in its pixel and in the mean") {

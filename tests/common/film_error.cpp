@@ -104,11 +104,11 @@ TEST_SUITE("film error") {
             of_audits += share[e] * share[e] * audited2[e] / audited[e] / audited[e];
         }
         CHECK(film.standard_error() == about(std::sqrt(all) / 400));
-        Film::ErrorBasis basis = film.error_basis();
+        Film::Error basis = film.error();
         CHECK(basis.pixels == about(all * all / squares));
         CHECK(basis.audits == about(all * all / of_audits));
         CHECK(basis.squares == about(m2));
-        CHECK(film.effective_samples() == about(sum * sum / sum2));
+        CHECK(film.error().samples == about(sum * sum / sum2));
     }
 
     TEST_CASE("truth: two halves tell the error by how far apart they are") {
@@ -130,11 +130,11 @@ TEST_SUITE("film error") {
         CHECK(film.mean() == about(mean));
         CHECK(film.samples() == 30 * 3 + 15 * 7);
         CHECK(film.standard_error() == about(std::sqrt(difference) / 30));
-        Film::ErrorBasis basis = film.error_basis();
+        Film::Error basis = film.error();
         CHECK(basis.pixels == about(v_sum * v_sum / v2_sum));
-        CHECK(basis.audits == basis.pixels);
+        CHECK(basis.audits == about(basis.pixels));
         CHECK(basis.squares == about(m2));
-        CHECK(film.effective_samples() == about(sum * sum / sum2));
+        CHECK(film.error().samples == about(sum * sum / sum2));
         CHECK_FALSE(film.has_audits());
         CHECK(film.counts().at(1, 0).g == 3 + 4);
     }

@@ -1,6 +1,4 @@
 // Films on disk: the same bytes in any order, and nothing wrong is ever added.
-#include "common/picture/film_file.h"
-
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include "common/base/files.h"
 #include "common/path/sampler.h"
+#include "common/picture/film.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"
 
@@ -29,9 +28,7 @@ LabeledFilm film_of(uint32_t first, uint32_t last, uint32_t seed = 1, int kind =
                     bool takes_splats = true) {
     LabeledFilm f{{}, Film(5, 3, takes_splats)};
     f.label.options = {{"chapter", "07"}, {"checksum", "abc"}, {"paths", ""}, {"m", "16"}};
-    f.label.samples = {{seed, first, last}};
-    f.label.goals = {{seed, 9, 3}};
-    f.label.keep_open_goals();
+    f.label.samples = {{seed, first, last, {9, last - first < 9 ? 3u : 1u}}};
     for (size_t i = 7; (kind == 1 || kind == 4) && i < 15; i += 3) f.film.mark_edge(i);
     if (kind == 1 || kind == 4) f.film.start_audit();
     if (kind == 2) f.film.start_halves();
@@ -122,22 +119,23 @@ TEST_SUITE("film files") {
         add_film(a, "b", film_of(2, 6, 4294967295u));
         add_film(b, "a", film_of(0, 5, 1));
         CHECK(bytes_of(a) == bytes_of(b));
-        CHECK(a.label.samples == std::vector<SampleRange>{{1, 0, 5}, {4294967295u, 2, 6}});
+        CHECK(a.label.samples ==
+              std::vector<SampleRange>{{1, 0, 5, {9, 3}}, {4294967295u, 2, 6, {9, 3}}});
         a.label.options[2].second = "L(D | S)*E";
         CHECK(read_back(bytes_of(a)).label.options == a.label.options);
         CHECK(read_back(bytes_of(a)).label.samples == a.label.samples);
     }
 
     TEST_CASE("teeth: the same samples twice, and other options, are refused and change nothing") {
-        LabeledFilm sum = film_of(4, 9), other = film_of(9, 12), edges = film_of(9, 12);
+        LabeledFilm sum = film_of(4, 9), other = film_of(9, 12),
+                    no_splats = film_of(9, 12, 1, 1, false);
         other.label.options[3].second = "17";
-        edges.film.mark_edge(3);
         std::string before = bytes_of(sum);
         for (const auto& [part, why] :
              {std::pair(film_of(4, 9), "sample 4 of seed 1 would count twice"),
               {film_of(6, 7), "sample 6 of seed 1 would count twice"},
               {other, "its m is \"17\", here it is \"16\""},
-              {edges, "it has other pixels at the edges of lamps"}}) {
+              {no_splats, "a film by another version of the program"}}) {
             std::string error = error_of([&, &p = part] { add_film(sum, "b.film", p); });
             CHECK(error == "b.film: error: " + std::string(why));
             CHECK(bytes_of(sum) == before);
@@ -154,28 +152,29 @@ TEST_SUITE("film files") {
         for (size_t length = 0; length < bytes.size(); length += 19)
             REQUIRE(refusal(bytes.substr(0, length)) != "");
         CHECK(refusal("P6\n1 1\n255\n000") == "not a film");
-        CHECK(refusal(bytes.replace(bytes.find("version 8"), 9, "version 7")) ==
+        CHECK(refusal(bytes.replace(bytes.find("version 9"), 9, "version 8")) ==
               "a film by another version of the program");
         CHECK(refusal(bytes_of(film_of(0, 2)) + "x") == "the film is damaged, or cut short");
     }
 
     TEST_CASE("truth: what is missing is named, sample by sample and part by part") {
-        auto missing = [](const std::vector<SampleRange>& samples, const std::vector<Goal>& goals) {
-            FilmLabel label{{}, samples, goals, {}};
-            label.keep_open_goals();
-            return label.missing();
+        auto missing = [](const std::vector<SampleRange>& samples) {
+            return FilmLabel{{}, samples, {}}.missing();
         };
         using Lines = std::vector<std::string>;
-        CHECK(missing({{0, 0, 9}}, {{0, 6, 5}}) == Lines{});
-        CHECK(missing({{0, 1, 2}, {0, 4, 6}}, {{0, 6, 5}}) ==
+        CHECK(missing({{0, 0, 9, {6, 5}}}) == Lines{});
+        CHECK(missing({{0, 1, 2, {6, 5}}, {0, 4, 6, {6, 5}}}) ==
               Lines{"missing: sample 0 of seed 0, part 1 of 5",
                     "missing: samples 2 to 3 of seed 0, part 3 to 4 of 5"});
-        CHECK(missing({{0, 0, 1}, {0, 8, 9}}, {{0, 6, 1}}) ==
-              Lines{"missing: samples 1 to 5 of seed 0"});
-        CHECK(missing({}, {{3, 6, 1}}) == Lines{"missing: samples 0 to 5 of seed 3"});
+        CHECK(missing({{0, 0, 1, {6}}, {0, 8, 9, {6}}}) ==
+              Lines{"missing: samples 1 to 7 of seed 0"});
+        CHECK(missing({{3, 0, 9}}) == Lines{});
         // Of several renders of one seed the largest counts; and each seed by itself.
-        CHECK(missing({{0, 0, 4}, {1, 0, 2}}, {{0, 4, 2}, {0, 8, 2}, {0, 6, 3}, {1, 4, 2}}) ==
-              Lines{"missing: samples 4 to 7 of seed 0, part 2 of 2",
-                    "missing: samples 2 to 3 of seed 1, part 2 of 2"});
+        LabeledFilm sum = film_of(0, 3, 0), larger = film_of(3, 7, 0);
+        larger.label.samples[0].goal = {11, 2};
+        add_film(sum, "b", larger);
+        add_film(sum, "c", film_of(0, 4));
+        CHECK(sum.label.missing() == Lines{"missing: samples 7 to 10 of seed 0, part 2 of 2",
+                                           "missing: samples 4 to 8 of seed 1, part 2 to 3 of 3"});
     }
 }

@@ -7,7 +7,7 @@
 #include "common/base/files.h"
 #include "common/path/sampler.h"
 #include "common/picture/comparison.h"
-#include "common/picture/film_file.h"
+#include "common/picture/film.h"
 #include "tests/measure/numbers.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"

@@ -102,7 +102,7 @@ TEST_SUITE("printed") {
         Rendering r = rendering_of();
         save_film(scene, options, r);
         auto label = [&] { return read_film(options.film).label; };
-        CHECK(label().samples == std::vector<SampleRange>{{5, 0, 4}});
+        CHECK(label().samples == std::vector<SampleRange>{{5, 0, 4, {4}}});
         auto goes_on = [&](int spp, int part, int parts) {
             RenderOptions with = options;
             with.part = part, with.parts = parts, scene.spp = spp;
@@ -125,12 +125,12 @@ TEST_SUITE("printed") {
         options.seed = 6;
         CHECK_FALSE(goes_on(9, 1, 1));
         options.seed = 5;
-        // What is to come is in the film's goals; with --time alone nothing is.
+        // What is to come is in the film's goal; with --time alone nothing is.
         scene.spp = 9;
         save_film(scene, options, r);
-        CHECK(label().goals == std::vector<Goal>{{5, 9, 1}});
+        CHECK(label().samples[0].goal == Goal{9, 1});
         options.time = 3;
         save_film(scene, options, r);
-        CHECK(label().goals.empty());
+        CHECK(label().samples[0].goal == Goal{});
     }
 }

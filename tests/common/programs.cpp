@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
-#include "common/picture/film_file.h"
+#include "common/picture/film.h"
 #include "common/picture/image.h"
 #include "common/render/loading.h"
 #include "tests/support/process.h"

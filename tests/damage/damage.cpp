@@ -8,7 +8,7 @@
 #include <map>
 
 #include "common/base/system.h"
-#include "common/picture/film_file.h"
+#include "common/picture/film.h"
 #include "common/picture/image.h"
 #include "common/render/render.h"
 #include "common/render/stop.h"

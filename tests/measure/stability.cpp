@@ -232,7 +232,7 @@ Observed observe(const NamedMethod& method, Scene& scene, const StabilityCase& c
     for (int run = 0; run < o.runs; run++) {
         Rendering r = render_once(method, scene, o, N, static_cast<uint32_t>(run));
         double mean = r.film.mean(), se = r.film.standard_error();
-        double sum = mean * N, effective = r.film.effective_samples();
+        double sum = mean * N, effective = r.film.error().samples;
         double sum_of_squares = effective > 0 ? sum * sum / effective : 0;
         seen.runs++;
         seen.mean.add(mean);
