@@ -2,7 +2,7 @@
 #pragma once
 #include "chapters/06_bvh/estimator.h"
 #include "common/picture/heat_map.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 
 namespace ch06 {
 

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cinttypes>
 #include <cstdio>
 #include <filesystem>
 
@@ -14,8 +14,7 @@ namespace {
 Notes film_options(const Scene& scene, const RenderOptions& o) {
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
     char checksum[17];
-    std::snprintf(checksum, sizeof checksum, "%016llx",
-                  static_cast<unsigned long long>(scene.origin->checksum));
+    std::snprintf(checksum, sizeof checksum, "%016" PRIx64, scene.origin->checksum);
     bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
     Notes options = {{"chapter", o.name},
                      {"code", code_hash(o.name)},
@@ -27,13 +26,12 @@ Notes film_options(const Scene& scene, const RenderOptions& o) {
                      {"strata", has_strata ? std::to_string(scene.spp) : ""},
                      {"paths", o.paths}};
     options.insert(options.end(), o.own.begin(), o.own.end());
-    // Without folders: the same on every machine.
-    std::string stand_ins;
+    std::vector<std::string> stand_ins;
     for (UsedStandIn used : scene.origin->stand_ins) {
-        used.first.file = file_name(file_path(used.first.file).filename());
-        stand_ins += (stand_ins.empty() ? "" : "; ") + used.text();
+        used.first.file = file_name(file_path(used.first.file).filename());  // on every machine
+        stand_ins.push_back(used.text());
     }
-    if (!stand_ins.empty()) options.push_back({"stand-ins", stand_ins});
+    if (!stand_ins.empty()) options.push_back({"stand-ins", listed(stand_ins, "; ")});
     return options;
 }
 
