@@ -26,12 +26,13 @@ Notes film_options(const Scene& scene, const RenderOptions& o) {
                      {"strata", has_strata ? std::to_string(scene.spp) : ""},
                      {"paths", o.paths}};
     options.insert(options.end(), o.own.begin(), o.own.end());
-    std::vector<std::string> stand_ins;
+    // Without folders: the same on every machine.
+    std::string stand_ins;
     for (UsedStandIn used : scene.origin->stand_ins) {
-        used.first.file = file_name(file_path(used.first.file).filename());  // on every machine
-        stand_ins.push_back(used.text());
+        used.first.file = file_name(file_path(used.first.file).filename());
+        stand_ins += (stand_ins.empty() ? "" : "; ") + used.text();
     }
-    if (!stand_ins.empty()) options.push_back({"stand-ins", listed(stand_ins, "; ")});
+    if (!stand_ins.empty()) options.push_back({"stand-ins", stand_ins});
     return options;
 }
 

@@ -29,14 +29,10 @@ std::vector<Use> uses_not_in(Features features, const Scene& scene) {
         "a lens, in a chapter without one");
     std::set<size_t> materials;
     for (const Shape& shape : scene.shapes) materials.insert(shape.material);
-    for (size_t i : materials) {
-        const Material& m = scene.materials[i];
-        add(!features.dispersion && m.glass, m.at,
+    for (size_t i : materials)
+        add(!features.dispersion && scene.materials[i].glass, scene.materials[i].at,
             "glass disperses in chapters 18 and 19 only: try a number as its \"float eta\"",
             "glass that disperses, in a chapter without it");
-        add(!features.rough && is_rough(m), m.at,
-            "rough conductors are not supported before chapter 13", nullptr);
-    }
     for (const Mover& mover : scene.movers)
         add(!features.shutter, mover.at, "shapes move in chapters 16 to 22 only",
             "a shape that moves, in a chapter where all rest");
@@ -44,6 +40,9 @@ std::vector<Use> uses_not_in(Features features, const Scene& scene) {
         add(!features.sky_image, scene.sky_image->at_file,
             "the sky has an image in chapters 17 to 25 only",
             "a picture of the sky, in a chapter without one");
+    for (size_t i : materials)
+        add(!features.rough && is_rough(scene.materials[i]), scene.materials[i].at,
+            "rough conductors are not supported before chapter 13", nullptr);
     return uses;
 }
 

@@ -130,7 +130,21 @@ bool has_small_light(const Scene& scene, double directions, double few) {
 /// 25 on.
 bool is_nearly_mirror(const Material& m, double paths) {
     double alpha = double{m.alpha};
-    return is_rough(m) && is_receiver(m) && paths * alpha * alpha < few_reflections;
+    bool is_smooth = alpha < 0.1 && paths * alpha * alpha < few_reflections;
+    return is_smooth && is_rough(m) && is_receiver(m);
+}
+
+/// Whether a surface in view faces another one that reflects light.
+bool surfaces_face_each_other(const Scene& scene, const InView& seen) {
+    Sampler sampler(SamplerType::independent, 1, 1);
+    uint32_t i = 0;
+    return std::any_of(seen.points.begin(), seen.points.end(), [&](const auto& point) {
+        const Hit& x = point.second;
+        sampler.start(0, i++);
+        Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(sampler.u2()));
+        std::optional<Hit> y = intersect(scene, spawn_ray(x, wi));
+        return is_receiver(*x.material) && y && is_receiver(*y->material);
+    });
 }
 
 /// Of the light to those materials that the camera sees, from some lights, if nothing is in its
@@ -186,16 +200,16 @@ Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film)
     auto is_delta = [](const Light& light) {
         return light.type == LightType::point || light.type == LightType::distant;
     };
-    bool has_delta = false, has_area = false, has_flat = false;
+    bool has_delta = false, has_area = false, is_near = false;
     for (const Light& light : scene.lights) {
         has_delta |= is_delta(light);
         has_area |= light.type == LightType::area;
     }
-    for (const LightShape& lamp : scene.light_shapes) has_flat |= lamp.flat;
     const bool mirrors = any_material(is_specular), receivers = any_material(is_receiver),
                casts = mirrors && receivers && scene.max_depth > 1;
     const bool starts_at_lights = o.search == both_ends || o.search == merging;
-    const InView seen = o.search == from_lights || starts_at_lights ? in_view(scene) : InView{};
+    const bool looks = o.search == from_lights || o.search == direct || starts_at_lights;
+    const InView seen = looks ? in_view(scene) : InView{};
     const std::string larger = "the true error may be larger than the reported one",
                       at_random = "found only by random hits: " + larger,
                       is_left_out =
@@ -241,15 +255,17 @@ Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film)
     }
 
     if (o.search == direct && scene.max_depth > 0) {
+        // Below a disk, at twice its radius, a point is 25 % too bright, and more if nearer.
+        for (const LightShape& lamp : scene.light_shapes)
+            for (const auto& [ray, x] : seen.points)
+                is_near |= lamp.flat && length(lamp.centre - x.p) < 2 * std::sqrt(lamp.area / pi);
         lines.warn(scene.sky_light >= 0 && receivers,
                    "light that surfaces receive from the sky is left out: the sky is seen only "
                    "directly and in mirrors");
-        lines.warn(has_flat,
+        lines.warn(is_near,
                    "a lamp near a surface lights it as if all came from the lamp's middle: the "
                    "reported error does not include this");
-        auto receives = [&](const Shape& s) { return is_receiver(scene.materials[s.material]); };
-        bool are_several = std::count_if(scene.shapes.begin(), scene.shapes.end(), receives) > 1;
-        lines.warn(scene.max_depth > 1 && !mirrors && are_several,
+        lines.warn(scene.max_depth > 1 && !mirrors && surfaces_face_each_other(scene, seen),
                    "light that one surface reflects to another is left out");
         lines.warn(casts, by_mirrors +
                               "is left out, and so is light that one surface reflects to another");
