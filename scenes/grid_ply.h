@@ -7,7 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/vec.h"
-#include "common/render/command_line.h"
+#include "common/render/options.h"
 
 struct GridPoint {
     Vec3 p, n;

@@ -2,7 +2,7 @@
 // usage: make_globe FILE.pfm
 #include "common/base/error.h"
 #include "common/picture/image.h"
-#include "common/render/command_line.h"
+#include "common/render/options.h"
 
 namespace {
 

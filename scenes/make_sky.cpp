@@ -4,7 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/picture/image.h"
-#include "common/render/command_line.h"
+#include "common/render/options.h"
 #include "common/scene/sky_image.h"
 
 /// 128 x 128 pixels, of which the sun has 2: half of the light from 10^-4 of the sphere.

@@ -6,7 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/path/sampler.h"
-#include "common/render/command_line.h"
+#include "common/render/options.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "chapters/01_monte_carlo_pi/estimator.h"
 #include "common/picture/drawing.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 
 namespace ch01 {
 

@@ -6,7 +6,7 @@
 
 #include "chapters/02_stratification/estimator.h"
 #include "common/picture/drawing.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 
 namespace ch02 {
 

@@ -7,7 +7,7 @@
 
 #include "chapters/03_point_sets/estimator.h"
 #include "common/picture/drawing.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 
 namespace ch03 {
 

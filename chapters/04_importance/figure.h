@@ -9,7 +9,7 @@
 #include "common/base/stats.h"
 #include "common/path/sampler.h"
 #include "common/picture/drawing.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 
 namespace ch04 {
 

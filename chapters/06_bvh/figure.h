@@ -2,7 +2,7 @@
 #pragma once
 #include "chapters/06_bvh/estimator.h"
 #include "common/picture/drawing.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 
 namespace ch06 {
 

@@ -7,21 +7,15 @@
 #include "common/recording/class_filter.h"
 #include "common/recording/recorder.h"
 #include "common/render/render.h"
-#include "common/render/table.h"
 #include "common/scene/intersect.h"
 #include "common/scene/prepare.h"
 
 namespace {
 
 constexpr float side = 460, margin = 20;  // px
-constexpr const char* styles[][2] = {
-    {"fill='#c03' stroke='#c03' stroke-width='2'", "path from the eye E"},
-    {"fill='#e70' stroke='#e70' stroke-width='2'", "path from a light"},
-    {"stroke='#080' stroke-width='1.5'", "shadow ray, open"},
-    {"stroke='#555' stroke-width='1.5' stroke-dasharray='5 4'", "blocked"},
-    {"stroke='#c03' stroke-width='1.5' stroke-dasharray='2 4'", "leaves"}};
-constexpr const char *by_eye = styles[0][0], *by_light = styles[1][0], *open = styles[2][0],
-                     *blocked = styles[3][0], *leaves = styles[4][0];
+constexpr const char *path = "fill='#c03' stroke='#c03' stroke-width='2'",
+                     *open = "stroke='#080' stroke-width='1.5'",
+                     *blocked = "stroke='#555' stroke-width='1.5' stroke-dasharray='5 4'";
 
 /// A drawing in the SVG format, element by element.
 struct Svg {
@@ -48,7 +42,6 @@ struct Svg {
 /// A panel of the drawing: a camera, of which a pixel is one of the panel.
 struct Panel {
     bool is_camera;
-    float left;
     int width, height;
     CameraView view;
 
@@ -58,8 +51,7 @@ struct Panel {
     /// The position of such a point.
     Vec2 project(Vec3 p) const {
         Vec3 a = 1 / (depth(p) * volume()) * (p - view.o);
-        return {left + dot(a, cross(view.dy, view.corner)),
-                margin + dot(a, cross(view.corner, view.dx))};
+        return {dot(a, cross(view.dy, view.corner)), dot(a, cross(view.corner, view.dx))};
     }
 };
 
@@ -67,7 +59,7 @@ Panel camera_panel(const Scene& scene) {
     float scale = side / static_cast<float>(std::max(scene.width, scene.height));
     int width = std::max(2, static_cast<int>(scale * static_cast<float>(scene.width))),
         height = std::max(2, static_cast<int>(scale * static_cast<float>(scene.height)));
-    return {true, margin, width, height, camera_view(scene.camera, width, height)};
+    return {true, width, height, camera_view(scene.camera, width, height)};
 }
 
 /// The axis of the world that points up, for a camera that looks about horizontally. In doubt y, as
@@ -80,7 +72,7 @@ Vec3 upward(const Camera& camera) {
 }
 
 /// The view of a box from high above; the camera's right is on the right.
-Panel panel_from_above(const Scene& scene, Box box, float left) {
+Panel panel_from_above(const Scene& scene, Box box) {
     Vec3 up = upward(scene.camera), forward = scene.camera.forward;
     Vec3 away = normalize(forward - dot(forward, up) * up), right = cross(up, away);
     if (dot(right, scene.camera.right) < 0) right = -right;
@@ -88,7 +80,6 @@ Panel panel_from_above(const Scene& scene, Box box, float left) {
     if (size == 0) size = scene.radius;
     Vec3 dx = size / side * right, dy = -size / side * away, down = -1000 * size * up;
     return {false,
-            left,
             static_cast<int>(side),
             static_cast<int>(side),
             {0.5f * (box.low + box.high) - down, down - side / 2 * (dx + dy), dx, dy}};
@@ -103,16 +94,16 @@ Ray ray_of(const Scene& scene, const Panel& panel, Vec2 p) {
     return {ray.o + t * ray.d, ray.d};
 }
 
-std::string base64(const std::string& bytes) {
+std::string base64(std::string bytes) {
     constexpr const char* letters =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    bytes.resize((bytes.size() + 2) / 3 * 3);  // zeros behind the end of a picture
     std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; k++)
-            bits = bits << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0);
-        for (size_t k = 0; k < 4; k++)
-            text += i + k > bytes.size() ? '=' : letters[bits >> (18 - 6 * k) & 63];
+    uint32_t bits = 0;
+    for (size_t i = 0; i < bytes.size(); i++) {
+        bits = bits << 8 | static_cast<uint8_t>(bytes[i]);
+        for (int shift = 18; i % 3 == 2 && shift >= 0; shift -= 6)
+            text += letters[bits >> shift & 63];
     }
     return text;
 }
@@ -133,8 +124,7 @@ void draw_scene(Svg& svg, const Panel& panel, const Scene& scene) {
         Rgb colour = diffuse ? hit->material->reflectance : Rgb{0.5f, 0.6f, 0.65f};
         pixel = shines ? Rgb{1, 0.75f, 0.05f} : (0.25f - 0.75f * dot(ray.d, hit->n)) * colour;
     }
-    svg.add("<image x='%.0f' y='%.0f' width='%d' height='%d' opacity='0.6' ", double{panel.left},
-            double{margin}, panel.width, panel.height);
+    svg.add("<image width='%d' height='%d' opacity='0.6' ", panel.width, panel.height);
     svg.text += "href='data:image/png;base64," + base64(encode_png(image, "")) + "'/>\n";
 }
 
@@ -150,69 +140,54 @@ void draw_line(Svg& svg, const Panel& panel, Vec3 a, Vec3 b, const char* style) 
 void draw_rays(Svg& svg, const Panel& panel, const Scene& scene,
                const std::vector<TracedRay>& rays) {
     for (const auto& [ray, shadow, met, t] : rays) {
-        if (met && !shadow) continue;  // part of the path
-        const char* style = !shadow ? leaves : met ? blocked : open;
+        if (met && !shadow) continue;  // leads to the next vertex
+        const char* style = !shadow ? path : met ? blocked : open;
         float end = std::min(shadow ? ray.t_max : t, 2 * scene.radius);
         draw_line(svg, panel, ray.o, ray.o + end * ray.d, style);
     }
 }
 
-void draw_vertices(Svg& svg, const Panel& panel, Vec3 eye, const std::vector<PathVertex>& path) {
-    auto mark = [&](Vec3 p, const std::string& name, const char* style) {
-        if (!(panel.depth(p) > 0)) return;
-        Vec2 at = panel.project(p);
-        svg.add("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, style);
-        svg.words({at.x + 6, at.y - 6}, name);
-    };
-    std::vector<const char*> looks;
-    for (const PathVertex& x : path) {
-        bool begins = x.from == -2, first = x.from == -1;
-        looks.push_back(begins ? by_light : first ? by_eye : looks[static_cast<size_t>(x.from)]);
-        if (begins || (first && panel.is_camera)) continue;  // seen end-on: a point
-        draw_line(svg, panel, first ? eye : path[static_cast<size_t>(x.from)].p, x.p, looks.back());
-    }
-    if (!panel.is_camera) mark(eye, "E", by_eye);
-    for (size_t i = 0; i < path.size(); i++) mark(path[i].p, std::to_string(i + 1), looks[i]);
-}
-
-void draw_legend(Svg& svg, float top) {
-    Vec2 at = {margin, top};
-    for (auto [style, words] : styles) {
-        svg.line({at.x, at.y - 4}, {at.x + 26, at.y - 4}, style);
-        svg.words({at.x + 32, at.y}, words);
-        at.x += 155;
-    }
+void draw_point(Svg& svg, const Panel& panel, Vec3 p, const std::string& name) {
+    if (!(panel.depth(p) > 0)) return;
+    Vec2 at = panel.project(p);
+    svg.add("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, path);
+    svg.words({at.x + 6, at.y - 6}, name);
 }
 
 /// An SVG with two panels: the scene seen by the camera, and from above, each with the path and its
 /// shadow rays; of a very long path only the beginning. eye: start of the path from the eye; rays:
 /// all rays that the path traced.
-std::string draw_path(const Scene& scene, Vec3 eye, std::vector<PathVertex> path,
+std::string draw_path(const Scene& scene, Vec3 eye, std::vector<PathVertex> vertices,
                       std::vector<TracedRay> rays) {
     constexpr size_t most = 1000;
-    path.resize(std::min(path.size(), most));
+    vertices.resize(std::min(vertices.size(), most));
     rays.resize(std::min(rays.size(), most));
     Box box = {eye, eye};
-    for (const PathVertex& x : path) box = {min(box.low, x.p), max(box.high, x.p)};
-    Panel camera = camera_panel(scene);
-    float right = static_cast<float>(camera.width) + 2 * margin;
+    for (const PathVertex& x : vertices) box.add(x.p);
     Svg svg;
-    svg.add(
-        "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n"
-        "<rect width='100%%' height='100%%' fill='white'/>\n",
-        double{std::max(right + side, 950.0f) + margin}, double{side + margin + 56});
-    for (const Panel& panel : {camera, panel_from_above(scene, box, right)}) {
-        svg.add("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='%.0f %.0f %d %d'>\n",
-                double{panel.left}, double{margin}, panel.width, panel.height, double{panel.left},
-                double{margin}, panel.width, panel.height);
+    svg.add("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n",
+            double{2 * side + 3 * margin}, double{side + margin + 56});
+    svg.text += "<rect width='100%' height='100%' fill='white'/>\n";
+    float left = margin;
+    for (const Panel& panel : {camera_panel(scene), panel_from_above(scene, box)}) {
+        svg.add("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='0 0 %d %d'>\n",
+                double{left}, double{margin}, panel.width, panel.height, panel.width, panel.height);
         draw_scene(svg, panel, scene);
         draw_rays(svg, panel, scene, rays);
-        draw_vertices(svg, panel, eye, path);
+        if (!panel.is_camera) draw_point(svg, panel, eye, "E");
+        for (size_t i = 0; i < vertices.size(); i++) {
+            const auto& [p, from] = vertices[i];
+            Vec3 before = from < 0 ? eye : vertices[static_cast<size_t>(from)].p;
+            if (from >= -1) draw_line(svg, panel, before, p, path);
+            draw_point(svg, panel, p, std::to_string(i + 1));
+        }
         svg.text += "</svg>\n";
-        svg.words({panel.left, margin + static_cast<float>(panel.height) + 18},
+        svg.words({left, margin + static_cast<float>(panel.height) + 18},
                   panel.is_camera ? "as the camera sees it" : "from above");
+        left += side + margin;
     }
-    draw_legend(svg, margin + side + 42);
+    svg.words({margin, margin + side + 42},
+              "red: the path; green: a shadow ray that meets nothing; dashed: a blocked one");
     return svg.text + "</svg>\n";
 }
 
@@ -252,24 +227,17 @@ Table table_of(const Scene& scene, std::vector<Contribution> additions, size_t o
 int explain(const Scene& scene, const RenderOptions& options, const Method& method) {
     bool halves = method.allocation.pilot > 0;
     auto [seed, y, x, s] = *options.explain;
-    std::string given = std::to_string(x) + "," + std::to_string(y);
-    if (x >= scene.width || y >= scene.height)
-        fail_value("explain", given,
-                   "a pixel of the picture of " + std::to_string(scene.width) + "x" +
-                       std::to_string(scene.height));
-    if (options.time == 0 && s >= scene.spp && !halves)
-        fail_value("explain", given + "," + std::to_string(s),
-                   "a sample below " + std::to_string(scene.spp) + ", as they count from 0");
+    bool is_taken = options.time > 0 || halves || s < scene.spp;
+    if (x >= scene.width || y >= scene.height || !is_taken)
+        fail_value("explain", options.explain->text(),
+                   "a pixel of " + std::to_string(scene.width) + "x" +
+                       std::to_string(scene.height) + " and one of " + std::to_string(scene.spp) +
+                       " samples, which count from 0");
     size_t pixel = static_cast<size_t>(y * scene.width + x);
 
-    Limit limit;
-    TracingLimit tracing([&] { return limit.overdue(); });
-    if (method.prepare && !prepare_pass(method, static_cast<uint32_t>(s), options.threads, limit)) {
-        tell("stopped before there was a path to explain\n");
-        return 3;
-    }
-
     // Trace the sample just as render_film does, and record all of it.
+    if (method.prepare)
+        method.prepare(static_cast<uint32_t>(s), options.threads, [] { return false; });
     Sampler sampler(options.sampler, options.seed, static_cast<uint32_t>(scene.spp));
     uint32_t number = static_cast<uint32_t>(halves ? s / 2 : s);
     start_sample(sampler, pixel, halves ? s % 2 : 0, number);
@@ -281,12 +249,7 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
     Vec2 film = film_point(x, y, sampler, scene.camera.pixel_centre);
     Ray ray = camera_ray(view, film);
     Splats splats;
-    std::optional<Rgb> L;  // none: the path took too long
-    try {
-        L = method.trace(scene, ray, splats, sampler, recorder);
-    } catch (const TracingEnds&) {
-        story.step("    given up here: the path goes on, but the program was stopped\n");
-    }
+    method.trace(scene, ray, splats, sampler, recorder);
     story.ends();
     rays_kept = nullptr;
 
@@ -300,19 +263,9 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
     std::erase_if(counted, [&](const auto& added) { return !chosen.matches(added.path_class); });
     std::printf("\n%s", aligned(table_of(scene, counted, pixel)).c_str());
 
-    double told = 0, returned = L ? sum_of(*L) : 0;
-    for (const Contribution& added : recorder.contributions()) told += sum_of(added.L);
-    for (const Splat& splat : splats) returned += sum_of(splat.L);
-    if (L && std::abs(told - returned) > 1e-4 * std::abs(returned))
-        std::printf(
-            "warning: the sample is %.6g of all colours, and this is %.6g: the chapter has not "
-            "reported a part\n",
-            returned, told);
-
     std::string file = drawing_path(options);
     write_file_atomically(file, draw_path(scene, ray.o, recorder.vertices(), rays));
     if (!options.quiet) std::printf("wrote %s\n", file.c_str());
-    if (!L) return 3;
     bool finite = std::all_of(counted.begin(), counted.end(),
                               [](const Contribution& added) { return is_finite(added.L); });
     return finite ? 0 : 1;

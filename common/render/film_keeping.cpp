@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cinttypes>
 #include <cstdio>
 #include <filesystem>
 
@@ -14,8 +14,7 @@ namespace {
 Notes film_options(const Scene& scene, const RenderOptions& o) {
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
     char checksum[17];
-    std::snprintf(checksum, sizeof checksum, "%016llx",
-                  static_cast<unsigned long long>(scene.origin->checksum));
+    std::snprintf(checksum, sizeof checksum, "%016" PRIx64, scene.origin->checksum);
     bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
     Notes options = {{"chapter", o.name},
                      {"code", code_hash(o.name)},

@@ -1,11 +1,11 @@
 #include "common/render/loading.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include "common/base/error.h"
 #include "common/base/progress.h"
+#include "common/render/options.h"
 #include "common/scene/mover.h"
 #include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
@@ -20,29 +20,28 @@ struct Use {
 };
 std::vector<Use> uses_not_in(Features features, const Scene& scene) {
     std::vector<Use> uses;
-    if (!features.lens && scene.camera.lens_radius > 0)
-        uses.push_back({scene.camera.at,
-                        "only chapters 16 to 19 and 21 to 25 have a lens: lensradius must be 0",
-                        "a lens, in a chapter without one"});
+    auto add = [&](bool is_used, const Position* at, const char* error, const char* stand_in) {
+        if (is_used) uses.push_back({at, error, stand_in});
+    };
+    add(!features.lens && scene.camera.lens_radius > 0, scene.camera.at,
+        "only chapters 16 to 19 and 21 to 25 have a lens: lensradius must be 0",
+        "a lens, in a chapter without one");
     std::set<size_t> materials;
     for (const Shape& shape : scene.shapes) materials.insert(shape.material);
     for (size_t i : materials)
-        if (!features.dispersion && scene.materials[i].glass)
-            uses.push_back({scene.materials[i].at,
-                            "glass disperses in chapters 18 and 19 only: try a number as its "
-                            "\"float eta\"",
-                            "glass that disperses, in a chapter without it"});
+        add(!features.dispersion && scene.materials[i].glass, scene.materials[i].at,
+            "glass disperses in chapters 18 and 19 only: try a number as its \"float eta\"",
+            "glass that disperses, in a chapter without it");
     for (const Mover& mover : scene.movers)
-        if (!features.shutter)
-            uses.push_back({mover.at, "shapes move in chapters 16 to 22 only",
-                            "a shape that moves, in a chapter where all rest"});
-    if (!features.sky_image && scene.sky_image)
-        uses.push_back({scene.sky_image->at_file, "the sky has an image in chapters 17 to 25 only",
-                        "a picture of the sky, in a chapter without one"});
+        add(!features.shutter, mover.at, "shapes move in chapters 16 to 22 only",
+            "a shape that moves, in a chapter where all rest");
+    if (scene.sky_image)
+        add(!features.sky_image, scene.sky_image->at_file,
+            "the sky has an image in chapters 17 to 25 only",
+            "a picture of the sky, in a chapter without one");
     for (size_t i : materials)
-        if (!features.rough && is_rough(scene.materials[i]))
-            uses.push_back({scene.materials[i].at,
-                            "rough conductors are not supported before chapter 13", nullptr});
+        add(!features.rough && is_rough(scene.materials[i]), scene.materials[i].at,
+            "rough conductors are not supported before chapter 13", nullptr);
     return uses;
 }
 
@@ -62,35 +61,24 @@ Rgb mean_of(const SkyImage& sky) {
 
 Scene load(const RenderOptions& options, Features features) {
     Progress progress(10);
-    Report report;
     std::vector<std::string> notes;
     auto tell_notes = [&] {
         progress.clear();
-        for (const std::string& line : notes) tell(line + "\n");
-        notes.clear();
+        for (const std::string& line : notes)
+            if (!options.quiet) tell(line + "\n");
     };
+    Report report;
     if (!options.quiet)
         report = [&](const std::string& what, double share) { progress.show(what, share); };
-    Scene scene;
-    try {
-        scene =
-            load_scene(options.scene, options.quiet ? nullptr : &notes, report, options.stand_in);
-    } catch (const std::bad_alloc&) {
-        fail({options.scene}, "out of memory while it was read, with the files that it names");
-    } catch (...) {
-        tell_notes();
-        throw;
-    }
+    Scene scene = load_scene(options.scene, &notes, report, options.stand_in);
     tell_notes();
     if (options.stand_in) stand_in_for_features(scene, features);
     refuse_features(scene, features, options.stand_in);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
-    size_t prims = scene.geometry.size();
-    // About, while it is built: 300 bytes for each.
-    needing_memory("the hierarchy of " + std::to_string(prims) + " triangles, spheres and disks",
-                   300 * prims, [&] { prepare(scene, options.threads, report); });
+    prepare(scene, options.threads, report);
+    notes.clear();
     if (!options.quiet) notes = notes_of_coincident(scene);
     tell_notes();
     return scene;
@@ -131,13 +119,10 @@ void refuse_features(const Scene& scene, Features features, bool stand_ins) {
 
 float radius_within(const Scene& scene, double radius) {
     double low = 1e-6 * double{scene.radius}, high = 2 * double{scene.radius};
-    if (radius > 0 && high > 0 && (radius < low || radius > high)) {
-        char wanted[64], given[32];
-        std::snprintf(wanted, sizeof wanted, "a length from %.3g to %.3g m in this scene", low,
-                      high);
-        std::snprintf(given, sizeof given, "%g", radius);
-        fail_value("radius", given, wanted);
-    }
+    if (radius > 0 && high > 0 && (radius < low || radius > high))
+        fail_value(
+            "radius", digits(radius),
+            "a length from " + digits(low, 3) + " to " + digits(high, 3) + " m in this scene");
     return static_cast<float>(radius);
 }
 

@@ -1,13 +1,163 @@
 #include "common/render/options.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/progress.h"
 #include "common/base/system.h"
 #include "common/recording/class_filter.h"
+
+/// The first place of the word, or the number of words.
+static size_t index_of(const std::vector<std::string>& words, const std::string& word) {
+    return static_cast<size_t>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+[[noreturn]] static void print_usage(const char* program, const std::string& positional,
+                                     const std::string& about, const std::vector<Option>& options) {
+    std::printf("usage: %s%s%s [OPTION]...\n%s\n\n", program, positional.empty() ? "" : " ",
+                positional.c_str(), about.c_str());
+    for (const Option& option : options) {
+        if (option.help.empty()) continue;
+        std::string left = "--" + option.name, right = option.help;
+        if (!option.argument.empty()) left += " " + option.argument;
+        bool tells_default = option.value.empty() || right.find("default") != std::string::npos;
+        if (!tells_default) right += " (default " + option.value + ")";
+        std::printf("  %-24s %s\n", left.c_str(), right.c_str());
+    }
+    flush_stdout();
+    std::exit(0);
+}
+
+void flush_stdout() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw InputError("stdout: error: cannot write all of the output");
+}
+
+std::vector<Option> parse_options(int argc, char** argv, const std::string& positional,
+                                  const std::string& about, std::vector<Option> options,
+                                  const std::function<void(const std::string&)>& set_positional) {
+    options.push_back({"help", "", "print this and stop", [&](const std::string&) {
+                           print_usage(argv[0], positional, about, options);
+                       }});
+    std::vector<std::string> names;
+    for (const Option& option : options) names.push_back("--" + option.name);
+    bool options_ended = false;
+    for (int i = 1; i < argc; i++) {
+        std::string word = argv[i];
+        bool is_option = word.starts_with('-') && !options_ended;
+        options_ended |= word == "--";
+        if (!is_option) set_positional(word);
+        if (!is_option || word == "--") continue;
+        size_t equals = word.find('=');
+        std::string name = word.substr(0, equals), value;
+        size_t index = index_of(names, name);
+        if (index == names.size()) {
+            std::string nearest = nearest_word(name, names);
+            throw UsageError(
+                "error: unknown option '" + name + "'" +
+                (nearest.empty() ? "; --help lists them" : ", did you mean '" + nearest + "'?"));
+        }
+        Option& option = options[index];
+
+        // Take the value from after the = or from the next word.
+        bool takes_value = !option.argument.empty(), has_value = equals != std::string::npos;
+        bool follows = i + 1 < argc && !std::string_view(argv[i + 1]).starts_with("--");
+        if (has_value) value = word.substr(equals + 1);
+        if (takes_value && !has_value && follows) value = argv[++i];
+        if (takes_value ? value.empty() : has_value)
+            throw UsageError("error: option '" + name +
+                             (takes_value ? "' needs a value" : "' takes no value"));
+        option.set(value);
+        if (!option.value.empty()) option.value = value;
+    }
+    return options;
+}
+
+void fail_value(const std::string& option, const std::string& text, const std::string& wanted) {
+    throw UsageError("error: --" + option + " takes " + wanted + ", not '" + text + "'");
+}
+
+int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
+                      int64_t high) {
+    double value = to_number(text).value_or(NAN);
+    if (value == std::floor(value) && value >= static_cast<double>(low) &&
+        value <= static_cast<double>(high))
+        return static_cast<int64_t>(value);
+    fail_value(option, text,
+               "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+size_t parse_choice(const std::string& option, const std::string& text,
+                    const std::vector<std::string>& known) {
+    size_t index = index_of(known, text);
+    if (index == known.size()) fail_value(option, text, listed(known, " or "));
+    return index;
+}
+
+std::vector<int> split_numbers(const std::string& text, char separator) {
+    std::vector<int> numbers;
+    std::istringstream parts(text + separator);
+    for (std::string part; std::getline(parts, part, separator);) {
+        numbers.push_back(to_integer(part).value_or(-1));
+        if (numbers.back() < 0) return {};
+    }
+    return numbers;
+}
+
+double parse_positive(const std::string& option, const std::string& text) {
+    double value = to_number(text).value_or(0);
+    if (value > 0 && std::isfinite(value)) return value;
+    fail_value(option, text, "a number greater than 0");
+}
+
+std::string listed(const std::vector<std::string>& words, const std::string& last) {
+    std::string text;
+    for (size_t i = 0; i < words.size(); i++)
+        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : last) + words[i];
+    return text;
+}
+
+std::string command_line(int argc, char** argv) {
+    constexpr auto plain_letters =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    std::string line;
+    for (int i = 0; i < argc; i++) {
+        std::string word = argv[i], quoted;
+        for (char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+        bool plain = !word.empty() && word.find_first_not_of(plain_letters) == std::string::npos;
+        line += (i > 0 ? " " : "") + (plain ? word : "'" + quoted + "'");
+    }
+    return line;
+}
+
+int run_program(const std::function<int()>& program) {
+    auto fails = [](int code, const std::string& error) {
+        std::istringstream lines(error);
+        for (std::string line; std::getline(lines, line);) tell(printable(line) + "\n");
+        return code;
+    };
+    try {
+        prepare_streams();
+        int code = program();
+        flush_stdout();
+        return code;
+    } catch (const UsageError& e) {
+        return fails(2, printable(e.what()));  // one line
+    } catch (const InputError& e) {
+        return fails(1, e.what());
+    } catch (const std::bad_alloc&) {
+        return fails(1, "error: out of memory");
+    } catch (const std::exception& e) {
+        return fails(1, "error: " + printable(e.what()));
+    }
+}
 
 namespace {
 
@@ -23,30 +173,6 @@ std::string project_file(const std::string& program, const std::string& name) {
         return file_name((folder / file_path(name)).lexically_proximate(fs::current_path(none)));
     }
     return name;
-}
-
-void parse_size(const std::string& text, RenderOptions& o) {
-    std::vector<int> sides = split_numbers(text, 'x');
-    bool fits = sides.size() == 2;
-    for (int side : sides) fits = fits && side >= 1 && side <= 65536;
-    if (!fits || int64_t{sides[0]} * sides[1] > 1 << 28)
-        fail_value("size", text,
-                   "WIDTHxHEIGHT, such as 256x256, with sides up to 65536 and at most 2^28 pixels");
-    o.width = sides[0], o.height = sides[1];
-}
-
-void parse_explain(const std::string& text, RenderOptions& o) {
-    std::vector<int> place = split_numbers(text, ',');
-    if (place.size() != 2 && place.size() != 3) fail_value("explain", text, "X,Y or X,Y,SAMPLE");
-    place.push_back(0);
-    o.explain = {0, place[1], place[0], place[2]};
-}
-
-void parse_part(const std::string& text, RenderOptions& o) {
-    std::vector<int> numbers = split_numbers(text, '/');
-    if (numbers.size() != 2 || numbers[0] < 1 || numbers[0] > numbers[1])
-        fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
-    o.part = numbers[0], o.parts = numbers[1];
 }
 
 /// Throws UsageError for values that are wrong, and for options that cannot be combined.
@@ -66,11 +192,9 @@ void check(const RenderOptions& o) {
 }  // namespace
 
 std::string parse_picture(const std::string& option, const std::string& text, bool or_table) {
-    if (or_table && has_ending(text, ".tsv")) return text;
-    if (!is_image_path(text))
-        fail_value(option, text,
-                   or_table ? "a .ppm, .pfm, .png or .tsv file" : "a .ppm, .pfm or .png file");
-    return text;
+    if (is_image_path(text) || (or_table && has_ending(text, ".tsv"))) return text;
+    fail_value(option, text,
+               or_table ? "a .ppm, .pfm, .png or .tsv file" : "a .ppm, .pfm or .png file");
 }
 
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
@@ -85,7 +209,17 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
                      o.spp),
         positive_option("time", "SECONDS",
                         "stop when the time is up, with the samples taken so far", o.time),
-        {"size", "WxH", "size in pixels", [&](const std::string& text) { parse_size(text, o); }},
+        {"size", "WxH", "size in pixels",
+         [&](const std::string& text) {
+             std::vector<int> sides = split_numbers(text, 'x');
+             bool fits = sides.size() == 2;
+             for (int side : sides) fits = fits && side >= 1 && side <= 65536;
+             if (!fits || int64_t{sides[0]} * sides[1] > 1 << 28)
+                 fail_value("size", text,
+                            "WIDTHxHEIGHT, such as 256x256, with sides up to 65536 and at most "
+                            "2^28 pixels");
+             o.width = sides[0], o.height = sides[1];
+         }},
         whole_option("seed", "S", "seed of the random numbers", 0, 0xffffffff, o.seed),
         whole_option("threads", "T", "number of threads (default: one for each processor)", 1, 1024,
                      o.threads),
@@ -99,7 +233,13 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
          [&](const std::string& text) { o.out.push_back(parse_picture("out", text)); }},
         text_option("stats", "FILE.json", "write time, rays, mean and standard error", o.stats),
         {"explain", "X,Y[,SAMPLE]", "print one path step by step, and draw it",
-         [&](const std::string& text) { parse_explain(text, o); }},
+         [&](const std::string& text) {
+             std::vector<int> place = split_numbers(text, ',');
+             bool fits = place.size() == 2 || place.size() == 3;
+             if (!fits) fail_value("explain", text, "X,Y or X,Y,SAMPLE");
+             place.push_back(0);
+             o.explain = {0, place[1], place[0], place[2]};
+         }},
         text_option("paths", "REGEX", "keep only these classes of path, such as 'LD(S|D)*E'",
                     o.paths),
         text_option("split", "DIR",
@@ -109,7 +249,12 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
         positive_option("film-every", "SECONDS", "how often the film is written (default 60)",
                         o.film_every),
         {"part", "K/N", "take the K-th of N parts of the samples; build/merge adds their films",
-         [&](const std::string& text) { parse_part(text, o); }},
+         [&](const std::string& text) {
+             std::vector<int> numbers = split_numbers(text, '/');
+             if (numbers.size() != 2 || numbers[0] < 1 || numbers[0] > numbers[1])
+                 fail_value("part", text, "K/N, such as 1/8, with K from 1 to N");
+             o.part = numbers[0], o.parts = numbers[1];
+         }},
         flag_option("stand-in", "render what is not modelled as something like it, and say so",
                     o.stand_in),
         flag_option("quiet", "print errors only", o.quiet),
@@ -124,10 +269,9 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
             ").\nWrites into the folder where it is started. Ctrl-C keeps the picture so far: exit "
             "code 3.",
         options, [&](const std::string& word) {
-            if (word.empty()) throw UsageError("error: the name of the scene is empty");
-            if (!o.scene.empty()) {
-                throw UsageError("error: two scenes: '" + o.scene + "' and '" + word + "'");
-            }
+            if (word.empty() || !o.scene.empty())
+                throw UsageError("error: one scene is needed, not '" + o.scene + "' and '" + word +
+                                 "'");
             o.scene = word;
         });
     // A chapter's own options that change what is rendered have a default.

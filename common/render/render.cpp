@@ -42,11 +42,10 @@ struct TileRenderer {
     std::array<std::mutex, 1024> splat_mutexes = {};  // each for some of the pixels
 
     Pilot start_pilot() const {
-        Pilot start{scene.width};
         bool is_first = method.allocation.choose_densities && wanted.first == 0;
-        for (auto& half : start.half)
-            if (is_first && result.film.samples() == 0) half.resize(result.film.pixels().size());
-        return start;
+        if (!is_first || result.film.samples() > 0) return {};
+        std::vector<PilotPixel> half(result.film.pixels().size());
+        return {scene.width, {half, half}};
     }
     std::array<SamplesOf, 2> samples_to(uint32_t number) const {
         if (halves == 1) return {};
@@ -70,12 +69,13 @@ struct TileRenderer {
             uint32_t next = done + std::min(std::clamp(done, 1u, most_per_pass), spp - done);
             bool in_pilot = wanted.first == 0 && done < allocation.pilot;
             if (in_pilot) next = std::min(next, allocation.pilot);
-            uint64_t rays_before = rays_traced, rays_of_preparing = 0;
+            uint64_t rays_before = rays_traced;
             if (method.prepare) {
                 next = done + 1;
-                if (!prepare_pass(method, wanted.first + done, options.threads, limit)) break;
-                rays_of_preparing = rays_traced - rays_before;
+                prepare(wanted.first + done);
+                if (limit.reached()) break;
             }
+            uint64_t rays_of_preparing = rays_traced - rays_before;
             result.begun = std::max(result.begun, next);
             end = wanted.first + next;
             to = samples_to(end);
@@ -96,9 +96,16 @@ struct TileRenderer {
             }
             done = next;
             result.stats.rays += rays_of_preparing;
-            bool decides = in_pilot && done == allocation.pilot && !limit.reached();
-            if (decides && !pilot.half[0].empty())
-                allocation.choose_densities(pilot, options.threads);
+            bool is_seen = !pilot.half[0].empty() && done == allocation.pilot;
+            if (is_seen && !limit.reached()) allocation.choose_densities(pilot, options.threads);
+        }
+    }
+
+    /// Prepares what the method shares in a pass.
+    void prepare(uint32_t pass) const {
+        try {
+            method.prepare(pass, options.threads, [&] { return limit.reached(); });
+        } catch (const TracingEnds&) {
         }
     }
 
@@ -106,18 +113,14 @@ struct TileRenderer {
     void render(int tile) {
         if (limit.reached() || film_is_due()) return;
         Tile now;
-        std::exception_ptr thrown;
         try {
             render_pixels(tile, now);
         } catch (const TracingEnds&) {
             // A sample that was given up is not counted: a continued render takes it again.
-        } catch (...) {
-            thrown = std::current_exception();
         }
         std::lock_guard lock(mutex);
         result.stats.add(now.stats);
         if (method.prepare) result.film.add_to_batch(end - 1, now.of_pass);
-        if (thrown) std::rethrow_exception(thrown);
     }
 
     /// What the samples of a tile add up to besides its pixels.
@@ -224,16 +227,11 @@ struct TileRenderer {
 
     void add_sample(const Place& at, Tracer& t, RenderStats& stats) {
         trace(at, at.half, t);
-        // All that may fail comes first, so that no sample is in some of the films only.
-        if (!splits) t.parts.clear();
-        for (const Contribution& part : t.parts) film_of(part);
         int number = static_cast<int>(at.sample) * halves + at.half;
+        SampleAt sample = {options.seed, at.y, at.x, number};
         double value = static_cast<double>(average(t.total));
-        if (!is_finite(t.total)) {
-            stats.add_not_finite({options.seed, at.y, at.x, number});
-        } else if (value >= stats.largest) {
-            stats.add_largest(value, {options.seed, at.y, at.x, number});
-        }
+        if (!is_finite(t.total)) stats.add_not_finite(sample);
+        if (is_finite(t.total) && value >= stats.largest) stats.add_largest(value, sample);
         result.film.add(at.pixel, t.L, at.half);
         if (method.splats) {
             result.film.add_total(at.pixel, t.total);
@@ -242,24 +240,21 @@ struct TileRenderer {
                 result.film.splat(splat.pixel, splat.L);
             }
         }
-        for (const Contribution& part : t.parts) {
-            Film& film = film_of(part);
-            std::lock_guard lock(mutex);
-            bool own = part.pixel == Contribution::own_pixel;
-            if (own) film.add_part(at.pixel, part.L, at.half);
-            if (!own) film.splat(part.pixel, part.L);
-        }
+        if (splits)
+            for (const Contribution& part : t.parts) add_to_class(part, at);
     }
 
-    /// The film of the contribution's class. All long paths share one: the number of classes
-    /// doubles with every letter.
-    Film& film_of(const Contribution& part) {
+    /// Adds to the film of the contribution's class. All long paths share one: the number of
+    /// classes doubles with every letter.
+    void add_to_class(const Contribution& part, const Place& at) {
         bool is_long = part.path_class.size() > longest_class;
         std::lock_guard lock(mutex);
         auto [film, is_new] = result.classes.try_emplace(is_long ? "longer" : part.path_class,
                                                          scene.width, scene.height, method.splats);
         if (is_new && result.film.has_halves()) film->second.start_halves();
-        return film->second;
+        bool own = part.pixel == Contribution::own_pixel;
+        if (own) film->second.add_part(at.pixel, part.L, at.half);
+        if (!own) film->second.splat(part.pixel, part.L);
     }
 };
 
@@ -294,14 +289,6 @@ void mark_lamp_edges(const Scene& scene, int threads, Film& film) {
     }
 }
 
-bool prepare_pass(const Method& method, uint32_t pass, int threads, const Limit& limit) {
-    try {
-        method.prepare(pass, threads, [&] { return limit.reached(); });
-    } catch (const TracingEnds&) {
-    }
-    return !limit.reached();
-}
-
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method) {
     uint32_t pilot = method.allocation.pilot;
     Rendering result{empty_film(scene, method.splats), {}, {}};
@@ -332,30 +319,16 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Me
         again.film.start_halves();
         TileRenderer{scene, alone, method, limit, {options.seed, 0, pilot}, again}.run();
     }
-    // The samples that there are outlive what goes wrong.
-    auto keep = [&](const std::string& error) {
-        if (result.film.samples() == 0) throw;
-        result.error = error;
-    };
-    try {
-        TileRenderer{scene, options, method, limit, wanted, result}.run();
-    } catch (const InputError& error) {
-        keep(error.what());
-    } catch (const std::bad_alloc&) {
-        keep("error: out of memory");
-    }
+    TileRenderer{scene, options, method, limit, wanted, result}.run();
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
-    uint64_t all = uint64_t{static_cast<uint32_t>(scene.width)} *
-                   static_cast<uint32_t>(scene.height) * (wanted.last - wanted.first);
-    result.stats.interrupted =
-        (limit.interrupted() || !result.error.empty()) && result.film.samples() < all;
+    result.stats.interrupted = limit.interrupted();
     return result;
 }
 
 int render(const Scene& scene, const RenderOptions& options, const Method& method) {
-    Limit until_all_is_written;
     check_outputs(scene, options);
     if (options.explain) return explain(scene, options, method);
+    Limit until_all_is_written;
     return write_results(scene, options, render_film(scene, options, method));
 }

@@ -1,15 +1,61 @@
 // What the program of a chapter does: renders, or explains one path, and writes the results.
 #pragma once
+#include <atomic>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "common/base/files.h"
+#include "common/base/system.h"
 #include "common/path/method.h"
 #include "common/picture/film.h"
 #include "common/render/loading.h"
-#include "common/render/stop.h"
+
+/// When work has to end before all of it is done: after some seconds, or on a signal.
+///
+/// While it exists, the first SIGINT (Ctrl-C), SIGTERM or other signal that would end the program
+/// (stop_signals) asks for a stop. The same signal ends the program if it comes again at least half
+/// a second later (timeout and others send it twice at once). Signals that the program was started
+/// to ignore, as by nohup, stay ignored. If several objects exist, a signal stops them all.
+class Limit {
+public:
+    explicit Limit(double seconds = 0) : seconds_(seconds) {  // 0: signals alone
+        if (alive++ == 0) catch_stop_signals();
+    }
+    ~Limit() {
+        if (--alive == 0) release_stop_signals();
+    }
+    Limit(const Limit&) = delete;
+    Limit& operator=(const Limit&) = delete;
+
+    bool reached() const { return interrupted() || (seconds_ > 0 && elapsed() >= seconds_); }
+    bool interrupted() const { return stop_requested; }
+    /// Whether it was interrupted; resets it, so that the signal ends one part of the work but not
+    /// the next.
+    bool take_interruption() { return stop_requested.exchange(false); }
+    /// Whether overdue() has found the limit reached; at most a few rays late.
+    bool seen() const { return reached_at_ != 0; }
+    /// Whether it was reached some time ago. Until then, samples that have started are finished:
+    /// giving up samples would leave out the long ones, a bias.
+    bool overdue() const {
+        if (!reached()) return false;
+        double now = elapsed();
+        if (!seen()) reached_at_ = now;
+        return now - reached_at_ > 0.25;
+    }
+    double elapsed() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    static inline int alive = 0;
+
+    double seconds_;
+    mutable std::atomic<double> reached_at_ = 0;  // s, when a thread first noticed it; 0: not yet
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 /// Statistics of rendering a picture.
 struct RenderStats : SampleCounts {
@@ -38,13 +84,12 @@ struct Rendering {
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::vector<std::string> warnings = {};  // of the chapter's own
     std::shared_ptr<FileLock> film_lock = {};
-    std::string error = {};  // that ended it before all samples were taken
 };
 
 /// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a
-/// signal (stop.h). Time and signals end it at once: then some pixels have more samples than
-/// others, or none, if the first pass was not complete. The picture does not depend on the number
-/// of threads. Continues from options.film, and saves it at intervals.
+/// signal. Time and signals end it at once: then some pixels have more samples than others, or
+/// none, if the first pass was not complete. The picture does not depend on the number of threads.
+/// Continues from options.film, and saves it at intervals.
 ///
 /// With an allocation of the method, a render that continues, or is not the first part, repeats the
 /// pilot, so that samples are distributed as in the whole render.
@@ -76,9 +121,6 @@ void save_film(const Scene& scene, const RenderOptions& options, const Rendering
 double save_meanwhile(const Scene& scene, const RenderOptions& options, const Rendering& rendering,
                       double interval);
 
-/// Prepares what the method shares in a pass. Returns whether there is time for the pass.
-bool prepare_pass(const Method& method, uint32_t pass, int threads, const Limit& limit);
-
 /// Marks the film's pixels whose centre emits different light than that of a neighbour. Their error
 /// is large, and stratified samples reduce it much more than that of other pixels.
 void mark_lamp_edges(const Scene& scene, int threads, Film& film);
@@ -94,11 +136,6 @@ std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& op
 /// Only the warnings that follow from the samples. place: where the largest of them is, in words.
 std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts,
                                      const std::string& place = "");
-
-/// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
-/// view and the lights tell them; nothing is rendered. Not empty.
-/// tested by  "truth: the causes of a black picture, all of them, and no others"
-std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);
 
 /// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 if a sample was
 /// not finite, 3 if a signal stopped the render before its end.

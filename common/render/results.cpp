@@ -5,6 +5,7 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/progress.h"
+#include "common/base/stats.h"
 #include "common/base/system.h"
 #include "common/picture/drawing.h"
 #include "common/render/render.h"
@@ -15,14 +16,6 @@ namespace {
 /// Samples per second (or rays per second) of this run only.
 double per_second(uint64_t all, uint64_t before, const RenderStats& s) {
     return static_cast<double>(all - before) / s.seconds;
-}
-
-/// The notes of a picture. A picture of one class of paths has the notes of a render with --paths.
-Notes notes_of(const Scene& scene, const RenderOptions& options, const Rendering& r,
-               const std::string& path_class = "") {
-    RenderOptions whole = options;
-    if (!path_class.empty()) whole.paths = path_class;
-    return notes_of(label_of(scene, whole, r), r.film.spp());
 }
 
 /// The statistics as one level of JSON, a line for each value.
@@ -38,15 +31,11 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
         for (std::string& text : texts) text = json_quoted(text);
         add(name, '[' + listed(texts, ", ") + ']');
     };
-    std::vector<std::string> stand_ins;
-    for (const UsedStandIn& used : scene.origin->stand_ins) stand_ins.push_back(used.text());
     add("scene", json_quoted(scene.origin->file));
     add("spp", json_number(r.film.spp()));
-    add_texts("notes", lines_of(notes_of(scene, options, r)));
-    if (!stand_ins.empty()) add_texts("stand_ins", stand_ins);
+    add_texts("notes", lines_of(notes_of(label_of(scene, options, r), r.film.spp())));
     add("threads", std::to_string(options.threads));
     add("seconds", json_number(s.seconds));
-    add("samples_per_second", json_number(per_second(r.film.samples(), s.samples_before, s)));
     add("rays", std::to_string(s.rays));
     add("rays_per_second", json_number(per_second(s.rays, s.rays_before, s)));
     add("mean", json_number(r.film.mean()));
@@ -60,7 +49,6 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     add("effective_samples", json_number(r.film.error().samples));
     add("empty_pixels_share", json_number(static_cast<double>(r.film.empty_pixels()) / pixels));
     add_texts("warnings", warnings_of(scene, options, r));
-    if (s.first_radius > 0) add("first_radius", json_number(s.first_radius));
     add("interrupted", s.interrupted ? "true" : "false");
     return "{\n" + lines + "\n}\n";
 }
@@ -71,21 +59,18 @@ void print_summary(const Scene& scene, const RenderOptions& options, const Rende
     std::printf("%s  %s  %dx%d  %s spp%s\n", options.name.c_str(),
                 printable(scene.origin->file).c_str(), r.film.width, r.film.height,
                 json_number(r.film.spp()).c_str(), s.interrupted ? " (interrupted)" : "");
-    for (const UsedStandIn& used : scene.origin->stand_ins) {
+    for (const UsedStandIn& used : scene.origin->stand_ins)
         std::printf("stand-in: %s\n", printable(used.text()).c_str());
-    }
     std::printf("%s\n", mean_and_error(r.film).c_str());
-    for (const std::string& line : warnings_of(scene, options, r)) {
+    for (const std::string& line : warnings_of(scene, options, r))
         std::printf("warning: %s\n", line.c_str());
-    }
     if (s.first_radius > 0) std::printf("first radius %.3g m\n", s.first_radius);
     std::printf("%.2f s, %.2f M samples/s, %.2f M rays/s, %d threads\n", s.seconds,
                 per_second(r.film.samples(), s.samples_before, s) / 1e6,
                 per_second(s.rays, s.rays_before, s) / 1e6, options.threads);
-    if (s.paths_cut > 0) {
+    if (s.paths_cut > 0)
         std::printf("depth limit %d cut %s of the paths\n", scene.max_depth,
                     percent(static_cast<double>(s.paths_cut) / samples).c_str());
-    }
 }
 
 /// A tile for each class, brightest first, with its name and its share of the light. A dark class
@@ -124,10 +109,14 @@ std::vector<Output> outputs_of(const Scene& scene, const RenderOptions& options,
                                told += "wrote " + path + more + "\n";
                            }});
     };
+    // A picture of one class of paths has the notes of a render with --paths.
     auto picture = [&](const std::string& path, const std::function<Image()>& image,
                        const std::string& path_class = "") {
         return [=, &scene, &options, &r] {
-            write_image(path, image(), comment_of(notes_of(scene, options, r, path_class)));
+            RenderOptions whole = options;
+            if (!path_class.empty()) whole.paths = path_class;
+            FilmLabel label = label_of(scene, whole, r);
+            write_image(path, image(), comment_of(notes_of(label, r.film.spp())));
         };
     };
     if (!options.film.empty()) add(options.film, [&] { save_film(scene, options, r); });
@@ -173,17 +162,14 @@ void check_outputs(const Scene& scene, const RenderOptions& options) {
 std::string mean_and_error(const Film& film) {
     double mean = film.mean(), error = film.standard_error();
     if (!std::isfinite(mean)) return "mean unknown: not all samples are finite";
-    char text[800];
-    std::snprintf(text, sizeof text, "mean %.6f +- %.6f", mean, error);
-    if (!std::isnan(error)) return text;
-    std::snprintf(text, sizeof text, "mean %.6f, standard error unknown%s", mean,
-                  film.spp() > 1 ? "" : " (1 sample)");
-    return text;
+    if (std::isnan(error))
+        return "mean " + std::to_string(mean) + ", standard error unknown" +
+               (film.spp() > 1 ? "" : " (1 sample)");
+    return "mean " + std::to_string(mean) + " +- " + std::to_string(error);
 }
 
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
-    std::string errors = r.error.empty() ? "" : r.error + "\n";
-    std::string told;
+    std::string errors, told;
     try {
         write_outputs(outputs_of(scene, options, r, told));
     } catch (const InputError& error) {
@@ -193,12 +179,66 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
         print_summary(scene, options, r);
         std::fputs(told.c_str(), stdout);
     }
-    if (r.stats.not_finite > 0) {
+    if (r.stats.not_finite > 0)
         errors += "error: " + std::to_string(r.stats.not_finite) +
                   " samples were not finite; to see one: " + options.command + " --explain " +
                   r.stats.bad.text() + '\n';
-    }
     tell(errors);
     if (!errors.empty()) return 1;
     return r.stats.interrupted ? 3 : 0;
+}
+
+std::string digits(double x, int significant) {
+    if (std::isnan(x)) return "unknown";
+    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*g", significant, x);
+    return text;
+}
+
+/// A line for the names of the columns and for each row.
+static std::string lines_of(const Table& table, bool aligned) {
+    std::vector<std::vector<std::string>> lines = table.rows;
+    lines.insert(lines.begin(), table.columns);
+    std::vector<size_t> widths(table.columns.size());
+    for (const auto& cells : lines)
+        for (size_t c = 0; c < cells.size(); c++) widths[c] = std::max(widths[c], cells[c].size());
+    std::string text;
+    for (const auto& cells : lines) {
+        for (size_t c = 0; c < cells.size(); c++) {
+            std::string space(aligned ? widths[c] - cells[c].size() : 0, ' ');
+            text += c == 0 ? cells[c] + space : (aligned ? "  " : "\t") + space + cells[c];
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        text += '\n';
+    }
+    return text;
+}
+std::string aligned(const Table& table) { return lines_of(table, true); }
+std::string tab_separated(const Table& table) { return lines_of(table, false); }
+
+double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
+    RunningStats u, v, uv, uu;
+    for (size_t i = 0; i < x.size(); i++) {
+        double log_x = std::log(x[i]), log_y = std::log(y[i]);
+        u.add(log_x);
+        v.add(log_y);
+        uv.add(log_x * log_y);
+        uu.add(log_x * log_x);
+    }
+    if (x.size() < 2) return NAN;
+    return (uv.mean() - u.mean() * v.mean()) / (uu.mean() - u.mean() * u.mean());
+}
+
+void write_results(const TableOptions& options, const Table& table, const std::string& notes,
+                   const Image& picture) {
+    if (!options.quiet) std::printf("%s\n%s", aligned(table).c_str(), notes.c_str());
+    std::vector<Output> outputs;
+    for (const std::string& path : options.out)
+        outputs.push_back({path, [&] {
+                               if (!has_ending(path, ".tsv"))
+                                   return write_image(path, picture, options.comment);
+                               write_file_atomically(path, tab_separated(table));
+                           }});
+    write_outputs(outputs);
 }

@@ -6,7 +6,6 @@
 #include "common/base/text.h"
 #include "common/picture/comparison.h"
 #include "common/render/options.h"
-#include "common/render/table.h"
 
 static void print(const Comparison& c, double trim) {
     Table table{{"", "mean A", "mean B", "A - B", "standard errors", "blocks beyond 5"}, {}};

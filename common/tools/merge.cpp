@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
+#include "common/base/progress.h"
 #include "common/base/text.h"
 #include "common/render/render.h"
 
@@ -24,11 +25,9 @@ static int merge(const std::string& out, const std::vector<std::string>& films) 
     std::printf("wrote %s\n", out.c_str());
     const SampleCounts& counts = label.counts;
     if (counts.not_finite == 0) return 0;
-    std::fprintf(stderr,
-                 "error: %llu samples were not finite; to see one, render with --seed %u "
-                 "--explain %s\n",
-                 static_cast<unsigned long long>(counts.not_finite), counts.bad.seed,
-                 counts.bad.text().c_str());
+    tell("error: " + std::to_string(counts.not_finite) +
+         " samples were not finite; to see one, render with --seed " +
+         std::to_string(counts.bad.seed) + " --explain " + counts.bad.text() + '\n');
     return 1;
 }
 
@@ -41,12 +40,10 @@ int main(int argc, char** argv) {
                       "or .png picture of all their samples.\nParts make the same bytes as the "
                       "whole, in any order. The same samples twice are refused.",
                       {}, [&](const std::string& word) { words.push_back(word); });
-        if (words.size() < 2) {
+        if (words.size() < 2)
             throw UsageError("error: name what to write, and the films to add; --help says how");
-        }
-        if (!is_image_path(words[0]) && !has_ending(words[0], film_ending)) {
+        if (!is_image_path(words[0]) && !has_ending(words[0], film_ending))
             throw UsageError("error: OUT is a .film, .pfm, .ppm or .png file");
-        }
         return merge(words[0], {words.begin() + 1, words.end()});
     });
 }

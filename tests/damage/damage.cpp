@@ -11,7 +11,6 @@
 #include "common/picture/film.h"
 #include "common/picture/image.h"
 #include "common/render/render.h"
-#include "common/render/stop.h"
 #include "tests/damage/scenes.h"
 #include "tests/support/process.h"
 #include "tests/support/stand_ins.h"

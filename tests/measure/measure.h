@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "common/base/progress.h"
-#include "common/render/command_line.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 #include "tests/measure/numbers.h"
 #include "tests/methods/table.h"
 

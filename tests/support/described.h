@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/base/files.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 #include "common/scene_file/reader.h"
 
 /// Text with ' for each ", as rows of tables are written.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/path/sampler.h"
-#include "common/render/table.h"
+#include "common/render/options.h"
 #include "tests/support/gates.h"
 
 inline constexpr double pi_exact = std::numbers::pi;

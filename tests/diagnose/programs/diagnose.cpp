@@ -4,7 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/render/command_line.h"
+#include "common/render/options.h"
 #include "tests/diagnose/judge.h"
 
 int main(int argc, char** argv) {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
-#include "common/render/command_line.h"
+#include "common/render/options.h"
 #include "common/scene/mover.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
