@@ -1,6 +1,9 @@
+.PHONY: test-book exercise check checkers mine fuzz probes grade boxes chart \
+        front stability agree efficiency compare references bench teeth break mutants race
+
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
-$(BUILD)/obj/tests/known/%.o: own_flags = $(briefly)
+$(BUILD)/obj/tests/known/%.o $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
 # Most tests run for less time than it takes to compile them by -O3, or with all that trace() calls in one function.
 brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
 $(brief): own_flags += $(briefly) -Dflatten=
@@ -14,14 +17,11 @@ $(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FA
 endif
 
 # The book, tried out in headless browsers.
-.PHONY: test-book
 #: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
 test-book: book programs
 	tests/book/run out/book $(BUILD)
 
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check checkers mine
-
 #: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you (ALL=1: also those that change)
 exercise:
 	@common/tools/exercise '$(CH)'
@@ -30,10 +30,10 @@ comparing := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp test
 checkers  := $(comparing) $(support)
 # Chapters without paths of light: their check renders the chapter's own picture.
 draw_alone := 01 02 03 04 05 06 26
-$(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
-	@mkdir -p $(@D); printf '#include "$<"\n' >$@
-# Compiled in advance, with the flags that tests/check/check compiles with. g++ takes a header for the one in here only if its
-# time is the same: not that of another folder, from ccache.
+# What the tests of chapters from 07 on begin with, compiled in advance, with the flags that tests/check/check compiles with. g++
+# takes a header for the one in here only if its time is the same: not that of another folder, from ccache.
+$(BUILD)/check/support.h: $(BUILD)/flags
+	@mkdir -p $(@D); printf '#include %s\n' '<doctest/doctest.h>' '"tests/support/gates.h"' '"tests/support/scenes.h"' >$@
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -Dflatten= -MMD -MP -MF $(BUILD)/obj/check_support.d \
 	    -x c++-header $< -o $@
@@ -59,14 +59,8 @@ fuzz: $(BUILD)/fuzz_reader
 $(BUILD)/fuzz_reader: $(BUILD)/obj/tests/damage/fuzz_reader.o $(common)
 	$(link)
 
-.PHONY: fuzz
-
 # Pictures of small scenes by any renderer: what is wrong with them?
 diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge known/scenes)
-# They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
-$(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
-
-.PHONY: probes diagnose
 #: teaching: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes
 probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
@@ -74,7 +68,6 @@ $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 
 # Students' files, graded.
-.PHONY: grade boxes
 boxes: | $(BUILD)/packages
 	@command -v bwrap >/dev/null || common/tools/install bubblewrap
 #: teaching: make grade DIR=submissions   check a folder of students' files, each in a box, into out/grade/ (CH=09, WEIGHTS=FILE)
@@ -89,8 +82,6 @@ comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))
 of_reader  = $(filter mine/%,$(A) $(B))
-
-.PHONY: chart front stability agree efficiency compare references bench teeth break
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
 	$(link)
@@ -135,13 +126,11 @@ break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
 
 # Changes of the code that no test notices.
-.PHONY: mutants
 #: maintaining: make mutants DIR=common/light   change the code in 25 (or N=) places, and list what no test notices (SEED=)
-mutants: $(made)
+mutants: programs $(BUILD)/tests $$(started)
 	@tests/mutants --build $(BUILD) $(if $(N),--n $(N)) $(if $(SEED),--seed $(SEED)) $(DIR)
 
 # Other renderers beside the methods of the chapters.
-.PHONY: race
 $(BUILD)/flatten: $(BUILD)/obj/tests/race/programs/flatten.o $(common)
 	$(link)
 started += $(BUILD)/flatten
